@@ -245,8 +245,8 @@ $(BUILD)/%.avx2.o: %.c
 	@mkdir -p $(@D)
 	$(call SAY,compile $< for AVX2)$(CC) $(BASE_CFLAGS) -mavx2 -DREAL_AVX2 $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
 
-$(PRICES:.c=.o): harness/study/price.h
-$(EXPENSES:.c=.o): harness/study/expense.h
+$(PRICES:.c=.o): harness/study/study.h
+$(EXPENSES:.c=.o): harness/study/study.h
 $(PACKED): cases/format/packed.h cases/case.h elements/shared/parameter.h
 $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o) $(PACKED): $(BUILD)/%.o: $(BUILD)/%.c
 	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@

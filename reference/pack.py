@@ -16,7 +16,7 @@ from reference.accepted import ACCEPTED_COLUMNS, read_accepted  # noqa: E402
 from reference.glossary import GLOSSARY_COLUMNS, read_glossary  # noqa: E402
 from reference.table import Refused, read_csv  # noqa: E402
 
-VERSION = 3  # of the packed file; TRUTHS_VERSION of harness/study/truths.h
+VERSION = 3  # of the packed file; TRUTHS_VERSION of harness/study/study.h
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = "case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,convention,source".split(",")
 FINDING_COLUMNS = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof".split(",")

@@ -1,6 +1,6 @@
 """Which formulation, with how many elements, reaches a tolerance soonest: the answers that pages show.
 
-One rule, that of harness/study/reach.h: n is the least mesh from which on the error of every mesh is
+One rule, that of harness/study/study.h: n is the least mesh from which on the error of every mesh is
 within the level; formulations stand in the order of the cost of their counted work on that mesh, so
 that two runs say the same; those whose costs differ by less than prices are known tie; one that does
 not pass in what is asked is never the cheapest and stands beside. Measured times are shown. Variants

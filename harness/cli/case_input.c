@@ -10,11 +10,7 @@
 #include "harness/cli/message.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/study/cell.h"
-#include "harness/study/data_place.h"
-#include "harness/study/own_findings.h"
-#include "harness/study/own_truths.h"
-#include "harness/study/scene_truths.h"
+#include "harness/study/study.h"
 
 /* Tables stand beside the packed truths, of which there is one file. */
 static status read_either(const verb_option *o, void *member, const char *value, fault *f)

@@ -5,7 +5,7 @@
 #include "cases/format/scene_file.h"
 #include "harness/cli/options.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/truths.h"
+#include "harness/study/study.h"
 
 typedef struct truths_options {
     const char *packed; /* --truths FILE; NULL: not given */
@@ -14,7 +14,7 @@ typedef struct truths_options {
 extern const option_group options_truths;     /* --truths FILE */
 extern const option_group options_own_truths; /* FILE.csv as well */
 
-/* The packed truths: --truths, or their place (harness/study/data_place.h). */
+/* The packed truths: --truths, or their place (harness/study/study.h). */
 const char *own_tables_packed(const truths_options *);
 /* Adds the truths of --truths FILE.csv, of one case where only is not NULL. run: the cases of the
  * run, NULL behind the last. REFUSED: the first mistake, as file:line:column, and how many there

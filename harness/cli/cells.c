@@ -3,9 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/expense.h"
-#include "harness/study/rounds.h"
-#include "harness/study/serialise.h"
+#include "harness/study/study.h"
 
 int cells_runs(const sweep *s, int index)
 {

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/records/digest.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* 1: its cells are run here. */
 int cells_runs(const sweep *s, int series);

@@ -5,7 +5,7 @@
 #include "harness/records/comparison.h"
 #include "harness/records/output.h"
 #include "harness/records/results_hash.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 typedef struct compare_request {
     const char *output, *select, *threshold, *experiment;

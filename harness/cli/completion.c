@@ -9,8 +9,7 @@
 #include "elements/shared/choice.h"
 #include "harness/cli/case_input.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/glossary.h"
-#include "harness/study/truths.h"
+#include "harness/study/study.h"
 
 void offer_text(const offer *o, const char *text, const char *summary)
 {

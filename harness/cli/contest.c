@@ -12,14 +12,7 @@
 #include "harness/cli/message.h"
 #include "harness/cli/named.h"
 #include "harness/records/json.h"
-#include "harness/study/families.h"
-#include "harness/study/meeting.h"
-#include "harness/study/narrow.h"
-#include "harness/study/plan.h"
-#include "harness/study/reach.h"
-#include "harness/study/rounding.h"
-#include "harness/study/run.h"
-#include "harness/study/sentence.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table.h"
 
@@ -256,7 +249,7 @@ static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
 }
 
 /* For each error the least number of elements of either from which on the error of every asked
- * quantity is within it (study/reach.h), then these two cells in alternation. Errors: --error, or
+ * quantity is within it (study/study.h), then these two cells in alternation. Errors: --error, or
  * those of reach_level that both reach; quantities: -k, or all that both have a truth or an
  * agreement for. REFUSED: one does not run, nothing to measure errors by, none is reached. */
 static status against_error(bench_options *r, const case_type *type, fault *f)

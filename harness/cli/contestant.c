@@ -11,7 +11,7 @@
 #include "harness/experiments/timing.h"
 #include "harness/model/model.h"
 #include "harness/numerics/numerics.h"
-#include "harness/study/reach.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 
 enum { MOST_REPEATS = 10000, NAME = 40 };

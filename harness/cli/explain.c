@@ -10,8 +10,7 @@
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/cell.h"
-#include "harness/study/glossary.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 
 typedef struct explain_request {

@@ -7,7 +7,7 @@
 #include "harness/exchange/deck.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/output.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 
 typedef struct export_request {
     case_options of;

@@ -13,7 +13,7 @@
 #include "harness/experiments/runs_on.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/schema.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 
 enum { COLUMN = 26, LINE = 4000 };

@@ -5,7 +5,7 @@
 #include "harness/cli/message.h"
 #include "harness/experiments/solution.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/data_place.h"
+#include "harness/study/study.h"
 
 static status add(chosen_formulations *o, const char *text, fault *f)
 {

@@ -7,7 +7,7 @@
 #include "cases/format/write.h"
 #include "harness/cli/cli.h"
 #include "harness/records/output.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 
 typedef struct scene_request {

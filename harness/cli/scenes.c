@@ -11,8 +11,7 @@
 #include "harness/cli/message.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/study/cell.h"
-#include "harness/study/scene_truths.h"
+#include "harness/study/study.h"
 
 enum { MOST_MEMBERS = 200, ELEMENTS = 2 };
 static const double rounding = 1e-8;

@@ -5,7 +5,7 @@
 #include "harness/cli/options.h"
 #include "harness/experiments/work.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* How it ended. */
 typedef struct spread_end {

@@ -17,7 +17,7 @@
 #include "harness/experiments/ranges_identity.h"
 #include "harness/experiments/ranges_table.h"
 #include "harness/experiments/shard.h"
-#include "harness/study/derive.h"
+#include "harness/study/study.h"
 
 /* What the command line asks for. */
 typedef struct sweep_options {

@@ -6,9 +6,7 @@
 #include "cases/format/write.h"
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
-#include "harness/study/cell.h"
-#include "harness/study/derive.h"
-#include "harness/study/truth.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 
 typedef struct truth_request {

@@ -3,7 +3,7 @@
 #define BEAMWORK_VERIFICATION_WORK_H
 
 #include "harness/cli/spread.h"
-#include "harness/study/truths.h"
+#include "harness/study/study.h"
 
 /* Computes a shard of a planned sweep, or takes the cells of --from: what is missing of --partial
  * is taken out and counted as unfinished. A batch is consecutive series, with the cells that

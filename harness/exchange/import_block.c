@@ -9,7 +9,7 @@
 #include "harness/exchange/conversion.h"
 #include "harness/exchange/import_cells.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/plan.h"
+#include "harness/study/study.h"
 
 static const scene *scene_of(const import_block *b)
 {

@@ -5,7 +5,7 @@
 #include "cases/format/mistakes.h"
 #include "cases/format/scene_file.h"
 #include "harness/exchange/axes.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 enum { IMPORT_SCENES = 32, IMPORT_ROWS = 200000, IMPORT_TEXT = 512 };
 

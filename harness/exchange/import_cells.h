@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_IMPORT_CELLS_H
 #define BEAMWORK_IMPORT_CELLS_H
 
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* Sorts the values by elements, quantity, abscissa. */
 void import_cells_order(imported *found);

@@ -7,7 +7,7 @@
 
 #include "harness/exchange/import_cells.h"
 #include "harness/records/table_reader.h"
-#include "harness/study/checksum.h"
+#include "harness/study/study.h"
 
 typedef struct point_row {
     char point[16], parameters[PARAMETERS_TEXT];

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_IMPORT_STORE_H
 #define BEAMWORK_IMPORT_STORE_H
 
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* What of a file the run has no point for. */
 typedef struct import_left {

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "harness/records/output.h"
-#include "harness/study/checksum.h"
+#include "harness/study/study.h"
 
 void batch_stem(const shard_work *w, char out[BATCH_STEM])
 {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/experiments/batch.h"
-#include "harness/study/checksum.h"
+#include "harness/study/study.h"
 
 static status no_batch(const char *path, fault *f)
 {

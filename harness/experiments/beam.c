@@ -6,7 +6,7 @@
 
 #include "elements/math/pi.h"
 #include "harness/model/model.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 
 /* An I of depth 0.1 m and flanges of 0.06 m. */
 static section_spec i_profile(void)

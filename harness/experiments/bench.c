@@ -3,8 +3,7 @@
 #include "harness/experiments/timing.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/csv.h"
-#include "harness/study/plan.h"
-#include "harness/study/run.h"
+#include "harness/study/study.h"
 #include "harness/terminal/table_timing.h"
 
 enum { MOST = 64 };                        /* formulations */

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "harness/numerics/numerics.h"
-#include "harness/study/child.h"
+#include "harness/study/study.h"
 
 enum { MOST_CHILDREN = 64, LOOK = 100 /* [ms] between looks at the clocks */ };
 

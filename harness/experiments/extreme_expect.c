@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/columns.h"
+#include "harness/study/study.h"
 
 static status read_rows(table_columns *r, extreme_sweep *out)
 {

@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/study/truth.h"
-#include "harness/study/verdict.h"
+#include "harness/study/study.h"
 
 static int quantity_index(const extreme_outcome *o, const sweep_point *p)
 {

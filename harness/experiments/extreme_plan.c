@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/plan.h"
+#include "harness/study/study.h"
 
 /* Decimal fractions as a table of truths has them. */
 static double to_15_digits(double value)

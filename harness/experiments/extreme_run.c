@@ -7,8 +7,7 @@
 #include "harness/experiments/extreme_judge.h"
 #include "harness/experiments/extreme_record.h"
 #include "harness/experiments/extreme_table.h"
-#include "harness/study/plan.h"
-#include "harness/study/run.h"
+#include "harness/study/study.h"
 
 enum { enough_elements = 16 }; /* from here on the neighbours are coarser meshes, else finer ones */
 

@@ -4,7 +4,7 @@
 
 #include "cases/extremes/extreme.h"
 #include "harness/experiments/outcome.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* Of one formulation; a cell is an extreme at one value of x, and as bad as its worst quantity. */
 typedef struct extreme_count {

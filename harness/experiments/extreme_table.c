@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/study/rounding.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 
 enum { NAME_WIDTH = 23, INDENT = 4, WIDEST_CELL = 10, CONDITION_WIDTH = 7 };

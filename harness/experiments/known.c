@@ -7,9 +7,7 @@
 #include "cases/format/write.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/study/derive.h"
-#include "harness/study/scene_truths.h"
-#include "harness/study/truth.h"
+#include "harness/study/study.h"
 
 /* Rows of the request that hold at the point: few of many, which every quantity looks through. */
 static status borrow(const truths *all, const sweep_point *p, known_truths *out, fault *f)

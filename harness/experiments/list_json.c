@@ -10,7 +10,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/records/json.h"
 #include "harness/records/json_record.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 
 enum { MOST_CASES = 256 };
 

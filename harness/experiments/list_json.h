@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/rules.h"
+#include "harness/study/study.h"
 
 /* Of all cases, and of all formulations with the physics that they can offer: 1: wanted. */
 status list_json_all(FILE *to, int cases, int formulations, fault *f);

@@ -6,7 +6,7 @@
 
 #include "harness/experiments/pace_list.h"
 #include "harness/experiments/pace_method.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* What becomes of a motion on which nothing acts, whose energy and momenta stay. */
 typedef enum pace_fate {

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "harness/study/verdict.h"
+#include "harness/study/study.h"
 
 static double apart(const double a[3], const double b[3])
 {

@@ -7,8 +7,7 @@
 #include "harness/experiments/pace_distance.h"
 #include "harness/experiments/pace_drift.h"
 #include "harness/experiments/pace_order.h"
-#include "harness/study/price.h"
-#include "harness/study/run.h"
+#include "harness/study/study.h"
 
 static double distance_of_check(const pace *p, const pace_group *g, int check)
 {

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/experiments/pace_alone.h"
-#include "harness/study/plan.h"
+#include "harness/study/study.h"
 
 enum {
     STATIONS_OF_ERROR = 20,

@@ -10,7 +10,7 @@
 #define BEAMWORK_PACE_VERDICT_H
 
 #include "harness/experiments/pace.h"
-#include "harness/study/own_table.h"
+#include "harness/study/study.h"
 
 enum { PACE_FOUND = 128 };
 

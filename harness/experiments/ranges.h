@@ -8,7 +8,7 @@
 #include "harness/experiments/design.h"
 #include "harness/experiments/rows.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 enum { RANGES_FORMULATIONS = 64, RANGES_QUANTITIES = 64 };
 

@@ -4,7 +4,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/records/kept.h"
 #include "harness/records/store.h"
-#include "harness/study/price.h"
+#include "harness/study/study.h"
 
 enum { TEXT = 64, LONG_TEXT = 128 };
 

@@ -7,10 +7,7 @@
 #include "harness/experiments/known.h"
 #include "harness/experiments/ranges_points.h"
 #include "harness/experiments/reference.h"
-#include "harness/study/plan.h"
-#include "harness/study/price.h"
-#include "harness/study/reach.h"
-#include "harness/study/run.h"
+#include "harness/study/study.h"
 
 /* A batch that is being made. */
 typedef struct making {

@@ -4,7 +4,7 @@
 #include "harness/experiments/ranges_points.h"
 #include "harness/experiments/ranges_table_impl.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 
 enum { LAST_KNOWN = 2 /* kind of reference */ };

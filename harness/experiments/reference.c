@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "harness/model/model.h"
-#include "harness/study/verdict.h"
+#include "harness/study/study.h"
 
 enum { MOST = 64 };
 

@@ -9,7 +9,7 @@
 #define BEAMWORK_REFERENCE_H
 
 #include "harness/experiments/rows.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 typedef struct point_reference {
     rows_reference kind;

@@ -3,7 +3,7 @@
 #define BEAMWORK_REGRESSIONS_H
 
 #include "harness/records/results.h"
-#include "harness/study/judgement.h"
+#include "harness/study/study.h"
 
 /* Adds to the judgement every mesh whose error is larger than in the former run (by more than 2 %
  * and RESULTS_FLOOR), that has no value or no success any more, what the former run has and this

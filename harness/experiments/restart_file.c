@@ -8,8 +8,7 @@
 #include "harness/experiments/restart.h"
 #include "harness/experiments/restart_text.h"
 #include "harness/records/record.h"
-#include "harness/study/checksum.h"
-#include "harness/study/handles.h"
+#include "harness/study/study.h"
 
 static const char kind[] = "beamwork-motion-end-4";
 enum { RUN = 3, NUMBERS = 21, FIRST_COUNT = 11, COUNTS = 5, MOST_ENDS = 1000 };

@@ -2,8 +2,7 @@
 
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/study/cell.h"
-#include "harness/study/omission.h"
+#include "harness/study/study.h"
 
 static void look_at(const scene *s, const element_type *type, runs_on *out)
 {

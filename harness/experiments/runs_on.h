@@ -10,7 +10,7 @@ enum { RUNS_ON_WORDS = 200 };
 typedef struct runs_on {
     const char *name; /* of the case, or of the formulation */
     int runs;
-    int other;                 /* 1: as another model (harness/study/omission.h) */
+    int other;                 /* 1: as another model (harness/study/study.h) */
     char words[RUNS_ON_WORDS]; /* what is missing; where it runs: what it leaves out */
 } runs_on;
 

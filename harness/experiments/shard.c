@@ -15,9 +15,7 @@
 #include "harness/experiments/labour.h"
 #include "harness/experiments/stock.h"
 #include "harness/numerics/numerics.h"
-#include "harness/study/child.h"
-#include "harness/study/interrupt.h"
-#include "harness/study/progress.h"
+#include "harness/study/study.h"
 
 status shard_parse(const char *text, int *index, int *count, fault *f)
 {

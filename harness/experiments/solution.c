@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "harness/model/model.h"
-#include "harness/study/narrow.h"
-#include "harness/study/plan.h"
-#include "harness/study/preference.h"
+#include "harness/study/study.h"
 
 static cell_request cell_of(const solution_request *r, const scene *s)
 {

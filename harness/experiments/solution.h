@@ -3,12 +3,12 @@
 #ifndef BEAMWORK_SOLUTION_H
 #define BEAMWORK_SOLUTION_H
 
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 typedef struct solution_request {
     const case_type *type;
     const double *parameter; /* of the case */
-    const char *select;      /* quantities that are asked for, as of harness/study/narrow.h; NULL:
+    const char *select;      /* quantities that are asked for, as of harness/study/study.h; NULL:
                                 all */
     formulation formulation; /* type NULL: to be chosen */
     int elements;            /* of each member; 0: to be chosen */
@@ -28,7 +28,7 @@ typedef struct solution_choice {
 } solution_choice;
 void solution_choice_free(solution_choice *);
 
-/* Fills the formulation (harness/study/preference.h), and the elements where they are wanted; rules
+/* Fills the formulation (harness/study/study.h), and the elements where they are wanted; rules
  * NULL: the ledger is not known. REFUSED: no formulation offers what the case needs.
  * solution_choice_free in any case. */
 status solution_choose(solution_request *, const rule *rules, int count, int elements,

@@ -9,8 +9,7 @@
 #include "harness/experiments/ranges_points.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/assumptions.h"
-#include "harness/study/expense.h"
-#include "harness/study/plan.h"
+#include "harness/study/study.h"
 
 enum { LOOKED_AT = 9 };
 

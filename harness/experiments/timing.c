@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "harness/numerics/numerics.h"
-#include "harness/study/progress.h"
+#include "harness/study/study.h"
 
 void rounds_run(const cell_request *request, double floor, rounds_reading *out)
 {

@@ -3,8 +3,7 @@
 #ifndef BEAMWORK_EXPERIMENTS_TIMING_H
 #define BEAMWORK_EXPERIMENTS_TIMING_H
 
-#include "harness/study/rounds.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* One more round: repeats until `floor` [s] of the processor's time are spent, at least once. A
  * cell that fails has a time too. */

@@ -6,8 +6,7 @@
 #include "harness/experiments/certificate.h"
 #include "harness/formulations/formulations.h"
 #include "harness/numerics/numerics.h"
-#include "harness/study/families.h"
-#include "harness/study/run.h"
+#include "harness/study/study.h"
 
 typedef struct verification {
     truths *truths;

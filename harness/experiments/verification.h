@@ -4,7 +4,7 @@
 #ifndef BEAMWORK_VERIFICATION_H
 #define BEAMWORK_VERIFICATION_H
 
-#include "harness/study/judgement.h"
+#include "harness/study/study.h"
 
 /* Who takes what is judged while the rest is run. */
 typedef struct verification_reader {
@@ -15,7 +15,7 @@ typedef struct verification_reader {
 } verification_reader;
 
 /* Holds the formulations that are named or loaded against the contract of the interface; then runs
- * a planned sweep (plan.h) and judges its series in their order, each when all of its point
+ * a planned sweep (study.h) and judges its series in their order, each when all of its point
  * are done; the finest meshes are run again where verdicts may turn on their noise. Formulations
  * that agree become truths of scene files. whole: 1: nothing was selected away, unless the run is
  * interrupted. reader: NULL: none. judgement_free frees *out, also after a failure. */

@@ -6,7 +6,7 @@
 #include "harness/records/junit.h"
 #include "harness/records/markdown.h"
 #include "harness/records/output.h"
-#include "harness/study/proposal.h"
+#include "harness/study/study.h"
 
 status verification_files_open(verification_files *to, const sweep *s, const judgement *j, fault *f)
 {

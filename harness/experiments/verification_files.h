@@ -5,7 +5,7 @@
 
 #include "harness/records/json.h"
 #include "harness/records/store.h"
-#include "harness/study/overview.h"
+#include "harness/study/study.h"
 
 typedef struct verification_files {
     const char *output, *json, *junit, *markdown, *propose; /* NULL: none */

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/study/worker.h"
+#include "harness/study/study.h"
 
 status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
                          int *named, fault *f)

@@ -3,7 +3,7 @@
 #define BEAMWORK_CONTESTANTS_H
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 enum { CONTESTANTS_MOST = 64 };
 

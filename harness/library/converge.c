@@ -9,12 +9,7 @@
 #include "harness/library/text.h"
 #include "harness/records/json_convergence.h"
 #include "harness/records/reach_line.h"
-#include "harness/study/families.h"
-#include "harness/study/narrow.h"
-#include "harness/study/plan.h"
-#include "harness/study/run.h"
-#include "harness/study/scene_truths.h"
-#include "harness/study/worker.h"
+#include "harness/study/study.h"
 
 /* What is asked, and what answers it; converge frees it. */
 typedef struct study {

@@ -4,7 +4,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "harness/study/data_place.h"
+#include "harness/study/study.h"
 
 static pthread_mutex_t hdf5 = PTHREAD_MUTEX_INITIALIZER;
 static struct {

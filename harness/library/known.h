@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_KNOWN_H
 #define BEAMWORK_KNOWN_H
 
-#include "harness/study/truths.h"
+#include "harness/study/study.h"
 
 /* Their place from now on; NULL: where they usually are. Reads them to see. */
 status known_place(const char *path, fault *f);

@@ -7,7 +7,7 @@
 #include "harness/library/call.h"
 #include "harness/library/source.h"
 #include "harness/library/text.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 
 /* At its defaults; the file and its name are taken. */
 static status new_scene(const case_type *type, scene_file *file, char *name, bw_scene **out,

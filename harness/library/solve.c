@@ -8,7 +8,7 @@
 #include "harness/library/options.h"
 #include "harness/library/result_handle.h"
 #include "harness/numerics/numerics.h"
-#include "harness/study/scene_truths.h"
+#include "harness/study/study.h"
 
 enum { STEPS_MOST = 1000000 };
 

@@ -4,7 +4,7 @@
 
 #include "cases/format/scene_file.h"
 #include "harness/library/beamwork.h"
-#include "harness/study/truths.h"
+#include "harness/study/study.h"
 
 typedef struct source source;
 

@@ -12,9 +12,7 @@
 #include "harness/records/kept.h"
 #include "harness/records/output.h"
 #include "harness/records/store.h"
-#include "harness/study/plan.h"
-#include "harness/study/scene_truths.h"
-#include "harness/study/worker.h"
+#include "harness/study/study.h"
 
 enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };
 

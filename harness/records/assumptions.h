@@ -4,7 +4,7 @@
 #ifndef BEAMWORK_ASSUMPTIONS_H
 #define BEAMWORK_ASSUMPTIONS_H
 
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 typedef enum assumption_kind {
     ASSUMPTION_NOT_KNOWN,

@@ -4,7 +4,7 @@
 
 #include "elements/shared/number.h"
 #include "harness/records/comparison_lines.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 const comparison_limits comparison_limits_default = {0.01, RESULTS_FLOOR, 0.02};
 

@@ -44,7 +44,7 @@ typedef struct comparison {
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f);
 /* Writes one line for each difference. What lies outside the selection of one of the two is
  * counted, not written, and so are series of new formulations in one of them. Names that `select`
- * (of sweep.h; NULL: all) does not hold for are left out. */
+ * (of study.h; NULL: all) does not hold for are left out. */
 void comparison_run(FILE *to, const stored_results *before, const stored_results *after,
                     const comparison_limits *limits, const char *select, comparison *out);
 int comparison_differs(const comparison *c);

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "harness/records/comparison_lines.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 enum { TOLD = 1 << 14, NAME = 2048 };
 

@@ -4,8 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/judgement.h"
-#include "harness/study/rounds.h"
+#include "harness/study/study.h"
 
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);

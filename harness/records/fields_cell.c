@@ -6,7 +6,7 @@
 #include "elements/feature.h"
 #include "harness/model/model.h"
 #include "harness/records/fields_keys.h"
-#include "harness/study/price.h"
+#include "harness/study/study.h"
 
 static void get_features(const subject *s, field_value *out)
 {

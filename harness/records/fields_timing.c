@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "harness/records/fields_keys.h"
-#include "harness/study/rounds.h"
+#include "harness/study/study.h"
 
 static const cell_timing *timing_of(const subject *s)
 {

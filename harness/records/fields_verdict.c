@@ -3,8 +3,7 @@
 
 #include "harness/model/model.h"
 #include "harness/records/fields_keys.h"
-#include "harness/study/reach.h"
-#include "harness/study/sentence.h"
+#include "harness/study/study.h"
 
 static const char *word_of_verdict(int kind)
 {

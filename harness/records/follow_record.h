@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/follow.h"
+#include "harness/study/study.h"
 
 /* A row for each value and mode. */
 void follow_record_csv(FILE *to, const char *parameter, const follow_curves *);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/records/assumptions.h"
-#include "harness/study/rounds.h"
+#include "harness/study/study.h"
 
 struct held_record {
     held_record *next;

@@ -9,8 +9,7 @@
 #include "harness/model/model.h"
 #include "harness/records/gather.h"
 #include "harness/records/json_record.h"
-#include "harness/study/noise.h"
-#include "harness/study/truth.h"
+#include "harness/study/study.h"
 
 enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };
 static const char unwritten[] = "the JSON could not be written (full disk or out of memory)";

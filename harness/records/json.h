@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/judgement.h"
+#include "harness/study/study.h"
 
 /* Writes and frees root; FAULT when it is NULL (out of memory) or cannot be written. */
 status json_finish(json_t *root, FILE *to, fault *f);

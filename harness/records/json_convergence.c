@@ -7,7 +7,7 @@
 #include "harness/records/json.h"
 #include "harness/records/json_record.h"
 #include "harness/records/reach_line.h"
-#include "harness/study/curve_error.h"
+#include "harness/study/study.h"
 
 /* Of one quantity on every mesh: what was found, and the cell it was found by. */
 static json_t *meshes_of(const gathering *g, int series_index, int quantity)

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* Every quantity of every series over its meshes, with limit, order and verdict; which formulations
  * are within the level (relative error) in every quantity. */

@@ -5,7 +5,7 @@
 #include "cases/scene/omission.h"
 #include "harness/model/model.h"
 #include "harness/records/assumptions.h"
-#include "harness/study/sentence.h"
+#include "harness/study/study.h"
 
 static void escaped(FILE *to, const char *text)
 {

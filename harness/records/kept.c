@@ -12,7 +12,7 @@
 #include "harness/records/place.h"
 #include "harness/records/schema.h"
 #include "harness/records/table_reader.h"
-#include "harness/study/checksum.h"
+#include "harness/study/study.h"
 
 hid_t kept_group(record_file *r, const char *name)
 {

@@ -6,7 +6,7 @@
 #include "cases/scene/omission.h"
 #include "harness/model/model.h"
 #include "harness/records/assumptions.h"
-#include "harness/study/sentence.h"
+#include "harness/study/study.h"
 
 enum { MOST_ROWS = 50 }; /* a comment is read, not searched: the JSON has the rest */
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/overview.h"
+#include "harness/study/study.h"
 
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
                     const environment *e);

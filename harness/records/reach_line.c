@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/price.h"
-#include "harness/study/rounding.h"
+#include "harness/study/study.h"
 
 static void write_reached(FILE *to, const sweep *s, const reached *r)
 {

@@ -4,12 +4,12 @@
 
 #include <stdio.h>
 
-#include "harness/study/reach.h"
+#include "harness/study/study.h"
 
 #define REACH_LINE_LEVEL 0.01 /* where none is asked for */
 
 /* "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2 (0.4 ms): within noise
- * of each other; beamw n = 8 (2 ms)": in the order of reach.h, with the cost of their counted work;
+ * of each other; beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work;
  * behind it those that have a defect, those that are not within the level, and how far the ones
  * that pass are from truths of another model. "in 5 of 6 quantities (without a reference:
  * frequency_1)" where some have neither a truth nor an agreement; curves do not count. Of the first

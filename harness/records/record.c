@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/checksum.h"
+#include "harness/study/study.h"
 
 enum { GROWTH = 1 << 22, MOST_RANKS = 4 }; /* GROWTH: [bytes] by which the file in memory grows */
 

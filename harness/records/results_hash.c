@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/records/results_case.h"
-#include "harness/study/checksum.h"
+#include "harness/study/study.h"
 
 enum { MOST_RANK = 8, CHUNK = 1 << 20 /* [bytes] of rows that are read together */ };
 

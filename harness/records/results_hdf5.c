@@ -8,8 +8,7 @@
 #include "harness/records/results_case.h"
 #include "harness/records/results_sweep.h"
 #include "harness/records/table_reader.h"
-#include "harness/study/checksum.h"
-#include "harness/study/handles.h"
+#include "harness/study/study.h"
 
 enum { HDF5_NAME = 200 };
 

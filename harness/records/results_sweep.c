@@ -9,7 +9,7 @@
 #include "harness/numerics/numerics.h"
 #include "harness/records/kept.h"
 #include "harness/records/table_reader.h"
-#include "harness/study/handles.h"
+#include "harness/study/study.h"
 
 enum {
     VERSION = 1,

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "harness/study/judgement.h"
+#include "harness/study/study.h"
 
 enum { SCHEMA_VERSION = 3, SCHEMA_OLDEST = 2, SCHEMA_MOST_FIELDS = 96, FIELD_ROOM = 2048 };
 #define SCHEMA_NAME "beamwork-results"

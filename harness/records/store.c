@@ -10,8 +10,7 @@
 #include "harness/records/record_rows.h"
 #include "harness/records/store_shapes.h"
 #include "harness/records/vtkhdf.h"
-#include "harness/study/price.h"
-#include "harness/study/sentence.h"
+#include "harness/study/study.h"
 
 void store_environment(record_file *r, hid_t at, const environment *e)
 {

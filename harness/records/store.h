@@ -6,7 +6,7 @@
 
 #include "harness/formulations/formulations.h"
 #include "harness/records/record.h"
-#include "harness/study/judgement.h"
+#include "harness/study/study.h"
 
 /* A file that is filled case by case, while others are still run. */
 typedef struct store {

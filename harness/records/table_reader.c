@@ -1,5 +1,5 @@
 #include "harness/records/table_reader.h"
-#include "harness/study/handles.h"
+#include "harness/study/study.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,10 +1,9 @@
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 
-#include <stdio.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
 
 static status copy_left_out(const model *m, cell_result *out, fault *f)
@@ -121,4 +120,280 @@ void cell_result_free(cell_result *r)
     result_free(&r->solve);
     scene_free(&r->scene);
     memset(r, 0, sizeof *r);
+}
+
+const double omission_most = 1e-4;
+const double omission_safety = 2;
+/* [s] of a solution, about: who waits longer is told that nobody knows. */
+static const double longest = 20;
+/* [s] of a solution, about, that is always made. */
+static const double brief = 0.2;
+/* Beyond so many times omission_most, there is no doubt. */
+static const double surely = 100;
+/* Of the largest value in the same unit: what counts as zero beside it. */
+static const double nothing = 1e-9;
+
+/* Physics of which the constants of a section have none. */
+static unsigned absent_in(const section *c)
+{
+    const double length = sqrt(c->Ip / c->A), moment = 1e-12 * c->Ip * length;
+    unsigned absent = 0;
+    int rigid = 1;
+    for (int i = 0; i < 9; i++)
+        rigid &= fabs(c->F[i]) <= 0;
+    if (c->matrices)
+        return 0;
+    absent |= rigid ? FEATURE_SHEAR : 0;
+    absent |= c->F[0] <= 0 ? OMIT_SHEAR_Y : 0;
+    absent |= fabs(c->wagner_torque) <= 0 ? FEATURE_WAGNER_TORQUE : 0;
+    absent |=
+        fabs(c->wagner_y) <= moment && fabs(c->wagner_z) <= moment ? FEATURE_WAGNER_MOMENTS : 0;
+    return absent | (c->Iw <= 0 ? FEATURE_WARPING : 0);
+}
+
+/* Physics of second order that the undeformed state does not show, and inertia at rest. */
+static unsigned absent_in_analyses(const scene *s)
+{
+    const unsigned higher = FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
+    int undeformed = 1, rests = 1;
+    for (int i = 0; i < s->analyses; i++) {
+        const scene_analysis *a = &s->analysis[i];
+        undeformed &=
+            a->kind == SCENE_LINEAR ||
+            ((a->kind == SCENE_MODAL || a->kind == SCENE_COMPLIANCE) && a->follows == SCENE_NONE);
+        rests &= a->kind != SCENE_MODAL && a->kind != SCENE_ROTATION && a->kind != SCENE_MOTION &&
+                 !scene_rotates(a);
+    }
+    return (undeformed ? higher : 0) | (rests ? FEATURE_ROTARY_INERTIA : 0);
+}
+
+static unsigned absent_in_sections(const scene *s)
+{
+    unsigned absent = scene_tapers(s) ? 0 : ~0U;
+    for (int i = 0; i < s->sections && absent != 0; i++) {
+        section c;
+        absent &= scene_constants(s, i, &c, NULL) == STATUS_OK ? absent_in(&c) : 0;
+    }
+    return absent;
+}
+
+/* Are all its sections such that leaving it out of an element is what it says? Those by matrices
+ * are taken whole. */
+static int can_be_shown(const scene *s)
+{
+    int can = 1;
+    for (int i = 0; i < s->sections; i++)
+        can &= s->section[i].kind != SECTION_MATRICES;
+    return can;
+}
+
+/* Of those that have all of the scene the one of the highest order; NULL: there is none. */
+static const element_type *whole_model(const scene *s)
+{
+    const element_type *best = NULL;
+    int highest = 0;
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *t = registry_formulations[i];
+        char words[OMIT_WORDS];
+        double options[ELEMENT_MAX_OPTIONS] = {0};
+        if (missing_words(s, t, words, sizeof words) || lacks_of(s, t, words, sizeof words))
+            continue;
+        parameter_defaults(t->options, options);
+        const int order = element_order_in(t, ELEMENT_STATICS, options).highest;
+        if (best != NULL && order <= highest)
+            continue;
+        best = t;
+        highest = order;
+    }
+    return best;
+}
+
+static status solve(const scene *s, const element_type *type, unsigned omit, int elements,
+                    cell_result *out, fault *f)
+{
+    formulation chosen;
+    cell_request request = {.scene = s, .elements = elements, .omit = omit};
+    formulation_default(type, &chosen);
+    cell_formulation(&request, &chosen);
+    return cell_run(&request, out, f);
+}
+
+/* Largest value of those in the unit of one of them. */
+static double size_of_unit(const scene *s, const solve_result *r, int quantity)
+{
+    double size = 0;
+    for (int q = 0; q < s->quantities; q++)
+        if (strcmp(s->quantity[q].unit, s->quantity[quantity].unit) == 0 &&
+            isfinite(r->quantity[q].value))
+            size = fmax(size, fabs(r->quantity[q].value));
+    return size;
+}
+
+static double relative(double apart, double scale)
+{
+    return apart > 0 ? apart / scale : isfinite(apart) ? 0 : INFINITY;
+}
+
+/* Over the points of a curve, by the largest of its values. */
+static double change_of_curve(const curve *a, const curve *b, double least)
+{
+    double apart = 0, size = least;
+    if (a->points != b->points)
+        return INFINITY;
+    for (int i = 0; i < a->points; i++) {
+        size = fmax(size, fabs(a->value[i]));
+        apart = fmax(apart, fabs(b->value[i] - a->value[i]));
+        if (fabs(a->x[i] - b->x[i]) > 1e-9 * fmax(fabs(a->x[i]), fabs(a->x[a->points - 1])))
+            return INFINITY; /* another path: nothing to hold it against */
+    }
+    return relative(apart, size);
+}
+
+/* Of one quantity; infinite where one of the two has no value. */
+static double change_of(const scene *s, const solve_result *with, const solve_result *without,
+                        int quantity)
+{
+    const scene_quantity *q = &s->quantity[quantity];
+    const quantity_result *a = &with->quantity[quantity], *b = &without->quantity[quantity];
+    const double least = fmax(q->near_zero, nothing * size_of_unit(s, with, quantity));
+    if (a->status != STATUS_OK || b->status != STATUS_OK)
+        return INFINITY;
+    if (q->reduction == SCENE_CURVE)
+        return change_of_curve(&a->curve, &b->curve, least);
+    return relative(fabs(b->value - a->value), fmax(fabs(a->value), least));
+}
+
+/* Have all asked quantities a value there? */
+static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
+{
+    if (c->solve.status != STATUS_OK || c->solve.quantities < s->quantities) {
+        snprintf(why, FAULT_TEXT, "%s", c->solve.reason);
+        return 0;
+    }
+    for (int q = 0; q < s->quantities; q++)
+        if (c->solve.quantity[q].status != STATUS_OK) {
+            snprintf(why, FAULT_TEXT, "%s: %.200s", s->quantity[q].name,
+                     c->solve.quantity[q].reason);
+            return 0;
+        }
+    return 1;
+}
+
+/* On one mesh; NAN: not all values are there, and why. */
+static double change_on(const scene *s, const element_type *type, int elements, omission *out)
+{
+    cell_result with, without;
+    fault f = {""};
+    double largest = NAN;
+    solve(s, type, 0, elements, &with, &f);
+    solve(s, type, out->what, elements, &without, &f);
+    if (is_whole(s, &with, out->why) && is_whole(s, &without, out->why)) {
+        largest = 0;
+        for (int q = 0; q < s->quantities; q++) {
+            const double change = change_of(s, &with.solve, &without.solve, q);
+            if (change <= largest)
+                continue;
+            largest = change;
+            snprintf(out->quantity, sizeof out->quantity, "%s", s->quantity[q].name);
+        }
+    }
+    cell_result_free(&with);
+    cell_result_free(&without);
+    return largest;
+}
+
+/* Do two meshes say the same of it? Rounding is all of what is less than noise. */
+static int agree(double coarse, double fine)
+{
+    const double noise = 1e-9, apart = 2;
+    return fmax(coarse, fine) <= noise || (coarse <= apart * fine && fine <= apart * coarse);
+}
+
+/* Each mesh has twice the elements of the one before; the larger of two that agree counts. What is
+ * surely seen is not looked at any closer than a short while allows. */
+static void estimate(const scene *s, const element_type *type, omission *out)
+{
+    enum { FINEST = 32 };
+    double last = NAN;
+    for (int n = 1; n <= FINEST; n *= 2) {
+        const double cost = expense_of_scene(s, 0, type, n);
+        if (last > surely * omission_most && cost > brief) {
+            out->change = last;
+            return;
+        }
+        if (cost > longest) {
+            snprintf(out->why, sizeof out->why, "a solution would take more than %g s", longest);
+            return;
+        }
+        const double change = change_on(s, type, n, out);
+        if (isfinite(last) && isfinite(change) && agree(last, change)) {
+            out->change =
+                change > surely * omission_most ? change : omission_safety * fmax(last, change);
+            return;
+        }
+        if (isfinite(last) && isfinite(change))
+            snprintf(out->why, sizeof out->why, "meshes disagree: %.2g and %.2g with %d elements",
+                     last, change, n);
+        last = change;
+    }
+    if (out->why[0] == '\0')
+        snprintf(out->why, sizeof out->why, "no two meshes of up to %d elements have all values",
+                 FINEST);
+}
+
+static void find_change(const scene *s, omission *out)
+{
+    const element_type *whole = whole_model(s);
+    out->exact = (out->what & ~absent_in_sections(s) & ~absent_in_analyses(s)) == 0;
+    if (out->exact)
+        out->change = 0;
+    else if (whole == NULL)
+        snprintf(out->why, sizeof out->why, "no formulation of the program has all of this scene");
+    else if (!can_be_shown(s))
+        snprintf(out->why, sizeof out->why, "a section is given by its matrices");
+    else
+        estimate(s, whole, out);
+}
+
+double omission_on_mesh(const scene *s, unsigned what, int elements)
+{
+    const element_type *whole = whole_model(s);
+    omission out = {.what = what};
+    return whole != NULL ? change_on(s, whole, elements, &out) : NAN;
+}
+
+void omission_of(const scene *s, const element_type *type, omission *out)
+{
+    *out = (omission){.what = missing_omits(s, type), .change = NAN};
+    missing_omit_words(out->what, out->words);
+    if (out->what == 0)
+        return;
+    find_change(s, out);
+    out->other = !(out->change <= omission_most); /* NAN is not */
+}
+
+void omission_words(const omission *o, char text[OMISSION_TEXT])
+{
+    text[0] = '\0';
+    if (o->what == 0)
+        return;
+    if (o->exact)
+        snprintf(text, OMISSION_TEXT, "without %s: changes no asked value", o->words);
+    else if (!o->other)
+        snprintf(text, OMISSION_TEXT, "without %s: changes no asked value by more than %.1g",
+                 o->words, o->change);
+    else if (isfinite(o->change))
+        snprintf(text, OMISSION_TEXT,
+                 "another model: %s not modelled (changes %s by about %.*f %%)", o->words,
+                 o->quantity, o->change < 0.01 ? 2 : o->change < 0.1, 100 * o->change);
+    else if (isnan(o->change))
+        snprintf(text, OMISSION_TEXT,
+                 "another model: %s not modelled (how much it changes is not "
+                 "known: %s)",
+                 o->words, o->why);
+    else
+        snprintf(text, OMISSION_TEXT,
+                 "another model: %s not modelled (changes %s from zero, or its "
+                 "path)",
+                 o->words, o->quantity);
 }

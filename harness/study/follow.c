@@ -1,11 +1,11 @@
-#include "harness/study/follow.h"
+#include "harness/study/study_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/study/follow_impl.h"
+#include "harness/numerics/numerics.h"
 
 enum { HALVINGS = 20 };
 
@@ -131,4 +131,209 @@ void follow_free(follow_curves *c)
     free(c->sample);
     free(c->event);
     memset(c, 0, sizeof *c);
+}
+
+/* Largest last correction of a step that counts as converged: the next one would be of the size
+ * of its square; a larger one, up to the second, is the last where the one after it is predicted
+ * and negligible. With more elements than these it is larger in proportion: rounding of their
+ * places keeps it there. */
+static const double promised_correction = 1e-8, largest_correction = 1e-6,
+                    negligible_correction = 1e-14, many_elements = 1e4;
+
+static int iterations_of_steps(const solve_result *r)
+{
+    int sum = 0;
+    for (int i = 0; i < r->steps; i++)
+        sum += r->step[i].iterations;
+    return sum;
+}
+
+/* Tries of longer steps that failed before the ones that were kept. */
+static long rejected_before_steps(const solve_result *r)
+{
+    long sum = 0;
+    for (int i = 0; i < r->steps; i++)
+        sum += r->step[i].rejected;
+    return sum;
+}
+
+/* The first step that ended too soon, or -1. */
+static int unfinished_step(const solve_result *r, double promised)
+{
+    for (int i = 0; i < r->steps; i++)
+        if (!(r->step[i].correction <= promised) &&
+            !(r->step[i].correction <= largest_correction &&
+              r->step[i].remaining <= negligible_correction))
+            return i;
+    return -1;
+}
+
+/* Nothing but Newton's iterations, none of them in vain: then each is one evaluation of every
+ * element and one factorisation. */
+static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (scene_reads(s, i) && s->analysis[i].kind != SCENE_STATIC)
+            return 0;
+    return newton == NEWTON_MIXED && cell->counters.rejected_steps == 0;
+}
+
+/* A continuation begins each step with the tangent that the one before it ended with. */
+static long most_reused(const cell_result *cell, const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (scene_reads(s, i) && s->analysis[i].kind == SCENE_CONTINUATION)
+            return cell->counters.steps;
+    return 0;
+}
+
+/* The steps of a motion go on with the factors of their first iterations. */
+static long most_stale(const cell_result *cell, const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (scene_reads(s, i) && s->analysis[i].kind == SCENE_MOTION)
+            return cell->counters.iterations - cell->counters.steps;
+    return 0;
+}
+
+/* The first count that is less than the iterations need, or in a plain cell another one; NULL:
+ * none. */
+static const char *wrong_count(const cell_result *cell, long reused, long stale, int plain)
+{
+    const counters *c = &cell->counters;
+    const long linearised = c->iterations - reused, evaluations = linearised * cell->size.elements;
+    const struct {
+        const char *name;
+        long counted, needed;
+    } row[] = {{"strain evaluations", c->strain_evaluations, evaluations},
+               {"stress evaluations", c->stress_evaluations, evaluations},
+               {"factorisations", c->factorisations, linearised - stale}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
+        if (row[i].counted < row[i].needed || (plain && row[i].counted != row[i].needed))
+            return row[i].name;
+    return c->solutions < c->iterations ? "solutions" : NULL;
+}
+
+int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char why[FAULT_TEXT])
+{
+    const solve_result *r = &cell->solve;
+    const counters *c = &cell->counters;
+    if (r->status != STATUS_OK)
+        return 1;
+    const double promised = promised_correction * fmax(1, cell->size.elements / many_elements);
+    const int iterations = iterations_of_steps(r), early = unfinished_step(r, promised);
+    const long rejected = rejected_before_steps(r);
+    const char *count =
+        wrong_count(cell, most_reused(cell, s), most_stale(cell, s), is_plain(cell, s, newton));
+    if (c->steps != r->steps)
+        snprintf(why, FAULT_TEXT, "%ld steps were counted and %d kept", c->steps, r->steps);
+    else if (c->rejected_steps != rejected)
+        snprintf(why, FAULT_TEXT, "%ld rejected steps were counted, %ld by the steps after them",
+                 c->rejected_steps, rejected);
+    else if (iterations > r->iterations || r->iterations > c->iterations)
+        snprintf(why, FAULT_TEXT, "%d iterations of steps, %d kept, %ld counted", iterations,
+                 r->iterations, c->iterations);
+    else if (early >= 0)
+        snprintf(why, FAULT_TEXT, "step %d ended with a correction of %.1e, before one of %.1e",
+                 early, r->step[early].correction, r->step[early].remaining);
+    else if (count != NULL)
+        snprintf(why, FAULT_TEXT, "its %s do not fit %ld iterations with %d elements", count,
+                 c->iterations, cell->size.elements);
+    else
+        return 1;
+    return 0;
+}
+
+/* relative, of a value against its own stored discrete value */
+static const double agreement_least = 1e-6;
+
+static status add_agreement(const agreement *one, judgement *out, fault *f)
+{
+    TRY(memory_append(&out->agreement, &out->agreements, one, sizeof *one, "agreements", f));
+    out->disagreements += !one->good;
+    return STATUS_OK;
+}
+
+/* The values of one mesh against a row of the truths. */
+static status compare_mesh(const sweep *s, const truth *row, int index, int mesh, judgement *out,
+                           fault *f)
+{
+    const series *one = &s->series[index];
+    const sweep_point *p = &s->point[one->point];
+    const solve_result *result = &one->cell[mesh].solve;
+    for (int q = 0; q < p->scene.quantities; q++) {
+        if (strcmp(p->scene.quantity[q].name, row->quantity) != 0 ||
+            !sweep_selects(s, p, &one->formulation, row->quantity))
+            continue;
+        const double value = q < result->quantities ? result->quantity[q].value : NAN;
+        const int good =
+            fabs(value - row->value) <= fmax(row->uncertainty, agreement_least * fabs(row->value));
+        TRY(add_agreement(&(agreement){index, mesh, q, row, value, good}, out, f));
+    }
+    return STATUS_OK;
+}
+
+status agreements_add(const sweep *s, const truths *t, int index, judgement *out, fault *f)
+{
+    const series *one = &s->series[index];
+    const sweep_point *p = &s->point[one->point];
+    if (one->missing[0] != '\0' || one->without.other)
+        return STATUS_OK;
+    for (int r = 0; r < t->rows; r++) {
+        const truth *row = &t->row[r];
+        if (row->elements == 0 || !truth_holds(row, p->type, p->parameter) || !truth_gates(row) ||
+            strcmp(row->formulation, one->formulation.key) != 0)
+            continue;
+        for (int i = 0; i < one->meshes; i++)
+            if (one->mesh[i] == row->elements)
+                TRY(compare_mesh(s, row, index, i, out, f));
+    }
+    return STATUS_OK;
+}
+
+/* How often limits lie within their uncertainty of an exact truth. */
+
+/* Of the series' case and formulation. */
+static coverage *row_of(const sweep *s, judgement *j, const series *one, fault *f)
+{
+    const case_type *of = s->point[one->point].type;
+    for (int i = 0; i < j->coverages; i++)
+        if (j->coverage[i].type == one->formulation.type && j->coverage[i].of == of)
+            return &j->coverage[i];
+    coverage *more = realloc(j->coverage, (size_t)(j->coverages + 1) * sizeof *more);
+    if (more == NULL) {
+        fault_set(f, STATUS_FAULT, "out of memory for coverages");
+        return NULL;
+    }
+    j->coverage = more;
+    more[j->coverages] = (coverage){.of = of, .type = one->formulation.type, .point = one->point};
+    return &more[j->coverages++];
+}
+
+static void count(const sweep *s, const verdict *v, coverage *row)
+{
+    for (int k = 0; k < COVERAGE_MESHES && k < s->series[v->series].meshes; k++) {
+        const mesh_limit l = k == 0 ? v->fit : verdict_limit(s, v->series, v->quantity, k);
+        if (l.meshes < 3)
+            continue;
+        row->series[k]++;
+        row->covered[k] +=
+            fabs(l.limit - v->truth->value) <= l.limit_uncertainty + v->truth->uncertainty;
+    }
+}
+
+status coverage_count(const sweep *s, int first, judgement *out, fault *f)
+{
+    for (int i = first; i < out->verdicts; i++) {
+        const verdict *v = &out->verdict[i];
+        if (v->truth == NULL || strcmp(v->truth->kind, "exact") != 0 || isnan(v->fit.limit))
+            continue;
+        if (s->series[v->series].imported != NULL)
+            continue;
+        coverage *row = row_of(s, out, &s->series[v->series], f);
+        if (row == NULL)
+            return STATUS_FAULT;
+        count(s, v, row);
+    }
+    return STATUS_OK;
 }

@@ -1,5 +1,6 @@
-#include "harness/study/own_findings.h"
+#include "harness/study/study_impl.h"
 
+#include <errno.h>
 #include <fnmatch.h>
 #include <math.h>
 #include <stdlib.h>
@@ -7,11 +8,6 @@
 
 #include "cases/format/line.h"
 #include "elements/shared/choice.h"
-#include "harness/formulations/formulations.h"
-#include "harness/study/own_names.h"
-#include "harness/study/own_table.h"
-#include "harness/study/proposal.h"
-#include "harness/study/verdict.h"
 
 static const char head[] = "rule,formulations,cases,condition,quantities,verdicts,largest_error,"
                            "predicted,cause,proof";
@@ -278,4 +274,165 @@ status own_findings_read(const char *path, const case_type *const run[], truths 
         outcome = add_rows(&rows, &r, f);
     own_table_free(&rows);
     return outcome;
+}
+
+static int is_among(const case_type *const list[], const case_type *type)
+{
+    while (*list != NULL && *list != type)
+        list++;
+    return *list != NULL;
+}
+
+const case_type *own_names_case_at(const case_type *const run[], int i)
+{
+    for (int k = 0; run[k] != NULL; k++)
+        if (i-- == 0)
+            return run[k];
+    for (int k = 0; registry_cases[k] != NULL; k++)
+        if (!is_among(run, registry_cases[k]) && i-- == 0)
+            return registry_cases[k];
+    return NULL;
+}
+
+const case_type *own_names_case(const case_type *const run[], const char *name)
+{
+    const case_type *type;
+    for (int i = 0; (type = own_names_case_at(run, i)) != NULL; i++)
+        if (strcmp(type->name, name) == 0)
+            return type;
+    return NULL;
+}
+
+const scene_quantity *own_names_quantity(const scene *s, const char *name)
+{
+    for (int i = 0; i < s->quantities; i++)
+        if (strcmp(s->quantity[i].name, name) == 0)
+            return &s->quantity[i];
+    return NULL;
+}
+
+static const char *case_name_at(const void *context, int i)
+{
+    const case_type *type = own_names_case_at(context, i);
+    return type != NULL ? type->name : NULL;
+}
+
+const char *own_names_near_case(const case_type *const run[], const char *name,
+                                char text[FAULT_TEXT])
+{
+    return mistakes_remedy(choice_nearest(name, case_name_at, run),
+                           "; 'beamwork list cases' shows them, --scene FILE adds one", text);
+}
+
+static const char *formulation_name_at(const void *context, int i)
+{
+    (void)context;
+    const element_type *type = formulations_at(i);
+    return type != NULL ? type->name : NULL;
+}
+
+const char *own_names_near_formulation(const char *name, char text[FAULT_TEXT])
+{
+    return mistakes_remedy(choice_nearest(name, formulation_name_at, NULL),
+                           "; 'beamwork list formulations' shows them, --element loads one", text);
+}
+
+static const char *quantity_name_at(const void *context, int i)
+{
+    const scene *s = context;
+    return i < s->quantities ? s->quantity[i].name : NULL;
+}
+
+const char *own_names_near_quantity(const scene *s, const char *name, char text[FAULT_TEXT])
+{
+    return mistakes_remedy(choice_nearest(name, quantity_name_at, s),
+                           "; 'beamwork list CASE' shows them", text);
+}
+
+/* A quote that does not end in its line would take the next lines along. */
+static int quotes_are_even(const char *line)
+{
+    int quotes = 0;
+    for (; *line != '\0'; line++)
+        quotes += *line == '"';
+    return quotes % 2 == 0;
+}
+
+static status add_row(int number, char *line, int columns, own_table *out, mistakes *m, fault *f)
+{
+    own_table_row row = {.line = number};
+    if (!line_is_text(line) || !quotes_are_even(line)) {
+        mistakes_add(m, number, 1, "no line of UTF-8 text whose quotes end in it");
+        return STATUS_OK;
+    }
+    own_table_row *more = realloc(out->row, ((size_t)out->rows + 1) * sizeof *more);
+    row.text = more != NULL ? strdup(line) : NULL;
+    out->row = more != NULL ? more : out->row;
+    if (row.text == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %.100s", m->file);
+    const int fields = line_split(row.text, row.field, columns);
+    if (fields != columns) {
+        mistakes_add(m, number, 1, "%d fields; the table has %d columns", fields, columns);
+        free(row.text);
+        return STATUS_OK;
+    }
+    out->row[out->rows++] = row;
+    return STATUS_OK;
+}
+
+static int count_columns(const char *columns)
+{
+    int count = 1;
+    for (; *columns != '\0'; columns++)
+        count += *columns == ',';
+    return count;
+}
+
+/* With a line that own_table_read frees. */
+static status read_lines(FILE *from, const char *columns, char **line, own_table *out, mistakes *m,
+                         fault *f)
+{
+    size_t room = 0;
+    int number = 0;
+    ssize_t length;
+    while ((length = getline(line, &room, from)) >= 0) {
+        if (strlen(*line) != (size_t)length) {
+            mistakes_add(m, number + 1, 1, "no text: a byte of zero");
+            return STATUS_OK;
+        }
+        char *text = line_trim(*line);
+        if (++number == 1 && strcmp(text, columns) != 0) {
+            mistakes_add(m, 1, 1, "the first line must be %s", columns);
+            return STATUS_OK;
+        }
+        if (number > 1 && text[0] != '\0')
+            TRY(add_row(number, text, count_columns(columns), out, m, f));
+    }
+    if (ferror(from))
+        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", m->file, strerror(errno));
+    if (number == 0)
+        mistakes_add(m, 1, 1, "the file is empty; its first line must be %s", columns);
+    return STATUS_OK;
+}
+
+status own_table_read(const char *path, const char *columns, own_table *out, mistakes *m, fault *f)
+{
+    char *line = NULL;
+    *out = (own_table){0};
+    *m = (mistakes){.file = path};
+    FILE *from = line_open(path);
+    if (from == NULL)
+        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
+    const status outcome = read_lines(from, columns, &line, out, m, f);
+    free(line);
+    fclose(from);
+    return outcome;
+}
+
+void own_table_free(own_table *t)
+{
+    for (int i = 0; i < t->rows; i++)
+        free(t->row[i].text);
+    free(t->row);
+    *t = (own_table){0};
 }

@@ -1,17 +1,11 @@
-#include "harness/study/own_truths.h"
+#include "harness/study/study_impl.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cases/format/line.h"
 #include "elements/shared/choice.h"
-#include "harness/formulations/formulations.h"
-#include "harness/study/own_names.h"
-#include "harness/study/own_table.h"
-#include "harness/study/truth_index.h"
-#include "harness/study/truth_rows.h"
 
 static const char head[] = "case,parameters,formulation,theory,elements,quantity,at,value,unit,"
                            "uncertainty,kind,model,convention,source";

@@ -1,15 +1,8 @@
-#include "harness/study/preference.h"
+#include "harness/study/study.h"
 
-#include <limits.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "harness/formulations/formulations.h"
-#include "harness/model/model.h"
-#include "harness/study/change.h"
-#include "harness/study/price.h"
 
 /* What speaks against a formulation, weightiest first; the least one is chosen. */
 enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };

@@ -1,15 +1,11 @@
-#include "harness/study/truths.h"
+#include "harness/study/study_impl.h"
 
-#include <stdio.h>
+#include <ctype.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/formulations.h"
-#include "harness/study/accepted.h"
-#include "harness/study/columns.h"
-#include "harness/study/truth_index.h"
-#include "harness/study/truth_rows.h"
-#include "harness/study/truths_file.h"
+#include "elements/shared/parameter.h"
 
 status truths_reserve(truths *t, int more, fault *f)
 {
@@ -167,4 +163,219 @@ void truths_free(truths *t)
     truth_index_free(t);
     free(t->row);
     memset(t, 0, sizeof *t);
+}
+
+/* Is it ours, and of this version? */
+static status check_schema(hid_t file, const char *path, fault *f)
+{
+    char name[64] = "";
+    int version = 0;
+    const hid_t schema = H5Aexists(file, "schema") > 0 ? H5Aopen(file, "schema", H5P_DEFAULT) : -1;
+    const hid_t type = schema >= 0 ? H5Aget_type(schema) : -1;
+    if (type >= 0 && H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) &&
+        H5Tget_size(type) < sizeof name)
+        H5Aread(schema, type, name);
+    const hid_t number =
+        H5Aexists(file, "version") > 0 ? H5Aopen(file, "version", H5P_DEFAULT) : -1;
+    if (number >= 0)
+        H5Aread(number, H5T_NATIVE_INT, &version);
+    handles_close(3, (const hid_t[]){number, type, schema});
+    if (strcmp(name, "beamwork-truths") != 0)
+        return fault_set(f, STATUS_FAULT, "%s: not a file of truths; build it with 'make all'",
+                         path);
+    if (version != TRUTHS_VERSION)
+        return fault_set(
+            f, STATUS_FAULT,
+            "%s: truths of version %d, this program reads %d; build it again ('make all')", path,
+            version, TRUTHS_VERSION);
+    return STATUS_OK;
+}
+
+status truths_file_open(const char *path, hid_t *file, fault *f)
+{
+    *file = -1;
+    TRY(checksum_check(path, f));
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (*file < 0)
+        return fault_set(f, STATUS_FAULT, "%s: cannot be read as HDF5; build it with 'make all'",
+                         path);
+    return check_schema(*file, path, f);
+}
+
+typedef struct taker {
+    const case_type *type;
+    truths *truths;
+} taker;
+
+static int same_point(const case_type *type, const double a[], const double b[])
+{
+    for (int i = 0; i < parameter_count(type->parameters); i++)
+        if (a[i] != b[i])
+            return 0;
+    return 1;
+}
+
+static int is_same(const truth *row, const scene_truth *one)
+{
+    return strcmp(row->quantity, one->quantity) == 0 && strcmp(row->kind, one->kind) == 0 &&
+           strcmp(row->formulation, one->formulation) == 0 &&
+           strcmp(row->theory, one->theory) == 0 && strcmp(row->model, one->model) == 0 &&
+           (isnan(one->at) ? !row->on_curve : row->at == one->at);
+}
+
+static int is_known_row(const truths *t, const case_type *type, const scene_truth *one)
+{
+    for (int i = 0; i < t->rows; i++)
+        if (t->row[i].type == type && is_same(&t->row[i], one) &&
+            same_point(type, t->row[i].parameter, one->parameter))
+            return 1;
+    return 0;
+}
+
+static status add_row(truths *t, const case_type *type, const scene_truth *one, fault *f)
+{
+    truth *row = truths_add(t, f);
+    if (row == NULL)
+        return STATUS_FAULT;
+    row->type = type;
+    memcpy(row->parameter, one->parameter, sizeof row->parameter);
+    row->value = one->value;
+    row->uncertainty = one->uncertainty;
+    row->on_curve = !isnan(one->at);
+    row->at = one->at;
+    char **const to[] = {&row->formulation, &row->theory, &row->quantity,   &row->unit,
+                         &row->kind,        &row->model,  &row->convention, &row->source};
+    const char *const from[] = {one->formulation, one->theory, one->quantity,   one->unit,
+                                one->kind,        one->model,  one->convention, one->source};
+    for (size_t i = 0; i < sizeof to / sizeof to[0]; i++)
+        if ((*to[i] = strdup(from[i])) == NULL)
+            return fault_set(f, STATUS_FAULT, "out of memory for truths");
+    return STATUS_OK;
+}
+
+static status take(void *to, const scene_truth *one, fault *f)
+{
+    const taker *t = to;
+    return is_known_row(t->truths, t->type, one) ? STATUS_OK : add_row(t->truths, t->type, one, f);
+}
+
+status scene_truths_add(const scene_file *file, const double value[], truths *t, fault *f)
+{
+    taker to = {scene_file_case(file), t};
+    return scene_file_truths(file, value, take, &to, f);
+}
+
+status scene_truths_add_all(const scene_file *file, truths *t, fault *f)
+{
+    taker to = {scene_file_case(file), t};
+    return scene_file_truths_all(file, take, &to, f);
+}
+
+static status read_all(table_columns *c, glossary_entry **out)
+{
+    static const columns_field field[] = {
+        {"term", 1, offsetof(glossary_entry, term)},
+        {"also", 1, offsetof(glossary_entry, also)},
+        {"group", 1, offsetof(glossary_entry, group)},
+        {"meaning", 1, offsetof(glossary_entry, meaning)},
+        {"see", 1, offsetof(glossary_entry, see)},
+    };
+    c->rows = c->group >= 0 ? columns_length(c->group, "term") : -1;
+    if (c->rows < 0)
+        return columns_broken(c, "term");
+    glossary_entry *all = *out = calloc((size_t)c->rows + 1, sizeof *all);
+    if (all == NULL)
+        return fault_set(c->f, STATUS_FAULT, "out of memory for the glossary");
+    for (size_t k = 0; k < sizeof field / sizeof field[0]; k++)
+        TRY(columns_read(c, &field[k], all, sizeof *all));
+    return STATUS_OK;
+}
+
+/* With what glossary_read closes. */
+static status glossary_read_open(const char *path, hid_t *file, glossary *out, fault *f)
+{
+    table_columns c = {.path = path, .name = "glossary", .f = f};
+    TRY(truths_file_open(path, file, f));
+    c.group = H5Lexists(*file, c.name, H5P_DEFAULT) > 0 ? H5Gopen2(*file, c.name, H5P_DEFAULT) : -1;
+    const status outcome = read_all(&c, &out->entry);
+    if (c.group >= 0)
+        H5Gclose(c.group);
+    out->entries = out->entry != NULL ? c.rows : 0;
+    return outcome;
+}
+
+status glossary_read(const char *path, glossary *out, fault *f)
+{
+    hid_t file = -1;
+    memset(out, 0, sizeof *out);
+    const status outcome = glossary_read_open(path, &file, out, f);
+    if (file >= 0)
+        H5Fclose(file);
+    if (outcome != STATUS_OK)
+        glossary_free(out);
+    return outcome;
+}
+
+void glossary_free(glossary *g)
+{
+    for (int i = 0; i < g->entries; i++) {
+        free(g->entry[i].term);
+        free(g->entry[i].also);
+        free(g->entry[i].group);
+        free(g->entry[i].meaning);
+        free(g->entry[i].see);
+    }
+    free(g->entry);
+    memset(g, 0, sizeof *g);
+}
+
+int glossary_part(const char *list, int index, char word[GLOSSARY_WORD])
+{
+    for (int i = 0; i < index && list != NULL; i++) {
+        list = strchr(list, '|');
+        list = list != NULL ? list + 1 : NULL;
+    }
+    if (list == NULL || list[0] == '\0')
+        return 0;
+    snprintf(word, GLOSSARY_WORD, "%.*s", (int)strcspn(list, "|"), list);
+    return 1;
+}
+
+static int blank(char c)
+{
+    return c == ' ' || c == '_' || c == '-';
+}
+
+int glossary_same(const char *a, const char *b)
+{
+    for (;; a++, b++) {
+        while (blank(a[0]) && blank(a[1]))
+            a++;
+        while (blank(b[0]) && blank(b[1]))
+            b++;
+        if (!(blank(*a) && blank(*b)) && tolower((unsigned char)*a) != tolower((unsigned char)*b))
+            return 0;
+        if (*a == '\0')
+            return 1;
+    }
+}
+
+static int is_named(const glossary_entry *e, const char *word)
+{
+    char other[GLOSSARY_WORD];
+    if (glossary_same(e->term, word))
+        return 1;
+    for (int i = 0; glossary_part(e->also, i, other); i++)
+        if (glossary_same(other, word))
+            return 1;
+    return 0;
+}
+
+const glossary_entry *glossary_find(const glossary *g, const char *word)
+{
+    for (int i = 0; i < g->entries; i++)
+        if (is_named(&g->entry[i], word))
+            return &g->entry[i];
+    return NULL;
 }

@@ -1,13 +1,11 @@
-#include "harness/study/workload.h"
+#include "harness/study/study.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 
 #include "harness/numerics/numerics.h"
-#include "harness/study/expense.h"
-#include "harness/study/noise.h"
-#include "harness/study/serialise.h"
 
 static int is_run(const sweep *s, int i)
 {
@@ -277,4 +275,118 @@ void workload_keep_whole(workload *w)
             w->s->series[kept++] = w->s->series[i];
         }
     w->s->seriess = kept;
+}
+
+/* the larger of two differences, twice: the standard deviation or more, nineteen times of twenty */
+static const double cover = 2;
+
+scene_edit noise_words(const formulation *chosen, int repetition)
+{
+    if (repetition == 0)
+        return (scene_edit){SCENE_EDIT_UNIT, 1000};
+    if (chosen->type->limits & LIMIT_ORDER_DEPENDENT)
+        return (scene_edit){SCENE_EDIT_UNIT, 0.3};
+    return (scene_edit){SCENE_EDIT_REVERSE, 0};
+}
+
+static double value_of(const cell_result *cell, int quantity)
+{
+    const solve_result *r = &cell->solve;
+    return quantity < r->quantities && r->quantity[quantity].status == STATUS_OK
+               ? r->quantity[quantity].value
+               : NAN;
+}
+
+/* Twice the larger difference; NAN when one is not known. */
+static double noise_of(const scene_quantity *q, double value, const double again[NOISE_REPETITIONS])
+{
+    double largest = 0;
+    for (int k = 0; k < NOISE_REPETITIONS; k++) {
+        const double scale = fmax(fabs(value), q->near_zero), apart = fabs(again[k] - value);
+        if (!isfinite(apart))
+            return NAN;
+        largest = fmax(largest, apart > 0 ? apart / scale : 0);
+    }
+    return cover * largest;
+}
+
+int noise_take(const sweep_point *p, const cell_result again[NOISE_REPETITIONS], series *one)
+{
+    const int quantities = p->scene.quantities;
+    free(one->noise);
+    one->noise = calloc((size_t)quantities + 1, sizeof *one->noise);
+    if (one->noise == NULL)
+        return -1;
+    for (int q = 0; q < quantities; q++) {
+        double value[NOISE_REPETITIONS];
+        for (int k = 0; k < NOISE_REPETITIONS; k++)
+            value[k] = value_of(&again[k], q);
+        const double measured =
+            noise_of(&p->scene.quantity[q], value_of(&one->cell[one->meshes - 1], q), value);
+        /* differences are off by the same on every mesh: in other words, too */
+        one->noise[q] =
+            isnan(measured) ? measured : fmax(measured, adapters_error(one->formulation.type));
+    }
+    return 0;
+}
+
+int noise_cells(const sweep *s)
+{
+    int cells = 0;
+    for (int i = 0; i < s->seriess; i++)
+        cells += s->series[i].noise != NULL ? NOISE_REPETITIONS : 0;
+    return cells;
+}
+
+/* Of one thing; key 0: free. */
+typedef struct process_claim {
+    _Atomic uint64_t key, check;
+    atomic_int task; /* behind the first, 1 is added; 0: not yet said */
+} process_claim;
+
+struct claims {
+    size_t size; /* [bytes] of the whole */
+    uint64_t places;
+    process_claim place[];
+};
+
+claims *claims_alloc(int count)
+{
+    const uint64_t places = 2 * (uint64_t)(count > 0 ? count : 0) + 1;
+    const size_t size = sizeof(claims) + places * sizeof(process_claim);
+    claims *out = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (out == MAP_FAILED)
+        return NULL;
+    out->size = size;
+    out->places = places;
+    return out;
+}
+
+void claims_free(claims *c)
+{
+    if (c != NULL)
+        munmap(c, c->size);
+}
+
+/* Is it the same thing? One that is just being said is taken for another. */
+static int is_same(process_claim *at, const identity *what)
+{
+    return atomic_load(&at->task) != 0 && atomic_load(&at->check) == what->part[1];
+}
+
+int claims_take(claims *c, const identity *what, int task)
+{
+    const uint64_t key = what->part[0] != 0 ? what->part[0] : 1;
+    for (uint64_t i = 0; i < c->places; i++) {
+        process_claim *at = &c->place[(key + i) % c->places];
+        uint64_t there = 0;
+        if (atomic_compare_exchange_strong(&at->key, &there, key)) {
+            atomic_store(&at->check, what->part[1]);
+            atomic_store(&at->task, task + 1);
+            return task;
+        }
+        if (there == key && is_same(at, what))
+            return atomic_load(&at->task) - 1;
+    }
+    return task;
 }

@@ -7,8 +7,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/records/assumptions.h"
-#include "harness/study/cell.h"
-#include "harness/study/rounding.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 
 enum { INDENT = 2 };

@@ -4,11 +4,11 @@
 
 #include <stdio.h>
 
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* A relative error in percent, in 12 columns with a blank before it; a dash where there is none. */
 void table_percent(FILE *to, double error);
-/* A value as far as it is known (harness/study/rounding.h). */
+/* A value as far as it is known (harness/study/study.h). */
 void table_known(FILE *to, int width, double value, double uncertainty);
 /* A value with that many digits. */
 void table_digits(FILE *to, int width, double value, int digits);

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/verdict.h"
+#include "harness/study/study.h"
 
 /* Of the one point of a sweep: rows are meshes, then limit, its uncertainty and order; below what
  * is not a pass, in words. Errors where a formulation has something to be measured by, else values.

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/rounds.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 
 static const rounds_reading *time_of(const sweep *s, const reached *r)

@@ -4,8 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/judgement.h"
-#include "harness/study/reach.h"
+#include "harness/study/study.h"
 
 /* What is cheapest for the quantities of a point (`every`), or for the first with a truth; 0: none
  * has. list[series]: room. */

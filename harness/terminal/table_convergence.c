@@ -2,8 +2,7 @@
 
 #include <math.h>
 
-#include "harness/study/rounding.h"
-#include "harness/study/sentence.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table.h"
 #include "harness/terminal/table_curves.h"

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/judgement.h"
+#include "harness/study/study.h"
 
 void table_convergence(FILE *to, const sweep *s, const truths *t);
 

@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "harness/newton/newton.h"
-#include "harness/study/curve_error.h"
-#include "harness/study/rounding.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table.h"
 #include "harness/terminal/table_stability.h"

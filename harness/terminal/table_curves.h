@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* Those over one abscissa beside each other; of many points some. */
 void table_curves_values(FILE *to, const scene *s, const solve_result *r);

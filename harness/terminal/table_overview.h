@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/overview.h"
+#include "harness/study/study.h"
 #include "harness/terminal/screen.h"
 
 /* In lines of at most PARAGRAPH_WIDTH. Where there are many cases, those that pass share lines. */

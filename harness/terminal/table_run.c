@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/noise.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/screen.h"
 #include "harness/terminal/table.h"

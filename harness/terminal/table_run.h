@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/judgement.h"
+#include "harness/study/study.h"
 #include "harness/terminal/screen.h"
 
 /* Behind the long table: published values that limits contradict, cells without a solution, how

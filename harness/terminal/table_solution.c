@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "harness/model/model.h"
-#include "harness/study/change.h"
-#include "harness/study/truth.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table.h"
 #include "harness/terminal/table_curves.h"

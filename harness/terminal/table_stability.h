@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 /* "yes", "no", "held" (by gyroscopic forces), "?" of a step. */
 const char *table_stability_word(step_stability);

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/study/judgement.h"
+#include "harness/study/study.h"
 
 /* every_mesh: 1: a row for each mesh and the cheapest way for every quantity; 0: defaults and their
  * first quantity only. */

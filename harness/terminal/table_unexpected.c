@@ -7,8 +7,7 @@
 
 #include "cases/format/scene_file.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/rounding.h"
-#include "harness/study/sentence.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 
 enum { INDENT = 4 };

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/rounding.h"
+#include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table.h"
 

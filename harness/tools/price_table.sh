@@ -1,12 +1,12 @@
 #!/bin/sh
-# Writes the table of prices (harness/study/price.h) from prices.csv.
+# Writes the table of prices (harness/study/study.h) from prices.csv.
 # usage: price_table.sh OUT.c prices.csv   Rewrites OUT.c only when it changes.
 set -eu
 mkdir -p "$(dirname "$1")"
 awk -F, '
 BEGIN {
     print "/* Generated from harness/study/prices.csv. */"
-    print "#include \"harness/study/price.h\""
+    print "#include \"harness/study/study.h\""
     print "#include <stddef.h>"
     print "const price_row price_rows[] = {"
 }

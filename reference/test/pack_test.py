@@ -225,7 +225,7 @@ class Words(unittest.TestCase):
 
     def test_the_program_knows_the_same_words(self):
         text = "".join((ROOT / "harness" / "study" / name).read_text(encoding="utf-8")
-                       for name in ("truths.h", "truths.c", "truth.c", "truth_rows.c"))
+                       for name in ("study.h", "truths.c", "truth.c", "truth.c"))
         text += (ROOT / "cases" / "scene" / "scene.h").read_text(encoding="utf-8")
         for name, words in (("truth_kinds", pack.KINDS), ("SCENE_SHEAR_THEORIES", pack.THEORIES[1:]),
                             ("conventions", pack.CONVENTIONS[1:])):

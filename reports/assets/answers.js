@@ -1,4 +1,4 @@
-// Answers at the reader's tolerance, from the points in the page, by the rule of harness/study/reach.h.
+// Answers at the reader's tolerance, from the points in the page, by the rule of harness/study/study.h.
 "use strict";
 (() => {
 const data = JSON.parse(document.getElementById("points").textContent);

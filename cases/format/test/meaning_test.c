@@ -9,7 +9,7 @@
 #include "cases/format/scene_file.h"
 #include "cases/format/write.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/plan.h"
+#include "harness/study/study.h"
 
 enum { MOST = 128, KEY = 400, KINDS = SCENE_READING + 1 };
 static int seen[KINDS], asked;

@@ -9,7 +9,7 @@
 #include "cases/format/write.h"
 #include "cases/scene/unit.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/plan.h"
+#include "harness/study/study.h"
 
 static char *written(const scene *s, const case_type *type, size_t *size)
 {

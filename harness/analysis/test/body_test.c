@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 
 enum { AS, SUPPORT, LOADED };
 enum { POINTS, AT_HUB, BESIDE };

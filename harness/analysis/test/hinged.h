@@ -7,7 +7,7 @@
 
 #include "elements/test/sections.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 #include "harness/tools/kit/cells.h"
 
 static const double y_axis[3] = {0, 1, 0}, EI = 7.1, EA = 7e6, mass = 0.7;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 #include "harness/tools/kit/ask.h"
 
 static const double times = -3, shift = 0.7; /* of the abscissa */

@@ -10,8 +10,7 @@
 #include "harness/analysis/test/moves.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/study/plan.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };
 /* Of the structure's size, one radian, and the stiffest force EA of its members: rounding of an

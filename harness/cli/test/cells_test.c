@@ -6,9 +6,7 @@
 
 #include "harness/cli/cells.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/plan.h"
-#include "harness/study/rounds.h"
-#include "harness/study/run.h"
+#include "harness/study/study.h"
 
 /* Two meshes of a path with a curve, run; noise and times as if they were measured. */
 static void make(sweep *s)

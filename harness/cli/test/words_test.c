@@ -7,9 +7,7 @@
 #include "harness/experiments/against.h"
 #include "harness/experiments/outcome.h"
 #include "harness/records/comparison.h"
-#include "harness/study/glossary.h"
-#include "harness/study/truth.h"
-#include "harness/study/verdict.h"
+#include "harness/study/study.h"
 
 static glossary words;
 

@@ -8,8 +8,7 @@
 #include "harness/experiments/against.h"
 #include "harness/experiments/timing.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/reach.h"
-#include "harness/study/rounds.h"
+#include "harness/study/study.h"
 #include "harness/tools/kit/cells.h"
 
 enum { PAIRS = 101, TRIALS = 300 };

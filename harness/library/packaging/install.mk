@@ -11,8 +11,8 @@ PYTHONDIR ?= $(PREFIX)/lib/python$(if $(filter /usr,$(PREFIX)),3,$(shell $(PYTHO
 # Programs that are not beside their data look there.
 $(BUILD)/prefix: FORCE
 	@mkdir -p $(@D); echo '$(DATADIR)' | cmp -s - $@ || echo '$(DATADIR)' >$@
-$(BUILD)/harness/study/data_place.o: $(BUILD)/prefix
-$(BUILD)/harness/study/data_place.o: DEFINES := -DBEAMWORK_DATA='"$(DATADIR)"'
+$(BUILD)/harness/study/derive.o: $(BUILD)/prefix
+$(BUILD)/harness/study/derive.o: DEFINES := -DBEAMWORK_DATA='"$(DATADIR)"'
 
 .PHONY: install uninstall
 install: all library man $(BUILD)/peers.h5 ## install into DESTDIR= PREFIX=/usr/local; LIBDIR=, BINDIR=, INCLUDEDIR=, SHAREDIR=, PYTHONDIR= where they differ

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 #include "harness/tools/kit/ask.h"
 
 enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };

@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "harness/records/gather.h"
-#include "harness/study/price.h"
-#include "harness/study/rounds.h"
+#include "harness/study/study.h"
 
 enum { MESHES = 6, STATIONS = 3, STEPS = 2 };
 static const case_type made_up = {.name = "made_up"};

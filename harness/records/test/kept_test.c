@@ -11,7 +11,7 @@
 #include "harness/records/kept.h"
 #include "harness/records/table_reader.h"
 #include "harness/records/test/folder.h"
-#include "harness/study/checksum.h"
+#include "harness/study/study.h"
 
 enum { WRITERS = 6, TIMES = 10, KILLS = 60, COUNT = 20000 };
 

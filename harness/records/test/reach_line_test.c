@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "harness/records/reach_line.h"
-#include "harness/study/families.h"
-#include "harness/study/price.h"
+#include "harness/study/study.h"
 
 enum { LINE_MESHES = 5, SERIES = 4 };
 static const parameter_type parameter[] = {{.name = NULL}};

@@ -7,7 +7,7 @@
 
 #include "harness/formulations/formulations.h"
 #include "harness/records/schema.h"
-#include "harness/study/serialise.h"
+#include "harness/study/study.h"
 
 static int is_name(const char *text)
 {

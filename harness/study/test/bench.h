@@ -6,8 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/study/judgement.h"
-#include "harness/study/sentence.h"
+#include "harness/study/study.h"
 
 enum { MESHES = 5 };
 static const int mesh[MESHES] = {2, 4, 8, 16, 32};

@@ -1,5 +1,5 @@
 /* Below which size changes of a value are round-off: of every kind of quantity, in its unit. */
-#include "harness/study/change.h"
+#include "harness/study/study.h"
 
 #include <gsl/gsl_test.h>
 #include <stdio.h>

@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/expense.h"
-#include "harness/study/plan.h"
+#include "harness/study/study.h"
 
 static const int mesh[] = {1, 2, 4};
 

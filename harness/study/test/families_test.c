@@ -4,9 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/families.h"
-#include "harness/study/reach.h"
-#include "harness/study/truth.h"
+#include "harness/study/study.h"
 
 enum { MESHES = 5, MOST = 6 };
 static const int mesh[MESHES] = {2, 4, 8, 16, 32};

@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/reach.h"
-#include "harness/study/rounds.h"
+#include "harness/study/study.h"
 #include "harness/study/test/bench.h"
 
 /* Counts of which each alone fails the gate. */

@@ -3,7 +3,7 @@
 
 #include <ctype.h>
 
-#include "harness/study/glossary.h"
+#include "harness/study/study.h"
 
 static void words_are_compared(const char *path)
 {

@@ -9,9 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "harness/study/interrupt.h"
-#include "harness/study/plan.h"
-#include "harness/study/run.h"
+#include "harness/study/study.h"
 #include "harness/study/test/ending.h"
 
 enum { END = 900, WAIT = 120 }; /* [s] */

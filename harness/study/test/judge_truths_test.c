@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "harness/study/agreements.h"
+#include "harness/study/study_impl.h"
 #include "harness/study/test/bench.h"
 
 static void predictions(void)

@@ -5,7 +5,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/study/limit.h"
+#include "harness/study/study.h"
 
 enum { FEWEST = 4, MOST = 7, DRAWS = 500, GRIDS = 5 };
 

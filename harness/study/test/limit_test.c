@@ -2,7 +2,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/study/limit.h"
+#include "harness/study/study.h"
 
 enum { LIMIT_MOST = 7, DOUBLED = 6 };
 static const double limit_value = 3; /* the limit of all sequences of one term */

@@ -12,8 +12,7 @@
 #include "cases/format/scene_file.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/store.h"
-#include "harness/study/plan.h"
-#include "harness/study/scene_truths.h"
+#include "harness/study/study.h"
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);

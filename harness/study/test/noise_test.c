@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/noise.h"
-#include "harness/study/plan.h"
-#include "harness/study/run.h"
+#include "harness/study/study.h"
 
 static const sweep_request request = {.jobs = 2};
 

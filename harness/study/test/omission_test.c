@@ -1,6 +1,6 @@
 /* What physics that is left out changes: bounds against fine meshes, on beams of any thickness
  * under any load, and on every case at its defaults; what cannot be bounded is another model. */
-#include "harness/study/omission.h"
+#include "harness/study/study.h"
 
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -8,8 +8,6 @@
 
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/study/cell.h"
-#include "harness/study/expense.h"
 
 static const double length = 0.1, young = 2e11, shear_modulus = 8e10;
 

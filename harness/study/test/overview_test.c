@@ -1,6 +1,6 @@
 /* The overview: of each case and formulation the worst, what is unexpected before all; the sentence
  * that closes a run. */
-#include "harness/study/overview.h"
+#include "harness/study/study.h"
 
 #include "harness/formulations/formulations.h"
 

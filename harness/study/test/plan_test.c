@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/plan.h"
+#include "harness/study/study.h"
 
 enum { ROWS = 4, OWN_MESH = 37 };
 static char plan_words[][32] = {"", "exact", "same", "m", "geometrically_exact"};

@@ -1,5 +1,5 @@
 /* The choice of a formulation and of a mesh, where nobody chose. */
-#include "harness/study/preference.h"
+#include "harness/study/study.h"
 
 #include <gsl/gsl_test.h>
 #include <math.h>

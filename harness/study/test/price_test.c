@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/price.h"
+#include "harness/study/study.h"
 
 static const price_row rows[] = {
     {"", PRICE_one, PRICE_one, 1},

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/progress.h"
+#include "harness/study/study.h"
 
 /* What a run shows; the caller frees it. */
 static char *shown(double now, int done, double share, int ends)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 
 typedef struct dice {
     uint64_t state;

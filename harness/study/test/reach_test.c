@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/study/price.h"
-#include "harness/study/reach.h"
+#include "harness/study/study.h"
 
 enum { SERIES = 4, REACH_MESHES = 4, QUANTITIES = 2 };
 enum { CHEAP, DEAR, OTHER, LAST };

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/study/rounding.h"
+#include "harness/study/study.h"
 
 static void says(const char *text, const char *expected, const char *what)
 {

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
+#include "harness/study/study.h"
 #include "harness/study/test/truths_file.h"
-#include "harness/study/truths.h"
 
 /* Does the rule, with this condition, hold for a point of the first case? */
 static int holds(const char *path, const char *condition, const rule_subject *s)

@@ -8,9 +8,7 @@
 
 #include "elements/test/random.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/plan.h"
-#include "harness/study/sweep.h"
-#include "harness/study/truth.h"
+#include "harness/study/study.h"
 
 /* Points one behind the other have the hash that each has alone. */
 static void hashes_of_neighbours(void)

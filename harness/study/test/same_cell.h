@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 
 /* What differs, by name; the first one is kept. */
 typedef struct difference {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "harness/study/serialise.h"
+#include "harness/study/study.h"
 #include "harness/study/test/random_cell.h"
 #include "harness/study/test/same_cell.h"
 

@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/plan.h"
-#include "harness/study/run.h"
+#include "harness/study/study.h"
 #include "harness/study/test/same_cell.h"
 
 /* All formulations at two points of a case, on meshes of one and two elements. */

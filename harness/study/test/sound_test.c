@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/sound.h"
+#include "harness/study/study_impl.h"
 
 enum { STEPS = 3, ELEMENTS = 5 };
 

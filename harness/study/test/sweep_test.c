@@ -6,9 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "harness/study/plan.h"
-#include "harness/study/run.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 #include "harness/study/test/ending.h"
 
 enum { END = 900 }; /* [s] */

@@ -5,7 +5,7 @@
 
 #include "elements/test/random.h"
 #include "harness/formulations/formulations.h"
-#include "harness/study/truth_index.h"
+#include "harness/study/study_impl.h"
 
 enum { ROWS = 500, CASES = 3, NAMES = 4 };
 

@@ -11,8 +11,7 @@
 #include <unistd.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/checksum.h"
-#include "harness/study/truths.h"
+#include "harness/study/study.h"
 
 /* What a file is made with; the defaults are right. */
 typedef struct recipe {

@@ -9,9 +9,8 @@
 
 #include "elements/test/random.h"
 #include "harness/formulations/formulations.h"
+#include "harness/study/study.h"
 #include "harness/study/test/truths_file.h"
-#include "harness/study/truth.h"
-#include "harness/study/truths.h"
 
 /* HDF5 1.10 keeps a few bytes of a damaged file's head for good; our own leaks are still found. */
 const char *__lsan_default_suppressions(void);

@@ -6,7 +6,7 @@
 
 #include <hdf5.h>
 
-#include "harness/study/checksum.h"
+#include "harness/study/study.h"
 #include "harness/tools/fuzz/fuzz_file.h"
 
 enum { ALTER_OBJECTS = 400, ALTER_NAME = 200, ALTER_BYTES = 1 << 20, ALTER_STEP = 4 };

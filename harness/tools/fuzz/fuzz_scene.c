@@ -7,7 +7,7 @@
 
 #include "cases/format/scene_file.h"
 #include "cases/format/write.h"
-#include "harness/study/scene_truths.h"
+#include "harness/study/study.h"
 #include "harness/tools/fuzz/fuzz.h"
 
 /* The scene at its defaults as text, malloced; NULL: it cannot be written. */

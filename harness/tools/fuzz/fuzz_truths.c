@@ -1,6 +1,5 @@
 /* A truths.h5 with contents that nobody expects (even first byte), or any bytes as one. */
-#include "harness/study/glossary.h"
-#include "harness/study/truths.h"
+#include "harness/study/study.h"
 #include "harness/tools/fuzz/fuzz_alter.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

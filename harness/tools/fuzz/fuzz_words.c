@@ -2,7 +2,7 @@
  * selection, thresholds. */
 #include "harness/formulations/formulations.h"
 #include "harness/records/comparison.h"
-#include "harness/study/sweep.h"
+#include "harness/study/study.h"
 #include "harness/tools/fuzz/fuzz.h"
 
 static void read_formulation(const char *text)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/truths.h"
+#include "harness/study/study.h"
 
 static void read_table(void)
 {

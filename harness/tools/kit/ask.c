@@ -8,7 +8,7 @@
 
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 
 int ask_offered(const scene *s, const element_type *type)
 {

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_TEST_CELLS_H
 #define BEAMWORK_TEST_CELLS_H
 
-#include "harness/study/cell.h"
+#include "harness/study/study.h"
 
 /* At the defaults of the case; formulation: "name:key=value,...". What does not exist fails the
  * test. */
