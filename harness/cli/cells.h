@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/records/digest.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 /* 1: its cells are run here. */

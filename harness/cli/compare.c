@@ -2,9 +2,7 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/records/comparison.h"
-#include "harness/records/output.h"
-#include "harness/records/results_hash.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 typedef struct compare_request {

@@ -11,7 +11,7 @@
 #include "harness/cli/case_input.h"
 #include "harness/cli/message.h"
 #include "harness/cli/named.h"
-#include "harness/records/json.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table.h"

@@ -8,7 +8,7 @@
 #include "harness/cli/case_input.h"
 #include "harness/cli/named.h"
 #include "harness/experiments/against.h"
-#include "harness/records/schema.h"
+#include "harness/records/records.h"
 
 typedef struct bench_options {
     case_options of;

@@ -5,7 +5,7 @@
 #include "harness/cli/cli.h"
 #include "harness/cli/named.h"
 #include "harness/experiments/convergence.h"
-#include "harness/records/reach_line.h"
+#include "harness/records/records.h"
 
 typedef struct converge_request {
     case_options of;

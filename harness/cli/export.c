@@ -6,7 +6,7 @@
 #include "harness/cli/cli.h"
 #include "harness/exchange/deck.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/output.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 typedef struct export_request {

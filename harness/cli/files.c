@@ -7,9 +7,7 @@
 #include <sys/stat.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/records/kept.h"
-#include "harness/records/output.h"
-#include "harness/records/output_folder.h"
+#include "harness/records/records.h"
 
 enum { OUTPUTS = 7 }; /* of one verb, each once */
 

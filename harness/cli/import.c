@@ -4,8 +4,7 @@
 #include "harness/cli/cli.h"
 #include "harness/exchange/import_file.h"
 #include "harness/exchange/import_map.h"
-#include "harness/records/place.h"
-#include "harness/records/store.h"
+#include "harness/records/records.h"
 
 typedef struct import_request {
     const char *output, *format, *map;

@@ -12,7 +12,7 @@
 #include "harness/experiments/list_subject.h"
 #include "harness/experiments/runs_on.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/schema.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 

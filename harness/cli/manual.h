@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/cli/options.h"
-#include "harness/records/schema.h"
+#include "harness/records/records.h"
 
 /* A line of the program's help. */
 typedef struct manual_row {

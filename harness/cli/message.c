@@ -9,7 +9,7 @@
 
 #include "harness/cli/command.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/output.h"
+#include "harness/records/records.h"
 
 int message_finish(int code)
 {

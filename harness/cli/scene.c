@@ -6,7 +6,7 @@
 #include "cases/format/schema_file.h"
 #include "cases/format/write.h"
 #include "harness/cli/cli.h"
-#include "harness/records/output.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 

@@ -5,8 +5,7 @@
 #include "harness/cli/cli.h"
 #include "harness/cli/manual.h"
 #include "harness/experiments/experiment.h"
-#include "harness/records/json.h"
-#include "harness/records/json_record.h"
+#include "harness/records/records.h"
 #include "harness/terminal/paragraph.h"
 
 const char *const results_about[] = {

@@ -9,12 +9,7 @@
 #include "harness/cli/named.h"
 #include "harness/experiments/restart.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/csv.h"
-#include "harness/records/follow_record.h"
-#include "harness/records/json.h"
-#include "harness/records/output.h"
-#include "harness/records/store.h"
-#include "harness/records/system_folder.h"
+#include "harness/records/records.h"
 #include "harness/terminal/table_follow.h"
 #include "harness/terminal/table_solution.h"
 

@@ -8,7 +8,7 @@
 #include "harness/experiments/merge.h"
 #include "harness/experiments/shard.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/output.h"
+#include "harness/records/records.h"
 
 static void begin(void *group, command_line *l)
 {

@@ -11,7 +11,7 @@
 #include "harness/experiments/verification.h"
 #include "harness/experiments/verification_files.h"
 #include "harness/numerics/numerics.h"
-#include "harness/records/output.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/table_overview.h"
 #include "harness/terminal/table_run.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/exchange/import_cells.h"
-#include "harness/records/table_reader.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 typedef struct point_row {

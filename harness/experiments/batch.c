@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "harness/records/output.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 void batch_stem(const shard_work *w, char out[BATCH_STEM])

@@ -2,7 +2,7 @@
 
 #include "harness/experiments/timing.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/csv.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/table_timing.h"
 

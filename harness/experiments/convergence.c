@@ -2,9 +2,7 @@
 
 #include <string.h>
 
-#include "harness/records/csv.h"
-#include "harness/records/json_convergence.h"
-#include "harness/records/reach_line.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table_beside.h"

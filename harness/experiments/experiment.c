@@ -2,13 +2,7 @@
 
 #include <string.h>
 
-#include "harness/records/csv_record.h"
-#include "harness/records/json.h"
-#include "harness/records/json_record.h"
-#include "harness/records/kept.h"
-#include "harness/records/output.h"
-#include "harness/records/record_rows.h"
-#include "harness/records/store.h"
+#include "harness/records/records.h"
 
 static status gathered(const experiment_type *e, const record_type *type, const void *found,
                        subjects *out, fault *f)

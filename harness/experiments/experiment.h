@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/records/gather.h"
+#include "harness/records/records.h"
 
 typedef struct experiment_cells {
     const sweep *sweep;

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "harness/records/fields_keys.h"
+#include "harness/records/records.h"
 
 static const extreme_outcome *outcome_of(const subject *s)
 {

@@ -3,7 +3,7 @@
 #define BEAMWORK_EXTREME_RECORD_H
 
 #include "harness/experiments/extreme_sweep.h"
-#include "harness/records/gather.h"
+#include "harness/records/records.h"
 
 extern const record_type record_extremes_all, record_extreme, record_outcome, record_extreme_count;
 extern const record_type *const extreme_records[]; /* all but the first; ends with NULL */

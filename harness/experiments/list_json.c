@@ -8,8 +8,7 @@
 #include "elements/shared/choice.h"
 #include "harness/experiments/runs_on.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/json.h"
-#include "harness/records/json_record.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 enum { MOST_CASES = 256 };

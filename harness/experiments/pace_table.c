@@ -5,7 +5,7 @@
 
 #include "harness/experiments/pace_order.h"
 #include "harness/experiments/pace_reach.h"
-#include "harness/records/fields_keys.h"
+#include "harness/records/records.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table.h"
 

@@ -50,7 +50,7 @@ typedef struct parameter_ranges {
     char left_out[FAULT_TEXT]; /* formulations that run at no point that was looked at, in words */
     char
         omitted[SCENE_OMISSION_WORDS]; /* physics that the scene leaves out, at the first of them */
-    char assumed[RANGES_ASSUMED];      /* of its sections (harness/records/assumptions.h), there */
+    char assumed[RANGES_ASSUMED];      /* of its sections (harness/records/records.h), there */
     long points_in_batch;              /* but for the last one */
     int batches;
     double point_cost; /* [s] about, of all cells of a point */

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "harness/experiments/worst.h"
-#include "harness/records/output_folder.h"
+#include "harness/records/records.h"
 
 status ranges_collect_beside(const char *path, const char *ending, char out[PATH_MAX], fault *f)
 {

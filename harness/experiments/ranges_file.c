@@ -6,7 +6,7 @@
 
 #include "harness/experiments/ranges_file_impl.h"
 #include "harness/model/model.h"
-#include "harness/records/kept.h"
+#include "harness/records/records.h"
 
 enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };
 static const double piece_bytes = 256 * 1024, cache_bytes = 4 << 20;

@@ -4,7 +4,7 @@
 #define BEAMWORK_RANGES_FILE_H
 
 #include "harness/experiments/tally.h"
-#include "harness/records/record.h"
+#include "harness/records/records.h"
 
 enum { RANGES_FILE_VERSION = 1, RANGES_FILE_COLUMNS = 11 };
 

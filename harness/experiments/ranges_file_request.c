@@ -2,8 +2,7 @@
 
 #include "harness/experiments/ranges_file_impl.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/kept.h"
-#include "harness/records/store.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 enum { TEXT = 64, LONG_TEXT = 128 };

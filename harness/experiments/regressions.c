@@ -9,8 +9,7 @@
 #include <unistd.h>
 
 #include "harness/numerics/numerics.h"
-#include "harness/records/comparison.h"
-#include "harness/records/store.h"
+#include "harness/records/records.h"
 
 /* An error may be so much larger: between processors the kernels of LAPACK move errors near
  * rounding of some series by up to 1.2 %. */

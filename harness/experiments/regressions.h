@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_REGRESSIONS_H
 #define BEAMWORK_REGRESSIONS_H
 
-#include "harness/records/results.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 /* Adds to the judgement every mesh whose error is larger than in the former run (by more than 2 %

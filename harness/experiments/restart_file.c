@@ -7,7 +7,7 @@
 
 #include "harness/experiments/restart.h"
 #include "harness/experiments/restart_text.h"
-#include "harness/records/record.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 static const char kind[] = "beamwork-motion-end-4";

@@ -8,7 +8,7 @@
 #include "elements/shared/choice.h"
 #include "harness/experiments/ranges_points.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/assumptions.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 enum { LOOKED_AT = 9 };

@@ -3,9 +3,7 @@
 #include <limits.h>
 #include <stdio.h>
 
-#include "harness/records/junit.h"
-#include "harness/records/markdown.h"
-#include "harness/records/output.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 status verification_files_open(verification_files *to, const sweep *s, const judgement *j, fault *f)

@@ -3,8 +3,7 @@
 #ifndef BEAMWORK_VERIFICATION_FILES_H
 #define BEAMWORK_VERIFICATION_FILES_H
 
-#include "harness/records/json.h"
-#include "harness/records/store.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 typedef struct verification_files {

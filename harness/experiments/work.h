@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "elements/shared/status.h"
-#include "harness/records/digest.h"
+#include "harness/records/records.h"
 
 /* All of it depends on the request and the build alone: two processes that never met say the same.
  */

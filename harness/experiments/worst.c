@@ -6,7 +6,7 @@
 
 #include "cases/format/write.h"
 #include "harness/experiments/ranges_points.h"
-#include "harness/records/output_folder.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 static void write_text(FILE *to, const void *text)

@@ -7,8 +7,7 @@
 #include "harness/library/options.h"
 #include "harness/library/source.h"
 #include "harness/library/text.h"
-#include "harness/records/json_convergence.h"
-#include "harness/records/reach_line.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 /* What is asked, and what answers it; converge frees it. */

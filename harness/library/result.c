@@ -5,7 +5,7 @@
 #include "harness/library/call.h"
 #include "harness/library/result_handle.h"
 #include "harness/library/text.h"
-#include "harness/records/json.h"
+#include "harness/records/records.h"
 
 static status write_json(const bw_result *r, char **json, fault *f)
 {

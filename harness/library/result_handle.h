@@ -3,7 +3,7 @@
 #define BEAMWORK_RESULT_HANDLE_H
 
 #include "harness/library/source.h"
-#include "harness/records/gather.h"
+#include "harness/records/records.h"
 
 enum { RESULT_COLUMNS = 32 };
 

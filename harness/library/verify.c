@@ -8,10 +8,7 @@
 #include "harness/library/options.h"
 #include "harness/library/source.h"
 #include "harness/library/text.h"
-#include "harness/records/json.h"
-#include "harness/records/kept.h"
-#include "harness/records/output.h"
-#include "harness/records/store.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };

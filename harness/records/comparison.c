@@ -1,10 +1,9 @@
-#include "harness/records/comparison.h"
+#include "harness/records/records_impl.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "elements/shared/number.h"
-#include "harness/records/comparison_lines.h"
-#include "harness/study/study.h"
 
 const comparison_limits comparison_limits_default = {0.01, RESULTS_FLOOR, 0.02};
 
@@ -126,4 +125,334 @@ int comparison_differs(const comparison *c)
     for (int k = 0; k < COMPARISON_KINDS; k++)
         lines += c->count[k];
     return lines > 0;
+}
+
+/* Two meshes of whole runs side by side, every quantity by itself. */
+
+static const result_value *value_named(const result_cell *c, int near, const char *quantity)
+{
+    if (near < c->values && strcmp(c->value[near].quantity, quantity) == 0)
+        return &c->value[near];
+    for (int i = 0; i < c->values; i++)
+        if (strcmp(c->value[i].quantity, quantity) == 0)
+            return &c->value[i];
+    return NULL;
+}
+
+/* Errors are judged by their size; a value without a truth can only have changed. */
+static void compare_value(const listing *l, const result_value *a, const result_value *b)
+{
+    const comparison_limits *m = l->limits;
+    if (isfinite(a->value) != isfinite(b->value)) {
+        comparison_lines_heading(l, isfinite(a->value) ? CHANGE_WORSE : CHANGE_BETTER);
+        fprintf(l->to, ": %s %s\n", a->quantity,
+                isfinite(a->value) ? "has no value any more" : "has a value now");
+    } else if (isfinite(a->error) && isfinite(b->error)) {
+        const double change = fabs(b->error) - fabs(a->error);
+        if (fabs(b->error - a->error) <= m->floor + m->error * fabs(a->error))
+            return;
+        comparison_kind kind = CHANGE_OTHER;
+        if (change != 0)
+            kind = change > 0 ? CHANGE_WORSE : CHANGE_BETTER;
+        comparison_lines_heading(l, kind);
+        fprintf(l->to, ": error of %s %+.4g %% -> %+.4g %%\n", a->quantity, 100 * a->error,
+                100 * b->error);
+    } else if (isfinite(a->value) &&
+               fabs(b->value - a->value) > m->floor * fmax(fabs(a->value), a->near_zero)) {
+        comparison_lines_heading(l, CHANGE_OTHER);
+        fprintf(l->to, ": %s %.12g -> %.12g\n", a->quantity, a->value, b->value);
+    }
+}
+
+static void compare_values(const listing *l, const result_cell *a, const result_cell *b)
+{
+    for (int i = 0; i < a->values; i++) {
+        const result_value *other = value_named(b, i, a->value[i].quantity);
+        if (other != NULL) {
+            compare_value(l, &a->value[i], other);
+            continue;
+        }
+        if (!results_part_selects(&l->after->part, l->name, a->value[i].quantity))
+            continue;
+        comparison_lines_heading(l, CHANGE_GONE);
+        fprintf(l->to, ": %s\n", a->value[i].quantity);
+    }
+    for (int i = 0; i < b->values; i++)
+        if (value_named(a, i, b->value[i].quantity) == NULL &&
+            results_part_selects(&l->before->part, l->name, b->value[i].quantity)) {
+            comparison_lines_heading(l, CHANGE_NEW);
+            fprintf(l->to, ": %s\n", b->value[i].quantity);
+        }
+}
+
+void comparison_cells(const listing *l, const result_cell *a, const result_cell *b)
+{
+    comparison_lines_status(l, a->status, b->status);
+    if (l->before->swept)
+        comparison_lines_cost(l, a->cost, b->cost);
+    else if (!results_part_differ(l->before, l->after,
+                                  l->name)) /* work is that of what is asked for */
+        comparison_lines_work(l, a->work, b->work, 1);
+    compare_values(l, a, b);
+}
+
+const char *const comparison_kind_names[COMPARISON_KINDS] = {"worse", "better", "changed", "gone",
+                                                             "new"};
+
+void comparison_lines_heading(const listing *l, comparison_kind kind)
+{
+    l->out->count[kind]++;
+    fprintf(l->to, "%-8s %s", comparison_kind_names[kind], l->name);
+    if (l->elements > 0)
+        fprintf(l->to, " n=%d", l->elements);
+}
+
+void comparison_lines_lone(const listing *l, comparison_kind kind)
+{
+    comparison_lines_heading(l, kind);
+    fputc('\n', l->to);
+}
+
+void comparison_lines_status(const listing *l, const char *before, const char *after)
+{
+    if (strcmp(before, after) == 0)
+        return;
+    comparison_kind kind = CHANGE_OTHER;
+    if (strcmp(after, "ok") == 0)
+        kind = CHANGE_BETTER;
+    else if (strcmp(before, "ok") == 0)
+        kind = CHANGE_WORSE;
+    comparison_lines_heading(l, kind);
+    fprintf(l->to, ": %s -> %s\n", before, after);
+}
+
+void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
+                           const long after[RESULTS_WORKS], int meshes)
+{
+    for (int k = 0; k < RESULTS_WORKS; k++) {
+        const double old = (double)before[k], new = (double)after[k];
+        l->out->work[0][k] += old;
+        l->out->work[1][k] += new;
+        if (fabs(new - old) <= l->limits->work * old / meshes)
+            continue;
+        comparison_lines_heading(l, new > old ? CHANGE_WORSE : CHANGE_BETTER);
+        fprintf(l->to, ": %s %ld -> %ld", results_work_names[k], before[k], after[k]);
+        fprintf(l->to, old > 0 ? " (%+.1f %%)\n" : "\n", 100 * (new - old) / old);
+    }
+}
+
+void comparison_lines_cost(const listing *l, double before, double after)
+{
+    const double milli = 1e3;
+    if (!(before > 0 && after > 0))
+        return;
+    l->out->cost[0] += before;
+    l->out->cost[1] += after;
+    if (fabs(after - before) <= l->limits->work * before)
+        return;
+    comparison_lines_heading(l, after > before ? CHANGE_WORSE : CHANGE_BETTER);
+    fprintf(l->to, ": cost %.4g ms -> %.4g ms (%+.1f %%)\n", milli * before, milli * after,
+            100 * (after - before) / before);
+}
+
+/* Two series side by side where one of them is known by its row of the short table only. */
+
+/* Relative to a number written with so many digits: how far it may be from what it was. */
+static double last_digit(int digits)
+{
+    return 0.5 * pow(10, 1 - digits);
+}
+
+/* A line for each mesh whose status has changed or that is in one of them only; 1: they have the
+ * same meshes. */
+static int compare_meshes(const listing *l, const result_series *a, const result_series *b)
+{
+    int same = 1;
+    for (int i = 0, k = 0; i < a->meshes || k < b->meshes;) {
+        const result_mesh *old = i < a->meshes ? &a->mesh[i] : NULL;
+        const result_mesh *new = k < b->meshes ? &b->mesh[k] : NULL;
+        if (old != NULL && new != NULL && old->elements != new->elements)
+            *(old->elements < new->elements ? &new : &old) = NULL;
+        listing here = *l;
+        here.elements = old != NULL ? old->elements : new->elements;
+        if (old != NULL && new != NULL)
+            comparison_lines_status(&here, old->status, new->status);
+        else
+            comparison_lines_lone(&here, old != NULL ? CHANGE_GONE : CHANGE_NEW);
+        same = same && old != NULL && new != NULL;
+        i += old != NULL;
+        k += new != NULL;
+    }
+    return same;
+}
+
+/* 1: it has moved. */
+static int compare_error(const listing *l, const char *which, const result_error *a,
+                         const result_error *b)
+{
+    const comparison_limits *m = l->limits;
+    if (fabs(b->size - a->size) <=
+        m->floor + (m->error + last_digit(RESULTS_ERROR_DIGITS)) * a->size)
+        return 0;
+    comparison_lines_heading(l, b->size > a->size ? CHANGE_WORSE : CHANGE_BETTER);
+    fprintf(l->to, ": %s error %.4g %% (%s n=%d) -> %.4g %% (%s n=%d)\n", which, 100 * a->size,
+            a->quantity, a->elements, 100 * b->size, b->quantity, b->elements);
+    return 1;
+}
+
+static void compare_errors(const listing *l, const result_series *a, const result_series *b)
+{
+    const double change = b->decades - a->decades;
+    const double slack = log10(1 + l->limits->error) + pow(10, -RESULTS_DECADES_DECIMALS);
+    if (a->errors != b->errors) {
+        comparison_lines_heading(l, b->errors < a->errors ? CHANGE_WORSE : CHANGE_OTHER);
+        fprintf(l->to, ": %d values have an error, %d had\n", b->errors, a->errors);
+        return;
+    }
+    const int largest = compare_error(l, "largest", &a->largest, &b->largest);
+    const int least = compare_error(l, "least", &a->least, &b->least);
+    if (largest || least || fabs(change) <= slack)
+        return;
+    comparison_lines_heading(l, change > 0 ? CHANGE_WORSE : CHANGE_BETTER);
+    fprintf(l->to, ": errors between the least and the largest moved by %+.4f decades in all\n",
+            change);
+}
+
+static const result_limit *limit_named(const result_series *s, const char *quantity)
+{
+    for (int i = 0; i < s->limits; i++)
+        if (strcmp(s->limit[i].quantity, quantity) == 0)
+            return &s->limit[i];
+    return NULL;
+}
+
+static void compare_limits(const listing *l, const result_series *a, const result_series *b)
+{
+    for (int i = 0; i < a->limits; i++) {
+        const result_limit *old = &a->limit[i], *new = limit_named(b, old->quantity);
+        if (new == NULL && !results_part_selects(&l->after->part, l->name, old->quantity))
+            continue;
+        if (new == NULL) {
+            comparison_lines_heading(l, CHANGE_WORSE);
+            fprintf(l->to, ": %s has no limit any more\n", old->quantity);
+            continue;
+        }
+        const double scale = fmax(fabs(old->value), fmax(old->near_zero, new->near_zero));
+        const double slack =
+            l->limits->floor * scale + last_digit(RESULTS_LIMIT_DIGITS) * fabs(old->value);
+        if (fabs(new->value - old->value) <= slack)
+            continue;
+        comparison_lines_heading(l, CHANGE_OTHER);
+        fprintf(l->to, ": limit of %s %.10g -> %.10g\n", old->quantity, old->value, new->value);
+    }
+    for (int i = 0; i < b->limits; i++)
+        if (limit_named(a, b->limit[i].quantity) == NULL &&
+            results_part_selects(&l->before->part, l->name, b->limit[i].quantity)) {
+            comparison_lines_heading(l, CHANGE_BETTER);
+            fprintf(l->to, ": %s has a limit now\n", b->limit[i].quantity);
+        }
+}
+
+void comparison_series(const listing *l, const result_series *a, const result_series *b)
+{
+    if (compare_meshes(l, a, b)) { /* sums over other meshes say nothing */
+        if (results_part_differ(l->before, l->after, l->name)) {
+            l->out->partial++; /* errors and work are those of what is selected only */
+        } else {
+            comparison_lines_work(l, a->work, b->work, a->meshes);
+            compare_errors(l, a, b);
+        }
+    }
+    if (l->out->judged)
+        compare_limits(l, a, b);
+}
+
+/* Two sweeps side by side: at each of their points each has all of its formulations and meshes. */
+
+enum { TOLD = 1 << 14, NAME = 2048 };
+
+/* What one of them has alone, and what had its line. */
+typedef struct lone {
+    comparison_kind kind;
+    const stored_results *other;
+    char told[TOLD];  /* formulations and meshes, a line each */
+    char where[NAME]; /* the last point */
+} lone;
+
+/* Begins the name of a cell beside `next` like this one, by so many characters? */
+static int is_beside(const stored_results *r, int next, const char *name, size_t length)
+{
+    for (int i = next - 1; i <= next; i++)
+        if (i >= 0 && i < r->cells && strncmp(r->cell[i].name, name, length) == 0)
+            return 1;
+    return 0;
+}
+
+static void tell(const listing *l, comparison_kind kind, const char *name, int elements)
+{
+    listing here = *l;
+    here.name = name;
+    here.elements = elements;
+    comparison_lines_lone(&here, kind);
+}
+
+static void tell_point(const listing *l, lone *only, int length)
+{
+    if (strncmp(only->where, l->name, (size_t)length) == 0 && only->where[length] == '\0')
+        return;
+    snprintf(only->where, sizeof only->where, "%.*s", length, l->name);
+    tell(l, only->kind, only->where, 0);
+}
+
+/* Of all points: case/formulation, or a mesh of the case. */
+static void tell_column(const listing *l, lone *only, const char *key, int elements)
+{
+    const size_t used = strlen(only->told);
+    char name[NAME], line[NAME + FORMULATION_KEY];
+    snprintf(name, sizeof name, "%.*s%s", (int)strcspn(l->name, "/"), l->name, key);
+    snprintf(line, sizeof line, "%s n=%d", name, elements);
+    if (results_part_has(only->told, line))
+        return;
+    snprintf(only->told + used, sizeof only->told - used, "%s%s", used > 0 ? "\n" : "", line);
+    tell(l, only->kind, name, elements);
+}
+
+/* A cell that only one of them has; in the other, cells beside it stand at `next`. */
+static void tell_cell(const listing *l, int next, lone *only)
+{
+    const char *key = strrchr(l->name, '/');
+    const int length = (int)(key - l->name);
+    if (!is_beside(only->other, next, l->name, (size_t)length + 1))
+        tell_point(l, only, length);
+    else if (!is_beside(only->other, next, l->name, strlen(l->name) + 1))
+        tell_column(l, only, key, 0);
+    else
+        tell_column(l, only, "", l->elements);
+}
+
+static int order_of(const listing *l, int i, int k)
+{
+    if (i == l->before->cells || k == l->after->cells)
+        return i == l->before->cells ? 1 : -1;
+    return results_order(&l->before->cell[i], &l->after->cell[k]);
+}
+
+void comparison_sweeps(const listing *l, const char *select)
+{
+    listing here = *l;
+    lone gone = {CHANGE_GONE, l->after, "", ""}, new = {CHANGE_NEW, l->before, "", ""};
+    for (int i = 0, k = 0; i < l->before->cells || k < l->after->cells;) {
+        const int order = order_of(l, i, k);
+        const result_cell *a = order <= 0 ? &l->before->cell[i++] : NULL;
+        const result_cell *b = order >= 0 ? &l->after->cell[k++] : NULL;
+        here.name = a != NULL ? a->name : b->name;
+        here.elements = a != NULL ? a->elements : b->elements;
+        if (select != NULL && select_matches(select, here.name) <= 0)
+            continue;
+        here.out->pairs += order == 0 && here.elements > 0;
+        if (order == 0)
+            comparison_cells(&here, a, b);
+        else
+            tell_cell(&here, a != NULL ? k : i, a != NULL ? &gone : &new);
+    }
 }

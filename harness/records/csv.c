@@ -1,7 +1,9 @@
-#include "harness/records/csv.h"
+#include "harness/records/records_impl.h"
 
-#include "harness/records/csv_record.h"
-#include "harness/records/gather.h"
+#include <math.h>
+#include <string.h>
+
+#include "cases/scene/names.h"
 
 /* A line for a value; for a curve one for each of its points, and one that says why it ends early.
  */
@@ -76,4 +78,279 @@ void csv_timing(FILE *to, const sweep *s, const judgement *j)
 {
     csv_part row[] = {{.type = &record_timing}, {.type = &record_quantity}, {.type = &record_cell}};
     list_meshes(to, &(gathering){s, j, NULL}, 1, 3, row);
+}
+
+enum { MOST_COLUMNS = 2 * SCHEMA_MOST_FIELDS };
+
+typedef struct record_column {
+    const schema_field *field;
+    int part;
+} record_column;
+
+static void csv_field(FILE *to, const char *text)
+{
+    fputc('"', to);
+    for (; *text != '\0'; text++) {
+        if (*text == '"')
+            fputc('"', to);
+        fputc(*text, to);
+    }
+    fputc('"', to);
+}
+
+void csv_record_text(FILE *to, const char *text)
+{
+    if (text[strcspn(text, "\",\r\n")] == '\0')
+        fputs(text, to);
+    else
+        csv_field(to, text);
+}
+
+static int known(const record_column out[], int count, const char *name)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(out[i].field->name, name) == 0)
+            return 1;
+    return 0;
+}
+
+static int columns_of(int parts, const csv_part part[], record_column out[MOST_COLUMNS])
+{
+    int count = 0;
+    for (int p = 0; p < parts; p++) {
+        const schema_field *list[SCHEMA_MOST_FIELDS];
+        const int fields = schema_fields(part[p].type, KEY_AROUND, list);
+        for (int i = 0; i < fields && count < MOST_COLUMNS; i++)
+            if (list[i]->count == 0 && !known(out, count, list[i]->name))
+                out[count++] = (record_column){list[i], p};
+    }
+    return count;
+}
+
+static void write_value(FILE *to, const schema_field *which, const field_value *v)
+{
+    if (which->kind == FIELD_TEXT)
+        csv_field(to, v->text);
+    else if (which->kind == FIELD_ENUM)
+        fputs(v->text, to);
+    else if (which->kind != FIELD_DOUBLE)
+        fprintf(to, "%ld", v->whole);
+    else if (isfinite(*v->numbers))
+        fprintf(to, "%.17g", *v->numbers);
+}
+
+void csv_record_head(FILE *to, int parts, const csv_part part[])
+{
+    record_column list[MOST_COLUMNS];
+    const int count = columns_of(parts, part, list);
+    for (int i = 0; i < count; i++)
+        fprintf(to, "%s%s", i > 0 ? "," : "", list[i].field->name);
+    fputc('\n', to);
+}
+
+void csv_record_line(FILE *to, int parts, const csv_part part[])
+{
+    record_column list[MOST_COLUMNS];
+    const int count = columns_of(parts, part, list);
+    for (int i = 0; i < count; i++) {
+        field_value v;
+        schema_read(&part[list[i].part].s, list[i].field, &v);
+        if (i > 0)
+            fputc(',', to);
+        write_value(to, list[i].field, &v);
+    }
+    fputc('\n', to);
+}
+
+void matrix_market_write(FILE *to, const triplets *t, const char *comment)
+{
+    static const char *const kind[] = {"general", "symmetric", "skew-symmetric"};
+    fprintf(to, "%%%%MatrixMarket matrix coordinate real %s\n", kind[t->kind]);
+    if (comment != NULL)
+        fprintf(to, "%% %s\n", comment);
+    fprintf(to, "%d %d %d\n", t->rows, t->columns, t->entries);
+    for (int i = 0; i < t->entries; i++)
+        fprintf(to, "%d %d %.17g\n", t->row[i] + 1, t->column[i] + 1, t->value[i]);
+}
+
+enum { NAME = 96 };
+static const char undeformed[] = "undeformed";
+static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789-+";
+
+/* What the tables are made of. */
+typedef struct contents {
+    const char *title;
+    const scene *scene;
+    const system_matrices *of;
+} contents;
+
+/* A matrix with its comment. */
+typedef struct titled {
+    const triplets *matrix;
+    const char *comment;
+} titled;
+
+/* Name of an analysis; what no folder can be called stands as '_'. */
+static scene_words plain_folder(const scene *s, int analysis)
+{
+    scene_words out;
+    if (scene_own_name(s, SCENE_ANALYSES, analysis)[0] != '\0')
+        out = scene_name(s, SCENE_ANALYSES, analysis);
+    else
+        snprintf(out.text, sizeof out.text, "%s_%d",
+                 scene_analysis_name(s->analysis[analysis].kind), analysis);
+    for (char *c = out.text; *c != '\0'; c++)
+        if (strchr(letters, *c) == NULL)
+            *c = '_';
+    return out;
+}
+
+static scene_words folder_of(const scene *s, int analysis)
+{
+    scene_words out = plain_folder(s, analysis);
+    int taken = strcmp(out.text, undeformed) == 0;
+    for (int i = 0; i < analysis; i++)
+        taken |= strcmp(out.text, plain_folder(s, i).text) == 0;
+    if (taken)
+        snprintf(out.text, sizeof out.text, "%.40s_%d", plain_folder(s, analysis).text, analysis);
+    return out;
+}
+
+static void name_state(const contents *c, const state_matrices *s, char name[NAME])
+{
+    if (s->analysis == SCENE_NONE) {
+        snprintf(name, NAME, "%s", undeformed);
+        return;
+    }
+    const scene_words analysis = folder_of(c->scene, s->analysis);
+    if (s->station == SCENE_NONE)
+        snprintf(name, NAME, "%s", analysis.text);
+    else
+        snprintf(name, NAME, "%s_station_%d", analysis.text, s->station);
+}
+
+/* Its name or nothing, as a field of CSV. */
+static void name_cell(FILE *to, const scene *s, scene_list list, int index)
+{
+    if (index != SCENE_NONE)
+        csv_record_text(to, scene_name(s, list, index).text);
+    fputc(',', to);
+}
+
+static void write_rows(FILE *to, const void *what)
+{
+    const contents *c = what;
+    const system_matrices *s = c->of;
+    fprintf(to, "row,node,member,along,component,unit,x,y,z\n");
+    for (int i = 0; i < s->rows; i++) {
+        const row_label *l = &s->label[i];
+        fprintf(to, "%d,", i + 1);
+        name_cell(to, c->scene, SCENE_NODES, l->node);
+        name_cell(to, c->scene, SCENE_MEMBERS, l->member);
+        if (!isnan(l->along))
+            fprintf(to, "%.17g", l->along);
+        fprintf(to, ",%s,%s,%.17g,%.17g,%.17g\n", l->component, l->unit, l->position[0],
+                l->position[1], l->position[2]);
+    }
+}
+
+/* What of its member a load acts on, and its vector where that ends; nothing of one at a node. */
+static void write_extent(FILE *to, const scene_load *l)
+{
+    const double *last = l->varies ? l->last : l->vector;
+    if (scene_load_along(l))
+        fprintf(to, ",%.17g,%.17g,%.17g,%.17g,%.17g,%d\n", l->range[0], l->range[1], last[0],
+                last[1], last[2], l->lumped);
+    else
+        fputs(",,,,,,\n", to);
+}
+
+static void write_loads(FILE *to, const void *what)
+{
+    static const char *const kind[] = {"force",   "moment",  "distributed", "distributed moment",
+                                       "gravity", "gravity", "force",       "moment"};
+    static const char *const unit[] = {"N", "N m", "N/m", "N m/m", "m/s^2", "m/s^2", "N", "N m"};
+    const scene *s = ((const contents *)what)->scene;
+    fprintf(to, "column,kind,node,member,x,y,z,unit,axes,follower,from,to,x_to,y_to,z_to,lumped\n");
+    for (int i = 0; i < s->loads; i++) {
+        const scene_load *l = &s->load[i];
+        const int along = scene_load_along(l);
+        fprintf(to, "%d,%s,", i + 1, kind[l->kind]);
+        name_cell(to, s, SCENE_NODES, along ? SCENE_NONE : l->where);
+        name_cell(to, s, SCENE_MEMBERS, along ? l->where : SCENE_NONE);
+        fprintf(to, "%.17g,%.17g,%.17g,%s,%s,%d", l->vector[0], l->vector[1], l->vector[2],
+                unit[l->kind], l->axes == SCENE_AXES_MEMBER ? "member" : "fixed", l->follower);
+        write_extent(to, l);
+    }
+}
+
+static void write_states(FILE *to, const void *what)
+{
+    const contents *c = what;
+    fprintf(to, "folder,analysis,kind,station,path\n");
+    for (int i = 0; i < c->of->states; i++) {
+        const state_matrices *s = &c->of->state[i];
+        char name[NAME];
+        name_state(c, s, name);
+        fprintf(to, "%s,", name);
+        name_cell(to, c->scene, SCENE_ANALYSES, s->analysis);
+        if (s->analysis != SCENE_NONE)
+            fprintf(to, "%s", scene_analysis_name(c->scene->analysis[s->analysis].kind));
+        fputc(',', to);
+        if (s->station != SCENE_NONE)
+            fprintf(to, "%d", s->station);
+        fprintf(to, ",%.17g\n", s->path);
+    }
+}
+
+static void write_matrix(FILE *to, const void *what)
+{
+    const titled *t = what;
+    matrix_market_write(to, t->matrix, t->comment);
+}
+
+/* A matrix without rows or columns is none. */
+static status add_matrix(const output_folder *folder, const char *state, const char *letter,
+                         const triplets *t, const char *comment, fault *f)
+{
+    char file[2 * NAME];
+    const titled what = {t, comment};
+    if (t->rows == 0 || t->columns == 0)
+        return STATUS_OK;
+    snprintf(file, sizeof file, "%s/%s.mtx", state, letter);
+    return output_folder_file(folder, file, write_matrix, &what, f);
+}
+
+static status add_state(const output_folder *folder, const contents *c, const state_matrices *s,
+                        fault *f)
+{
+    char name[NAME], comment[300];
+    name_state(c, s, name);
+    snprintf(comment, sizeof comment, "%.120s, %s; rows: dofs.csv, columns of B: loads.csv; SI",
+             c->title, name);
+    TRY(output_folder_below(folder, name, f));
+    TRY(add_matrix(folder, name, "K", &s->K, comment, f));
+    TRY(add_matrix(folder, name, "M", &s->M, comment, f));
+    TRY(add_matrix(folder, name, "G", &s->G, comment, f));
+    TRY(add_matrix(folder, name, "M_inside", &s->inside, comment, f));
+    return add_matrix(folder, name, "B", &s->B, comment, f);
+}
+
+static status fill(const output_folder *folder, const contents *c, fault *f)
+{
+    TRY(output_folder_file(folder, "dofs.csv", write_rows, c, f));
+    TRY(output_folder_file(folder, "loads.csv", write_loads, c, f));
+    TRY(output_folder_file(folder, "states.csv", write_states, c, f));
+    for (int i = 0; i < c->of->states; i++)
+        TRY(add_state(folder, c, &c->of->state[i], f));
+    return STATUS_OK;
+}
+
+status system_folder_write(const char *path, const char *title, const scene *s,
+                           const system_matrices *of, fault *f)
+{
+    output_folder folder;
+    const contents c = {title, s, of};
+    TRY(output_folder_open(path, &folder, f));
+    return output_folder_finish(&folder, fill(&folder, &c, f), f);
 }

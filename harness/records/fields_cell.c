@@ -1,12 +1,12 @@
 /* Records of parameter points, of series of meshes and of one mesh: size, work, times. */
+#include "harness/records/records.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "cases/scene/omission.h"
 #include "elements/feature.h"
 #include "harness/model/model.h"
-#include "harness/records/fields_keys.h"
-#include "harness/study/study.h"
 
 static void get_features(const subject *s, field_value *out)
 {
@@ -195,3 +195,232 @@ const record_type record_cell = {
     "cells",
     "a formulation on one mesh: size, work, times",
     {keys_of_point, keys_of_series, key_of_mesh, fields_of_cell, fields_of_work}};
+
+static void get_elements(const subject *s, field_value *out)
+{
+    out->whole = s->series->mesh[s->mesh];
+}
+
+const schema_field keys_of_point[] = {
+    {"case", "", FIELD_TEXT, "name of the case", TEXT_OF(CASE, case_type, name), .key = KEY_AROUND},
+    {"point", "", FIELD_TEXT, "default, or the first digits of the parameters' hash",
+     OF(POINT, sweep_point, name), .key = KEY},
+    {0}};
+
+const schema_field keys_of_series[] = {
+    {"parameters", "", FIELD_TEXT, "where they differ from the defaults",
+     OF(POINT, sweep_point, text), .key = KEY_AROUND},
+    {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
+     OF(SERIES, series, formulation.key), .key = KEY},
+    {0}};
+
+const schema_field key_of_mesh[] = {
+    {"elements", "1", FIELD_INT, "elements of each member", .get = get_elements, .key = KEY}, {0}};
+
+const schema_field names_of_quantity[] = {
+    {"quantity", "", FIELD_TEXT, "name of the quantity", OF(QUANTITY, scene_quantity, name)},
+    {"unit", "", FIELD_TEXT, "of its value", OF(QUANTITY, scene_quantity, unit)},
+    {0}};
+
+const char *fields_keys_word_of_status(int value)
+{
+    return status_name((status)value);
+}
+
+const char *fields_keys_word_of_moments(int convention)
+{
+    return scene_moments_name((scene_moments)convention);
+}
+
+const scene_quantity *fields_keys_quantity(const subject *s)
+{
+    return &s->point->scene.quantity[s->index];
+}
+
+const cell_result *fields_keys_cell(const subject *s)
+{
+    return &s->series->cell[s->mesh];
+}
+
+void fields_keys_omitted(const subject *s, field_value *out)
+{
+    char words[SCENE_OMISSION_WORDS] = "";
+    if (s->point->status == STATUS_OK)
+        scene_omission_words(features_omitted(&s->point->scene), words);
+    snprintf(out->room, sizeof out->room, "%s", words);
+    out->text = out->room;
+}
+
+void fields_keys_assumed(const subject *s, field_value *out)
+{
+    assumptions_words(s->point, sizeof out->room, out->room);
+    out->text = out->room;
+}
+
+static const schema_field field_omitted[] = {
+    {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
+     .get = fields_keys_omitted},
+    {"assumed", "", FIELD_TEXT, "of its sections: see the table 'assumptions'",
+     .get = fields_keys_assumed},
+    {0}};
+const record_type record_omission = {
+    "omission",
+    "",
+    "what the scene of a value leaves out, and what is assumed of it",
+    {field_omitted}};
+
+/* Records of benchmarks. */
+
+static const cell_timing *timing_of(const subject *s)
+{
+    return s->record;
+}
+
+static const rounds_reading *reading_of(const field_value *out, const cell_timing *t)
+{
+    return out->of->offset < offsetof(cell_timing, keep_all) ? &t->as_is : &t->keep_all;
+}
+
+/* NAN where nothing was measured: a number at the offset, a round of it. */
+static void get_measured(const subject *s, field_value *out)
+{
+    const cell_timing *t = timing_of(s);
+    const double stored = *(const double *)((const char *)t + out->of->offset);
+    schema_set_number(out, reading_of(out, t)->rounds > 0 ? stored : NAN);
+}
+
+static void get_round(const subject *s, field_value *out)
+{
+    get_measured(s, out);
+    if (out->number == 0)
+        out->number = NAN; /* there were fewer rounds */
+}
+
+static void get_least(const subject *s, field_value *out)
+{
+    const rounds_reading *c = &timing_of(s)->as_is;
+    schema_set_number(out, c->rounds > 0 ? rounds_least(c) : NAN);
+}
+
+static void get_most(const subject *s, field_value *out)
+{
+    const rounds_reading *c = &timing_of(s)->as_is;
+    schema_set_number(out, c->rounds > 0 ? rounds_most(c) : NAN);
+}
+
+static void get_dense_iteration(const subject *s, field_value *out)
+{
+    const dense_reference *dense = &timing_of(s)->dense;
+    schema_set_number(out, dense->unknowns > 0 ? dense->iteration : NAN);
+}
+
+static void get_dense_seconds(const subject *s, field_value *out)
+{
+    const dense_reference *dense = &timing_of(s)->dense;
+    schema_set_number(out,
+                      dense->unknowns > 0
+                          ? dense_reference_seconds(dense, fields_keys_cell(s)->counters.iterations)
+                          : NAN);
+}
+
+static void get_dense_whole(const subject *s, field_value *out)
+{
+    out->whole = timing_of(s)->dense.whole.rounds > 0;
+}
+
+#define TIMES(member) AT(cell_timing, member)
+static const schema_field fields_of_readings[] = {
+    {"repeats", "1", FIELD_INT, "runs; 0: not measured", TIMES(as_is.repeats)},
+    {"seconds_setup", "s", FIELD_DOUBLE, "of the fastest: set-up", TIMES(as_is.setup),
+     .get = get_measured},
+    {"seconds_solve", "s", FIELD_DOUBLE, "of the fastest: the rest", TIMES(as_is.solve),
+     .get = get_measured},
+    {"seconds_least", "s", FIELD_DOUBLE, "both together in the fastest round", .get = get_least},
+    {"seconds_most", "s", FIELD_DOUBLE, "both together in the slowest round", .get = get_most},
+    {"round_1", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[0]),
+     .get = get_round},
+    {"round_2", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[1]),
+     .get = get_round},
+    {"round_3", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[2]),
+     .get = get_round},
+    {"round_4", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[3]),
+     .get = get_round},
+    {"round_5", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[4]),
+     .get = get_round},
+    {"keep_all_repeats", "1", FIELD_INT, "the same with all degrees of freedom",
+     TIMES(keep_all.repeats)},
+    {"keep_all_setup", "s", FIELD_DOUBLE, "set-up", TIMES(keep_all.setup), .get = get_measured},
+    {"keep_all_solve", "s", FIELD_DOUBLE, "the rest", TIMES(keep_all.solve), .get = get_measured},
+    {"keep_all_round_1", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[0]),
+     .get = get_round},
+    {"keep_all_round_2", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[1]),
+     .get = get_round},
+    {"keep_all_round_3", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[2]),
+     .get = get_round},
+    {"keep_all_round_4", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[3]),
+     .get = get_round},
+    {"keep_all_round_5", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[4]),
+     .get = get_round},
+    {"keep_all_free", "1", FIELD_INT, "unknowns with all degrees of freedom", TIMES(free_keep_all)},
+    {0}};
+static const schema_field fields_of_parts[] = {
+    {"seconds_elements", "s", FIELD_DOUBLE, "of Newton's iterations: elements",
+     TIMES(phase[PHASE_ELEMENTS])},
+    {"seconds_assembly", "s", FIELD_DOUBLE, "assembly", TIMES(phase[PHASE_ASSEMBLY])},
+    {"seconds_factorisation", "s", FIELD_DOUBLE, "factorisation",
+     TIMES(phase[PHASE_FACTORISATION])},
+    {"seconds_solution", "s", FIELD_DOUBLE, "solution", TIMES(phase[PHASE_SOLUTION])},
+    {"seconds_rest", "s", FIELD_DOUBLE, "outside of the iterations: loads, compliance, modes",
+     TIMES(phase[PHASE_REST])},
+    {"dense_unknowns", "1", FIELD_INT, "of the published algorithm; 0: not measured",
+     TIMES(dense.unknowns)},
+    {"dense_iteration", "s", FIELD_DOUBLE, "its fastest iteration", .get = get_dense_iteration},
+    {"dense_seconds", "s", FIELD_DOUBLE, "all of its iterations", .get = get_dense_seconds},
+    {"dense_whole", "", FIELD_FLAG, "whole runs were timed, not one iteration times their number",
+     .get = get_dense_whole},
+    {0}};
+const record_type record_timing = {
+    "timing",
+    "timings",
+    "repeated runs of a cell",
+    {keys_of_point, keys_of_series, key_of_mesh, fields_of_readings, fields_of_parts}};
+
+/* Records of what other programs found: each value with its place in the file it was read from. */
+
+static void get_file(const subject *s, field_value *out)
+{
+    schema_set_text(out, s->series->imported->file);
+}
+
+static void import_get_model(const subject *s, field_value *out)
+{
+    schema_set_text(out, s->series->imported->model);
+}
+
+static void get_convention(const subject *s, field_value *out)
+{
+    schema_set_text(out, s->series->imported->convention);
+}
+
+static const schema_field fields_of_import[] = {
+    {"elements", "1", FIELD_INT, "elements, as the file says", AT(imported_row, elements)},
+    {"file", "", FIELD_TEXT, "that it was read from", .get = get_file},
+    {"line", "1", FIELD_INT, "of the file", AT(imported_row, line)},
+    {"model", "", FIELD_TEXT, "beam, or another one", .get = import_get_model},
+    {"convention", "", FIELD_TEXT, "of moments", .get = get_convention},
+    {"file_unit", "", FIELD_TEXT, "of the value in the file", AT(imported_row, unit)},
+    {"factor", "1", FIELD_DOUBLE, "that the file's value was multiplied by",
+     AT(imported_row, factor)},
+    {"unknowns", "1", FIELD_INT, "unknown coordinates; 0: not said", AT(imported_row, unknowns)},
+    {"seconds", "s", FIELD_DOUBLE, "of the solution, measured elsewhere",
+     AT(imported_row, seconds)},
+    {"x_unit", "", FIELD_TEXT, "of the abscissa of a curve", OF(QUANTITY, scene_quantity, x.unit)},
+    {"x", "x_unit", FIELD_DOUBLE, "abscissa of a curve", AT(imported_row, x)},
+    {"value", OWN_UNIT, FIELD_DOUBLE, "in the unit of the quantity", AT(imported_row, value)},
+    {"uncertainty", OWN_UNIT, FIELD_DOUBLE, "of the value", AT(imported_row, uncertainty)},
+    {0}};
+const record_type record_import = {
+    "import",
+    "imports",
+    "a value that another program found, and where it was read",
+    {keys_of_point, keys_of_series, names_of_quantity, fields_of_import}};

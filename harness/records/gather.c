@@ -1,10 +1,7 @@
-#include "harness/records/gather.h"
+#include "harness/records/records.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#include "harness/records/assumptions.h"
-#include "harness/study/study.h"
 
 struct held_record {
     held_record *next;

@@ -1,18 +1,12 @@
-#include "harness/records/kept.h"
+#include "harness/records/records.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include "harness/records/place.h"
-#include "harness/records/schema.h"
-#include "harness/records/table_reader.h"
-#include "harness/study/study.h"
 
 hid_t kept_group(record_file *r, const char *name)
 {

@@ -1,12 +1,10 @@
-#include "harness/records/markdown.h"
+#include "harness/records/records.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "cases/scene/omission.h"
 #include "harness/model/model.h"
-#include "harness/records/assumptions.h"
-#include "harness/study/study.h"
 
 enum { MOST_ROWS = 50 }; /* a comment is read, not searched: the JSON has the rest */
 

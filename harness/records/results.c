@@ -1,5 +1,7 @@
-#include "harness/records/results.h"
+#include "harness/records/records_impl.h"
 
+#include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -63,4 +65,296 @@ void results_free(stored_results *r)
     free(r->cell);
     free(r->series);
     memset(r, 0, sizeof *r);
+}
+
+/* The cells of a stored run in one line for each series. */
+
+/* Adds the errors of a mesh to those of its series. */
+static void take_errors(result_series *s, const result_cell *cell)
+{
+    result_error here = {0};
+    for (int i = 0; i < cell->values; i++) {
+        const double size = fabs(cell->value[i].error);
+        if (!isfinite(size))
+            continue;
+        s->errors++;
+        s->decades += log10(size + RESULTS_FLOOR);
+        if (here.elements == 0 || size > here.size) {
+            here = (result_error){size, cell->elements, ""};
+            memcpy(here.quantity, cell->value[i].quantity, sizeof here.quantity);
+        }
+    }
+    if (here.elements > 0 && (s->least.elements == 0 || here.size <= s->least.size))
+        s->least = here;
+    if (here.elements > 0 && (s->largest.elements == 0 || here.size > s->largest.size))
+        s->largest = here;
+}
+
+static int take_limits(result_series *s, const result_cell *cell)
+{
+    for (int i = 0; i < cell->values; i++) {
+        const result_value *v = &cell->value[i];
+        result_limit *limit = isfinite(v->limit) ? results_add_limit(s) : NULL;
+        if (limit == NULL && isfinite(v->limit))
+            return 0;
+        if (limit == NULL)
+            continue;
+        limit->value = v->limit;
+        limit->near_zero = v->near_zero;
+        memcpy(limit->quantity, v->quantity, sizeof limit->quantity);
+    }
+    return 1;
+}
+
+/* 0: out of memory. */
+static int take_cell(result_series *s, const result_cell *cell)
+{
+    result_mesh *mesh = results_add_mesh(s);
+    if (mesh == NULL)
+        return 0;
+    mesh->elements = cell->elements;
+    memcpy(mesh->status, cell->status, sizeof mesh->status);
+    for (int k = 0; k < RESULTS_WORKS; k++)
+        s->work[k] += cell->work[k];
+    take_errors(s, cell);
+    return take_limits(s, cell);
+}
+
+status results_series_summarise(stored_results *r, fault *f)
+{
+    result_series *s = NULL;
+    for (int i = 0; i < r->cells; i++) {
+        if (s == NULL || strcmp(s->name, r->cell[i].name) != 0) {
+            s = results_add_series(r);
+            if (s == NULL || (s->name = strdup(r->cell[i].name)) == NULL)
+                return fault_set(f, STATUS_FAULT, "out of memory for results");
+        }
+        if (!take_cell(s, &r->cell[i]))
+            return fault_set(f, STATUS_FAULT, "out of memory for results");
+    }
+    return STATUS_OK;
+}
+
+const char results_table_head[] =
+    "series,meshes,iterations,evaluations,factorisations,errors,decades,least,least_elements,"
+    "least_quantity,largest,largest_elements,largest_quantity,limits";
+
+/* "1:singular 2 4 8": the status where it is not ok. */
+static void write_meshes(FILE *to, const result_series *s)
+{
+    for (int i = 0; i < s->meshes; i++) {
+        const result_mesh *mesh = &s->mesh[i];
+        fprintf(to, "%s%d", i > 0 ? " " : ",", mesh->elements);
+        if (strcmp(mesh->status, "ok") != 0)
+            fprintf(to, ":%s", mesh->status);
+    }
+}
+
+static void write_error(FILE *to, const result_error *e)
+{
+    if (e->elements > 0)
+        fprintf(to, ",%.*g,%d,%s", RESULTS_ERROR_DIGITS, e->size, e->elements, e->quantity);
+    else
+        fputs(",,,", to);
+}
+
+static void write_limits(FILE *to, const result_series *s)
+{
+    for (int i = 0; i < s->limits; i++)
+        fprintf(to, "%s%s=%.*g", i > 0 ? " " : "", s->limit[i].quantity, RESULTS_LIMIT_DIGITS,
+                s->limit[i].value);
+}
+
+void results_table_write(FILE *to, const stored_results *r)
+{
+    fprintf(to, "%s\n", results_table_head);
+    for (int i = 0; i < r->seriess; i++) {
+        const result_series *s = &r->series[i];
+        fprintf(to, "\"%s\"", s->name);
+        write_meshes(to, s);
+        for (int k = 0; k < RESULTS_WORKS; k++)
+            fprintf(to, ",%ld", s->work[k]);
+        fprintf(to, ",%d,%.*f", s->errors, RESULTS_DECADES_DECIMALS, s->decades);
+        write_error(to, &s->least);
+        write_error(to, &s->largest);
+        fputc(',', to);
+        write_limits(to, s);
+        fputc('\n', to);
+    }
+}
+
+/* Reading the short table of a run. Nothing is believed: a file may be foreign, cut short or
+ * damaged. */
+
+enum {
+    SERIES,
+    MESHES,
+    WORK,
+    ERRORS = WORK + RESULTS_WORKS,
+    DECADES,
+    LEAST,
+    LARGEST = LEAST + 3,
+    LIMITS = LARGEST + 3,
+    FIELDS
+};
+enum { LONGEST_NAME = 1200, LONGEST_LINE = 16384, MOST_ERRORS = 100000000 };
+static const long most_work = 1000000000000000000L;
+static const double most_number = 1e300;
+
+/* Splits a line into its fields, of which the first may be quoted; 0: there are not FIELDS of
+ * them. */
+static int split(char *line, char *field[FIELDS])
+{
+    char *at = line;
+    if (*at == '"') {
+        field[0] = at + 1;
+        at = strchr(at + 1, '"');
+        if (at == NULL)
+            return 0;
+        *at++ = '\0';
+    } else {
+        field[0] = at;
+        at += strcspn(at, ",");
+    }
+    for (int i = 1; i < FIELDS; i++) {
+        if (*at != ',')
+            return 0;
+        *at++ = '\0';
+        field[i] = at;
+        at += strcspn(at, ",");
+    }
+    return *at == '\0';
+}
+
+static int whole(const char *text, long most, long *out)
+{
+    char *end;
+    errno = 0;
+    *out = strtol(text, &end, 10);
+    return end != text && *end == '\0' && errno == 0 && *out >= 0 && *out <= most;
+}
+
+static int number(const char *text, double *out)
+{
+    char *end;
+    *out = strtod(text, &end);
+    return end != text && *end == '\0' && fabs(*out) < most_number;
+}
+
+/* A text that is neither empty nor too long. */
+static int word(const char *text, char *out, size_t size)
+{
+    const size_t length = strlen(text);
+    if (length == 0 || length >= size)
+        return 0;
+    memcpy(out, text, length + 1);
+    return 1;
+}
+
+/* "4" or "4:singular", in ascending order. */
+static int take_mesh(char *text, result_series *s)
+{
+    long elements = 0;
+    char *end = strchr(text, ':');
+    if (end != NULL)
+        *end++ = '\0';
+    result_mesh *mesh = results_add_mesh(s);
+    if (mesh == NULL || !whole(text, RESULTS_MOST_ELEMENTS, &elements) || elements < 1)
+        return 0;
+    mesh->elements = (int)elements;
+    return word(end != NULL ? end : "ok", mesh->status, sizeof mesh->status) &&
+           (s->meshes == 1 || mesh[-1].elements < mesh->elements);
+}
+
+/* "quantity=1.234". */
+static int take_limit(char *text, result_series *s)
+{
+    char *value = strrchr(text, '=');
+    result_limit *limit = value != NULL ? results_add_limit(s) : NULL;
+    if (limit == NULL)
+        return 0;
+    *value++ = '\0';
+    return word(text, limit->quantity, sizeof limit->quantity) && number(value, &limit->value);
+}
+
+/* Every word of a list. */
+static int take_words(char *list, result_series *s, int take(char *text, result_series *s))
+{
+    char *rest;
+    for (char *one = strtok_r(list, " ", &rest); one != NULL; one = strtok_r(NULL, " ", &rest))
+        if (!take(one, s))
+            return 0;
+    return 1;
+}
+
+/* Size, elements, quantity; all of them or, where no value has an error, none. */
+static int take_error(char *field[], int errors, result_error *e)
+{
+    long elements = 0;
+    if (errors == 0)
+        return field[0][0] == '\0' && field[1][0] == '\0' && field[2][0] == '\0';
+    const int good = number(field[0], &e->size) && e->size >= 0 &&
+                     whole(field[1], RESULTS_MOST_ELEMENTS, &elements) && elements > 0 &&
+                     word(field[2], e->quantity, sizeof e->quantity);
+    e->elements = (int)elements;
+    return good;
+}
+
+static int take(char *field[FIELDS], result_series *s)
+{
+    long errors = 0;
+    char name[LONGEST_NAME];
+    for (int k = 0; k < RESULTS_WORKS; k++)
+        if (!whole(field[WORK + k], most_work, &s->work[k]))
+            return 0;
+    if (!word(field[SERIES], name, sizeof name) || strchr(name, '"') != NULL ||
+        !whole(field[ERRORS], MOST_ERRORS, &errors) || !number(field[DECADES], &s->decades) ||
+        fabs(s->decades) > 1e9 || !take_error(&field[LEAST], (int)errors, &s->least) ||
+        !take_error(&field[LARGEST], (int)errors, &s->largest) ||
+        !take_words(field[MESHES], s, take_mesh) || !take_words(field[LIMITS], s, take_limit))
+        return 0;
+    s->errors = (int)errors;
+    s->name = strdup(name);
+    return s->name != NULL && s->meshes > 0;
+}
+
+/* A line with its end, which is taken off. */
+static int take_line(char *line)
+{
+    const size_t length = strcspn(line, "\n");
+    const int ended = line[length] == '\n';
+    line[length] = '\0';
+    return ended;
+}
+
+static status take_row(char *line, const char *path, int row, stored_results *out, fault *f)
+{
+    char *field[FIELDS];
+    if (take_line(line) && split(line, field)) {
+        result_series *s = results_add_series(out);
+        if (s == NULL)
+            return fault_set(f, STATUS_FAULT, "out of memory for results");
+        if (take(field, s)) {
+            out->limits = out->limits || s->limits > 0;
+            return STATUS_OK;
+        }
+    }
+    return fault_set(f, STATUS_FAULT,
+                     "%.120s:%d: the row is damaged or cut short; "
+                     "write the table again with 'beamwork compare -o'",
+                     path, row);
+}
+
+status results_table_read(const char *path, FILE *from, stored_results *out, fault *f)
+{
+    char line[LONGEST_LINE];
+    if (fgets(line, sizeof line, from) == NULL || !take_line(line) ||
+        strcmp(line, results_table_head) != 0)
+        return fault_set(f, STATUS_FAULT,
+                         "%.120s: neither results of 'beamwork verify -o' (HDF5) nor a table of "
+                         "'beamwork compare -o'",
+                         path);
+    for (int row = 2; fgets(line, sizeof line, from) != NULL; row++)
+        TRY(take_row(line, path, row, out, f));
+    return ferror(from) ? fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path) : STATUS_OK;
 }

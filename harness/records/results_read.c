@@ -1,10 +1,12 @@
 /* Stored runs, told apart by their first bytes. */
+#include "harness/records/records_impl.h"
+
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cases/format/line.h"
-#include "harness/records/results.h"
 
 static int compare_cells(const void *a, const void *b)
 {
@@ -84,4 +86,418 @@ status results_read(const char *path, stored_results *out, fault *f)
                      "%.120s: a sweep, which only 'beamwork compare' reads; give "
                      "a file of 'beamwork verify -o'",
                      path);
+}
+
+/* The tables of one case of results.h5 as cells. Nothing is believed of them. */
+
+enum { NAME = 200 };
+
+status results_case_damaged(const char *path, const char *where, const char *what, fault *f)
+{
+    return fault_set(f, STATUS_FAULT,
+                     "%.120s: %s%.120s is missing or damaged; run 'beamwork verify -o' again", path,
+                     where, what);
+}
+
+typedef struct case_point_row {
+    char point[16], parameters[PARAMETERS_TEXT];
+} case_point_row;
+
+typedef struct cell_row {
+    char point[16], formulation[FORMULATION_KEY], status[RESULTS_STATUS];
+    int elements;
+    long strain, stress, inertia, iterations, factorisations;
+} cell_row;
+
+typedef struct case_value_row {
+    char point[16], formulation[FORMULATION_KEY], quantity[SCENE_NAME];
+    int elements;
+    double value, error, near_zero;
+} case_value_row;
+
+typedef struct limit_row {
+    char point[16], formulation[FORMULATION_KEY], quantity[SCENE_NAME];
+    double limit;
+} limit_row;
+
+/* A text whose column has the member's name. */
+#define TEXT(row, member) #member, FIELD_TEXT, offsetof(row, member), sizeof((row *)0)->member
+static const table_column point_columns[] = {{TEXT(case_point_row, point)},
+                                             {TEXT(case_point_row, parameters)}};
+static const table_column cell_columns[] = {
+    {TEXT(cell_row, point)},
+    {TEXT(cell_row, formulation)},
+    {TEXT(cell_row, status)},
+    {"elements", FIELD_INT, offsetof(cell_row, elements), 0},
+    {"strain_evaluations", FIELD_LONG, offsetof(cell_row, strain), 0},
+    {"stress_evaluations", FIELD_LONG, offsetof(cell_row, stress), 0},
+    {"inertia_evaluations", FIELD_LONG, offsetof(cell_row, inertia), 0},
+    {"iterations", FIELD_LONG, offsetof(cell_row, iterations), 0},
+    {"factorisations", FIELD_LONG, offsetof(cell_row, factorisations), 0}};
+static const table_column value_columns[] = {
+    {TEXT(case_value_row, point)},
+    {TEXT(case_value_row, formulation)},
+    {TEXT(case_value_row, quantity)},
+    {"elements", FIELD_INT, offsetof(case_value_row, elements), 0},
+    {"value", FIELD_DOUBLE, offsetof(case_value_row, value), 0},
+    {"error", FIELD_DOUBLE, offsetof(case_value_row, error), 0},
+    {"near_zero", FIELD_DOUBLE, offsetof(case_value_row, near_zero), 0}};
+
+static const table_column limit_columns[] = {
+    {TEXT(limit_row, point)},
+    {TEXT(limit_row, formulation)},
+    {TEXT(limit_row, quantity)},
+    {"limit", FIELD_DOUBLE, offsetof(limit_row, limit), 0}};
+#define COLUMNS(name) sizeof(name) / sizeof *(name), name
+
+/* The tables of one case. limits: -1: nothing was judged. */
+typedef struct case_tables {
+    int points, cells, values, limits;
+    case_point_row *point;
+    cell_row *cell;
+    case_value_row *value;
+    limit_row *limit;
+} case_tables;
+
+static void free_tables(case_tables *t)
+{
+    free(t->point);
+    free(t->cell);
+    free(t->value);
+    free(t->limit);
+}
+
+/* NULL, or the name of the table that is damaged. */
+static const char *read_tables(hid_t at, case_tables *t)
+{
+    void *rows;
+    memset(t, 0, sizeof *t);
+    t->points = table_reader_rows(at, "points", COLUMNS(point_columns), sizeof *t->point, &rows);
+    t->point = rows;
+    if (t->points < 0)
+        return "points";
+    t->cells = table_reader_rows(at, "cells", COLUMNS(cell_columns), sizeof *t->cell, &rows);
+    t->cell = rows;
+    if (t->cells < 0)
+        return "cells";
+    t->values =
+        table_reader_rows(at, "quantities", COLUMNS(value_columns), sizeof *t->value, &rows);
+    t->value = rows;
+    if (t->values < 0)
+        return "quantities";
+    t->limits = -1;
+    if (H5Lexists(at, "verdicts", H5P_DEFAULT) <= 0)
+        return NULL;
+    t->limits = table_reader_rows(at, "verdicts", COLUMNS(limit_columns), sizeof *t->limit, &rows);
+    t->limit = rows;
+    return t->limits < 0 ? "verdicts" : NULL;
+}
+
+/* The parameters of a point in words, or NULL: there is no such point. */
+static const char *parameters_of(const case_tables *t, const char *name)
+{
+    for (int i = 0; i < t->points; i++)
+        if (strcmp(t->point[i].point, name) == 0)
+            return t->point[i].parameters[0] != '\0' ? t->point[i].parameters : "default";
+    return NULL;
+}
+
+static int is_of(const cell_row *cell, const case_value_row *value)
+{
+    return cell->elements == value->elements &&
+           strcmp(cell->formulation, value->formulation) == 0 &&
+           strcmp(cell->point, value->point) == 0;
+}
+
+/* Values stand in the order of their cells: those of this one, from *next on. 0: out of memory. */
+static int take_values(const case_tables *t, const cell_row *row, int *next, result_cell *cell)
+{
+    int count = 0;
+    while (*next + count < t->values && is_of(row, &t->value[*next + count]))
+        count++;
+    cell->value = calloc((size_t)count + 1, sizeof *cell->value);
+    if (cell->value != NULL)
+        for (int i = 0; i < count; i++) {
+            const case_value_row *from = &t->value[*next + i];
+            result_value *v = &cell->value[cell->values++];
+            memcpy(v->quantity, from->quantity, sizeof v->quantity);
+            v->value = from->value;
+            v->error = from->error;
+            v->near_zero = from->near_zero;
+            v->limit = NAN;
+        }
+    *next += count;
+    return cell->value != NULL;
+}
+
+/* Counts of work that a run can have, so small that their sums stay in range. */
+static int are_counts(const cell_row *row)
+{
+    static const long most = 1L << 50;
+    const long count[] = {row->iterations, row->strain, row->stress, row->inertia,
+                          row->factorisations};
+    for (size_t i = 0; i < sizeof count / sizeof count[0]; i++)
+        if (count[i] < 0 || count[i] > most)
+            return 0;
+    return 1;
+}
+
+static status take_cell(const char *path, const char *of, const case_tables *t, const cell_row *row,
+                        int *next, stored_results *out, fault *f)
+{
+    char name[NAME + PARAMETERS_TEXT + FORMULATION_KEY];
+    const char *parameters = parameters_of(t, row->point);
+    if (parameters == NULL)
+        return results_case_damaged(path, of, ": the point of a cell", f);
+    snprintf(name, sizeof name, "%s/%s/%s", of, parameters, row->formulation);
+    if (row->elements < 1 || row->elements > RESULTS_MOST_ELEMENTS || !are_counts(row))
+        return results_case_damaged(path, name, "", f);
+    result_cell *cell = results_add(out);
+    if (cell == NULL || (cell->name = strdup(name)) == NULL || !take_values(t, row, next, cell))
+        return fault_set(f, STATUS_FAULT, "out of memory for results");
+    cell->elements = row->elements;
+    memcpy(cell->status, row->status, sizeof cell->status);
+    cell->work[WORK_ITERATIONS] = row->iterations;
+    cell->work[WORK_EVALUATIONS] = row->strain + row->stress + row->inertia;
+    cell->work[WORK_FACTORISATIONS] = row->factorisations;
+    return STATUS_OK;
+}
+
+/* The row of the finest mesh of what a limit belongs to; -1: there is none. */
+static int finest_cell(const case_tables *t, const limit_row *limit)
+{
+    int finest = -1;
+    for (int i = 0; i < t->cells; i++)
+        if (strcmp(t->cell[i].formulation, limit->formulation) == 0 &&
+            strcmp(t->cell[i].point, limit->point) == 0 &&
+            (finest < 0 || t->cell[i].elements > t->cell[finest].elements))
+            finest = i;
+    return finest;
+}
+
+static int set_limit(result_cell *cell, const limit_row *limit)
+{
+    for (int i = 0; i < cell->values; i++)
+        if (strcmp(cell->value[i].quantity, limit->quantity) == 0) {
+            cell->value[i].limit = limit->limit;
+            return 1;
+        }
+    return 0;
+}
+
+/* Limits at the default point, to the finest of the cells, which are those of the tables in their
+ * order. */
+static status take_limits(const char *path, const char *of, const case_tables *t,
+                          result_cell cell[], fault *f)
+{
+    for (int i = 0; i < t->limits; i++) {
+        const limit_row *limit = &t->limit[i];
+        if (!isfinite(limit->limit) || strcmp(limit->point, "default") != 0)
+            continue;
+        const int finest = finest_cell(t, limit);
+        if (finest < 0 || !set_limit(&cell[finest], limit))
+            return results_case_damaged(path, of, ": the cell of a limit", f);
+    }
+    return STATUS_OK;
+}
+
+/* With what results_case_read frees. */
+static status take_case(const char *path, hid_t at, const char *name, case_tables *t,
+                        stored_results *out, fault *f)
+{
+    int next = 0;
+    const int first = out->cells;
+    char where[NAME + 8];
+    snprintf(where, sizeof where, "%s/", name);
+    const char *bad = read_tables(at, t);
+    if (bad != NULL)
+        return results_case_damaged(path, where, bad, f);
+    for (int i = 0; i < t->cells; i++)
+        TRY(take_cell(path, name, t, &t->cell[i], &next, out, f));
+    if (next < t->values)
+        return results_case_damaged(path, where, "quantities: the cell of a value", f);
+    return take_limits(path, name, t, out->cells > first ? &out->cell[first] : NULL, f);
+}
+
+status results_case_read(const char *path, hid_t at, const char *name, stored_results *out,
+                         fault *f)
+{
+    case_tables t;
+    const status outcome = take_case(path, at, name, &t, out, f);
+    out->limits = out->limits || t.limits >= 0;
+    free_tables(&t);
+    return outcome;
+}
+
+/* Reading results.h5 back. Nothing is believed: a file may be foreign, cut short or damaged. */
+
+enum { HDF5_NAME = 200 };
+
+static status read_case(const char *path, hid_t cases, const char *name, stored_results *out,
+                        fault *f)
+{
+    const hid_t here = H5Gopen2(cases, name, H5P_DEFAULT);
+    if (here < 0)
+        return results_case_damaged(path, "", name, f);
+    const status outcome = results_case_read(path, here, name, out, f);
+    H5Gclose(here);
+    return outcome;
+}
+
+static status read_cases(const char *path, hid_t cases, stored_results *out, fault *f)
+{
+    char name[HDF5_NAME];
+    H5G_info_t info = {0};
+    if (H5Gget_info(cases, &info) < 0)
+        return results_case_damaged(path, "", "cases", f);
+    for (hsize_t i = 0; i < info.nlinks; i++) {
+        if (H5Lget_name_by_idx(cases, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name,
+                               H5P_DEFAULT) <= 0)
+            return results_case_damaged(path, "", "cases", f);
+        TRY(read_case(path, cases, name, out, f));
+    }
+    return STATUS_OK;
+}
+
+static status hdf5_read_tables(const char *path, hid_t at, stored_results *out, fault *f)
+{
+    const hid_t cases = H5Gopen2(at, "cases", H5P_DEFAULT);
+    const status outcome =
+        cases < 0 ? results_case_damaged(path, "", "cases", f) : read_cases(path, cases, out, f);
+    out->whole = 1;
+    if (cases >= 0)
+        H5Gclose(cases);
+    return outcome;
+}
+
+/* A text attribute as a copy, NULL where it is not there; 0: out of memory. */
+static int read_text(hid_t file, const char *name, char **out)
+{
+    enum { MOST = 1 << 16 };
+    char *room = malloc(MOST);
+    *out = NULL;
+    if (room != NULL && table_reader_attribute_text(file, name, room, MOST) && room[0] != '\0')
+        *out = strdup(room);
+    const int good = room != NULL && (*out != NULL || H5Aexists(file, name) <= 0);
+    free(room);
+    return good;
+}
+
+typedef struct declared_row {
+    char formulation[FORMULATION_KEY];
+    signed char is_new;
+} declared_row;
+
+/* Keys of formulations that do not gate; files that declare none have none. */
+static status read_fresh(const char *path, hid_t file, results_part *out, fault *f)
+{
+    static const table_column columns[] = {
+        {"formulation", FIELD_TEXT, offsetof(declared_row, formulation), FORMULATION_KEY},
+        {"is_new", FIELD_FLAG, offsetof(declared_row, is_new), 0}};
+    void *rows;
+    if (H5Lexists(file, "declarations", H5P_DEFAULT) <= 0)
+        return STATUS_OK;
+    const int count =
+        table_reader_rows(file, "declarations", 2, columns, sizeof(declared_row), &rows);
+    const declared_row *row = rows;
+    size_t size = 0;
+    FILE *to = count >= 0 ? open_memstream(&out->fresh, &size) : NULL;
+    for (int i = 0; to != NULL && i < count; i++)
+        if (row[i].is_new)
+            fprintf(to, "%s%s", ftell(to) > 0 ? "\n" : "", row[i].formulation);
+    const int good = to != NULL && fclose(to) == 0;
+    free(rows);
+    return good ? STATUS_OK : results_case_damaged(path, "", "declarations", f);
+}
+
+static status read_part(const char *path, hid_t file, results_part *out, fault *f)
+{
+    if (!read_text(file, "selection", &out->select) ||
+        !read_text(file, "selection_cases", &out->cases) ||
+        !read_text(file, "selection_formulations", &out->formulations))
+        return results_case_damaged(path, "", "selection", f);
+    if (out->select != NULL && select_matches(out->select, "") < 0)
+        return results_case_damaged(path, "", "selection", f);
+    return read_fresh(path, file, out, f);
+}
+
+static status check_version(const char *path, hid_t file, fault *f)
+{
+    char schema[64];
+    long version = 0;
+    if (H5Aexists(file, KEPT_SWEEP_MARK) > 0)
+        return STATUS_OK;
+    if (!table_reader_attribute_text(file, "schema", schema, sizeof schema) ||
+        strcmp(schema, SCHEMA_NAME) != 0 ||
+        !table_reader_attribute_count(file, "schema_version", &version))
+        return fault_set(f, STATUS_FAULT,
+                         "%.120s: not a file of results; write one with 'beamwork verify -o' or "
+                         "'beamwork sweep -o'",
+                         path);
+    if (version >= SCHEMA_OLDEST && version <= SCHEMA_VERSION)
+        return STATUS_OK;
+    return fault_set(f, STATUS_FAULT,
+                     "%.120s: results of version %ld, this program reads %d to %d; run "
+                     "'beamwork verify -o' again",
+                     path, version, SCHEMA_OLDEST, SCHEMA_VERSION);
+}
+
+/* Where an experiment of that name has left what is there; -1. The root is that of verify, or of a
+ * sweep that had the file for itself. */
+static hid_t open_group(hid_t file, const char *name)
+{
+    const int is_sweep = strcmp(name, KEPT_SWEEP) == 0, is_own = strcmp(name, "verify") == 0;
+    if (is_sweep && H5Aexists(file, KEPT_SWEEP_MARK) > 0)
+        return H5Gopen2(file, "/", H5P_DEFAULT);
+    if (is_own)
+        return H5Lexists(file, "cases", H5P_DEFAULT) > 0 ? H5Gopen2(file, "/", H5P_DEFAULT) : -1;
+    const hid_t all = H5Lexists(file, KEPT_GROUPS, H5P_DEFAULT) > 0
+                          ? H5Gopen2(file, KEPT_GROUPS, H5P_DEFAULT)
+                          : -1,
+                own = all >= 0 && H5Lexists(all, name, H5P_DEFAULT) > 0
+                          ? H5Gopen2(all, name, H5P_DEFAULT)
+                          : -1;
+    handles_close(1, &all);
+    return own;
+}
+
+static status read_group(const char *path, hid_t at, stored_results *out, fault *f)
+{
+    if (H5Aexists(at, KEPT_SWEEP_MARK) > 0)
+        return results_sweep_read(path, at, out, f);
+    TRY(read_part(path, at, &out->part, f));
+    return hdf5_read_tables(path, at, out, f);
+}
+
+static status read_file(const char *path, const char *experiment, hid_t file, stored_results *out,
+                        fault *f)
+{
+    static const char *const of_cells[] = {"verify", "bench", KEPT_SWEEP};
+    hid_t at = -1;
+    TRY(check_version(path, file, f));
+    for (size_t i = 0; i < sizeof of_cells / sizeof *of_cells && at < 0; i++)
+        if (experiment == NULL || strcmp(experiment, of_cells[i]) == 0)
+            at = open_group(file, of_cells[i]);
+    if (at < 0)
+        return experiment == NULL ? results_case_damaged(path, "", "cases", f)
+                                  : fault_set(f, STATUS_FAULT,
+                                              "%.120s: nothing of '%.40s' is there that could be "
+                                              "compared; verify, bench and sweep leave such",
+                                              path, experiment);
+    const status outcome = read_group(path, at, out, f);
+    H5Gclose(at);
+    return outcome;
+}
+
+status results_hdf5_read(const char *path, const char *experiment, stored_results *out, fault *f)
+{
+    TRY(checksum_check(path, f));
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (file < 0)
+        return fault_set(f, STATUS_FAULT,
+                         "%.120s: cannot be read as HDF5; run 'beamwork verify -o' again", path);
+    const status outcome = read_file(path, experiment, file, out, f);
+    H5Fclose(file);
+    return outcome;
 }

@@ -6,7 +6,7 @@
 #include "cases/scene/omission.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/records/assumptions.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/paragraph.h"
 

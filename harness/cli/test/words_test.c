@@ -6,7 +6,7 @@
 #include "elements/shared/choice.h"
 #include "harness/experiments/against.h"
 #include "harness/experiments/outcome.h"
-#include "harness/records/comparison.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 static glossary words;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/experiments/deal.h"
-#include "harness/records/digest.h"
+#include "harness/records/records.h"
 
 /* The examples of FIPS 180-4. */
 static void known_digests(void)

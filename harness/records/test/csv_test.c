@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/records/csv_record.h"
+#include "harness/records/records.h"
 
 enum { MOST_FIELDS = 8, ROOM = 256, LINES = 2 };
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/records/gather.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 enum { MESHES = 6, STATIONS = 3, STEPS = 2 };

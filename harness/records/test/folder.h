@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "harness/records/output.h"
+#include "harness/records/records.h"
 
 static inline int folder_entries(const char *folder)
 {

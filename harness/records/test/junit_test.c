@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/test/random.h"
-#include "harness/records/junit.h"
+#include "harness/records/records.h"
 
 enum { DEEPEST = 8, NAME = 32, HEADER = 3 };
 

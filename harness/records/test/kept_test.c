@@ -8,8 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "harness/records/kept.h"
-#include "harness/records/table_reader.h"
+#include "harness/records/records.h"
 #include "harness/records/test/folder.h"
 #include "harness/study/study.h"
 

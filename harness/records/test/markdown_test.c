@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/records/markdown.h"
+#include "harness/records/records.h"
 
 static const case_type type = {.name = "case_of_test"};
 

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "elements/test/sections.h"
-#include "harness/records/outline.h"
+#include "harness/records/records_impl.h"
 
 /* High at one end, wide at the other: corners stay in their quadrants. */
 static void rectangles(void)

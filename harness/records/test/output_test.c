@@ -10,9 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "harness/records/output.h"
-#include "harness/records/output_folder.h"
-#include "harness/records/record.h"
+#include "harness/records/records.h"
 #include "harness/records/test/folder.h"
 
 /* Is it there, complete, for whoever reads it? */

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "harness/records/output.h"
+#include "harness/records/records.h"
 #include "harness/records/test/folder.h"
 
 /* The target of a link is replaced, not the link: near, far, over several links, and where nothing

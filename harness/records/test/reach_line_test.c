@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/records/reach_line.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 enum { LINE_MESHES = 5, SERIES = 4 };

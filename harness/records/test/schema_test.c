@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/records/schema.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 static int is_name(const char *text)

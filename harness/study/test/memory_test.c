@@ -11,7 +11,7 @@
 
 #include "cases/format/scene_file.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/store.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 void *__real_malloc(size_t size);

@@ -1,5 +1,5 @@
 /* A results.h5 with contents that nobody expects (even first byte), or any bytes as one. */
-#include "harness/records/results.h"
+#include "harness/records/records.h"
 #include "harness/tools/fuzz/fuzz_alter.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -1,5 +1,5 @@
 /* Any bytes as the short table of a run. What is read can be written and read again. */
-#include "harness/records/results.h"
+#include "harness/records/records.h"
 #include "harness/tools/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -1,7 +1,7 @@
 /* Any bytes as the words of the command line that have a grammar: formulation with options,
  * selection, thresholds. */
 #include "harness/formulations/formulations.h"
-#include "harness/records/comparison.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/tools/fuzz/fuzz.h"
 
