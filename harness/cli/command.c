@@ -7,7 +7,7 @@
 
 #include "elements/shared/choice.h"
 #include "harness/cli/message.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 enum { INDENT = 2, COLUMN = 30 };
 

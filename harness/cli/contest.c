@@ -13,8 +13,7 @@
 #include "harness/cli/named.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
-#include "harness/terminal/table.h"
+#include "harness/terminal/terminal.h"
 
 enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
 

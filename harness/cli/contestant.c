@@ -12,7 +12,7 @@
 #include "harness/model/model.h"
 #include "harness/numerics/numerics.h"
 #include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 enum { MOST_REPEATS = 10000, NAME = 40 };
 static const double budget_seconds = 3, lap_seconds = 0.002;

@@ -11,7 +11,7 @@
 #include "harness/cli/cli.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 typedef struct explain_request {
     truths_options truths;

@@ -14,7 +14,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 enum { COLUMN = 26, LINE = 4000 };
 

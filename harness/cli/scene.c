@@ -8,7 +8,7 @@
 #include "harness/cli/cli.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 typedef struct scene_request {
     case_options of;

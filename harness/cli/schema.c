@@ -6,7 +6,7 @@
 #include "harness/cli/manual.h"
 #include "harness/experiments/experiment.h"
 #include "harness/records/records.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 const char *const results_about[] = {
     "HDF5; the last line of the file, behind it, holds its length and checksum. Attributes of the "

@@ -10,8 +10,7 @@
 #include "harness/experiments/restart.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"
-#include "harness/terminal/table_follow.h"
-#include "harness/terminal/table_solution.h"
+#include "harness/terminal/terminal.h"
 
 typedef struct solve_request {
     case_options of;

@@ -7,7 +7,7 @@
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
 #include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 typedef struct truth_request {
     case_options of;

@@ -6,7 +6,7 @@
 #include "elements/shared/choice.h"
 #include "harness/cli/manual.h"
 #include "harness/formulations/formulations.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 static const verb look = {.name = "look"};
 static const verb compute = {.name = "compute"};

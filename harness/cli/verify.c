@@ -13,10 +13,7 @@
 #include "harness/numerics/numerics.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"
-#include "harness/terminal/table_overview.h"
-#include "harness/terminal/table_run.h"
-#include "harness/terminal/table_unexpected.h"
-#include "harness/terminal/table_verdicts.h"
+#include "harness/terminal/terminal.h"
 
 typedef struct verify_request {
     chosen_formulations chosen;

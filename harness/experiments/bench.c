@@ -4,7 +4,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"
-#include "harness/terminal/table_timing.h"
+#include "harness/terminal/terminal.h"
 
 enum { MOST = 64 };                        /* formulations */
 static const double floor_seconds = 0.002; /* of each round for each cell */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 enum { NAME = 14, INDENT = 18, MEASURE = 36, COLUMN = 8 };
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/experiments/certificate.h"
-#include "harness/terminal/screen.h"
+#include "harness/terminal/terminal.h"
 
 /* verbose: every claim with its numbers; quiet: only what is broken. */
 void certificate_text(FILE *to, screen look, const certificate *all, int count, int verbose,

@@ -4,9 +4,7 @@
 
 #include "harness/records/records.h"
 #include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
-#include "harness/terminal/table_beside.h"
-#include "harness/terminal/table_convergence.h"
+#include "harness/terminal/terminal.h"
 
 static status plan(const void *asked, void *found, fault *f)
 {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 enum { NAME_WIDTH = 23, INDENT = 4, WIDEST_CELL = 10, CONDITION_WIDTH = 7 };
 

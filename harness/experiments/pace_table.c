@@ -6,8 +6,7 @@
 #include "harness/experiments/pace_order.h"
 #include "harness/experiments/pace_reach.h"
 #include "harness/records/records.h"
-#include "harness/terminal/paragraph.h"
-#include "harness/terminal/table.h"
+#include "harness/terminal/terminal.h"
 
 enum { NAME = 16, NUMBER = 9 };
 

@@ -8,7 +8,7 @@
 #include "harness/experiments/ranges_table_impl.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 enum { SHOWN_MESHES = 7 };
 

@@ -5,7 +5,7 @@
 #include "harness/experiments/ranges_table_impl.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 enum { LAST_KNOWN = 2 /* kind of reference */ };
 

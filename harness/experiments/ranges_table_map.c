@@ -1,6 +1,6 @@
 #include "harness/experiments/ranges_table_impl.h"
 #include "harness/formulations/formulations.h"
-#include "harness/terminal/paragraph.h"
+#include "harness/terminal/terminal.h"
 
 /* Errors against truths beside such against limits: only the first show what a theory leaves out.
  */

@@ -1,14 +1,17 @@
-#include "harness/terminal/table.h"
+#include "harness/terminal/terminal.h"
 
+#include <langinfo.h>
+#include <locale.h>
 #include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cases/scene/omission.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/records/records.h"
-#include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
 
 enum { INDENT = 2 };
 
@@ -116,4 +119,131 @@ void table_series(FILE *to, const sweep *s, int index)
     omission_words(&one->without, words);
     if (words[0] != '\0')
         paragraph_write(to, 0, 2, words);
+}
+
+/* Columns of so many bytes of UTF-8. */
+static int columns_of(const char *text, size_t bytes)
+{
+    int columns = 0;
+    for (size_t i = 0; i < bytes; i++)
+        columns += ((unsigned char)text[i] & 0xc0) != 0x80;
+    return columns;
+}
+
+int paragraph_columns(const char *text)
+{
+    return columns_of(text, strlen(text));
+}
+
+/* Bytes of the word that begins here; in commands blanks within quotes are of it. */
+static size_t word_at(const char *text, int command)
+{
+    size_t length = strcspn(text, " \n'");
+    if (!command)
+        return strcspn(text, " \n");
+    while (text[length] == '\'') {
+        const char *end = strchr(text + length + 1, '\'');
+        length = end != NULL ? (size_t)(end - text) + 1 : strlen(text);
+        length += strcspn(text + length, " \n'");
+    }
+    return length;
+}
+
+/* joint: what ends a line that is continued. */
+static void write_words(FILE *to, int at, int indent, const char *joint, const char *text)
+{
+    const int width = PARAGRAPH_WIDTH - columns_of(joint, strlen(joint));
+    int column = at, begun = 0; /* begun: a word stands on this line */
+    static const char blank[] = " \n";
+    for (text += strspn(text, blank); *text != '\0'; text += strspn(text, blank)) {
+        const size_t word = word_at(text, joint[0] != '\0');
+        const int wide = columns_of(text, word);
+        if (begun && column + 1 + wide > width) {
+            fprintf(to, "%s\n", joint);
+            column = begun = 0;
+        }
+        const int blanks = begun ? 1 : column < indent ? indent - column : 0;
+        fprintf(to, "%*s%.*s", blanks, "", (int)word, text);
+        column += blanks + wide;
+        begun = 1;
+        text += word;
+    }
+    fputc('\n', to);
+}
+
+void paragraph_write(FILE *to, int at, int indent, const char *text)
+{
+    write_words(to, at, indent, "", text);
+}
+
+FILE *paragraph_begin(paragraph *p, FILE *to)
+{
+    *p = (paragraph){.to = to};
+    p->words = open_memstream(&p->text, &p->size);
+    return p->words != NULL ? p->words : to;
+}
+
+static void end_with(paragraph *p, int at, int indent, const char *joint)
+{
+    if (p->words == NULL)
+        fputc('\n', p->to);
+    else if (fclose(p->words) == 0)
+        write_words(p->to, at, indent, joint, p->text);
+    free(p->text);
+}
+
+void paragraph_end(paragraph *p, int at, int indent)
+{
+    end_with(p, at, indent, "");
+}
+
+void paragraph_end_command(paragraph *p, int at, int indent)
+{
+    end_with(p, at, indent, " \\");
+}
+
+void paragraph_say(FILE *to, int at, int indent, const char *format, ...)
+{
+    char *text = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    if (vasprintf(&text, format, arguments) >= 0) {
+        paragraph_write(to, at, indent, text);
+        free(text);
+    }
+    va_end(arguments);
+}
+
+static const char *const inks[] = {[SCREEN_PLAIN] = "",
+                                   [SCREEN_GOOD] = "\033[32m",
+                                   [SCREEN_BAD] = "\033[1;31m",
+                                   [SCREEN_FAINT] = "\033[2m"};
+
+static int has_colour(FILE *to)
+{
+    const char *terminal = getenv("TERM"), *none = getenv("NO_COLOR");
+    return isatty(fileno(to)) && terminal != NULL && strcmp(terminal, "dumb") != 0 &&
+           (none == NULL || none[0] == '\0');
+}
+
+/* Of the environment, whatever locale the program itself keeps to. */
+static int has_utf8(void)
+{
+    const locale_t here = newlocale(LC_CTYPE_MASK, "", (locale_t)0);
+    if (here == (locale_t)0)
+        return 0;
+    const int utf8 = strcmp(nl_langinfo_l(CODESET, here), "UTF-8") == 0;
+    freelocale(here);
+    return utf8;
+}
+
+screen screen_of(FILE *to)
+{
+    return (screen){.colour = has_colour(to), .utf8 = has_utf8()};
+}
+
+void screen_put(FILE *to, screen look, screen_ink ink, const char *text)
+{
+    const int painted = look.colour && ink != SCREEN_PLAIN;
+    fprintf(to, "%s%s%s", painted ? inks[ink] : "", text, painted ? "\033[0m" : "");
 }

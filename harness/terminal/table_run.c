@@ -1,12 +1,7 @@
-#include "harness/terminal/table_run.h"
+#include "harness/terminal/terminal.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#include "harness/study/study.h"
-#include "harness/terminal/paragraph.h"
-#include "harness/terminal/screen.h"
-#include "harness/terminal/table.h"
 
 /* "case (parameters), formulation, n = 1, 2: WHY" of the meshes of a series without a solution; the
  * reason of the finest of them. */
@@ -189,4 +184,224 @@ void table_run_end(FILE *to, screen look, const char *sentence)
     snprintf(begin, sizeof begin, "%.*s", (int)word, sentence);
     screen_put(to, look, strcmp(begin, "PASS") == 0 ? SCREEN_GOOD : SCREEN_BAD, begin);
     paragraph_write(to, (int)word, 0, sentence + word);
+}
+
+enum { WIDEST_WORD = 24, NARROWEST_WORD = 5, HEAD_LINES = 12 };
+
+/* A name in the head, cut into lines. */
+typedef struct head {
+    int lines, width;
+    char line[HEAD_LINES][WIDEST_WORD + 1];
+} head;
+
+/* The columns from..to-1, side by side. */
+typedef struct overview_block {
+    int from, to;
+    int name;   /* width of the cases' names */
+    head *head; /* [columns] */
+} overview_block;
+
+/* Length of the first piece of a name: words as far as they fit into `limit`; a longer word is cut,
+ * to be joined by a hyphen. */
+static int piece_of(const char *name, int limit, int *cut)
+{
+    int fits = 0;
+    *cut = 0;
+    for (int word = 0; name[word] != '\0';) {
+        word += (int)strcspn(name + word, "_:=,- ");
+        word += name[word] != '\0';
+        if (word > limit)
+            break;
+        fits = word;
+    }
+    if (fits > 0)
+        return fits;
+    const int whole = (int)strcspn(name, "_:=,- "), most = (3 * whole + 4) / 5;
+    *cut = 1;
+    return most < limit - 1 ? most : limit - 1;
+}
+
+/* mark: a line above the name, or "". */
+static head head_of(const char *name, int limit, const char *mark)
+{
+    head out = {0};
+    if (mark[0] != '\0') {
+        out.width = snprintf(out.line[0], sizeof out.line[0], "%s", mark);
+        out.lines = 1;
+    }
+    while (*name != '\0' && out.lines < HEAD_LINES) {
+        int cut;
+        const int length = piece_of(name, limit, &cut);
+        snprintf(out.line[out.lines], sizeof out.line[0], "%.*s%s", length, name, cut ? "-" : "");
+        const int width = paragraph_columns(out.line[out.lines++]);
+        out.width = width > out.width ? width : out.width;
+        name += length;
+    }
+    return out;
+}
+
+/* Width of a block whose names have words of at most `limit`; its heads are filled. */
+static int width_with(const overview *o, screen look, overview_block *b, int limit)
+{
+    char text[OVERVIEW_TEXT];
+    int sum = b->name;
+    for (int c = b->from; c < b->to; c++) {
+        b->head[c] = head_of(o->column[c], limit, c >= o->accepted ? "(new)" : "");
+        for (int r = 0; r < o->rows; r++) {
+            overview_text(overview_at(o, r, c), look.utf8, text);
+            const int width = paragraph_columns(text);
+            b->head[c].width = width > b->head[c].width ? width : b->head[c].width;
+        }
+        sum += 1 + b->head[c].width;
+    }
+    return sum;
+}
+
+/* Names as whole as the screen allows; as many columns as fit, at least one. */
+static void lay_out(const overview *o, screen look, overview_block *b)
+{
+    for (b->to = o->columns; b->to > b->from + 1; b->to--)
+        for (int limit = WIDEST_WORD; limit >= NARROWEST_WORD; limit--)
+            if (width_with(o, look, b, limit) <= PARAGRAPH_WIDTH)
+                return;
+    width_with(o, look, b, NARROWEST_WORD);
+}
+
+static void print_head(FILE *to, const overview_block *b)
+{
+    int lines = 0;
+    for (int c = b->from; c < b->to; c++)
+        lines = b->head[c].lines > lines ? b->head[c].lines : lines;
+    for (int i = 0; i < lines; i++) {
+        int blanks = b->name;
+        for (int c = b->from; c < b->to; c++) {
+            const head *h = &b->head[c];
+            const int at = i - (lines - h->lines);
+            const char *text = at >= 0 ? h->line[at] : "";
+            if (text[0] != '\0')
+                fprintf(to, "%*s %s", blanks, "", text);
+            blanks = text[0] != '\0' ? h->width - paragraph_columns(text) : blanks + 1 + h->width;
+        }
+        fputc('\n', to);
+    }
+}
+
+static screen_ink ink_of(const overview_cell *c)
+{
+    if (c->unexpected)
+        return SCREEN_BAD;
+    if (c->mark == OVERVIEW_PASS)
+        return SCREEN_GOOD;
+    return c->mark == OVERVIEW_NOTHING ? SCREEN_FAINT : SCREEN_PLAIN;
+}
+
+static void print_row(FILE *to, screen look, const overview *o, const overview_block *b, int row)
+{
+    int blanks = b->name - paragraph_columns(o->row[row]->name);
+    fprintf(to, "%s", o->row[row]->name);
+    for (int c = b->from; c < b->to; c++) {
+        char text[OVERVIEW_TEXT];
+        overview_text(overview_at(o, row, c), look.utf8, text);
+        fprintf(to, "%*s ", blanks, "");
+        screen_put(to, look, ink_of(overview_at(o, row, c)), text);
+        blanks = b->head[c].width - paragraph_columns(text);
+    }
+    fputc('\n', to);
+}
+
+static void print_block(FILE *to, screen look, const overview *o, const overview_block *b)
+{
+    print_head(to, b);
+    for (int r = 0; r < o->rows; r++)
+        if (overview_shown(o, r))
+            print_row(to, look, o, b, r);
+}
+
+static int width_of_names(const overview *o)
+{
+    int width = 0;
+    for (int r = 0; r < o->rows; r++)
+        if (overview_shown(o, r)) {
+            const int here = paragraph_columns(o->row[r]->name);
+            width = here > width ? here : width;
+        }
+    return width;
+}
+
+/* Cases without a row, of which something is judged or nothing. */
+static void print_unshown(FILE *to, const overview *o, int judged, const char *what)
+{
+    paragraph words;
+    int all = 0, named = 0;
+    for (int r = 0; r < o->rows; r++)
+        all += !overview_shown(o, r) && overview_judged(o, r) == judged;
+    if (all == 0)
+        return;
+    FILE *list = paragraph_begin(&words, to);
+    fprintf(list, "%d %s: ", all, what);
+    for (int r = 0; r < o->rows; r++)
+        if (!overview_shown(o, r) && overview_judged(o, r) == judged)
+            fprintf(list, "%s%s", named++ > 0 ? ", " : "", o->row[r]->name);
+    paragraph_end(&words, 0, 0);
+}
+
+/* Cases that pass everywhere, where they have no rows. */
+static void print_passing(FILE *to, const overview *o)
+{
+    print_unshown(to, o, 1, "more pass in all that is judged");
+    print_unshown(to, o, 0, "more have nothing that is judged");
+}
+
+/* "text", behind what is in the line already or in a new one. */
+static void print_entry(FILE *to, int *column, const char *text)
+{
+    const int width = paragraph_columns(text);
+    if (*column > 0 && *column + 3 + width > PARAGRAPH_WIDTH) {
+        fputc('\n', to);
+        *column = 0;
+    }
+    fprintf(to, "%s%s", *column > 0 ? "   " : "", text);
+    *column += width + (*column > 0 ? 3 : 0);
+}
+
+/* The marks that were used, the worst first, with their words. */
+static void print_legend(FILE *to, screen look, const overview *o)
+{
+    int used[OVERVIEW_MARKS] = {0}, unexpected = 0, column = 0;
+    for (int i = 0; i < o->rows * o->columns; i++) {
+        used[o->cell[i].mark] = 1;
+        unexpected |= o->cell[i].unexpected;
+    }
+    if (unexpected)
+        print_entry(to, &column, "! not as expected, see below");
+    for (int m = OVERVIEW_MARKS - 1; m >= 0; m--) {
+        char text[OVERVIEW_TEXT], entry[120];
+        const overview_cell one = {.mark = (overview_mark)m};
+        overview_text(&one, look.utf8, text);
+        snprintf(entry, sizeof entry, "%.*s %s", (int)strcspn(text, "0"), text,
+                 overview_words((overview_mark)m));
+        if (used[m])
+            print_entry(to, &column, entry);
+    }
+    fprintf(to, "\nA mark is the worst verdict%s; its number: quantities that have it.\n",
+            o->joined ? " over all parameters and options" : " over all parameters");
+    if (o->accepted < o->columns)
+        fprintf(to, "(new): not accepted yet; its verdicts do not affect the exit status.\n");
+}
+
+void table_overview(FILE *to, screen look, const overview *o)
+{
+    overview_block b = {.name = width_of_names(o),
+                        .head = calloc((size_t)o->columns + 1, sizeof(head))};
+    if (b.head == NULL || o->rows == 0) {
+        free(b.head);
+        return;
+    }
+    for (; b.from < o->columns && b.name > 0; b.from = b.to) {
+        lay_out(o, look, &b);
+        print_block(to, look, o, &b);
+    }
+    print_passing(to, o);
+    print_legend(to, look, o);
+    free(b.head);
 }

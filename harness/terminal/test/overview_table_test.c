@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/terminal/paragraph.h"
-#include "harness/terminal/table_overview.h"
+#include "harness/terminal/terminal.h"
 
 enum { MOST = 64, NAME = 40 };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/terminal/table_stability.h"
+#include "harness/terminal/terminal_impl.h"
 
 enum { STABILITY_MOST = 16 };
 

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/terminal/paragraph.h"
-#include "harness/terminal/table_unexpected.h"
+#include "harness/terminal/terminal.h"
 
 static const case_type made_up = {.name = "made_up"};
 static char words[][300] = {"load",       "N",       "exact", "book, page 3",

@@ -1,0 +1,49 @@
+/* The inside of terminal/. */
+#ifndef BEAMWORK_TERMINAL_IMPL_H
+#define BEAMWORK_TERMINAL_IMPL_H
+
+#include <stdio.h>
+
+#include "harness/analysis/analysis.h"
+#include "harness/newton/newton.h"
+#include "harness/study/study.h"
+#include "harness/terminal/terminal.h"
+
+/* The cheapest way to an error, by counted work, with the times of a benchmark. */
+
+/* What is cheapest for the quantities of a point (`every`), or for the first with a truth; 0: none
+ * has. list[series]: room. */
+int table_cheapest(FILE *to, const sweep *, const judgement *, int point, int every,
+                   reached list[]);
+
+/* Curves as text: their values, and how far meshes and formulations are apart. */
+
+/* Those over one abscissa beside each other; of many points some. */
+void table_curves_values(FILE *to, const scene *s, const solve_result *r);
+/* Of one point: for each curve the largest error of each mesh, then the values of the formulation
+ * that the others are compared with. */
+void table_curves_errors(FILE *to, const sweep *s);
+
+/* A motion in time in short: its steps, energies and momenta. */
+
+/* Nothing where nothing moves. Of loads it tells those that jump where the motion begins. */
+void table_motion(FILE *to, const scene *, const solve_result *);
+
+/* Load steps with their iterations, and matrices of nodes, as text. */
+
+void table_path_steps(FILE *to, const solve_result *r);
+/* Critical points and branch jumps of continued paths. */
+void table_path_events(FILE *to, const solve_result *r);
+/* At the last station that was reached. */
+void table_path_matrices(FILE *to, const scene *s, const solve_result *r);
+
+/* Where paths are stable, as far as the tangents along them tell. */
+
+/* "yes", "no", "held" (by gyroscopic forces), "?" of a step. */
+const char *table_stability_word(step_stability);
+/* A line for each path that is not stable all along; its number of lines. */
+int table_stability_paths(FILE *to, const scene *s, const solve_result *r);
+/* A paragraph for each formulation that met unstable states: on which meshes, which failed. */
+void table_stability_meshes(FILE *to, const sweep *s);
+
+#endif
