@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/exchange/deck.h"
+#include "harness/exchange/exchange.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"

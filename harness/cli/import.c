@@ -2,8 +2,7 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/exchange/import_file.h"
-#include "harness/exchange/import_map.h"
+#include "harness/exchange/exchange.h"
 #include "harness/records/records.h"
 
 typedef struct import_request {

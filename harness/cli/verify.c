@@ -6,7 +6,7 @@
 #include "harness/cli/cli.h"
 #include "harness/cli/named.h"
 #include "harness/cli/verification_work.h"
-#include "harness/exchange/import_store.h"
+#include "harness/exchange/exchange.h"
 #include "harness/experiments/regressions.h"
 #include "harness/experiments/verification.h"
 #include "harness/experiments/verification_files.h"

@@ -1,8 +1,7 @@
-#include "harness/exchange/import_file.h"
+#include "harness/exchange/exchange.h"
 
 #include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

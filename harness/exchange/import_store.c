@@ -1,13 +1,10 @@
-#include "harness/exchange/import_store.h"
+#include "harness/exchange/exchange_impl.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/exchange/import_cells.h"
 #include "harness/records/records.h"
-#include "harness/study/study.h"
 
 typedef struct point_row {
     char point[16], parameters[PARAMETERS_TEXT];

@@ -3,8 +3,7 @@
  * ascend; what is refused has a mistake with a place. */
 #include <math.h>
 
-#include "harness/exchange/import_file.h"
-#include "harness/exchange/import_map.h"
+#include "harness/exchange/exchange.h"
 #include "harness/tools/fuzz/fuzz_file.h"
 
 enum { FORMS = 3 };
