@@ -4,8 +4,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/contest.h"
-#include "harness/experiments/bench.h"
-#include "harness/experiments/timing.h"
+#include "harness/experiments/experiments.h"
 
 static int is_named(const bench_options *r)
 {

@@ -7,7 +7,7 @@
 
 #include "harness/cli/case_input.h"
 #include "harness/cli/named.h"
-#include "harness/experiments/against.h"
+#include "harness/experiments/experiments.h"
 #include "harness/records/records.h"
 
 typedef struct bench_options {

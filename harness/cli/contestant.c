@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "harness/cli/command.h"
-#include "harness/experiments/timing.h"
+#include "harness/experiments/experiments.h"
 #include "harness/model/model.h"
 #include "harness/numerics/numerics.h"
 #include "harness/study/study.h"

@@ -4,7 +4,7 @@
 #include "harness/cli/case_input.h"
 #include "harness/cli/cli.h"
 #include "harness/cli/named.h"
-#include "harness/experiments/convergence.h"
+#include "harness/experiments/experiments.h"
 #include "harness/records/records.h"
 
 typedef struct converge_request {

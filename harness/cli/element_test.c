@@ -3,7 +3,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/named.h"
-#include "harness/experiments/certificate_record.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 
 typedef struct element_test_request {

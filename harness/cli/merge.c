@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/experiments/stock.h"
+#include "harness/experiments/experiments.h"
 
 enum { MOST = 1024 }; /* arguments */
 

@@ -3,7 +3,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/named.h"
-#include "harness/experiments/integrators.h"
+#include "harness/experiments/experiments.h"
 
 typedef struct motion_options {
     case_options of;

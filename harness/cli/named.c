@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "harness/cli/message.h"
-#include "harness/experiments/solution.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 

@@ -4,7 +4,7 @@
 #define BEAMWORK_NAMED_H
 
 #include "harness/cli/case_input.h"
-#include "harness/experiments/solution.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 
 enum { COMMAND_MAX_FORMULATIONS = 64 };

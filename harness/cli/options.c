@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/experiments/meshes.h"
+#include "harness/experiments/experiments.h"
 #include "harness/numerics/numerics.h"
 
 /* Letters of version 0.1, which are read until the next one and told with their names. */

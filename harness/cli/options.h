@@ -37,7 +37,7 @@ struct verb_option {
 };
 
 typedef struct verb verb;
-typedef struct experiment_type experiment_type; /* harness/experiments/experiment.h */
+typedef struct experiment_type experiment_type; /* harness/experiments/experiments.h */
 
 typedef struct given_option {
     const verb_option *option;

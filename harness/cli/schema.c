@@ -4,7 +4,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/manual.h"
-#include "harness/experiments/experiment.h"
+#include "harness/experiments/experiments.h"
 #include "harness/records/records.h"
 #include "harness/terminal/terminal.h"
 

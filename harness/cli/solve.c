@@ -7,7 +7,7 @@
 #include "harness/cli/cli.h"
 #include "harness/cli/message.h"
 #include "harness/cli/named.h"
-#include "harness/experiments/restart.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"
 #include "harness/terminal/terminal.h"

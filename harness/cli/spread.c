@@ -5,8 +5,7 @@
 #include <unistd.h>
 
 #include "harness/cli/command.h"
-#include "harness/experiments/merge.h"
-#include "harness/experiments/shard.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"
 

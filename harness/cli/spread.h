@@ -3,7 +3,7 @@
 #define BEAMWORK_SPREAD_H
 
 #include "harness/cli/options.h"
-#include "harness/experiments/work.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 

@@ -3,8 +3,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/named.h"
-#include "harness/experiments/extreme_run.h"
-#include "harness/experiments/extreme_table.h"
+#include "harness/experiments/experiments.h"
 
 typedef struct stress_request {
     chosen_formulations chosen;

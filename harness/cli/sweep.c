@@ -12,11 +12,7 @@
 #include "harness/cli/cli.h"
 #include "harness/cli/named.h"
 #include "harness/cli/spread.h"
-#include "harness/experiments/merge.h"
-#include "harness/experiments/ranges_collect.h"
-#include "harness/experiments/ranges_identity.h"
-#include "harness/experiments/ranges_table.h"
-#include "harness/experiments/shard.h"
+#include "harness/experiments/experiments.h"
 #include "harness/study/study.h"
 
 /* What the command line asks for. */

@@ -6,8 +6,7 @@
 
 #include "harness/cli/cells.h"
 #include "harness/cli/spread.h"
-#include "harness/experiments/deal.h"
-#include "harness/experiments/verification.h"
+#include "harness/experiments/experiments.h"
 
 /* About, on the reference machine; little work is cut finer, so that there is some for everybody.
  */

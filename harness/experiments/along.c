@@ -1,16 +1,14 @@
 /* Loads along one element in linear theory: as exact as forces and moments at its ends are, with
  * the stiffness that it has under these (Przemieniecki, Theory of Matrix Structural Analysis, 1968,
  * sec. 5 and 10: Timoshenko's beam). */
+#include "harness/experiments/experiments_impl.h"
+
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
 #include "harness/analysis/analysis.h"
-#include "harness/experiments/checks.h"
-#include "harness/experiments/specimens.h"
-#include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 
 enum { SIX = 6, END = 1 };

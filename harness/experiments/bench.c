@@ -1,9 +1,13 @@
-#include "harness/experiments/bench.h"
+#include "harness/experiments/experiments.h"
 
-#include "harness/experiments/timing.h"
-#include "harness/formulations/formulations.h"
-#include "harness/records/records.h"
-#include "harness/study/study.h"
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <sched.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
 
 enum { MOST = 64 };                        /* formulations */
@@ -102,3 +106,344 @@ void bench_free(bench *b)
 
 const experiment_type experiment_bench = {
     .name = "bench", .plan = plan, .run = run, .judge = judge, .cells = cells, .write = write_form};
+
+void rounds_run(const cell_request *request, double floor, rounds_reading *out)
+{
+    double least = INFINITY, spent = 0;
+    for (int i = 0; out->rounds < ROUNDS_COUNT && (i == 0 || spent < floor); i++) {
+        cell_result cell;
+        fault f = {""};
+        cell_run(request, &cell, &f);
+        const double total = cell.solve.seconds_setup + cell.solve.seconds_solve;
+        if (total < fmin(least, rounds_least(out))) {
+            out->setup = cell.solve.seconds_setup;
+            out->solve = cell.solve.seconds_solve;
+        }
+        least = fmin(least, total);
+        spent += fmax(total, 1e-6);
+        out->repeats++;
+        cell_result_free(&cell);
+    }
+    if (out->rounds < ROUNDS_COUNT)
+        out->round[out->rounds++] = least;
+}
+
+/* [s] of a whole run; longer ones are counted from one iteration */
+static const double longest_dense = 1;
+enum { MOST_UNKNOWNS = 3000 }; /* 72 MB; a few seconds per iteration */
+
+/* Coordinates, strains and stresses. */
+static int unknowns_of(const cell_result *cell)
+{
+    return cell->size.free + 2 * cell->size.strains * cell->size.elements;
+}
+
+static void sample(const cell_request *dense, dense_reference *out)
+{
+    cell_request one = *dense;
+    cell_result cell;
+    fault f = {""};
+    double seconds = 0;
+    one.solve.sample = one.solve.phases = 1;
+    if (cell_run(&one, &cell, &f) == STATUS_OK)
+        for (int k = 0; k < PHASE_REST; k++)
+            seconds += cell.solve.phase[k];
+    if (seconds > 0) { /* a path that is continued has no dense form: nothing was sampled */
+        out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
+        out->unknowns = unknowns_of(&cell);
+    }
+    cell_result_free(&cell);
+}
+
+void dense_reference_round(const cell_request *own, const cell_result *cell, double floor,
+                           dense_reference *out)
+{
+    const long iterations = cell->counters.iterations;
+    cell_request dense = *own;
+    dense.solve.newton = NEWTON_DENSE;
+    if (iterations == 0 || unknowns_of(cell) > MOST_UNKNOWNS)
+        return; /* a linear problem, or one too large */
+    if (out->unknowns == 0 || out->iteration < longest_dense)
+        sample(&dense, out);
+    if (out->unknowns > 0 && out->iteration * (double)iterations <= longest_dense)
+        rounds_run(&dense, floor, &out->whole);
+}
+
+static const double longest_elsewhere = 0.05; /* [s] of one run */
+
+static int at_defaults(const sweep *s, const series *one)
+{
+    return strcmp(s->point[one->point].name, "default") == 0;
+}
+
+/* Beside the defaults a long cell keeps the time of its one run, and rounds are short. */
+static int can_run(const sweep *s, const series *one, int mesh)
+{
+    const solve_result *r = &one->cell[mesh].solve;
+    return one->missing[0] == '\0' && s->point[one->point].status == STATUS_OK &&
+           r->status != STATUS_FAULT &&
+           (s->points == 1 || at_defaults(s, one) ||
+            r->seconds_setup + r->seconds_solve < longest_elsewhere);
+}
+
+/* The middle mesh that has a solution, or -1. */
+static int mesh_kept_whole(const sweep *s, const series *one)
+{
+    if (!at_defaults(s, one))
+        return -1;
+    int mesh = one->meshes / 2;
+    while (mesh > 0 && one->cell[mesh].solve.status != STATUS_OK)
+        mesh--;
+    return one->meshes > 0 && one->cell[mesh].solve.status == STATUS_OK ? mesh : -1;
+}
+
+/* Both in turn: the difference of their times is what leaving out saves. */
+static void round_kept_whole(const cell_request *as_is, double floor, cell_timing *out)
+{
+    cell_request whole = *as_is;
+    whole.keep_all = 1;
+    if (out->free_keep_all == 0) {
+        cell_result cell;
+        fault f = {""};
+        const status outcome = cell_run(&whole, &cell, &f);
+        out->free_keep_all = outcome == STATUS_OK ? cell.size.free : -1;
+        cell_result_free(&cell);
+    }
+    if (out->free_keep_all > 0)
+        rounds_run(&whole, floor, &out->keep_all);
+}
+
+static double sum_of(const double part[PHASES])
+{
+    double sum = 0;
+    for (int k = 0; k < PHASES; k++)
+        sum += part[k];
+    return sum;
+}
+
+/* One run with readings between the parts of the iterations; the fastest of all rounds stays. Long
+ * cells have one in the last round. */
+static void read_phases(const cell_request *as_is, cell_timing *out)
+{
+    const double longest = 0.3; /* [s] */
+    cell_request request = *as_is;
+    cell_result cell;
+    fault f = {""};
+    if (out->as_is.rounds < ROUNDS_COUNT && rounds_least(&out->as_is) > longest)
+        return;
+    request.solve.phases = 1;
+    cell_run(&request, &cell, &f);
+    if (sum_of(out->phase) == 0 || sum_of(cell.solve.phase) < sum_of(out->phase))
+        memcpy(out->phase, cell.solve.phase, sizeof out->phase);
+    cell_result_free(&cell);
+}
+
+static void round_of_series(sweep *s, int index, double floor, int dense)
+{
+    series *one = &s->series[index];
+    const int whole = mesh_kept_whole(s, one);
+    const double here = s->points == 1 || at_defaults(s, one) ? floor : 0;
+    for (int i = 0; i < one->meshes; i++) {
+        if (!can_run(s, one, i))
+            continue;
+        const cell_request request = sweep_cell(s, index, i);
+        rounds_run(&request, here, &one->timing[i].as_is);
+        if (i == whole)
+            round_kept_whole(&request, floor, &one->timing[i]);
+        if (one->cell[i].counters.iterations > 0 && here > 0)
+            read_phases(&request, &one->timing[i]);
+        if (dense)
+            dense_reference_round(&request, &one->cell[i], floor, &one->timing[i].dense);
+    }
+}
+
+status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f)
+{
+    progress line = progress_begin(to, "times of points", s->points, clock_wall_seconds());
+    char what[PARAMETERS_TEXT + SCENE_NAME];
+    for (int i = 0; i < s->seriess; i++) {
+        s->series[i].timing = calloc((size_t)s->series[i].meshes + 1, sizeof *s->series[i].timing);
+        if (s->series[i].timing == NULL)
+            return fault_set(f, STATUS_FAULT, "out of memory for times");
+    }
+    for (int p = 0; p < s->points; p++) {
+        snprintf(what, sizeof what, "%s %s", s->point[p].type->name, s->point[p].text);
+        progress_show(&line, clock_wall_seconds(), p, (double)p / s->points, what);
+        for (int round = 0; round < ROUNDS_COUNT; round++)
+            for (int i = 0; i < s->seriess; i++)
+                if (s->series[i].point == p)
+                    round_of_series(s, i, floor, dense);
+    }
+    progress_end(&line);
+    return STATUS_OK;
+}
+
+void rounds_pin(void)
+{
+    const int here = sched_getcpu();
+    cpu_set_t only;
+    CPU_ZERO(&only);
+    CPU_SET(here >= 0 ? here : 0, &only);
+    sched_setaffinity(0, sizeof only, &only); /* without it the readings are only noisier */
+}
+
+void rounds_single_thread(char **arguments)
+{
+    static const char *const threads[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
+                                          "MKL_NUM_THREADS", "BLIS_NUM_THREADS"};
+    enum { LIBRARIES = sizeof threads / sizeof threads[0] };
+    int single = 1;
+    for (int i = 0; i < LIBRARIES; i++) {
+        single &= getenv(threads[i]) != NULL && strcmp(getenv(threads[i]), "1") == 0;
+        setenv(threads[i], "1", 1);
+    }
+    if (!single)
+        /* returns only where there is no /proc: then libraries decide */
+        execv("/proc/self/exe", arguments);
+}
+
+enum { LEAST_PAIRS = 51, MOST_PAIRS = 1001, WARM_UP = 3 };
+static const double tail = 0.0005, least_difference = 0.02;
+
+const char *against_name(against_outcome o)
+{
+    switch (o) {
+    case AGAINST_FASTER:
+        return "faster";
+    case AGAINST_SLOWER:
+        return "slower";
+    case AGAINST_UNDECIDED:
+        break;
+    }
+    return "undecided";
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The median of n draws lies between the k-th smallest and the k-th largest but with probability 2
+ * P(Binomial(n, 1/2) < k). */
+static int rank_of_interval(int pairs)
+{
+    int k = 0;
+    while (k < pairs / 2 && gsl_cdf_binomial_P((unsigned)k, 0.5, (unsigned)pairs) <= tail)
+        k++;
+    return k;
+}
+
+contest_clock against_judge(int pairs, const double a[], const double b[])
+{
+    contest_clock out = {
+        .pairs = pairs, .a = INFINITY, .b = INFINITY, .ratio = NAN, .low = 0, .high = INFINITY};
+    double *ratio = malloc(((size_t)pairs + 1) * sizeof *ratio);
+    for (int i = 0; i < pairs; i++) {
+        out.a = fmin(out.a, a[i]);
+        out.b = fmin(out.b, b[i]);
+        if (ratio != NULL)
+            ratio[i] = b[i] / a[i];
+    }
+    if (ratio == NULL || pairs < 1) {
+        free(ratio);
+        return out; /* undecided */
+    }
+    qsort(ratio, (size_t)pairs, sizeof *ratio, ascending);
+    const int k = rank_of_interval(pairs);
+    out.ratio = (ratio[(pairs - 1) / 2] + ratio[pairs / 2]) / 2;
+    if (k > 0) {
+        out.low = ratio[k - 1];
+        out.high = ratio[pairs - k];
+    }
+    if (out.low > 1 + least_difference)
+        out.outcome = AGAINST_SLOWER;
+    else if (out.high < 1 / (1 + least_difference))
+        out.outcome = AGAINST_FASTER;
+    free(ratio);
+    return out;
+}
+
+static status lap_pair(against_lap *lap, void *a, void *b, int b_first, double *seconds_a,
+                       double *seconds_b, fault *f)
+{
+    TRY(b_first ? lap(b, seconds_b, f) : lap(a, seconds_a, f));
+    return b_first ? lap(a, seconds_a, f) : lap(b, seconds_b, f);
+}
+
+status against_run(against_lap *lap, void *a, void *b, double budget, contest_clock *out, fault *f)
+{
+    double seconds_a[MOST_PAIRS], seconds_b[MOST_PAIRS], least = INFINITY;
+    for (int i = 0; i < WARM_UP; i++) {
+        const double start = clock_wall_seconds();
+        TRY(lap_pair(lap, a, b, i % 2, &seconds_a[0], &seconds_b[0], f));
+        least = fmin(least, clock_wall_seconds() - start);
+    }
+    const int pairs = (int)fmax(LEAST_PAIRS, fmin(MOST_PAIRS, budget / least));
+    for (int i = 0; i < pairs; i++)
+        TRY(lap_pair(lap, a, b, i % 2, &seconds_a[i], &seconds_b[i], f));
+    *out = against_judge(pairs, seconds_a, seconds_b);
+    return STATUS_OK;
+}
+
+section_spec profiles_matrices(double unit)
+{
+    static const double stiff[6] = {5e6, 2e6, 1.7e6, 90, 130, 480},
+                        part[15] = {0.2,  -0.1, 0.3, 0.15, -0.2, 0.1,  -0.15, 0.2,
+                                    -0.3, 0.25, 0.1, -0.1, 0.4,  -0.2, 0.1};
+    const double m = 0.7 * unit, y = 0.011 / unit, z = -0.007 / unit, r = 1e-4 / (unit * unit);
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_MATRICES;
+    double *C = spec.constants.stiffness, *M = spec.constants.mass;
+    for (int i = 0, k = 0; i < 6; i++) {
+        C[7 * i] = stiff[i] / (i < 3 ? 1 : unit * unit);
+        for (int j = 0; j < i; j++, k++)
+            C[6 * i + j] = C[6 * j + i] = part[k] * sqrt(C[7 * i] * C[7 * j]);
+    }
+    M[0] = M[7] = M[14] = m;
+    M[4] = M[24] = m * z;
+    M[9] = M[19] = -M[4];
+    M[15] = M[20] = m * y;
+    M[5] = M[30] = -M[15];
+    M[21] = m * (y * y + z * z) + 3 * m * r;
+    M[28] = m * z * z + 2 * m * r;
+    M[35] = m * y * y + m * r;
+    M[29] = M[34] = -m * y * z + 0.3 * m * r;
+    return spec;
+}
+
+static section_spec rectangle(double unit)
+{
+    section_spec spec = section_spec_rectangle(210e9 * unit * unit, 80.7e9 * unit * unit,
+                                               0.0371 / unit, 0.0123 / unit);
+    spec.shear_factor[0] = spec.shear_factor[1] = 0.847;
+    return spec;
+}
+
+static section_spec open_walls(double unit)
+{
+    static const double at[4][2] = {{0, 0}, {0.031, 0}, {0.031, 0.057}, {0.012, 0.057}},
+                        thick[3] = {0.0013, 0.002, 0.0027};
+    double point[4][2], thickness[3];
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 2; k++)
+            point[i][k] = at[i][k] / unit;
+    for (int i = 0; i < 3; i++)
+        thickness[i] = thick[i] / unit;
+    return section_spec_walls(210e9 * unit * unit, 80.7e9 * unit * unit, 3,
+                              (const double(*)[2])point, NULL, thickness);
+}
+
+status profiles_section(profiles_form form, double unit, section *out, fault *f)
+{
+    section_spec spec = form == PROFILES_MATRICES      ? profiles_matrices(unit)
+                        : form == PROFILES_UNSYMMETRIC ? open_walls(unit)
+                                                       : rectangle(unit);
+    if (form != PROFILES_MATRICES)
+        spec.density = 7850 * unit * unit * unit;
+    TRY(section_compute(&spec, out, f));
+    if (form == PROFILES_UNSYMMETRIC)
+        out->Iw = out->A * pow(0.2 / unit, 4); /* as large as what it is compared with */
+    return STATUS_OK;
+}

@@ -1,4 +1,9 @@
-#include "harness/experiments/checks.h"
+#include "harness/experiments/experiments_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
 
 const checks_family checks_families[CHECKS_FAMILIES] = {
     {"declared", "its declarations are consistent", checks_declared},
@@ -18,3 +23,239 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
      checks_rotating},
     {"in_time", "forces of inertia in time derive from the kinetic energy", checks_in_time},
 };
+
+/* What changes nothing: rigid motion, the order of the nodes, the unit of length. */
+
+enum { M = SPECIMEN_STRAINS };
+
+static void rigid(const specimen *s, double size, const double turn[3], claim *one)
+{
+    double e[M], carried_e[M];
+    node_state x[ELEMENT_MAX_NODES], carried[ELEMENT_MAX_NODES];
+    specimen_state(s, size, 5, x);
+    specimen_carry(s, turn, x, carried);
+    s->type.strain(s->data, x, &(strain_output){.e = e});
+    s->type.strain(s->data, carried, &(strain_output){.e = carried_e});
+    for (int i = 0; i < s->strains; i++)
+        claims_departs(one, fabs(carried_e[i] - e[i]) / s->request.length,
+                       "strain: turned by (%g, %g, %g) rad and shifted as a whole, strain %d goes "
+                       "from %.6g to %.6g m; measure it in axes that turn with the element%s",
+                       turn[0], turn[1], turn[2], i + 1, e[i], carried_e[i], s->words);
+}
+
+static void rest(const specimen *s, claim *one)
+{
+    double e[M];
+    node_state x[ELEMENT_MAX_NODES];
+    specimen_state(s, 0, 5, x);
+    s->type.strain(s->data, x, &(strain_output){.e = e});
+    for (int i = 0; i < s->strains; i++)
+        claims_departs(one, fabs(e[i]) / s->request.length,
+                       "strain: strain %d of the undeformed element is %.6g m, not zero%s", i + 1,
+                       e[i], s->words);
+}
+
+static status energy_of(const specimen *s, const node_state x[], double *energy)
+{
+    double e[M], inner[SPECIMEN_INNER];
+    s->type.strain(s->data, x, &(strain_output){.e = e});
+    specimen_rest(s, inner);
+    *energy = NAN;
+    return specimen_settled(s, e, inner, &(stress_output){.energy = energy});
+}
+
+/* The reversed element: turned by pi about y, its warping amplitude unchanged. A curved one would
+ * be another. */
+static void node_order(const specimen *s, double size, claim *one)
+{
+    static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
+    double there, back;
+    node_state x[ELEMENT_MAX_NODES], reversed[ELEMENT_MAX_NODES];
+    specimen_state(s, size, 3, x);
+    for (int k = 0; k < s->nodes; k++) {
+        reversed[k] = x[s->nodes - 1 - k];
+        mat3_mul(x[s->nodes - 1 - k].R, half_turn, reversed[k].R);
+    }
+    energy_of(s, x, &there);
+    energy_of(s, reversed, &back);
+    claims_departs(one, claims_share(fabs(back - there), fabs(there)),
+                   "strain, stress: with its nodes exchanged the element has an energy of %.9g J "
+                   "instead of %.9g J; correct it, or declare LIMIT_ORDER_DEPENDENT%s",
+                   back, there, s->words);
+}
+
+static void has_energy(const specimen *s, claim *one)
+{
+    double energy;
+    node_state x[ELEMENT_MAX_NODES];
+    specimen_state(s, 0.05, 3, x);
+    energy_of(s, x, &energy);
+    claims_asks(
+        one, energy != 0,
+        "strain, stress: the deformed element has no energy: its strains or its stresses are "
+        "all zero%s",
+        s->words);
+}
+
+/* The same element in m, mm and um: its energy in joules. */
+static void units(const specimen *s, claim *one)
+{
+    static const double unit[] = {1, 1e-3, 1e-6};
+    double energy[3];
+    for (int k = 0; k < 3; k++) {
+        specimen_request what = s->made;
+        specimen other;
+        node_state x[ELEMENT_MAX_NODES];
+        fault f = {""};
+        what.unit = unit[k];
+        for (int i = 0; i < 3; i++)
+            what.curvature[i] *= unit[k];
+        energy[k] = NAN;
+        if (specimen_make(&what, &other, &f) == STATUS_OK) {
+            specimen_state(&other, 0.01, 23, x);
+            energy_of(&other, x, &energy[k]);
+            energy[k] *= unit[k];
+        }
+        specimen_free(&other);
+    }
+    for (int k = 1; k < 3; k++)
+        claims_departs(one, claims_share(fabs(energy[k] - energy[0]), fabs(energy[0])),
+                       "prepare, stress: the same element in units of %g m has an energy of %.9g J "
+                       "instead of %.9g J; is a bare number compared with a length?%s",
+                       unit[k], energy[k], energy[0], s->words);
+}
+
+static void check(const specimen *s, claims *c)
+{
+    static const double turn[][3] = {{0.71, -1.93, 1.37}, {0, 0, 2.2}, {3.1, 0, 0}, {0, -1.6, 0}};
+    claims_doing(c, "strain of an element that is turned%s", s->words);
+    for (size_t k = 0; k < sizeof turn / sizeof turn[0]; k++) {
+        rigid(s, 0, turn[k], claims_open(c, "rigid motion makes no strain", 1e-14));
+        rigid(s, 0.2, turn[k], claims_open(c, "rigid motion changes no strain", 2e-14));
+    }
+    rest(s, claims_open(c, "the undeformed element has no strain", 1e-14));
+    claims_doing(c, "strain and stress of an element whose nodes are exchanged%s", s->words);
+    if (!(s->type.limits & LIMIT_ORDER_DEPENDENT) && s->made.curvature[0] == 0 &&
+        s->made.form == PROFILES_RECTANGLE) {
+        if (s->type.offers & FEATURE_LARGE)
+            node_order(s, 0.05, claims_open(c, "exchanging the nodes leaves the energy", 1e-9));
+        else /* terms of higher order, which it need not have, are of the size of the strains */
+            node_order(s, 1e-5, claims_open(c, "exchanging the nodes leaves the energy", 5e-5));
+    }
+    claims_doing(c, "strain and stress of a deformed element%s", s->words);
+    has_energy(s, claims_open(c, "a deformed element has energy", 0));
+    claims_doing(c, "prepare, strain and stress in units of mm and um%s", s->words);
+    units(s, claims_open(c, "the unit of length leaves the energy", 1e-10));
+}
+
+void checks_motion(const formulation *chosen, claims *out)
+{
+    specimens_each(chosen, out, check);
+    if (chosen->type->limits & LIMIT_ORDER_DEPENDENT)
+        claims_not_made(out, "exchanging the nodes leaves the energy",
+                        "declares LIMIT_ORDER_DEPENDENT");
+}
+
+/* States that are no numbers, as an iteration that diverges has them: they are told by a status or
+ * by values that are no numbers, and never swallowed. */
+
+enum { UNSOUND_M = SPECIMEN_STRAINS };
+
+static int all_finite(int n, const double a[])
+{
+    for (int i = 0; i < n; i++)
+        if (!isfinite(a[i]))
+            return 0;
+    return 1;
+}
+
+/* 1: nothing says that the state is none. */
+static int swallowed(const specimen *s, const node_state x[])
+{
+    double e[UNSOUND_M], sigma[UNSOUND_M], inner[SPECIMEN_INNER], energy = 0;
+    s->type.strain(s->data, x, &(strain_output){.e = e});
+    if (!all_finite(s->strains, e))
+        return 0;
+    specimen_rest(s, inner);
+    const status outcome =
+        s->type.stress(s->data, e, inner, &(stress_output){.energy = &energy, .sigma = sigma});
+    return outcome == STATUS_OK && isfinite(energy) && all_finite(s->strains, sigma);
+}
+
+static void spoil(const specimen *s, double by, claim *one)
+{
+    static const char *const what[] = {"position", "rotation"};
+    for (int k = 0; k < s->nodes; k++)
+        for (int i = 0; i < 4; i++) {
+            node_state x[ELEMENT_MAX_NODES];
+            specimen_state(s, 0.02, 59, x);
+            if (i < 3)
+                x[k].r[i] = x[k].u[i] = by;
+            for (int j = 0; j < 9 && i == 3; j++)
+                x[k].R[j] = by;
+            claims_asks(
+                one, !swallowed(s, x),
+                "strain, stress: a %s of node %d that is %g gives strains and stresses that look "
+                "sound; let it through, or return a status%s",
+                what[i == 3], k + 1, by, s->words);
+        }
+}
+
+/* Strains that are no numbers have no stress, where there is a stiffness against them. */
+static void spoil_strains(const specimen *s, double by, claim *one)
+{
+    const double none[UNSOUND_M] = {0};
+    double C[UNSOUND_M * UNSOUND_M], inner[SPECIMEN_INNER];
+    specimen_rest(s, inner);
+    if (s->type.stress(s->data, none, inner, &(stress_output){.C = C}) != STATUS_OK)
+        return;
+    for (int i = 0; i < s->strains; i++) {
+        double e[UNSOUND_M] = {0}, sigma[UNSOUND_M], energy = 0;
+        if (C[i * s->strains + i] == 0)
+            continue;
+        e[i] = by;
+        specimen_rest(s, inner);
+        const status outcome =
+            s->type.stress(s->data, e, inner, &(stress_output){.energy = &energy, .sigma = sigma});
+        claims_asks(one,
+                    outcome != STATUS_OK || !isfinite(energy) || !all_finite(s->strains, sigma),
+                    "stress: strain %d that is %g has an energy and stresses that look sound; let "
+                    "it through, or return a status%s",
+                    i + 1, by, s->words);
+    }
+}
+
+/* All calls come back, whatever the state: far beyond what can be evaluated too. */
+static void far_away(const specimen *s, double size, claim *one)
+{
+    double e[UNSOUND_M], J[UNSOUND_M * SPECIMEN_COORDINATES], sigma[UNSOUND_M],
+        C[UNSOUND_M * UNSOUND_M], inner[SPECIMEN_INNER];
+    node_state x[ELEMENT_MAX_NODES];
+    specimen_state(s, size, 61, x);
+    s->type.strain(s->data, x, &(strain_output){.e = e, .J = J});
+    specimen_rest(s, inner);
+    s->type.stress(s->data, e, inner, &(stress_output){.sigma = sigma, .C = C});
+    claims_asks(one, 1, "%s", "");
+}
+
+static void unsound_check(const specimen *s, claims *c)
+{
+    static const double none[] = {NAN, INFINITY, -INFINITY};
+    for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) {
+        claims_doing(c, "strain and stress of a state that is %g%s", none[k], s->words);
+        spoil(s, none[k], claims_open(c, "states that are NaN or Inf are reported", 0));
+        spoil_strains(s, none[k], claims_open(c, "strains that are NaN or Inf are reported", 0));
+    }
+    static const double far[] = {1, 1e3, 1e10, 1e30, 1e100, 1e200, 1e300};
+    for (size_t k = 0; k < sizeof far / sizeof far[0]; k++) {
+        const double size = far[k];
+        claims_doing(c, "strain and stress of a state %g lengths and radians away%s", size,
+                     s->words);
+        far_away(s, size, claims_open(c, "far states come back", 0));
+    }
+}
+
+void checks_unsound(const formulation *chosen, claims *out)
+{
+    specimens_each(chosen, out, unsound_check);
+}

@@ -1,10 +1,12 @@
-#include "harness/experiments/claims.h"
+#include "harness/experiments/experiments_impl.h"
 
 #include <assert.h>
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
+
+#include "elements/math/pi.h"
+#include "harness/model/model.h"
 
 claim *claims_open(claims *c, const char *name, double allowed)
 {
@@ -78,4 +80,267 @@ int claims_compared(const claims *c)
     for (int i = 0; i < c->count; i++)
         count += c->claim[i].compared;
     return count;
+}
+
+/* What a type says of itself. */
+
+static void theories(const element_type *t, claim *one)
+{
+    const int flexible = (t->offers & FEATURE_SHEAR) != 0,
+              own = (t->shear_theories & SHEAR_OWN) != 0;
+    claims_asks(one, flexible == (t->shear_theories != 0),
+                flexible ? "shear_theories: it offers shear and names no theory of it; set "
+                           "SHEAR_ENGESSER, SHEAR_HARINGX or SHEAR_OWN"
+                         : "shear_theories: it has a theory of shear and does not offer "
+                           "FEATURE_SHEAR; set one or leave out the other");
+    claims_asks(
+        one,
+        ((t->offers & FEATURE_ENGESSER) != 0) == ((t->shear_theories & SHEAR_ENGESSER) != 0) &&
+            ((t->offers & FEATURE_HARINGX) != 0) == ((t->shear_theories & SHEAR_HARINGX) != 0),
+        "shear_theories: FEATURE_ENGESSER or FEATURE_HARINGX is offered without its theory, "
+        "or the other way round");
+    claims_asks(one, !own || t->shear_theories == SHEAR_OWN,
+                "shear_theories: SHEAR_OWN stands beside another one; a theory of its own is the "
+                "only one");
+    claims_asks(one, own == (t->own_theory != NULL),
+                own ? "own_theory: say in a line what SHEAR_OWN is and where it is derived"
+                    : "own_theory: it is given, and shear_theories has no SHEAR_OWN");
+}
+
+static void words(const element_type *t, claim *one)
+{
+    claims_asks(one, t->family != NULL && t->family[0] != '\0' && strchr(t->family, ' ') == NULL,
+                "family: give one word");
+    claims_asks(one,
+                t->summary != NULL && t->summary[0] != '\0' && strchr(t->summary, '\n') == NULL,
+                "summary: give one line");
+    claims_asks(one, t->source != NULL && t->source[0] != '\0',
+                "source: name the paper and its equations");
+    claims_asks(one, (t->lacks != 0) == (t->lacks_by != NULL),
+                t->lacks != 0 ? "lacks_by: name the equations that omit it"
+                              : "lacks_by: it is given, and nothing is in lacks");
+    claims_asks(one, !(t->lacks & LACKS_SHEAR_Y) || t->offers & FEATURE_SHEAR,
+                "lacks: LACKS_SHEAR_Y is for types that support shear; remove it");
+    claims_asks(one, !(t->offers & FEATURE_ROTARY_INERTIA) || t->offers & FEATURE_MASS,
+                "offers: FEATURE_ROTARY_INERTIA goes with FEATURE_MASS");
+    claims_asks(one, ((t->limits & LIMIT_TENSION) != 0) == (t->tension != NULL),
+                "tension: it goes with LIMIT_TENSION; give both or leave both out");
+    claims_asks(one, !t->spreads || (t->inertia != NULL && t->offers & FEATURE_MASS),
+                "spreads: it goes with 'inertia' and FEATURE_MASS; give them or remove it");
+}
+
+static void orders(const formulation *chosen, claim *one)
+{
+    static const char *const analysis[ELEMENT_ANALYSES] = {"statics", "vibration", "buckling"};
+    for (int a = 0; a < ELEMENT_ANALYSES; a++) {
+        const element_order order =
+            element_order_in(chosen->type, (element_analysis)a, chosen->option);
+        claims_asks(one, order.least >= 1 && order.highest >= order.least,
+                    "order: %d to %d in %s; give least >= 1 and highest >= least", order.least,
+                    order.highest, analysis[a]);
+    }
+}
+
+static void sizes(const formulation *chosen, claim *one)
+{
+    const element_type *t = chosen->type;
+    const int inner = element_inner(t, chosen->option), memory = element_memory(t, chosen->option);
+    claims_asks(one, inner == 0 || t->update != NULL,
+                "update: it has %d unknowns of its own, which nothing corrects", inner);
+    claims_asks(one, inner == 0 || memory > 0,
+                "memory: it has %d unknowns of its own, and nothing is kept for update", inner);
+    claims_asks(one, inner >= 0 && memory >= 0, "inner, memory: %d and %d are negative", inner,
+                memory);
+}
+
+static void options(const element_type *t, claim *one)
+{
+    const int count = parameter_count(t->options);
+    claims_asks(one, count <= ELEMENT_MAX_OPTIONS, "options: %d of them; at most %d have room",
+                count, ELEMENT_MAX_OPTIONS);
+    for (int i = 0; i < count; i++) {
+        const parameter_type *o = parameter_at(t->options, i);
+        const int choices = parameter_choices(o);
+        claims_asks(one,
+                    choices > 0 ? o->value >= 0 && o->value < choices
+                                : o->value >= o->min && o->value <= o->max,
+                    "options: the default of '%s' is outside its range", o->name);
+        claims_asks(one, o->summary != NULL && o->summary[0] != '\0',
+                    "options: say in a line what '%s' does", o->name);
+    }
+}
+
+void checks_declared(const formulation *chosen, claims *out)
+{
+    claims_doing(out, "what it says of itself");
+    theories(chosen->type, claims_open(out, "theories of shear", 0));
+    words(chosen->type, claims_open(out, "words and limits", 0));
+    orders(chosen, claims_open(out, "orders", 0));
+    sizes(chosen, claims_open(out, "sizes", 0));
+    options(chosen->type, claims_open(out, "options", 0));
+}
+
+/* An I of depth 0.1 m and flanges of 0.06 m. */
+static section_spec i_profile(void)
+{
+    static const double h = 0.05, b = 0.03;
+    static const double point[][2] = {{-b, h}, {0, h}, {b, h}, {-b, -h}, {0, -h}, {b, -h}},
+                        thick[] = {2e-3, 2e-3, 2e-3, 2e-3, 2e-3};
+    static const int ends[][2] = {{0, 1}, {1, 2}, {1, 4}, {3, 4}, {4, 5}};
+    return section_spec_walls(210e9, 81e9, 5, point, ends, thick);
+}
+
+static section_spec spec_of(const beam_request *r)
+{
+    section_spec spec = section_spec_rectangle(210e9, 81e9, r->width, r->thickness);
+    spec.given.Iw = 0;
+    if (r->profile)
+        spec = i_profile();
+    spec.density = 7800;
+    return spec;
+}
+
+status beam_section(const beam_request *r, section *out)
+{
+    const section_spec spec = spec_of(r);
+    return section_compute(&spec, out, NULL);
+}
+
+/* The place at s of the length. */
+static void place(const beam_request *r, double s, double at[3])
+{
+    const double radius = 2 / PI;
+    at[0] = r->quarter ? radius * cos(s * PI / 2) : s;
+    at[1] = r->quarter ? radius * sin(s * PI / 2) : 0;
+    at[2] = 0;
+}
+
+static void add_pieces(const beam_request *r, scene *s)
+{
+    const section_spec spec = spec_of(r);
+    const int profile = scene_add_section(s, &spec);
+    double at[3], done = 0;
+    place(r, 0, at);
+    int from = scene_add_node(s, at[0], at[1], at[2]);
+    scene_hold_all(s, from);
+    for (int i = 0; i < r->elements; i++) {
+        double next[3];
+        done = i == r->elements - 1  ? 1
+               : r->fraction != NULL ? done + r->fraction[i]
+                                     : (i + 1.0) / r->elements;
+        place(r, done, next);
+        const double across[3] = {-(next[1] - at[1]), next[0] - at[0], 0};
+        const int to = scene_add_node(s, next[0], next[1], next[2]);
+        scene_member *m = scene_member_at(s, scene_add_member(s, from, to, profile, across));
+        m->warp_p = i == 0 && r->profile ? SCENE_WARP_FIXED : i;
+        m->warp_q = i == r->elements - 1 ? SCENE_WARP_FREE : i + 1;
+        m->divisions = 1;
+        memcpy(at, next, sizeof at);
+        from = to;
+    }
+}
+
+static void add_question(const beam_request *r, scene *s)
+{
+    static const double end = 1;
+    const int tip = s->nodes - 1;
+    int analysis;
+    if (r->analysis != BEAM_VIBRATION)
+        scene_add_load(s, r->load, tip, r->vector[0], r->vector[1], r->vector[2]);
+    switch (r->analysis) {
+    case BEAM_LARGE:
+        analysis = scene_add_static(s, 1, &end, 1);
+        break;
+    case BEAM_BUCKLING:
+        analysis = scene_add_buckling(s, SCENE_NONE);
+        scene_add_quantity(s, "value", "1", analysis, scene_critical_factor(1, 0));
+        return;
+    case BEAM_VIBRATION:
+        analysis = scene_add_modal(s, SCENE_NONE);
+        scene_add_quantity(s, "value", "Hz", analysis, scene_frequency(0, SCENE_ANY));
+        return;
+    default:
+        analysis = scene_add_linear(s);
+    }
+    scene_add_quantity(s, "value", r->component < SCENE_RX ? "m" : "rad", analysis,
+                       scene_coordinate(tip, r->component));
+}
+
+static double solved(const beam_request *r, const scene *s, char words[MEASURE_WORDS])
+{
+    cell_request request = {.scene = s, .elements = 1};
+    cell_result found;
+    fault f = {""};
+    double value = NAN;
+    cell_formulation(&request, r->chosen);
+    const status outcome = cell_run(&request, &found, &f);
+    if (outcome == STATUS_OK && found.solve.quantities == 1)
+        value = found.solve.quantity[0].value;
+    if (isnan(value))
+        snprintf(words, MEASURE_WORDS, "%.180s",
+                 f.text[0] != '\0'               ? f.text
+                 : found.solve.reason[0] != '\0' ? found.solve.reason
+                                                 : "no value");
+    cell_result_free(&found);
+    return value;
+}
+
+int beam_point(const beam_request *r, double at, double exact, element_measure *one)
+{
+    scene s;
+    fault f = {""};
+    char words[MEASURE_WORDS] = "", missing[MEASURE_WORDS - 20];
+    int offered = 1;
+    double value = NAN;
+    scene_init(&s, "beam");
+    add_pieces(r, &s);
+    add_question(r, &s);
+    scene_omit(&s, SCENE_OMITTABLE & ~(r->needs | FEATURE_WARPING));
+    if (scene_validate(&s, &f) != STATUS_OK)
+        snprintf(words, sizeof words, "%.180s", f.text);
+    else if (missing_words(&s, r->chosen->type, missing, sizeof missing))
+        offered = 0;
+    else
+        value = solved(r, &s, words);
+    if (!offered)
+        snprintf(one->words, sizeof one->words, "not offered: %s", missing);
+    else if (words[0] != '\0' && one->words[0] == '\0')
+        memcpy(one->words, words, sizeof words);
+    if (offered)
+        measures_point(one, at, value / exact - 1);
+    scene_free(&s);
+    return offered && !measures_hopeless(one);
+}
+
+element_measure *measures_add(measures *m, const char *name)
+{
+    assert(m->count < MEASURES_MOST);
+    element_measure *one = &m->measure[m->count++];
+    memset(one, 0, sizeof *one);
+    snprintf(one->name, sizeof one->name, "%s", name);
+    one->order = NAN;
+    return one;
+}
+
+void measures_point(element_measure *one, double at, double error)
+{
+    assert(one->points < MEASURE_POINTS);
+    one->at[one->points] = at;
+    one->error[one->points++] = error;
+}
+
+int measures_astray(const measures *m)
+{
+    int count = 0;
+    for (int i = 0; i < m->count; i++)
+        count += m->measure[i].astray;
+    return count;
+}
+
+int measures_hopeless(const element_measure *one)
+{
+    for (int i = 0; i < one->points; i++)
+        if (!isnan(one->error[i]))
+            return 0;
+    return one->points >= 3;
 }

@@ -1,11 +1,8 @@
 /* J and H against differences of sixth order, entry by entry. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
+#include "harness/experiments/experiments_impl.h"
 
-#include "harness/experiments/checks.h"
-#include "harness/experiments/specimens.h"
-#include "harness/formulations/formulations.h"
+#include <math.h>
+#include <string.h>
 
 enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 
@@ -154,4 +151,190 @@ void checks_derivatives(const formulation *chosen, claims *out)
         specimens_each(chosen, out, check);
     if (claims_open(out, claim_J, allowed)->outcome == CLAIM_BROKEN)
         claims_not_made(out, claim_H, "not looked at before J is right");
+}
+
+/* Many elements at once give what each gives alone: of two kinds, mixed, each in another state. */
+
+enum { MANY_M = SPECIMEN_STRAINS, MANY_N = SPECIMEN_COORDINATES, MANY = 5 };
+
+static const double longer = 1.7 * 0.2385; /* [m] */
+static const char *const claim_name = "many at once give what each gives alone";
+
+/* What one element says; what differences of it would give is not asked for. */
+typedef struct many_answers {
+    status outcome;
+    double e[MANY_M], J[MANY_M * MANY_N], H[MANY_N * MANY_N], energy, sigma[MANY_M],
+        C[MANY_M * MANY_M];
+} many_answers;
+
+/* Elements of two kinds, one by one and at once. */
+typedef struct many_batch {
+    const specimen *of[MANY];
+    const element_data *data[MANY];
+    node_state x[MANY * ELEMENT_MAX_NODES];
+    double weight[MANY_M], inner[SPECIMEN_INNER];
+    many_answers alone[MANY], together[MANY];
+} many_batch;
+
+static void gather(const specimen *s, const specimen *other, many_batch *b)
+{
+    const specimen *const order[MANY] = {s, s, other, s, other};
+    memset(b, 0, sizeof *b);
+    for (int k = 0; k < MANY; k++) {
+        b->of[k] = order[k];
+        b->data[k] = order[k]->data;
+        specimen_state(order[k], 0.04, 91 + (unsigned)k, b->x + (ptrdiff_t)k * s->nodes);
+    }
+    for (int i = 0; i < s->strains; i++)
+        b->weight[i] = cos(3.7 * i + 0.3);
+    specimen_rest(s, b->inner);
+}
+
+static strain_output strain_of(const many_batch *b, many_answers *a)
+{
+    const unsigned leaves = b->of[0]->made.given->leaves;
+    strain_output out = {.e = a->e};
+    if (!(leaves & LEAVES_J))
+        out.J = a->J;
+    if (!(leaves & (LEAVES_J | LEAVES_H))) {
+        out.s = b->weight;
+        out.H = a->H;
+    }
+    return out;
+}
+
+static stress_output many_stress_of(const many_batch *b, many_answers *a)
+{
+    const unsigned leaves = b->of[0]->made.given->leaves;
+    stress_output out = {.energy = &a->energy};
+    if (!(leaves & LEAVES_FORCE))
+        out.sigma = a->sigma;
+    if (!(leaves & (LEAVES_FORCE | LEAVES_TANGENT)))
+        out.C = a->C;
+    return out;
+}
+
+/* One difference of two numbers of an element, over their size. */
+static void differ(const many_batch *b, int k, const char *what, const char *entry, double alone,
+                   double together, double size, claim *one)
+{
+    claims_departs(one, fabs(together - alone) / (size > 0 ? size : 1),
+                   "many at once gives other %s than one by one: element %d of %d, %s: %.9g "
+                   "instead of %.9g; each element has values of its own%s",
+                   what, k + 1, MANY, entry, together, alone, b->of[k]->words);
+}
+
+static double many_largest(int count, const double v[])
+{
+    double out = 0;
+    for (int i = 0; i < count; i++)
+        out = fmax(out, fabs(v[i]));
+    return out;
+}
+
+static void compare_strains(const many_batch *b, int k, claim *one)
+{
+    const many_answers *a = &b->alone[k], *t = &b->together[k];
+    const int n = b->of[k]->coordinates;
+    const double l = b->of[k]->request.length;
+    char what[SPECIMEN_WORDS];
+    for (int i = 0; i < b->of[k]->strains; i++) {
+        snprintf(what, sizeof what, "strain %d", i + 1);
+        differ(b, k, "strains", what, a->e[i], t->e[i], l, one);
+        snprintf(what, sizeof what, "J of strain %d", i + 1);
+        for (int j = 0; j < n; j++)
+            differ(b, k, "strains", what, a->J[i * n + j], t->J[i * n + j], l / chart_unit(j, l),
+                   one);
+    }
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            differ(b, k, "strains", "H", a->H[i * n + j], t->H[i * n + j],
+                   l / (chart_unit(i, l) * chart_unit(j, l)), one);
+}
+
+static void strains(const specimen *s, many_batch *b, claim *one)
+{
+    strain_output out[MANY];
+    for (int k = 0; k < MANY; k++) {
+        out[k] = strain_of(b, &b->alone[k]);
+        s->type.strain(b->data[k], b->x + (ptrdiff_t)k * s->nodes, &out[k]);
+    }
+    if (s->type.strain_many == NULL)
+        return;
+    for (int k = 0; k < MANY; k++)
+        out[k] = strain_of(b, &b->together[k]);
+    s->type.strain_many(MANY, b->data, b->x, out);
+    for (int k = 0; k < MANY; k++)
+        compare_strains(b, k, one);
+}
+
+static void compare_stresses(const many_batch *b, int k, claim *one)
+{
+    const many_answers *a = &b->alone[k], *t = &b->together[k];
+    const int m = b->of[k]->strains;
+    const double sigma = many_largest(m, a->sigma), C = many_largest(m * m, a->C);
+    char what[SPECIMEN_WORDS];
+    claims_asks(one, a->outcome == t->outcome,
+                "many at once gives status '%s' for element %d of %d, which alone ends with '%s'%s",
+                status_name(t->outcome), k + 1, MANY, status_name(a->outcome), b->of[k]->words);
+    if (a->outcome != STATUS_OK || t->outcome != STATUS_OK)
+        return;
+    differ(b, k, "energies", "energy", a->energy, t->energy, fabs(a->energy), one);
+    for (int i = 0; i < m; i++) {
+        snprintf(what, sizeof what, "sigma %d", i + 1);
+        differ(b, k, "stresses", what, a->sigma[i], t->sigma[i], sigma, one);
+    }
+    for (int i = 0; i < m * m; i++)
+        differ(b, k, "stresses", "C", a->C[i], t->C[i], C, one);
+}
+
+static void stresses(const specimen *s, many_batch *b, claim *one)
+{
+    stress_output out[MANY];
+    const double *e[MANY], *inner[MANY];
+    status outcome[MANY];
+    for (int k = 0; k < MANY; k++) {
+        out[k] = many_stress_of(b, &b->alone[k]);
+        e[k] = b->alone[k].e;
+        inner[k] = b->inner;
+        b->alone[k].outcome = s->type.stress(b->data[k], e[k], b->inner, &out[k]);
+    }
+    for (int k = 0; k < MANY; k++)
+        out[k] = many_stress_of(b, &b->together[k]);
+    s->type.stress_many(MANY, b->data, e, inner, out, outcome);
+    for (int k = 0; k < MANY; k++) {
+        b->together[k].outcome = outcome[k];
+        compare_stresses(b, k, one);
+    }
+}
+
+static void many_check(const specimen *s, claims *c)
+{
+    static many_batch b;
+    specimen other;
+    specimen_request what = s->made;
+    fault f = {""};
+    if (s->type.strain_many == NULL && s->type.stress_many == NULL)
+        return;
+    claim *one = claims_open(c, claim_name, 1e-12);
+    what.length = longer;
+    if (specimen_make(&what, &other, &f) == STATUS_OK) {
+        snprintf(other.words, sizeof other.words, "%s", s->words);
+        gather(s, &other, &b);
+        claims_doing(c, "strain, one by one and many at once%s", s->words);
+        strains(s, &b, one);
+        claims_doing(c, "stress, one by one and many at once%s", s->words);
+        if (s->type.stress_many != NULL)
+            stresses(s, &b, one);
+    }
+    specimen_free(&other);
+}
+
+void checks_many(const formulation *chosen, claims *out)
+{
+    const element_type *t = chosen->type;
+    if (t->strain_many == NULL && t->stress_many == NULL && t->force_many == NULL)
+        claims_not_made(out, claim_name, "it takes one element at a time");
+    else
+        specimens_each(chosen, out, many_check);
 }

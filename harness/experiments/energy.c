@@ -1,12 +1,11 @@
 /* Stress, stiffness and geometric stiffness against differences of the energy, of the stress and of
  * the stiffness. */
+#include "harness/experiments/experiments_impl.h"
+
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-#include "harness/experiments/checks.h"
-#include "harness/experiments/specimens.h"
-#include "harness/formulations/formulations.h"
+#include "elements/math/dense.h"
 
 enum { ENERGY_M = SPECIMEN_STRAINS };
 
@@ -195,4 +194,230 @@ void checks_energy(const formulation *chosen, claims *out)
     specimens_each(chosen, out, check);
     if (chosen->type->geometric == NULL)
         claims_not_made(out, "G is symmetric", "has no geometric stiffness inside the element");
+}
+
+/* Inertia in a frame that turns: centrifugal force and stiffness derive from the potential, the
+ * gyroscopic matrix is skew, the frame's own motion has the centrifugal energy. */
+
+enum { N = SPECIMEN_COORDINATES };
+
+static const element_rotating_frame turning = {.omega = {31.3, -17.9, 23.7},
+                                               .centre = {0.213, -0.147, 0.089}};
+
+static int potential_at(const void *context, int i, double si, int j, double sj, double values[])
+{
+    const specimen_place *at = context;
+    node_state x[ELEMENT_MAX_NODES];
+    specimen_moved(at, i, si, j, sj, x);
+    return (int)at->s->type.inertia(at->s->data, x, &turning,
+                                    &(inertia_output){.potential = values});
+}
+
+static int force_at(const void *context, int i, double si, int j, double sj, double values[])
+{
+    const specimen_place *at = context;
+    node_state x[ELEMENT_MAX_NODES];
+    specimen_moved(at, i, si, j, sj, x);
+    return (int)at->s->type.inertia(at->s->data, x, &turning, &(inertia_output){.force = values});
+}
+
+static void check_force(const specimen_place *at, const double force[], claim *one)
+{
+    const specimen *s = at->s;
+    char where[SPECIMEN_WORDS];
+    double size = 0;
+    for (int i = 0; i < s->coordinates; i++)
+        size = fmax(size, fabs(force[i]) * chart_unit(i, s->request.length));
+    for (int i = 0; i < s->coordinates; i++) {
+        const double unit = chart_unit(i, s->request.length);
+        double found = NAN;
+        stencil_first(potential_at, at, 1, i, &found);
+        claims_departs(one, claims_share(fabs(force[i] * unit + found), size),
+                       "inertia: the centrifugal force in coordinate %d (%s) is %.6g, minus the "
+                       "derivative of the potential is %.6g%s",
+                       i + 1, specimen_coordinate(i, where), force[i], -found / unit, s->words);
+    }
+}
+
+static void rotating_check_stiffness(const specimen_place *at, const double stiffness[], claims *c)
+{
+    const specimen *s = at->s;
+    const int n = s->coordinates;
+    char first[SPECIMEN_WORDS], other[SPECIMEN_WORDS];
+    double column[N][N], size = 0;
+    claim *derives = claims_open(c, "N is minus the derivative of the force", 1e-9),
+          *symmetric = claims_open(c, "N is symmetric", 1e-12);
+    for (int j = 0; j < n; j++) {
+        const double unit = chart_unit(j, s->request.length);
+        stencil_first(force_at, at, n, j, column[j]);
+        size = fmax(size, fabs(stiffness[j * n + j]) * unit * unit);
+    }
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++) {
+            const double ui = chart_unit(i, s->request.length),
+                         uj = chart_unit(j, s->request.length), a = stiffness[i * n + j],
+                         b = stiffness[j * n + i],
+                         found = -(column[j][i] * ui + column[i][j] * uj) / 2;
+            claims_departs(derives, claims_share(fabs(a * ui * uj - found), size),
+                           "inertia: N entry %d, %d (%s, %s) is %.6g, differences of the "
+                           "centrifugal force give %.6g%s",
+                           i + 1, j + 1, specimen_coordinate(i, first),
+                           specimen_coordinate(j, other), a, found / (ui * uj), s->words);
+            claims_departs(symmetric, claims_share(fabs(a - b) * ui * uj, size),
+                           "inertia: N entry %d, %d is %.6g, and %.6g the other way round%s", i + 1,
+                           j + 1, a, b, s->words);
+        }
+}
+
+static void check_skew(const specimen *s, const double G[], claim *one)
+{
+    const int n = s->coordinates;
+    double size = 0;
+    for (int i = 0; i < n * n; i++)
+        size = fmax(size, fabs(G[i]) * chart_unit(i / n, s->request.length) *
+                              chart_unit(i % n, s->request.length));
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++)
+            claims_departs(
+                one,
+                claims_share(fabs(G[i * n + j] + G[j * n + i]) * chart_unit(i, s->request.length) *
+                                 chart_unit(j, s->request.length),
+                             size),
+                "inertia: G entry %d, %d is %.6g, and %.6g the other way round; the "
+                "gyroscopic matrix is skew%s",
+                i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
+}
+
+/* The motion v of the frame itself has the kinetic energy 1/2 v^T M v = -V, and G v = -2 F. */
+static void own_motion(const specimen *s, const node_state x[], const inertia_output *out,
+                       claims *c)
+{
+    const int n = s->coordinates;
+    double v[N] = {0}, Mv[N], Gv[N], largest = 0;
+    char where[SPECIMEN_WORDS];
+    for (int k = 0; k < s->nodes; k++) {
+        double r[3];
+        for (int i = 0; i < 3; i++)
+            r[i] = x[k].r[i] - turning.centre[i];
+        vec3_cross(turning.omega, r, v + NODE_COORDINATES * k);
+        memcpy(v + NODE_COORDINATES * k + 3, turning.omega, sizeof turning.omega);
+    }
+    dense_mul_vec(n, n, out->M, v, Mv);
+    dense_mul_vec(n, n, out->G, v, Gv);
+    if (s->section.matrices || s->made.features & FEATURE_ROTARY_INERTIA)
+        claims_departs(claims_open(c, "the frame's motion has the centrifugal energy", 1e-11),
+                       fabs(dense_dot(n, v, Mv) / 2 / -*out->potential - 1),
+                       "inertia: the potential is %.6g J, minus the kinetic energy of the frame's "
+                       "own motion, 1/2 v^T M v, is %.6g J%s",
+                       *out->potential, -dense_dot(n, v, Mv) / 2, s->words);
+    for (int i = 0; i < n; i++)
+        largest = fmax(largest, fabs(out->force[i]) * chart_unit(i, s->request.length));
+    for (int i = 0; i < n; i++)
+        claims_departs(claims_open(c, "Coriolis is twice the centrifugal force", 1e-11),
+                       fabs(Gv[i] + 2 * out->force[i]) * chart_unit(i, s->request.length) / largest,
+                       "inertia: G times the frame's own motion is %.6g in coordinate %d (%s), not "
+                       "minus twice the centrifugal force, %.6g%s",
+                       Gv[i], i + 1, specimen_coordinate(i, where), -2 * out->force[i], s->words);
+}
+
+static void in_frame(const specimen *s, claims *c)
+{
+    double V, F[N], M[N * N], stiffness[N * N], G[N * N];
+    inertia_output out = {.M = M, .potential = &V, .force = F, .N = stiffness, .G = G};
+    node_state x[ELEMENT_MAX_NODES];
+    const specimen_place at = {s, x};
+    specimen_state(s, 0.05, 31, x);
+    claims_doing(c, "inertia in a rotating frame%s", s->words);
+    const status outcome = s->type.inertia(s->data, x, &turning, &out);
+    claims_asks(claims_open(c, "it has inertia in a rotating frame", 0), outcome == STATUS_OK,
+                "inertia: status '%s' in a rotating frame%s", status_name(outcome), s->words);
+    if (outcome != STATUS_OK)
+        return;
+    check_force(&at, F, claims_open(c, "centrifugal force is the gradient", 1e-9));
+    rotating_check_stiffness(&at, stiffness, c);
+    check_skew(s, G, claims_open(c, "G is skew", 1e-12));
+    own_motion(s, x, &out, c);
+}
+
+/* Centrifugal energy [J] of a uniformly twisted element whose amplitudes are its twist rate. */
+static double twisted_energy(const specimen *s, double angle)
+{
+    const double ys = s->section.ys, zs = s->section.zs;
+    double d[N] = {0}, V = NAN;
+    node_state straight[ELEMENT_MAX_NODES], x[ELEMENT_MAX_NODES];
+    for (int k = 0; k < s->nodes; k++) {
+        const double turn = angle * k / (s->nodes - 1);
+        double *node = d + NODE_COORDINATES * k;
+        node[1] = ys * (1 - cos(turn)) + zs * sin(turn); /* about the shear centre: no shear */
+        node[2] = zs * (1 - cos(turn)) - ys * sin(turn);
+        node[3] = turn;
+        node[6] = sin(angle) / s->request.length; /* a twist may be measured by its sine */
+    }
+    specimen_state(s, 0, 1, straight);
+    chart_move(straight, s->nodes, d, x);
+    s->type.inertia(s->data, x, &turning, &(inertia_output){.potential = &V});
+    return V;
+}
+
+/* Fibres that warping moves along the beam turn at another distance from the axis: -1/2 int rho
+ * (omega a)^2 |Omega x e_x|^2 dV. */
+static void warping(const specimen *s, claim *one)
+{
+    const double angle = 0.005, *w = turning.omega;
+    specimen_request what = s->made;
+    specimen plain;
+    fault f = {""};
+    what.features &= ~(unsigned)FEATURE_WARPING;
+    if (specimen_make(&what, &plain, &f) == STATUS_OK) {
+        const double l = s->request.length, a = sin(angle) / l,
+                     found = twisted_energy(s, angle) - twisted_energy(&plain, angle),
+                     expected = -s->section.density * s->section.Iw * l * a * a *
+                                (w[1] * w[1] + w[2] * w[2]) / 2;
+        claims_departs(
+            one, fabs(found / expected - 1),
+            "inertia: the centrifugal energy of warping is %.6g J, not -1/2 rho Iw l a^2 "
+            "(Oy^2 + Oz^2) = %.6g J%s",
+            found, expected, s->words);
+    }
+    specimen_free(&plain);
+}
+
+static void rotating_check(const specimen *s, claims *c)
+{
+    const unsigned warps = FEATURE_WARPING | FEATURE_ROTARY_INERTIA;
+    in_frame(s, c);
+    if ((s->made.features & warps) == warps && !s->section.matrices && s->made.curvature[0] == 0 &&
+        s->made.form == PROFILES_UNSYMMETRIC)
+        warping(s, claims_open(c, "centrifugal energy of warping", 2e-4));
+}
+
+/* The same without rotary inertia and without warping: other terms are left. */
+static void check_all(const specimen *s, claims *c)
+{
+    static const unsigned without[] = {FEATURE_ROTARY_INERTIA, FEATURE_WARPING,
+                                       FEATURE_WARPING | FEATURE_SHEAR};
+    rotating_check(s, c);
+    for (size_t k = 0; k < sizeof without / sizeof without[0]; k++) {
+        specimen_request what = s->made;
+        specimen other;
+        fault f = {""};
+        what.features &= ~without[k];
+        if (what.features == s->made.features)
+            continue;
+        if (specimen_make(&what, &other, &f) == STATUS_OK)
+            in_frame(&other, c);
+        specimen_free(&other);
+    }
+}
+
+void checks_rotating(const formulation *chosen, claims *out)
+{
+    if (!(chosen->type->offers & FEATURE_MASS) || chosen->type->inertia == NULL) {
+        claims_not_made(out, "G is skew",
+                        chosen->type->offers & FEATURE_MASS
+                            ? "has no inertia of its own: it has that of the displacement field"
+                            : "offers no mass");
+        return;
+    }
+    specimens_each(chosen, out, check_all);
 }

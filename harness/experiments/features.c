@@ -1,11 +1,11 @@
 /* What a type offers it can do: alone, in subsets, and as the cases ask for it. */
+#include "harness/experiments/experiments_impl.h"
+
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-#include "harness/experiments/checks.h"
-#include "harness/experiments/effects.h"
-#include "harness/formulations/formulations.h"
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
 #include "harness/model/model.h"
 
 typedef enum feature_outcome { FINITE, REFUSED, BAD, FEATURE_OUTCOMES } feature_outcome;
@@ -132,4 +132,328 @@ void checks_features(const formulation *chosen, claims *out)
     features_of_cases(chosen, out);
     feature_subsets(chosen, out);
     effects_check(chosen, out);
+}
+
+enum { EFFECTS_M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
+
+/* What an element says of a state. */
+typedef struct effects_answers {
+    double e[EFFECTS_M], J[EFFECTS_M * N], energy, sigma[EFFECTS_M], C[EFFECTS_M * EFFECTS_M],
+        G[EFFECTS_M * EFFECTS_M];
+} effects_answers;
+
+static int answer(const specimen *s, const node_state x[], effects_answers *out)
+{
+    double inner[SPECIMEN_INNER], stress[EFFECTS_M];
+    memset(out, 0, sizeof *out);
+    specimen_numbers(s->strains, 67, stress);
+    if (s->type.geometric != NULL)
+        s->type.geometric(s->data, stress, out->G);
+    s->type.strain(s->data, x, &(strain_output){.e = out->e, .J = out->J});
+    specimen_rest(s, inner);
+    return specimen_settled(
+               s, out->e, inner,
+               &(stress_output){.energy = &out->energy, .sigma = out->sigma, .C = out->C}) ==
+           STATUS_OK;
+}
+
+static int other(int count, const double a[], const double b[])
+{
+    for (int i = 0; i < count; i++)
+        if (a[i] != b[i])
+            return 1;
+    return 0;
+}
+
+static int differ(const effects_answers *a, const effects_answers *b)
+{
+    return other(EFFECTS_M, a->e, b->e) || other(EFFECTS_M * N, a->J, b->J) ||
+           a->energy != b->energy || other(EFFECTS_M, a->sigma, b->sigma) ||
+           other(EFFECTS_M * EFFECTS_M, a->C, b->C) || other(EFFECTS_M * EFFECTS_M, a->G, b->G);
+}
+
+/* The element with the features, and the same without one of them. */
+typedef struct pair {
+    specimen with, without;
+} pair;
+
+static int makes(const formulation *chosen, unsigned features, profiles_form form, specimen *out)
+{
+    const specimen_request what = {.given = chosen->type,
+                                   .options = chosen->option,
+                                   .features = features,
+                                   .form = form,
+                                   .unit = 1};
+    fault f = {""};
+    return specimen_make(&what, out, &f) == STATUS_OK;
+}
+
+/* 1: something changes, 0: nothing does, -1: one of the two is refused. */
+static int changes(const formulation *chosen, unsigned features, unsigned bit, profiles_form form)
+{
+    pair p;
+    effects_answers a, b;
+    node_state x[ELEMENT_MAX_NODES];
+    int found = -1;
+    const int made = makes(chosen, features, form, &p.with),
+              bare = makes(chosen, features & ~bit, form, &p.without);
+    if (made && bare && p.with.strains == p.without.strains) {
+        specimen_state(&p.with, 0.04, 61, x);
+        if (answer(&p.with, x, &a) && answer(&p.without, x, &b))
+            found = differ(&a, &b);
+    } else if (made && bare) {
+        found = 1;
+    }
+    specimen_free(&p.with);
+    specimen_free(&p.without);
+    return found;
+}
+
+/* The same of the warping amplitudes of its nodes. */
+static int warps(const formulation *chosen, unsigned features, profiles_form form)
+{
+    specimen s;
+    effects_answers a, b;
+    node_state x[ELEMENT_MAX_NODES];
+    int found = -1;
+    if (makes(chosen, features, form, &s)) {
+        specimen_state(&s, 0.04, 61, x);
+        const int first = answer(&s, x, &a);
+        for (int k = 0; k < s.nodes; k++)
+            x[k].a = 0;
+        if (first && answer(&s, x, &b))
+            found = differ(&a, &b);
+    }
+    specimen_free(&s);
+    return found;
+}
+
+/* Of a rectangle and, where it takes one, of an unsymmetric section: 1 once something changes. */
+static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
+{
+    const element_type *t = chosen->type;
+    const int forms =
+        !(t->limits & LIMIT_DOUBLY_SYMMETRIC) && t->offers & FEATURE_ECCENTRIC ? 2 : 1;
+    int found = -1;
+    for (int form = 0; form < forms && found < 1; form++) {
+        const int here = bit == 0 ? warps(chosen, features, (profiles_form)form)
+                                  : changes(chosen, features, bit, (profiles_form)form);
+        found = here > found ? here : found;
+    }
+    return found;
+}
+
+void effects_check(const formulation *chosen, claims *c)
+{
+    /* Without FEATURE_ECCENTRIC: the shear centre is a constant of the section, and elements take
+     * it from there. Without FEATURE_TRAPEZE: it is one of the terms of second order, and a
+     * formulation that leaves them all out to show what they are worth (beamw_first) is asked for
+     * what the whole one is asked for. What belongs to the structure, mass or shape is looked at
+     * elsewhere. */
+    static const unsigned sections[] = {FEATURE_WARPING, FEATURE_SHEAR, FEATURE_WAGNER_MOMENTS,
+                                        FEATURE_WAGNER_TORQUE};
+    const unsigned all = specimen_features(chosen->type, 0);
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        const unsigned bit = sections[i];
+        char name[CLAIM_NAME];
+        if (!(all & bit))
+            continue;
+        snprintf(name, sizeof name, "%s changes something", feature_name(bit));
+        claims_doing(c, "strain and stress with and without %s", feature_name(bit));
+        claim *one = claims_open(c, name, 0);
+        if (bit == FEATURE_WARPING)
+            claims_asks(one, anywhere(chosen, all, 0) != 0,
+                        "offers warping, but nothing depends on the warping amplitudes; let it, or "
+                        "do not offer it");
+        else /* theories of shear go with shear */
+            claims_asks(
+                one,
+                anywhere(chosen, all,
+                         bit == FEATURE_SHEAR ? bit | FEATURE_ENGESSER | FEATURE_HARINGX : bit) !=
+                    0,
+                "offers %s, but nothing changes with it: strains, energy, stress and C are those "
+                "of the element without it; let them depend on it, or do not offer it",
+                feature_name(bit));
+    }
+}
+
+/* The mass matrix: symmetric, positive, of the mass and the moments of the beam, and it turns with
+ * the element. */
+
+enum { MASS_N = SPECIMEN_COORDINATES };
+
+static double size_of(const double A[], int n, int i, int j)
+{
+    double largest = 0;
+    for (int k = 0; k < n; k++)
+        largest = fmax(largest, fabs(A[k * n + k]));
+    return sqrt(fmax(fabs(A[i * n + i]), 1e-12 * largest) *
+                fmax(fabs(A[j * n + j]), 1e-12 * largest));
+}
+
+static void symmetric(const specimen *s, const double A[], claim *one)
+{
+    const int n = s->coordinates;
+    char first[SPECIMEN_WORDS], other[SPECIMEN_WORDS];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++)
+            claims_departs(one, fabs(A[i * n + j] - A[j * n + i]) / size_of(A, n, i, j),
+                           "inertia: M entry %d, %d (%s, %s) is %.6g, and %.6g the other way "
+                           "round%s",
+                           i + 1, j + 1, specimen_coordinate(i, first),
+                           specimen_coordinate(j, other), A[i * n + j], A[j * n + i], s->words);
+}
+
+/* Cholesky's factors of the matrix scaled to ones on its diagonal, and a little more. */
+static void positive(const specimen *s, const double A[], claim *one)
+{
+    const int n = s->coordinates;
+    double scaled[MASS_N * MASS_N];
+    char where[SPECIMEN_WORDS];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            const double size = sqrt(fabs(A[i * n + i]) * fabs(A[j * n + j]));
+            scaled[i * n + j] = (size > 0 ? A[i * n + j] / size : 0) + (i == j ? 1e-9 : 0);
+        }
+    const int pivot = dense_cholesky(n, scaled);
+    claims_asks(one, pivot == 0,
+                "inertia: M is not positive: some motion of the nodes up to coordinate %d (%s) has "
+                "negative kinetic energy%s",
+                pivot, specimen_coordinate(pivot > 0 ? pivot - 1 : 0, where), s->words);
+}
+
+/* v^T M v of a motion with the velocity omega x r + shift. */
+static double energy(const specimen *s, const node_state x[], const double M[],
+                     const double omega[3], const double shift[3])
+{
+    double v[MASS_N] = {0}, Mv[MASS_N];
+    for (int k = 0; k < s->nodes; k++) {
+        vec3_cross(omega, x[k].r, v + NODE_COORDINATES * k);
+        for (int i = 0; i < 3; i++) {
+            v[NODE_COORDINATES * k + i] += shift[i];
+            v[NODE_COORDINATES * k + 3 + i] = omega[i];
+        }
+    }
+    dense_mul_vec(s->coordinates, s->coordinates, M, v, Mv);
+    return dense_dot(s->coordinates, v, Mv);
+}
+
+/* [kg/m] */
+static double line_mass(const section *c)
+{
+    return c->matrices ? c->mass[0] : c->density * c->A;
+}
+
+static void total(const specimen *s, const node_state x[], const double M[], claim *one)
+{
+    static const double none[3] = {0, 0, 0};
+    const double mass = line_mass(&s->section) * s->request.length;
+    for (int c = 0; c < 3; c++) {
+        double shift[3] = {0, 0, 0};
+        shift[c] = 1;
+        const double found = energy(s, x, M, none, shift);
+        claims_departs(one, fabs(found / mass - 1),
+                       "inertia: the mass along %c is %.6g kg, not rho A l = %.6g kg%s", "xyz"[c],
+                       found, mass, s -> words);
+    }
+}
+
+/* The matrix of an element that is turned as a whole is the turned one. */
+static void carried(const specimen *s, const node_state x[], const double M[], claim *one)
+{
+    static const double turn[3] = {0.71, -1.93, 1.37};
+    const int n = s->coordinates;
+    node_state turned[ELEMENT_MAX_NODES];
+    double other[MASS_N * MASS_N], T[MASS_N * MASS_N] = {0}, back[MASS_N * MASS_N] = {0},
+                                              work[MASS_N * MASS_N], q[4], R[9];
+    char first[SPECIMEN_WORDS], second[SPECIMEN_WORDS];
+    specimen_carry(s, turn, x, turned);
+    rotation_exp(turn, q);
+    rotation_matrix(q, R);
+    for (int b = 0; b < n; b += NODE_COORDINATES) {
+        for (int i = 0; i < 6; i++)
+            for (int j = 0; j < 3; j++)
+                T[(b + i) * n + b + i / 3 * 3 + j] = R[3 * (i % 3) + j];
+        T[(b + 6) * n + b + 6] = 1;
+    }
+    s->type.inertia(s->data, turned, NULL, &(inertia_output){.M = other});
+    dense_add_congruence(n, n, T, other, back, work);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            claims_departs(one, fabs(back[i * n + j] - M[i * n + j]) / size_of(M, n, i, j),
+                           "inertia: M entry %d, %d (%s, %s) of an element turned as a whole is, "
+                           "turned back, %.6g, not %.6g%s",
+                           i + 1, j + 1, specimen_coordinate(i, first),
+                           specimen_coordinate(j, second), back[i * n + j], M[i * n + j], s->words);
+}
+
+/* Of a straight element that turns about its first node: rho l (Ip, Iy, Iz) beside what masses on
+ * the line have: the difference that FEATURE_ROTARY_INERTIA makes, and all of it about the axis. */
+static void moments(const specimen *s, claim *one)
+{
+    static const double none[3] = {0, 0, 0};
+    const section *c = &s->section;
+    specimen_request what = s->made;
+    specimen line;
+    node_state x[ELEMENT_MAX_NODES];
+    double M[MASS_N * MASS_N], without[MASS_N * MASS_N];
+    fault f = {""};
+    if (c->matrices || s->made.curvature[0] != 0 || !(s->made.features & FEATURE_ROTARY_INERTIA))
+        return;
+    what.features &= ~(unsigned)FEATURE_ROTARY_INERTIA;
+    specimen_state(s, 0, 1, x);
+    s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M});
+    if (specimen_make(&what, &line, &f) == STATUS_OK) {
+        line.type.inertia(line.data, x, NULL, &(inertia_output){.M = without});
+        const double second[3] = {c->Ip, c->Iy, c->Iz};
+        for (int axis = 0; axis < 3; axis++) {
+            double omega[3] = {0, 0, 0};
+            omega[axis] = 1;
+            const double moment = c->density * s->request.length * second[axis],
+                         whole = energy(s, x, M, omega, none),
+                         thin = energy(&line, x, without, omega, none),
+                         found = whole - (axis == 0 ? 0 : thin);
+            claims_departs(
+                one, fabs(found / moment - 1),
+                "inertia: the moment of inertia of the sections about %c is %.6g kg m^2, "
+                "not rho l I = %.6g kg m^2%s",
+                "xyz"[axis], found, moment, s -> words);
+            if (axis == 0)
+                claims_departs(one, fabs(thin / moment - 1),
+                               "inertia: without rotary inertia the twist has %.6g kg m^2, not rho "
+                               "l Ip = %.6g kg m^2: it has inertia always%s",
+                               thin, moment, s->words);
+        }
+    }
+    specimen_free(&line);
+}
+
+static void check(const specimen *s, claims *c)
+{
+    node_state x[ELEMENT_MAX_NODES];
+    double M[MASS_N * MASS_N];
+    claims_doing(c, "inertia%s", s->words);
+    specimen_state(s, 0.05, 31, x);
+    const status outcome = s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M});
+    claims_asks(claims_open(c, "it has a mass matrix", 0), outcome == STATUS_OK,
+                "inertia: status '%s' in a strained state%s", status_name(outcome), s->words);
+    if (outcome != STATUS_OK)
+        return;
+    symmetric(s, M, claims_open(c, "M is symmetric", 1e-13));
+    positive(s, M, claims_open(c, "M is positive", 0));
+    total(s, x, M, claims_open(c, "the mass is that of the beam", 1e-12));
+    carried(s, x, M, claims_open(c, "M turns with the element", 1e-11));
+    moments(s, claims_open(c, "moments of inertia are those of the beam", 1e-9));
+}
+
+void checks_mass(const formulation *chosen, claims *out)
+{
+    if (!(chosen->type->offers & FEATURE_MASS) || chosen->type->inertia == NULL) {
+        claims_not_made(out, "M is symmetric",
+                        chosen->type->offers & FEATURE_MASS
+                            ? "has no inertia of its own: it has that of the displacement field"
+                            : "offers no mass");
+        return;
+    }
+    specimens_each(chosen, out, check);
 }

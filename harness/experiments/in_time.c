@@ -7,8 +7,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/experiments/checks.h"
-#include "harness/experiments/specimens.h"
+#include "harness/experiments/experiments_impl.h"
 #include "harness/formulations/formulations.h"
 
 enum { N = SPECIMEN_COORDINATES };

@@ -1,4 +1,4 @@
-#include "harness/experiments/list_json.h"
+#include "harness/experiments/experiments.h"
 
 #include <float.h>
 #include <string.h>
@@ -6,10 +6,7 @@
 #include "cases/format/meaning.h"
 #include "elements/feature.h"
 #include "elements/shared/choice.h"
-#include "harness/experiments/runs_on.h"
-#include "harness/formulations/formulations.h"
-#include "harness/records/records.h"
-#include "harness/study/study.h"
+#include "harness/model/model.h"
 
 enum { MOST_CASES = 256 };
 
@@ -184,4 +181,86 @@ status list_json_formulation(FILE *to, const formulation *chosen, const rule *ru
         json_array_append_new(list, runs_of("case", &all[i]));
     json_object_set_new(root, "cases", list);
     return json_finish(root, to, f);
+}
+
+/* All names that may be asked about, one after the other. */
+static const char *name_at(const void *context, int i)
+{
+    static const char *const words[] = {"cases", "formulations"};
+    (void)context;
+    if (i < 2)
+        return words[i];
+    i -= 2;
+    for (int k = 0; registry_cases[k] != NULL; k++, i--)
+        if (i == 0)
+            return registry_cases[k]->name;
+    const element_type *type = formulations_at(i);
+    return type != NULL ? type->name : NULL;
+}
+
+static status refuse(const char *name, fault *f)
+{
+    const char *near = choice_nearest(name, name_at, NULL);
+    return fault_set(
+        f, STATUS_REFUSED,
+        "'%.60s' is neither a case nor a formulation%s%s%s; 'beamwork list' shows them all", name,
+        near != NULL ? ", did you mean '" : "", near != NULL ? near : "", near != NULL ? "'?" : "");
+}
+
+status list_subject_find(const char *name, list_subject *out, fault *f)
+{
+    char bare[SCENE_NAME];
+    memset(out, 0, sizeof *out);
+    out->cases = name == NULL || strcmp(name, "cases") == 0;
+    out->formulations = name == NULL || strcmp(name, "formulations") == 0;
+    if (out->cases || out->formulations)
+        return STATUS_OK;
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        if (strcmp(registry_cases[i]->name, name) == 0) {
+            out->type = registry_cases[i];
+            return STATUS_OK;
+        }
+    snprintf(bare, sizeof bare, "%.*s", (int)strcspn(name, ":"), name);
+    return formulation_find(bare) != NULL ? formulation_parse(name, &out->chosen, f)
+                                          : refuse(name, f);
+}
+
+static void look_at(const scene *s, const element_type *type, runs_on *out)
+{
+    const unsigned omits = missing_omits(s, type);
+    *out = (runs_on){.name = type->name};
+    out->runs = !missing_refused(s, type, out->words, sizeof out->words);
+    if (!out->runs)
+        return;
+    if (omits != 0)
+        missing_omit_words(omits, out->words);
+    else if (!lacks_of(s, type, out->words, sizeof out->words))
+        out->words[0] = '\0';
+}
+
+void runs_on_scene(const scene *s, const element_type *type, runs_on *out)
+{
+    omission without;
+    look_at(s, type, out);
+    if (!out->runs || missing_omits(s, type) == 0)
+        return;
+    omission_of(s, type, &without);
+    out->other = without.other;
+}
+
+int runs_on_cases(const element_type *type, runs_on out[], int room)
+{
+    int count = 0;
+    for (; registry_cases[count] != NULL && count < room; count++) {
+        const case_type *here = registry_cases[count];
+        double value[CASE_MAX_PARAMETERS] = {0};
+        scene s;
+        parameters_default(here, value);
+        out[count] = (runs_on){.runs = 0};
+        if (cell_scene(here, value, NULL, &s, NULL) == STATUS_OK)
+            look_at(&s, type, &out[count]);
+        out[count].name = here->name;
+        scene_free(&s);
+    }
+    return count;
 }

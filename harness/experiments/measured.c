@@ -1,4 +1,10 @@
-#include "harness/experiments/measured.h"
+#include "harness/experiments/experiments_impl.h"
+
+#include <gsl/gsl_sf_ellint.h>
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/pi.h"
 
 const measured_group measured_groups[MEASURED_GROUPS] = {
     {"states", "uniform and linear states of a cantilever: error with 1 element, 4 unequal ones",
@@ -6,3 +12,324 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
     {"locking", "8 elements, thickness by length from 1 to 1e-6", measured_locking},
     {"orders", "orders of convergence, and errors with 1 to 32 elements", measured_orders},
 };
+
+/* Errors over thickness by length, 1 to 1e-6: what locks grows where it becomes thin. */
+
+enum { THICKNESSES = 7, ELEMENTS = 8 };
+
+/* Of a straight cantilever under a force, and of a quarter ring under one towards its centre. */
+static double exact_of(const beam_request *r, const section *c)
+{
+    const double EI = c->young * c->Iz, EA = c->young * c->A,
+                 shear = r->needs & FEATURE_SHEAR ? c->F[0] / c->shear_modulus : 0, radius = 2 / PI;
+    if (r->analysis == BEAM_LARGE)
+        return 2 / PI; /* a quarter of a circle */
+    if (r->quarter)
+        return PI / 4 * radius * (radius * radius / EI + 1 / EA + shear);
+    return 1 / (3 * EI) + shear;
+}
+
+/* Thin, the error is that of the thick one, or much more. */
+static void conclude(element_measure *one)
+{
+    const double thick = fabs(one->error[0]), thin = fabs(one->error[one->points - 1]);
+    one->locks = thin > 10 * thick + 0.01;
+    if (one->locks)
+        snprintf(one->words, sizeof one->words,
+                 "it locks: the error grows from %.2g %% to %.2g %% as it becomes thin",
+                 100 * thick, 100 * thin);
+}
+
+static void over_thickness(beam_request *r, const char *name, measures *out)
+{
+    element_measure *one = measures_add(out, name);
+    double thickness = 1;
+    memset(r->vector, 0, sizeof r->vector);
+    for (int i = 0; i < THICKNESSES; i++, thickness /= 10) {
+        section c;
+        r->thickness = r->width = thickness;
+        if (beam_section(r, &c) != STATUS_OK)
+            return;
+        r->vector[r->load == SCENE_MOMENT ? 2 : 1] =
+            r->analysis == BEAM_LARGE ? c.young * c.Iz * PI / 2 : 1;
+        if (!beam_point(r, thickness, exact_of(r, &c), one))
+            return;
+    }
+    conclude(one);
+}
+
+/* With shear where it is offered in that direction. */
+static unsigned shear_of(const element_type *t)
+{
+    return t->lacks & LACKS_SHEAR_Y ? 0 : t->offers & FEATURE_SHEAR;
+}
+
+void measured_locking(const formulation *chosen, claims *c, measures *out)
+{
+    const unsigned shear = shear_of(chosen->type);
+    beam_request r = {.chosen = chosen,
+                      .elements = ELEMENTS,
+                      .needs = shear,
+                      .load = SCENE_FORCE,
+                      .component = SCENE_UY};
+    claims_doing(c, "a cantilever that becomes thin");
+    over_thickness(&r, shear ? "cantilever with shear, force" : "cantilever, force", out);
+    r.quarter = 1;
+    claims_doing(c, "a quarter ring that becomes thin");
+    over_thickness(&r, "quarter ring, straight elements", out);
+    r.quarter = 0;
+    r.load = SCENE_MOMENT;
+    r.needs = shear | FEATURE_LARGE;
+    r.analysis = BEAM_LARGE;
+    claims_doing(c, "a beam bent by a quarter turn that becomes thin");
+    over_thickness(&r, "bent by a quarter turn, moment", out);
+}
+
+/* States of a cantilever whose exact solution is known: uniform ones, which every mesh should have,
+ * and linear ones, which one element may have. */
+
+enum { IRREGULAR = 4 };
+static const double fraction[IRREGULAR] = {0.13, 0.37, 0.19, 0.31};
+
+typedef struct state {
+    const char *name;
+    double thickness, width; /* [m] of a metre */
+    int profile;
+    unsigned needs;
+    beam_analysis analysis;
+    scene_load_kind load;
+    int direction, component;
+    const char *doubt; /* what is wrong of a linear one that no mesh mends */
+} state;
+
+static const state states[] = {
+    {"stretch", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_FORCE, 0, SCENE_UX, "E A?"},
+    {"pure torsion", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It?"},
+    {"pure bending about y", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_MOMENT, 1, SCENE_UZ, "E Iy?"},
+    {"pure bending about z", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_MOMENT, 2, SCENE_UY, "E Iz?"},
+    {"pure bending, a quarter turn", 0.05, 0.1, 0, FEATURE_LARGE, BEAM_LARGE, SCENE_MOMENT, 2,
+     SCENE_UY, ""},
+    {"tip force along y", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_FORCE, 1, SCENE_UY,
+     "E Iz, or does it lock?"},
+    {"tip force along z", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_FORCE, 2, SCENE_UZ,
+     "E Iy, or does it lock?"},
+    {"constant shear along y, short", 0.5, 0.5, 0, FEATURE_SHEAR, BEAM_LINEAR, SCENE_FORCE, 1,
+     SCENE_UY, "G A with its shear factor, E Iz?"},
+    {"constant shear along z, short", 0.5, 0.5, 0, FEATURE_SHEAR, BEAM_LINEAR, SCENE_FORCE, 2,
+     SCENE_UZ, "G A with its shear factor, E Iy?"},
+    {"torsion, warping held", 0, 0, 1, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It, E Iw?"},
+};
+
+/* Of the load's component, and the exact value that it gives. */
+static double states_exact_of(const state *s, const section *c, double load)
+{
+    const double EIz = c->young * c->Iz, EIy = c->young * c->Iy, GI = c->shear_modulus * c->It;
+    const double shear = s->needs & FEATURE_SHEAR ? 1 / c->shear_modulus : 0;
+    if (s->profile) {
+        const double k = sqrt(GI / (c->young * c->Iw));
+        return load / GI * (1 - tanh(k) / k);
+    }
+    if (s->analysis == BEAM_LARGE) /* an arc of a quarter of a circle */
+        return 2 / PI;
+    if (s->load == SCENE_FORCE)
+        return s->direction == 0   ? load / (c->young * c->A)
+               : s->direction == 1 ? load * (1 / (3 * EIz) + shear * c->F[0])
+                                   : load * (1 / (3 * EIy) + shear * c->F[4]);
+    return s->direction == 0 ? load / GI : s->direction == 1 ? -load / (2 * EIy) : load / (2 * EIz);
+}
+
+/* An error that more elements leave as it is comes from the section, not from the mesh. */
+static void states_conclude(const state *s, element_measure *one)
+{
+    const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
+    one->astray = fine > 1e-6 && fine > 0.8 * coarse;
+    if (one->astray)
+        snprintf(one->words, sizeof one->words,
+                 "%.2g %% with one element and %.2g %% with four: a stiffness of the section is "
+                 "wrong (%s)",
+                 100 * coarse, 100 * fine, s->doubt);
+}
+
+static void measure_state(const formulation *chosen, const state *s, measures *out)
+{
+    element_measure *one = measures_add(out, s->name);
+    beam_request r = {.chosen = chosen,
+                      .thickness = s->thickness,
+                      .width = s->width,
+                      .profile = s->profile,
+                      .needs = s->needs,
+                      .analysis = s->analysis,
+                      .load = s->load,
+                      .component = s->component};
+    section c;
+    if (beam_section(&r, &c) != STATUS_OK)
+        return;
+    const double load = s->analysis == BEAM_LARGE ? c.young * c.Iz * PI / 2 : 1;
+    r.vector[s->direction] = load;
+    const double exact = states_exact_of(s, &c, load);
+    r.elements = 1;
+    if (!beam_point(&r, 1, exact, one))
+        return;
+    r.elements = IRREGULAR;
+    r.fraction = fraction;
+    beam_point(&r, IRREGULAR, exact, one);
+    if (s->analysis == BEAM_LINEAR)
+        states_conclude(s, one);
+}
+
+/* Where all linear ones are apart by the same power of a thousand: units. */
+static void compare_units(measures *out)
+{
+    double times = NAN;
+    for (int i = 0; i < out->count; i++) {
+        const element_measure *one = &out->measure[i];
+        if (states[i].analysis != BEAM_LINEAR || one->points < 2 || isnan(one->error[1]))
+            continue;
+        const double here = 1 + one->error[1];
+        if (isnan(times))
+            times = here;
+        if (!(here > 0) || fabs(here / times - 1) > 1e-3)
+            return;
+    }
+    const double thousands = log10(times) / 3;
+    if (!(fabs(thousands) > 0.5) || fabs(thousands - round(thousands)) > 1e-3)
+        return;
+    snprintf(out->words, sizeof out->words, "everything is %.0e times too %s: units?",
+             fmax(times, 1 / times), times > 1 ? "soft" : "stiff");
+}
+
+void measured_states(const formulation *chosen, claims *c, measures *out)
+{
+    for (size_t i = 0; i < sizeof states / sizeof states[0]; i++) {
+        claims_doing(c, "a cantilever under %s", states[i].name);
+        measure_state(chosen, &states[i], out);
+    }
+    compare_units(out);
+}
+
+/* Order of convergence in the number of elements, beside the one that is declared. */
+
+enum { MESHES = 6 };
+static const double noise =
+    1e-8; /* errors below it show no order: the column is not infinitely thin */
+
+typedef struct orders_question {
+    const char *name;
+    beam_analysis analysis;
+    element_analysis declared;
+    unsigned needs;
+} orders_question;
+
+static const orders_question questions[] = {
+    {"statics, linear: tip force", BEAM_LINEAR, ELEMENT_STATICS, 0},
+    {"statics, large: tip force", BEAM_LARGE, ELEMENT_STATICS, FEATURE_LARGE},
+    {"vibration: first bending mode", BEAM_VIBRATION, ELEMENT_VIBRATION, FEATURE_MASS},
+    {"buckling: clamped column", BEAM_BUCKLING, ELEMENT_BUCKLING, FEATURE_GEOMETRIC},
+};
+
+/* The elastica under a force across it whose end turns by `angle`: (P L^2/EI, deflection/L). */
+static void elastica(double angle, double *load, double *deflection)
+{
+    const double k = sqrt((1 + sin(angle)) / 2), phi = asin(1 / (k * sqrt(2)));
+    const double root =
+        gsl_sf_ellint_Kcomp(k, GSL_PREC_DOUBLE) - gsl_sf_ellint_F(phi, k, GSL_PREC_DOUBLE);
+    *load = root * root;
+    *deflection =
+        1 -
+        2 * (gsl_sf_ellint_Ecomp(k, GSL_PREC_DOUBLE) - gsl_sf_ellint_E(phi, k, GSL_PREC_DOUBLE)) /
+            root;
+}
+
+/* The load that is set, and the exact value that it gives. */
+static double orders_exact_of(const orders_question *q, const section *c, beam_request *r)
+{
+    const double EI = c->young * c->Iz, lambda = 1.8751040687119611;
+    double load, deflection;
+    switch (q->analysis) {
+    case BEAM_LARGE:
+        elastica(1, &load, &deflection);
+        r->vector[1] = load * EI;
+        return deflection;
+    case BEAM_VIBRATION:
+        return lambda * lambda * sqrt(EI / (c->density * c->A)) / (2 * PI);
+    case BEAM_BUCKLING:
+        r->vector[0] = -EI;
+        return PI * PI / 4;
+    default:
+        r->vector[1] = EI;
+        return 1.0 / 3;
+    }
+}
+
+/* Of the finest two meshes whose errors say something: the second of them; 0: there are none. */
+static int telling(const element_measure *one)
+{
+    int last = 0;
+    for (int i = 1; i < one->points; i++)
+        if (fabs(one->error[i]) > noise && fabs(one->error[i - 1]) > noise)
+            last = i;
+    return last;
+}
+
+/* The least order is a claim. */
+static void hold_against_declared(const orders_question *q, int last, const element_measure *one,
+                                  claims *c)
+{
+    static const char *const analysis[ELEMENT_ANALYSES] = {"statics", "vibration", "buckling"};
+    char name[CLAIM_NAME];
+    snprintf(name, sizeof name, "order of %s", q->name);
+    claim *claimed = claims_open(c, name, 0.3);
+    if (last == 0 && fabs(one->error[one->points - 1]) <= noise)
+        claims_asks(claimed, 1, "%s", "");
+    else if (last > 1 && one->order < 0.1 && one->least > 0)
+        claims_asks(claimed, 0,
+                    "order: its errors do not fall: %.2g, %.2g, %.2g with %g, %g and %g elements "
+                    "(%s): the limit is wrong; correct the element, or its section's constants",
+                    fabs(one->error[last - 2]), fabs(one->error[last - 1]), fabs(one->error[last]),
+                    one->at[last - 2], one->at[last - 1], one->at[last], q->name);
+    else if (last > 0)
+        claims_departs(
+            claimed, one->least - one->order,
+            "order: at least %d is declared in %s, and %s shows %.1f: errors of %.2g and "
+            "%.2g with %g and %g elements; declare what there is, or correct it",
+            one->least, analysis[q->declared], q->name, one->order, fabs(one->error[last - 1]),
+            fabs(one->error[last]), one->at[last - 1], one->at[last]);
+}
+
+static void measure_order(const formulation *chosen, const orders_question *q, claims *c,
+                          measures *out)
+{
+    element_measure *one = measures_add(out, q->name);
+    const element_order declared = element_order_in(chosen->type, q->declared, chosen->option);
+    beam_request r = {.chosen = chosen,
+                      .thickness = 1e-4,
+                      .width = 3e-4,
+                      .needs = q->needs,
+                      .analysis = q->analysis,
+                      .load = SCENE_FORCE,
+                      .component = SCENE_UY};
+    section constants;
+    if (beam_section(&r, &constants) != STATUS_OK)
+        return;
+    const double exact = orders_exact_of(q, &constants, &r);
+    one->least = declared.least;
+    one->highest = declared.highest;
+    for (int i = 0; i < MESHES; i++) {
+        r.elements = 1 << i;
+        if (!beam_point(&r, r.elements, exact, one))
+            return;
+    }
+    const int last = telling(one);
+    if (last > 0)
+        one->order = log(fabs(one->error[last - 1] / one->error[last])) /
+                     log(one->at[last] / one->at[last - 1]);
+    hold_against_declared(q, last, one, c);
+}
+
+void measured_orders(const formulation *chosen, claims *c, measures *out)
+{
+    for (size_t i = 0; i < sizeof questions / sizeof questions[0]; i++) {
+        claims_doing(c, "%s", questions[i].name);
+        measure_order(chosen, &questions[i], c, out);
+    }
+}

@@ -1,5 +1,6 @@
-#include "harness/experiments/pace.h"
+#include "harness/experiments/experiments_impl.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,4 +31,429 @@ const sweep_point *pace_point_of(const pace *p, const pace_run *r)
 const cell_result *pace_cell_of(const pace *p, int index)
 {
     return &p->sweep.series[index].cell[0];
+}
+
+/* Steps of the motion of a run, with its begin. */
+typedef struct track {
+    int count;
+    const motion_record *record;
+} track;
+
+static track track_of(const solve_result *r, int analysis)
+{
+    track t = {0, r->motion};
+    while (t.record != NULL && t.record < r->motion + r->motions && t.record->analysis != analysis)
+        t.record++;
+    while (t.record + t.count < r->motion + r->motions && t.record[t.count].analysis == analysis)
+        t.count++;
+    return t;
+}
+
+static double balance_at(const track *t, int i, scene_balance what)
+{
+    return t->record[i].at.balance[what];
+}
+
+/* The first step that ends where nothing acts; where loads end, accelerations and what has no mass
+ * are found anew, so that the end of the step before is not yet one of them. */
+static int first_alone(const track *t, double from)
+{
+    int i = 0;
+    while (from > 0 && i < t->count && t->record[i].at.time <= from * (1 + 1e-12))
+        i++;
+    return i;
+}
+
+/* Against the first step: the run may have stopped before the last one. */
+static void take_energy(const track *t, int first, pace_run *r)
+{
+    const double before = balance_at(t, first, SCENE_ENERGY);
+    r->largest = r->last = 1;
+    r->energy = 0;
+    for (int i = first; i < t->count; i++) {
+        r->last = balance_at(t, i, SCENE_ENERGY) / before;
+        r->largest = fmax(r->largest, r->last);
+        r->energy = fmax(r->energy, fabs(r->last - 1));
+    }
+}
+
+/* Of a momentum: its size, or that of its change since `first`. */
+static double vector_at(const track *t, scene_balance x, int i, int first)
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        const scene_balance which = (scene_balance)(x + k);
+        const double d = balance_at(t, i, which) - (first != i ? balance_at(t, first, which) : 0);
+        square += d * d;
+    }
+    return sqrt(square);
+}
+
+/* Of both momenta, against their size; what is at rest has none. */
+static double momentum_drift(const track *t, int first)
+{
+    static const scene_balance both[] = {SCENE_PX, SCENE_LX};
+    double largest = 0;
+    for (int b = 0; b < 2; b++) {
+        const double size = vector_at(t, both[b], first, first);
+        for (int i = first + 1; i < t->count && size > 0; i++)
+            largest = fmax(largest, vector_at(t, both[b], i, first) / size);
+    }
+    return largest;
+}
+
+/* Energy that no work explains, in parts of the largest. */
+static double unexplained(const track *t)
+{
+    double most = 0, size = 0;
+    for (int i = 0; i < t->count; i++) {
+        const double drift = fabs(balance_at(t, i, SCENE_DRIFT));
+        if (isnan(drift))
+            return NAN;
+        most = fmax(most, drift);
+        size = fmax(size, fabs(balance_at(t, i, SCENE_ENERGY)));
+    }
+    return size > 0 ? most / size : NAN;
+}
+
+static pace_fate fate_of(const pace_run *r)
+{
+    if (r->status != STATUS_OK)
+        return PACE_STOPS;
+    if (isnan(r->largest))
+        return PACE_UNJUDGED;
+    if (!(r->largest <= 1 + pace_growth))
+        return PACE_GROWS;
+    return r->energy <= pace_energy && r->momentum <= pace_momentum ? PACE_EXACT : PACE_BOUNDED;
+}
+
+void pace_drift(const pace *p, pace_run *r)
+{
+    const pace_group *g = &p->group[r->group];
+    const track t = track_of(&pace_cell_of(p, r->series)->solve, g->analysis);
+    const int first = first_alone(&t, g->from);
+    r->momentum = r->largest = r->last = NAN;
+    r->energy = unexplained(&t);
+    if (first < t.count && balance_at(&t, first, SCENE_ENERGY) > 0) {
+        take_energy(&t, first, r);
+        r->momentum = momentum_drift(&t, first);
+    }
+    r->fate = isfinite(g->from) || r->status != STATUS_OK ? fate_of(r) : PACE_UNJUDGED;
+}
+
+const double pace_order_slack = 0.3;
+
+/* Of what the reference may be off, and of rounding. */
+static const double floor_of_reference = 10, floor_of_rounding = 1e-11;
+
+const char *pace_order_name(pace_order_kind kind)
+{
+    static const char *const name[PACE_ORDER_KINDS] = {"pass", "low order", "undecided"};
+    return name[kind];
+}
+
+static int follows(const pace_run *a, const pace_run *b)
+{
+    return b->group == a->group && strcmp(b->method.name, a->method.name) == 0 &&
+           a->tolerance == 0 && b->tolerance == 0 && b->step < a->step;
+}
+
+static double order_of(const pace_run *coarse, const pace_run *fine)
+{
+    return log(coarse->error / fine->error) / log(coarse->step / fine->step);
+}
+
+void pace_order_fill(pace *p)
+{
+    for (int i = 0; i < p->runs; i++)
+        p->run[i].order = i > 0 && follows(&p->run[i - 1], &p->run[i])
+                              ? order_of(&p->run[i - 1], &p->run[i])
+                              : NAN;
+}
+
+/* Two orders say it; where they are far apart, they may be on their way to anything. */
+static pace_order_kind judge(const pace_ladder *l)
+{
+    const double least = l->method->order - pace_order_slack;
+    if (isnan(l->order) || isnan(l->before))
+        return PACE_ORDER_UNDECIDED;
+    if (l->order >= least && l->before >= least)
+        return PACE_ORDER_PASS;
+    return l->order < least && l->before < least ? PACE_ORDER_LOW : PACE_ORDER_UNDECIDED;
+}
+
+pace_ladder pace_order_of(const pace *p, int first)
+{
+    const pace_run *r = &p->run[first];
+    pace_ladder out = {
+        .group = r->group,
+        .method = &r->method,
+        .first = first,
+        .count = 1,
+        .order = NAN,
+        .before = NAN,
+        .floor = fmax(floor_of_reference * p->group[r->group].uncertainty, floor_of_rounding)};
+    while (first + out.count < p->runs && follows(&r[out.count - 1], &r[out.count]))
+        out.count++;
+    for (int i = 1; i < out.count && r[i].error > out.floor; i++) {
+        out.before = out.order;
+        out.order = order_of(&r[i - 1], &r[i]);
+    }
+    out.kind = judge(&out);
+    return out;
+}
+
+int pace_order_stands(const pace *p, const pace_ladder *l, int quantity)
+{
+    static const double least = 1e-3, fall = 2, steps = 3.9;
+    const pace_run *first = &p->run[l->first], *last = first + l->count - 1;
+    if (first->values == NULL || last->values == NULL || first->step < steps * last->step)
+        return 0;
+    const double from = first->values[quantity], to = last->values[quantity];
+    return to > least && to > l->floor && from < fall * to;
+}
+
+int pace_order_is_stopped(const pace_group *g)
+{
+    return g->order < PACE_REFERENCE_ORDER - 1;
+}
+
+const double pace_levels[PACE_LEVELS] = {1e-2, 1e-4, 1e-6};
+
+/* Both of one integrator, by steps or by tolerances. */
+static int is_coarser(const pace_run *a, const pace_run *b)
+{
+    return a->group == b->group && strcmp(a->method.name, b->method.name) == 0 &&
+           (a->tolerance > 0) == (b->tolerance > 0) &&
+           (a->tolerance > 0 ? a->tolerance > b->tolerance : a->step > b->step);
+}
+
+static int is_reached_from(const pace *p, const pace_run *r, double level)
+{
+    for (int i = 0; i < p->runs; i++)
+        if ((&p->run[i] == r || is_coarser(r, &p->run[i])) && !(p->run[i].error <= level))
+            return 0;
+    return 1;
+}
+
+/* Errors and costs are powers of the step between two runs. */
+static double cost_at(const pace *p, const pace_run *r, double level)
+{
+    const pace_run *before = r > p->run ? r - 1 : NULL;
+    if (before == NULL || !is_coarser(before, r) || !(before->error > level) || r->error <= 0)
+        return r->cost;
+    const double share = log(before->error / level) / log(before->error / r->error);
+    return before->cost * pow(r->cost / before->cost, share);
+}
+
+pace_reach pace_reach_of(const pace *p, int group, const char *method, double level)
+{
+    pace_reach best = {NULL, INFINITY};
+    for (int i = 0; i < p->runs; i++) {
+        const pace_run *r = &p->run[i];
+        if (r->group != group || strcmp(r->method.name, method) != 0 ||
+            !is_reached_from(p, r, level))
+            continue;
+        const double cost = cost_at(p, r, level);
+        if (cost < best.cost)
+            best = (pace_reach){r, cost};
+    }
+    return best;
+}
+
+int pace_reach_methods(const pace *p, const char *name[PACE_METHODS_MOST])
+{
+    int count = 0;
+    for (int i = 0; i < p->runs; i++) {
+        int known = 0;
+        for (int k = 0; k < count; k++)
+            known |= strcmp(name[k], p->run[i].method.name) == 0;
+        if (!known && count < PACE_METHODS_MOST)
+            name[count++] = p->run[i].method.name;
+    }
+    return count;
+}
+
+enum { NAME = 16, NUMBER = 9 };
+
+/* What the reference is, and how far it can be trusted. */
+static void print_reference(FILE *to, const pace *p, const pace_group *g)
+{
+    char stopped[160] = "";
+    if (pace_order_is_stopped(g))
+        snprintf(stopped, sizeof stopped,
+                 "; between these two its order is %.1f of %d: motions faster than its steps take "
+                 "part",
+                 g->order, PACE_REFERENCE_ORDER);
+    paragraph_say(to, 0, 2,
+                  "errors of time: against radau at %g on the same mesh (%d steps), which is off "
+                  "by %.1e at most, by radau at %g and %g%s",
+                  pace_reference[0], pace_cell_of(p, g->reference)->solve.steps, g->uncertainty,
+                  pace_reference[1], pace_reference[2], stopped);
+}
+
+static void print_head(FILE *to, const pace *p, const pace_group *g)
+{
+    char text[PARAMETERS_TEXT];
+    parameters_text(g->type, g->parameter, text, sizeof text);
+    fputc('\n', to);
+    paragraph_say(to, 0, 2, "%s%s%s%s, %s, n = %d, to %g s", g->type->name,
+                  text[0] != '\0' ? " (" : "", text, text[0] != '\0' ? ")" : "", g->formulation.key,
+                  g->elements, g->end);
+    if (g->reference >= 0 && isfinite(g->uncertainty))
+        print_reference(to, p, g);
+    else if (g->reference >= 0)
+        paragraph_say(to, 0, 2, "no errors: the reference has none to be measured by: %s",
+                      g->reason);
+    if (isfinite(g->from) && g->from < g->end)
+        paragraph_say(to, 0, 2, "energy and momenta: their largest change since %g s", g->from);
+    fprintf(to, "  %-*s%*s%*s%*s%6s%*s%*s%6s%5s%*s%*s  %s\n", NAME, "integrator", NUMBER, "step",
+            NUMBER, "tol.", NUMBER, "error", "order", NUMBER, "energy", NUMBER, "momentum", "iter.",
+            "rej.", NUMBER, "cost ms", NUMBER, "time ms", "fate");
+}
+
+static void print_run(FILE *to, const pace_run *r)
+{
+    fprintf(to, "  %-*s%*g", NAME, r->method.name, NUMBER, r->step);
+    table_value(to, NUMBER, 3, 'g', r->tolerance > 0 ? r->tolerance : NAN);
+    table_value(to, NUMBER, 1, 'e', r->error);
+    table_value(to, 6, 2, 'f', r->order);
+    table_value(to, NUMBER, 1, 'e', r->energy);
+    table_value(to, NUMBER, 1, 'e', r->momentum);
+    table_value(to, 6, 1, 'f', r->iterations);
+    fprintf(to, "%5ld", r->rejected);
+    table_value(to, NUMBER, 3, 'g', 1e3 * r->cost);
+    table_value(to, NUMBER, 3, 'g', 1e3 * r->seconds);
+    fprintf(to, "  %s", pace_fate_name(r->fate));
+    if (r->status != STATUS_OK)
+        fprintf(to, " at %.4g s", r->stopped);
+    else if (r->fate == PACE_GROWS)
+        fprintf(to, " to %.3g E0", r->largest);
+    fputc('\n', to);
+}
+
+/* Why runs ended too early: each reason once. */
+static void print_reasons(FILE *to, const pace *p, const pace_group *g)
+{
+    const char *last = "";
+    for (int i = g->first; i < g->first + g->runs; i++) {
+        const pace_run *r = &p->run[i];
+        if (r->status == STATUS_OK || strcmp(r->reason, last) == 0)
+            continue;
+        last = r->reason;
+        paragraph_say(to, 0, 4, "  %s, step %g s: %s", r->method.name, r->step, r->reason);
+    }
+}
+
+static void print_orders(FILE *to, const pace *p, const pace_group *g)
+{
+    for (int i = g->first; i < g->first + g->runs;) {
+        const pace_ladder l = pace_order_of(p, i);
+        if (l.count > 2 && isfinite(l.before) && isfinite(l.order))
+            paragraph_say(to, 0, 2, "order of %s: %.2f, %.2f (nominal %d): %s", l.method->name,
+                          l.before, l.order, l.method->order, pace_order_name(l.kind));
+        else if (l.count > 2)
+            paragraph_say(to, 0, 2, "order of %s: %s, no errors that show it (nominal %d)",
+                          l.method->name, pace_order_name(l.kind), l.method->order);
+        i += l.count;
+    }
+}
+
+/* Integrators by which the error of a quantity does not fall with the step; returns how many. */
+static int write_standing(FILE *text, const pace *p, const pace_group *g, int quantity)
+{
+    int count = 0;
+    for (int i = g->first; i < g->first + g->runs;) {
+        const pace_ladder l = pace_order_of(p, i);
+        const pace_run *last = &p->run[i + l.count - 1];
+        i += l.count;
+        if (!pace_order_stands(p, &l, quantity))
+            continue;
+        if (text != NULL)
+            fprintf(text, "%s %s (off by %.1e at a step of %g s)", count > 0 ? "," : "",
+                    l.method->name, last->values[quantity], last->step);
+        count++;
+    }
+    return count;
+}
+
+static void print_standing(FILE *to, const pace *p, const pace_group *g)
+{
+    const scene *s = &pace_point_of(p, &p->run[g->first])->scene;
+    for (int q = 0; q < s->quantities; q++) {
+        paragraph words;
+        if (write_standing(NULL, p, g, q) == 0)
+            continue;
+        FILE *text = paragraph_begin(&words, to);
+        fprintf(text, "%s does not converge with the step by", s->quantity[q].name);
+        write_standing(text, p, g, q);
+        paragraph_end(&words, 0, 2);
+    }
+}
+
+/* Who reaches an error soonest: the first three. */
+static void print_level(FILE *to, const pace *p, int group, double level)
+{
+    const char *name[PACE_METHODS_MOST];
+    const int count = pace_reach_methods(p, name);
+    double behind = 0;
+    paragraph words;
+    FILE *text = paragraph_begin(&words, to);
+    fprintf(text, "lowest cost to an error of %g, the first three:", level);
+    for (int place = 0; place < 3; place++) {
+        pace_reach best = {NULL, INFINITY};
+        for (int i = 0; i < count; i++) {
+            const pace_reach one = pace_reach_of(p, group, name[i], level);
+            if (one.run != NULL && one.cost > behind && one.cost < best.cost)
+                best = one;
+        }
+        if (best.run == NULL && place == 0)
+            fprintf(text, " none");
+        if (best.run == NULL)
+            break;
+        fprintf(text, "%s %s (%.3g ms)", place > 0 ? "," : "", best.run->method.name,
+                1e3 * best.cost);
+        behind = best.cost;
+    }
+    paragraph_end(&words, 0, 2);
+}
+
+static void print_group(FILE *to, const pace *p, int index)
+{
+    const pace_group *g = &p->group[index];
+    print_head(to, p, g);
+    for (int i = g->first; i < g->first + g->runs; i++)
+        print_run(to, &p->run[i]);
+    print_reasons(to, p, g);
+    if (g->reference < 0)
+        return;
+    print_orders(to, p, g);
+    print_standing(to, p, g);
+    for (int l = 0; l < PACE_LEVELS; l++)
+        print_level(to, p, index, pace_levels[l]);
+}
+
+static void print_verdict(FILE *to, const pace_verdict *v)
+{
+    paragraph words;
+    FILE *text = paragraph_begin(&words, to);
+    fprintf(text, "%s%s of %s, %s%s%s%s, %s, n = %d, steps %s: %s",
+            v->as_expected ? "" : "unexpected: ", v->judged, v->integrator, v->case_name,
+            v->parameters[0] != '\0' ? " (" : "", v->parameters,
+            v->parameters[0] != '\0' ? ")" : "", v->formulation, v->elements, v->steps, v->found);
+    if (!v->as_expected)
+        fprintf(text, ", expected %s", v->expected);
+    paragraph_end(&words, 0, 2);
+}
+
+void pace_table(FILE *to, const pace *p, const pace_verdicts *all, int runs)
+{
+    for (int i = 0; i < p->groups && runs; i++)
+        print_group(to, p, i);
+    if (all->count == 0)
+        return;
+    fputc('\n', to);
+    for (int i = 0; i < all->count; i++)
+        print_verdict(to, &all->verdict[i]);
+    fprintf(to, "%d verdicts, %d differ from the expected ones\n", all->count, all->unexpected);
 }

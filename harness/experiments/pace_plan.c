@@ -1,11 +1,10 @@
-#include "harness/experiments/pace_plan.h"
+#include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/experiments/pace_alone.h"
-#include "harness/study/study.h"
+#include "elements/shared/number.h"
 
 enum {
     STATIONS_OF_ERROR = 20,
@@ -212,4 +211,254 @@ status pace_plan_add(pace *p, const pace_plan_request *q, fault *f)
     if (q->errors)
         TRY(add_reference(p, g, q, f));
     return add_runs(p, q, f);
+}
+
+const char pace_method_all[] = "alpha,alpha:rho=0.5,hht,trapezoidal,conserving,radau";
+
+enum { SCHEME_WORDS = 6, ORDER_OF_EXPLICIT = 8 };
+
+/* Its word, and what may be said of it. */
+static const struct {
+    const char *word, *value;
+    double usual, most;
+    scene_scheme scheme;
+    int order, estimate;
+} schemes[SCHEME_WORDS] = {
+    {"alpha", "rho", 0.9, 1, SCENE_ALPHA, 2, 1},
+    {"hht", "alpha", 0.05, 1 / 3.0, SCENE_ALPHA, 2, 1},
+    {"trapezoidal", NULL, 0, 0, SCENE_ALPHA, 2, 1},
+    {"conserving", NULL, 0, 0, SCENE_CONSERVING, 2, 0},
+    {"radau", NULL, 0, 0, SCENE_RADAU, PACE_REFERENCE_ORDER, 1},
+    {"explicit", NULL, 0, 0, SCENE_EXPLICIT, ORDER_OF_EXPLICIT, 1},
+};
+
+static status refuse(const char *name, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED, "--integrator '%.31s': give one of " PACE_METHODS, name);
+}
+
+/* "KEY=NUMBER" of a scheme; *value is its usual one where nothing is said. */
+static int read_value(const char *text, const char *key, double most, double *value)
+{
+    const size_t length = key != NULL ? strlen(key) : 0;
+    const char *end;
+    if (text[0] == '\0')
+        return 1;
+    if (key == NULL || strncmp(text, key, length) != 0 || text[length] != '=')
+        return 0;
+    return number_read(text + length + 1, &end, value) && *end == '\0' && *value >= 0 &&
+           *value <= most;
+}
+
+status pace_method_read(const char *text, int length, pace_method *out, fault *f)
+{
+    memset(out, 0, sizeof *out);
+    snprintf(out->name, sizeof out->name, "%.*s", length, text);
+    const size_t word = strcspn(out->name, ":");
+    int i = 0;
+    while (i < SCHEME_WORDS &&
+           (strlen(schemes[i].word) != word || strncmp(schemes[i].word, out->name, word) != 0))
+        i++;
+    if (i == SCHEME_WORDS || length >= PACE_METHOD_NAME)
+        return refuse(out->name, f);
+    double value = schemes[i].usual;
+    const char *rest = out->name + word + (out->name[word] == ':');
+    if (!read_value(rest, schemes[i].value, schemes[i].most, &value))
+        return refuse(out->name, f);
+    out->scheme = schemes[i].scheme;
+    out->order = schemes[i].order;
+    out->estimate = schemes[i].estimate;
+    if (out->scheme == SCENE_ALPHA && i == 0)
+        out->alpha = scene_alpha_of_radius(value);
+    else if (out->scheme == SCENE_ALPHA)
+        out->alpha = (scene_alpha){0, value};
+    return STATUS_OK;
+}
+
+status pace_method_read_list(const char *text, int most, pace_method list[], int *count, fault *f)
+{
+    for (const char *at = text;; at++) {
+        const int length = (int)strcspn(at, ",");
+        if (*count == most)
+            return fault_set(f, STATUS_REFUSED, "--integrator: more than %d; give fewer", most);
+        TRY(pace_method_read(at, length, &list[*count], f));
+        for (int i = 0; i < *count; i++)
+            if (strcmp(list[i].name, list[*count].name) == 0)
+                return fault_set(f, STATUS_REFUSED, "--integrator: %s is given twice; give it once",
+                                 list[i].name);
+        ++*count;
+        at += length;
+        if (*at == '\0')
+            return STATUS_OK;
+    }
+}
+
+pace_list pace_list_divided(double first, double ratio, int count)
+{
+    pace_list out = {.count = count};
+    for (int i = 0; i < count; i++)
+        out.value[i] = i == 0 ? first : out.value[i - 1] / ratio;
+    return out;
+}
+
+static status list_refuse(const char *option, const char *text, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED,
+                     "--%s '%.60s': give at most %d positive numbers, such as 0.1,0.05, or "
+                     "0.1..0.0125",
+                     option, text, PACE_LIST_MOST);
+}
+
+/* Where a number ends; NULL: there is none that is positive. */
+static const char *positive(const char *at, double *out)
+{
+    const char *end;
+    if (!number_read(at, &end, out) || *out <= 0)
+        return NULL;
+    return *end == '.' && end[-1] == '.' ? end - 1 : end; /* 1..2: the first point is no decimal */
+}
+
+static status read_range(const char *option, const char *text, double from, double to, double ratio,
+                         pace_list *out, fault *f)
+{
+    const int count = to <= from ? 1 + (int)lround(log(from / to) / log(ratio)) : 0;
+    if (count < 1 || count > PACE_LIST_MOST)
+        return list_refuse(option, text, f);
+    *out = pace_list_divided(from, ratio, count);
+    return STATUS_OK;
+}
+
+status pace_list_read(const char *option, const char *text, double ratio, pace_list *out, fault *f)
+{
+    const char *at = text;
+    double to;
+    out->count = 0;
+    do {
+        at = out->count < PACE_LIST_MOST ? positive(at, &out->value[out->count]) : NULL;
+        if (at != NULL && out->count == 0 && strncmp(at, "..", 2) == 0) {
+            at = positive(at + 2, &to);
+            return at != NULL && *at == '\0'
+                       ? read_range(option, text, out->value[0], to, ratio, out, f)
+                       : list_refuse(option, text, f);
+        }
+        if (at == NULL || (*at != ',' && *at != '\0'))
+            return list_refuse(option, text, f);
+        out->count++;
+    } while (*at++ == ',');
+    return STATUS_OK;
+}
+
+static int is_held(const scene_node *n)
+{
+    for (int i = 0; i < 3; i++)
+        if (n->translation[i] != SCENE_FREE || n->angle[i] != SCENE_FREE)
+            return 1;
+    return n->rotation != SCENE_ROTATION_SPATIAL;
+}
+
+/* Zero wherever it is looked at. */
+static int is_over(const scene_function *f, double from)
+{
+    static const double later[] = {0, 0.37, 1, 7.3, 61};
+    for (size_t i = 0; i < sizeof later / sizeof later[0]; i++) {
+        double value[3];
+        function_at(f, from + later[i], value);
+        if (value[0] != 0 || value[1] != 0)
+            return 0;
+    }
+    return 1;
+}
+
+static double load_until(const scene_load *load)
+{
+    const scene_function *f = &load->function;
+    if (!scene_load_acts(load))
+        return 0;
+    if (f->pieces > 0) {
+        const double from = f->pieces > 1 ? f->piece[f->pieces - 2].until : 0;
+        return is_over(f, from) ? from : INFINITY;
+    }
+    if (load->stations > 0 && load->factor[load->stations - 1] == 0)
+        return load->path[load->stations - 1];
+    return INFINITY;
+}
+
+double pace_alone_from(const scene *s)
+{
+    double from = 0;
+    for (int i = 0; i < s->nodes; i++)
+        if (is_held(&s->node[i]))
+            return INFINITY;
+    for (int i = 0; i < s->springs; i++)
+        if (s->spring[i].p == SCENE_NONE || s->spring[i].q == SCENE_NONE)
+            return INFINITY;
+    for (int i = 0; i < s->loads; i++)
+        from = fmax(from, load_until(&s->load[i]));
+    return from;
+}
+
+static double apart(const double a[3], const double b[3])
+{
+    double square = 0;
+    for (int i = 0; i < 3; i++)
+        square += (a[i] - b[i]) * (a[i] - b[i]);
+    return sqrt(square);
+}
+
+/* Between two unit quaternions, whatever their signs; of small angles exact, too. */
+static double angle(const double a[4], const double b[4])
+{
+    double less = 0, more = 0;
+    for (int i = 0; i < 4; i++) {
+        less += (a[i] - b[i]) * (a[i] - b[i]);
+        more += (a[i] + b[i]) * (a[i] + b[i]);
+    }
+    return 4 * atan2(sqrt(fmin(less, more)), sqrt(fmax(less, more)));
+}
+
+/* Largest distance of two nodes at rest. */
+static double size_of(const shapes *s)
+{
+    double size = 0;
+    for (int i = 0; i < s->nodes; i++)
+        for (int k = 0; k < i; k++)
+            size = fmax(size, apart(s->node + 3 * (size_t)i, s->node + 3 * (size_t)k));
+    return size > 0 ? size : 1;
+}
+
+static double of_state(const shapes *a, const shapes *b, size_t at, size_t other, double size)
+{
+    double largest = 0;
+    for (size_t i = 0; i < (size_t)a->points; i++) {
+        const centreline_point *p = &a->point[at * (size_t)a->points + i],
+                               *q = &b->point[other * (size_t)b->points + i];
+        largest = fmax(largest, fmax(apart(p->r, q->r) / size, angle(p->q, q->q)));
+    }
+    for (size_t i = 0; i < (size_t)a->nodes; i++)
+        largest = fmax(largest, apart(a->node + 3 * (at * (size_t)a->nodes + i),
+                                      b->node + 3 * (other * (size_t)b->nodes + i)) /
+                                    size);
+    return largest;
+}
+
+double pace_distance(const cell_result *cell, const cell_result *other, int analysis)
+{
+    const shapes *a = &cell->solve.shapes, *b = &other->solve.shapes;
+    double largest = 0;
+    if (cell->solve.status != STATUS_OK || other->solve.status != STATUS_OK || a->states == 0 ||
+        a->states != b->states || a->points != b->points)
+        return NAN;
+    const double size = size_of(a);
+    for (int i = 0; i < a->states; i++)
+        if (a->state[i].kind == SHAPE_MOTION && a->state[i].analysis == analysis)
+            largest = fmax(largest, of_state(a, b, (size_t)i, (size_t)i, size));
+    return largest;
+}
+
+double pace_distance_of(const scene_quantity *q, const quantity_result *one,
+                        const quantity_result *other)
+{
+    return one->status == STATUS_OK && other->status == STATUS_OK
+               ? fabs(verdict_error(q, one->value, other->value))
+               : NAN;
 }

@@ -1,12 +1,10 @@
-#include "harness/experiments/pace_verdict.h"
+#include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/shared/number.h"
-#include "harness/experiments/pace_order.h"
 
 /* Of a decimal logarithm: the same, but for a factor of two. */
 static const double same_decade = 0.3;
@@ -110,4 +108,246 @@ void pace_verdict_free(pace_verdicts *all)
     own_table_free(&all->table);
     free(all->verdict);
     memset(all, 0, sizeof *all);
+}
+
+static const char head[] =
+    "judged,case,parameters,formulation,elements,integrator,steps,expected,why";
+enum { JUDGED, CASE, PARAMETERS, FORMULATION, ELEMENTS, INTEGRATOR, STEPS, EXPECTED, WHY };
+
+static const char *const judged_names[PACE_JUDGED] = {"order", "energy", "momentum", "tolerance",
+                                                      "fate"};
+
+/* Of a row, and what it plans. */
+typedef struct planned {
+    pace_plan_request request;
+    double parameter[CASE_MAX_PARAMETERS];
+    pace_method method;
+} planned;
+
+static status read_kind(const char *word, pace_verdict *v, fault *f)
+{
+    int i = 0;
+    while (i < PACE_JUDGED && strcmp(judged_names[i], word) != 0)
+        i++;
+    if (i == PACE_JUDGED)
+        return fault_set(f, STATUS_REFUSED,
+                         "'%.40s' is judged by nothing; give order, energy, momentum, tolerance or "
+                         "fate",
+                         word);
+    v->kind = (pace_judged)i;
+    return STATUS_OK;
+}
+
+static status read_elements(const char *text, int *out, fault *f)
+{
+    const char *end;
+    double value;
+    if (!number_read(text, &end, &value) || *end != '\0' || value < 1 || value > 1e6 ||
+        value != (int)value)
+        return fault_set(f, STATUS_REFUSED, "elements '%.40s': give a whole number", text);
+    *out = (int)value;
+    return STATUS_OK;
+}
+
+static status read_row(const own_table_row *row, pace_verdict *v, planned *out, fault *f)
+{
+    memset(out, 0, sizeof *out);
+    *v = (pace_verdict){.judged = row->field[JUDGED],
+                        .case_name = row->field[CASE],
+                        .parameters = row->field[PARAMETERS],
+                        .formulation = row->field[FORMULATION],
+                        .integrator = row->field[INTEGRATOR],
+                        .steps = row->field[STEPS],
+                        .expected = row->field[EXPECTED],
+                        .why = row->field[WHY]};
+    TRY(read_kind(v->judged, v, f));
+    TRY(read_elements(row->field[ELEMENTS], &v->elements, f));
+    pace_plan_request *q = &out->request;
+    q->type = case_find(v->case_name, f);
+    if (q->type == NULL)
+        return STATUS_REFUSED;
+    parameters_default(q->type, out->parameter);
+    TRY(parameters_parse(q->type, v->parameters, out->parameter, NULL, f));
+    TRY(formulation_parse(v->formulation, &q->formulation, f));
+    TRY(pace_method_read(v->integrator, (int)strlen(v->integrator), &out->method, f));
+    const int by_tolerance = v->kind == PACE_TOLERANCE;
+    TRY(pace_list_read("step", v->steps, by_tolerance ? 100 : 2,
+                       by_tolerance ? &q->tolerances : &q->steps, f));
+    q->elements = v->elements;
+    q->parameter = out->parameter;
+    q->errors = v->kind == PACE_ORDER || by_tolerance;
+    q->whole = v->kind == PACE_FATE;
+    return STATUS_OK;
+}
+
+/* Rows of the same motions, but for the integrator, follow each other and share their reference. */
+static int is_same(const pace_verdict *a, const pace_verdict *b)
+{
+    return (a->kind == PACE_FATE) == (b->kind == PACE_FATE) &&
+           (a->kind == PACE_TOLERANCE) == (b->kind == PACE_TOLERANCE) &&
+           strcmp(a->case_name, b->case_name) == 0 && strcmp(a->parameters, b->parameters) == 0 &&
+           strcmp(a->formulation, b->formulation) == 0 && a->elements == b->elements &&
+           strcmp(a->steps, b->steps) == 0;
+}
+
+static int known_method(const planned *p, const pace_method list[], int count)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(list[i].name, p->method.name) == 0)
+            return i;
+    return -1;
+}
+
+/* Rows [first, end) become one group. */
+static status plan_block(pace *p, pace_verdicts *all, planned row[], int first, int end, fault *f)
+{
+    pace_method list[PACE_LIST_MOST];
+    pace_plan_request q = row[first].request;
+    q.parameter = row[first].parameter;
+    q.method = list;
+    for (int i = first; i < end; i++) {
+        q.errors |= row[i].request.errors;
+        if (known_method(&row[i], list, q.methods) < 0 && q.methods < PACE_LIST_MOST)
+            list[q.methods++] = row[i].method;
+    }
+    TRY(pace_plan_add(p, &q, f));
+    const pace_group *g = &p->group[p->groups - 1];
+    for (int i = first; i < end; i++) {
+        pace_verdict *v = &all->verdict[i];
+        v->group = p->groups - 1;
+        v->count = q.steps.count + q.tolerances.count;
+        v->first = g->first + v->count * known_method(&row[i], list, q.methods);
+    }
+    return STATUS_OK;
+}
+
+/* Of a row that is wrong. */
+static status refuse(const char *path, const own_table_row *row, status outcome, const fault *why,
+                     fault *f)
+{
+    return fault_set(f, outcome, "%.80s:%d: %.200s", path, row->line, why->text);
+}
+
+static status plan_rows(const char *path, pace *p, pace_verdicts *all, planned row[], fault *f)
+{
+    const own_table_row *line = all->table.row;
+    fault why = {""};
+    for (int i = 0; i < all->count; i++) {
+        const status outcome = read_row(&line[i], &all->verdict[i], &row[i], &why);
+        if (outcome != STATUS_OK)
+            return refuse(path, &line[i], outcome, &why, f);
+    }
+    for (int first = 0, end; first < all->count; first = end) {
+        end = first + 1;
+        while (end < all->count && is_same(&all->verdict[first], &all->verdict[end]))
+            end++;
+        const status outcome = plan_block(p, all, row, first, end, &why);
+        if (outcome != STATUS_OK)
+            return refuse(path, &line[first], outcome, &why, f);
+    }
+    return STATUS_OK;
+}
+
+status pace_verdict_plan(const char *path, pace *p, pace_verdicts *all, fault *f)
+{
+    mistakes m = {.file = path};
+    memset(all, 0, sizeof *all);
+    TRY(own_table_read(path, head, &all->table, &m, f));
+    TRY(mistakes_status(&m, f));
+    all->count = all->table.rows;
+    all->verdict = calloc((size_t)all->count + 1, sizeof *all->verdict);
+    planned *row = calloc((size_t)all->count + 1, sizeof *row);
+    const status outcome = all->verdict != NULL && row != NULL
+                               ? plan_rows(path, p, all, row, f)
+                               : fault_set(f, STATUS_FAULT, "out of memory for verdicts");
+    free(row);
+    return outcome;
+}
+
+static double distance_of_check(const pace *p, const pace_group *g, int check)
+{
+    return pace_distance(pace_cell_of(p, g->reference + check), pace_cell_of(p, g->reference),
+                         g->analysis);
+}
+
+/* By how its error falls with the number of its steps, between its checks. */
+static double order_of_reference(const pace *p, const pace_group *g, double near, double far)
+{
+    const double steps = (double)pace_cell_of(p, g->reference + 1)->solve.steps /
+                         (double)pace_cell_of(p, g->reference + 2)->solve.steps;
+    return steps > 1 && near > 0 ? log(far / near) / log(steps) : NAN;
+}
+
+/* The reference, and what it may be off: errors of its checks fall by a ratio from one to the next,
+ * and so does its own, three times as much for safety; where they do not fall, the distance of the
+ * nearer one. */
+static void judge_reference(const pace *p, pace_group *g)
+{
+    static const double safety = 3;
+    if (g->reference < 0) {
+        snprintf(g->reason, sizeof g->reason, "none was asked for");
+        return;
+    }
+    const cell_result *reference = pace_cell_of(p, g->reference);
+    const double near = distance_of_check(p, g, 1), far = distance_of_check(p, g, 2);
+    g->uncertainty = near * fmin(1, safety * near / far);
+    g->order = order_of_reference(p, g, near, far);
+    if (reference->solve.status != STATUS_OK)
+        snprintf(g->reason, sizeof g->reason, "%s", reference->solve.reason);
+    else if (isnan(g->uncertainty))
+        snprintf(g->reason, sizeof g->reason, "its check: %.200s",
+                 pace_cell_of(p, g->reference + 1 + isfinite(near))->solve.reason);
+}
+
+static status errors_of(const pace *p, const pace_group *g, pace_run *r, fault *f)
+{
+    const scene *s = &pace_point_of(p, r)->scene;
+    const cell_result *cell = pace_cell_of(p, r->series),
+                      *reference = pace_cell_of(p, g->reference);
+    const int own = s->quantities,
+              known = cell->solve.quantities == own && reference->solve.quantities >= own;
+    r->values = malloc((size_t)(own + 1) * sizeof *r->values);
+    if (r->values == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for errors");
+    for (int i = 0; i < own; i++)
+        r->values[i] = known ? pace_distance_of(&s->quantity[i], &cell->solve.quantity[i],
+                                                &reference->solve.quantity[i])
+                             : NAN;
+    r->error = pace_distance(cell, reference, g->analysis);
+    return STATUS_OK;
+}
+
+/* [s] of the last step that was kept. */
+static double last_instant(const solve_result *r)
+{
+    return r->steps > 0 ? r->step[r->steps - 1].path : 0;
+}
+
+static status judge_run(const pace *p, pace_run *r, fault *f)
+{
+    const series *s = &p->sweep.series[r->series];
+    const pace_group *g = &p->group[r->group];
+    const cell_result *cell = &s->cell[0];
+    r->status = s->missing[0] == '\0' ? cell->solve.status : STATUS_REFUSED;
+    r->reason = s->missing[0] == '\0' ? cell->solve.reason : s->missing;
+    r->cost = price_cost(&s->formulation, cell);
+    r->seconds = cell->solve.seconds_solve;
+    r->steps = cell->solve.steps;
+    r->rejected = cell->counters.rejected_steps;
+    r->iterations = r->steps > 0 ? (double)cell->solve.iterations / (double)r->steps : NAN;
+    r->stopped = r->status != STATUS_OK ? last_instant(&cell->solve) : NAN;
+    r->error = NAN;
+    pace_drift(p, r);
+    return g->reference >= 0 ? errors_of(p, g, r, f) : STATUS_OK;
+}
+
+status pace_judge(pace *p, const sweep_request *request, fault *f)
+{
+    TRY(run_sweep(request, &p->sweep, f));
+    for (int i = 0; i < p->groups; i++)
+        judge_reference(p, &p->group[i]);
+    for (int i = 0; i < p->runs; i++)
+        TRY(judge_run(p, &p->run[i], f));
+    pace_order_fill(p);
+    return STATUS_OK;
 }

@@ -1,14 +1,10 @@
-#include "harness/experiments/ranges_table.h"
+#include "harness/experiments/experiments_impl.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/experiments/ranges_table_impl.h"
-#include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/terminal/terminal.h"
 
 enum { SHOWN_MESHES = 7 };
 

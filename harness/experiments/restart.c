@@ -1,11 +1,11 @@
-#include "harness/experiments/restart.h"
-#include "cases/scene/names.h"
+#include "harness/experiments/experiments_impl.h"
 
-#include <stdio.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/experiments/restart_text.h"
+#include "cases/format/write.h"
+#include "cases/scene/names.h"
 
 status restart_possible(const scene *s, fault *f)
 {
@@ -76,4 +76,297 @@ status restart_begin(const restart *r, solution_request *of, scene *s, fault *f)
     of->restart = r->end;
     of->restarts = r->ends;
     return STATUS_OK;
+}
+
+/* The file of a restart: `scene` and `formulation` as text, `run` (elements, keep_all, ends), of
+ * each end its `numbers` and, in `value_K`, what the motion was. */
+
+static const char kind[] = "beamwork-motion-end-4";
+enum { RUN = 3, NUMBERS = 21, FIRST_COUNT = 11, COUNTS = 5, MOST_ENDS = 1000 };
+
+static void to_numbers(const outcome_end *e, double out[NUMBERS])
+{
+    const double list[NUMBERS] = {e->analysis,
+                                  e->time,
+                                  e->step,
+                                  e->path,
+                                  e->work,
+                                  e->dissipated,
+                                  e->largest,
+                                  e->origin,
+                                  e->stress,
+                                  e->contraction,
+                                  e->quiet,
+                                  (double)e->states,
+                                  (double)e->coordinates,
+                                  (double)e->strains,
+                                  (double)e->released,
+                                  (double)e->between,
+                                  e->turned,
+                                  e->extent,
+                                  e->rate,
+                                  e->density,
+                                  e->scale};
+    memcpy(out, list, sizeof list);
+}
+
+static void of_numbers(const double in[NUMBERS], outcome_end *e)
+{
+    *e = (outcome_end){.analysis = (int)in[0],
+                       .time = in[1],
+                       .step = in[2],
+                       .path = in[3],
+                       .work = in[4],
+                       .dissipated = in[5],
+                       .largest = in[6],
+                       .origin = in[7],
+                       .stress = in[8],
+                       .contraction = in[9],
+                       .quiet = (int)in[10],
+                       .states = (size_t)in[11],
+                       .coordinates = (size_t)in[12],
+                       .strains = (size_t)in[13],
+                       .released = (size_t)in[14],
+                       .between = (size_t)in[15],
+                       .turned = in[16],
+                       .extent = in[17],
+                       .rate = in[18],
+                       .density = in[19],
+                       .scale = in[20]};
+}
+
+static void put_values(record_file *r, const char *name, size_t count, const double value[])
+{
+    const hsize_t size = count;
+    H5Dclose(record_values(r, r->file, name, 1, &size, value, NULL));
+}
+
+static void put_text(record_file *r, const char *name, const char *text)
+{
+    const hsize_t size = strlen(text);
+    H5Dclose(record_array(r, r->file, name, H5T_NATIVE_CHAR, 1, &size, text));
+}
+
+static void put_ends(record_file *r, const solve_result *of)
+{
+    for (int i = 0; i < of->ends; i++) {
+        char name[40];
+        double numbers[NUMBERS];
+        to_numbers(&of->end[i], numbers);
+        snprintf(name, sizeof name, "numbers_%d", i);
+        put_values(r, name, NUMBERS, numbers);
+        snprintf(name, sizeof name, "value_%d", i);
+        put_values(r, name, outcome_end_values(&of->end[i]), of->end[i].value);
+    }
+}
+
+status restart_write(const char *path, const solution_request *of, const sweep *s, fault *f)
+{
+    const solve_result *solved = &s->series[0].cell[0].solve;
+    const double run[RUN] = {of->elements, of->keep_all, solved->ends};
+    record_file r;
+    char *text;
+    TRY(restart_text(&s->point[0].scene, &text, f));
+    status outcome = record_open(&r, f);
+    if (outcome == STATUS_OK) {
+        put_text(&r, "kind", kind);
+        put_text(&r, "formulation", of->formulation.key);
+        put_text(&r, "scene", text);
+        put_values(&r, "run", RUN, run);
+        put_ends(&r, solved);
+        outcome = record_close(&r, path, f);
+    }
+    free(text);
+    return outcome;
+}
+
+/* Of a file that is read. */
+typedef struct source {
+    hid_t file;
+    const char *path;
+} source;
+
+/* All of a data set of rank 1, with a zero behind; NULL: it is not there, or not so. count: how
+ * many there are; less than 0 on entry: any number. */
+static void *take(const source *from, const char *name, hid_t type, size_t size, long *count)
+{
+    const hid_t set =
+        H5Lexists(from->file, name, H5P_DEFAULT) > 0 ? H5Dopen2(from->file, name, H5P_DEFAULT) : -1;
+    const hid_t space = set >= 0 ? H5Dget_space(set) : -1;
+    const hid_t stored = set >= 0 ? H5Dget_type(set) : -1;
+    const hssize_t there = space >= 0 && H5Sget_simple_extent_ndims(space) == 1
+                               ? H5Sget_simple_extent_npoints(space)
+                               : -1;
+    void *out = NULL;
+    if (there >= 0 && there < (1L << 40) && (*count < 0 || there == *count) && stored >= 0 &&
+        H5Tget_class(stored) == H5Tget_class(type))
+        out = calloc((size_t)there + 1, size);
+    if (out != NULL && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out) < 0) {
+        free(out);
+        out = NULL;
+    }
+    *count = there;
+    handles_close(3, (const hid_t[]){stored, space, set});
+    return out;
+}
+
+static char *take_text(const source *from, const char *name)
+{
+    long any = -1;
+    return take(from, name, H5T_NATIVE_CHAR, 1, &any);
+}
+
+static double *take_values(const source *from, const char *name, long count)
+{
+    return take(from, name, H5T_NATIVE_DOUBLE, sizeof(double), &count);
+}
+
+static status damaged(const source *from, fault *f)
+{
+    return fault_set(f, STATUS_FAULT,
+                     "%.200s: not a file of --ends of this version; write it again", from->path);
+}
+
+static int whole(double x, double most)
+{
+    return x >= 0 && x <= most && x == floor(x);
+}
+
+static status read_end(const source *from, int i, outcome_end *out, fault *f)
+{
+    char name[40];
+    snprintf(name, sizeof name, "numbers_%d", i);
+    double *numbers = take_values(from, name, NUMBERS);
+    int good = numbers != NULL && whole(numbers[0], MOST_ENDS) && whole(numbers[10], 1e9) &&
+               isfinite(numbers[1]) && numbers[2] > 0 && isfinite(numbers[2]);
+    for (int k = FIRST_COUNT; good && k < FIRST_COUNT + COUNTS; k++)
+        good = whole(numbers[k], 1e12);
+    if (good) {
+        of_numbers(numbers, out);
+        snprintf(name, sizeof name, "value_%d", i);
+        out->value = take_values(from, name, (long)outcome_end_values(out));
+        good = out->value != NULL;
+    }
+    free(numbers);
+    return good ? STATUS_OK : damaged(from, f);
+}
+
+static status read_all(const source *from, restart *out, fault *f)
+{
+    char *of = take_text(from, "kind"), *key = take_text(from, "formulation");
+    double *run = take_values(from, "run", RUN);
+    out->scene = take_text(from, "scene");
+    const int good = of != NULL && strcmp(of, kind) == 0 && key != NULL &&
+                     strlen(key) < sizeof out->formulation && run != NULL && whole(run[0], 1e9) &&
+                     whole(run[1], 1) && whole(run[2], MOST_ENDS) && run[2] > 0 &&
+                     out->scene != NULL;
+    if (good) {
+        snprintf(out->formulation, sizeof out->formulation, "%s", key);
+        out->elements = (int)run[0];
+        out->keep_all = (int)run[1];
+        out->ends = (int)run[2];
+        out->end = calloc((size_t)out->ends, sizeof *out->end);
+    }
+    free(of);
+    free(key);
+    free(run);
+    if (!good)
+        return damaged(from, f);
+    if (out->end == NULL) {
+        out->ends = 0;
+        return fault_set(f, STATUS_FAULT, "out of memory for the end of a motion");
+    }
+    for (int i = 0; i < out->ends; i++)
+        TRY(read_end(from, i, &out->end[i], f));
+    return STATUS_OK;
+}
+
+status restart_read(const char *path, restart *out, fault *f)
+{
+    source from = {.path = path};
+    memset(out, 0, sizeof *out);
+    TRY(checksum_check(path, f));
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    from.file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (from.file < 0)
+        return damaged(&from, f);
+    const status outcome = read_all(&from, out, f);
+    H5Fclose(from.file);
+    return outcome;
+}
+
+/* No motion has another station than this one. */
+static void equal_stations(scene *plain, double *zero)
+{
+    for (int i = 0; i < plain->analyses; i++)
+        if (plain->analysis[i].kind == SCENE_MOTION)
+            plain->analysis[i].of.motion.path = (scene_path){1, zero};
+}
+
+status restart_text(const scene *s, char **out, fault *f)
+{
+    static const write_head head = {"motion", "a motion that continues another", "none"};
+    double zero = 0;
+    scene plain = *s;
+    *out = NULL;
+    plain.quantities = plain.meshes = 0;
+    plain.analysis = malloc((size_t)(s->analyses + 1) * sizeof *plain.analysis);
+    if (plain.analysis != NULL) {
+        memcpy(plain.analysis, s->analysis, (size_t)s->analyses * sizeof *plain.analysis);
+        equal_stations(&plain, &zero);
+        *out = write_scene_text(&plain, &head);
+    }
+    free(plain.analysis);
+    if (*out == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the text of a scene");
+    if (**out != '\0')
+        return STATUS_OK;
+    free(*out);
+    *out = NULL;
+    return fault_set(f, STATUS_REFUSED,
+                     "no scene file can say this scene, by which a continued motion is identified: "
+                     "leave --ends and --restart out");
+}
+
+/* Length of the line without the spaces it begins with, which are left out of it. */
+static int line_of(const char **text)
+{
+    *text += strspn(*text, " ");
+    return (int)strcspn(*text, "\n");
+}
+
+/* What is told of two lines begins before they part. */
+enum { BEFORE = 30, TOLD = 70 };
+static int told(int length)
+{
+    return length < TOLD ? length : TOLD;
+}
+
+static status differ(const char *former, const char *now, fault *f)
+{
+    while (*former != '\0' || *now != '\0') {
+        const char *a = former, *b = now;
+        const int n = line_of(&a), k = line_of(&b);
+        if (n != k || memcmp(a, b, (size_t)n) != 0) {
+            int same = 0;
+            while (same < n && same < k && a[same] == b[same])
+                same++;
+            same = same > BEFORE ? same - BEFORE : 0;
+            return fault_set(f, STATUS_REFUSED,
+                             "--restart is of another scene: there '%.*s', here '%.*s'",
+                             told(n - same), a + same, told(k - same), b + same);
+        }
+        former = a + n + (a[n] == '\n');
+        now = b + k + (b[k] == '\n');
+    }
+    return STATUS_OK;
+}
+
+status restart_text_check(const char *former, const scene *s, fault *f)
+{
+    char *now;
+    TRY(restart_text(s, &now, f));
+    const status outcome = differ(former, now, f);
+    free(now);
+    return outcome;
 }

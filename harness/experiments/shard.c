@@ -1,4 +1,4 @@
-#include "harness/experiments/shard.h"
+#include "harness/experiments/experiments_impl.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -11,11 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "harness/experiments/deal.h"
-#include "harness/experiments/labour.h"
-#include "harness/experiments/stock.h"
 #include "harness/numerics/numerics.h"
-#include "harness/study/study.h"
 
 status shard_parse(const char *text, int *index, int *count, fault *f)
 {

@@ -1,11 +1,12 @@
-#include "harness/experiments/solution.h"
+#include "harness/experiments/experiments_impl.h"
 
-#include <stdio.h>
+#include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/write.h"
 #include "harness/model/model.h"
-#include "harness/study/study.h"
 
 static cell_request cell_of(const solution_request *r, const scene *s)
 {
@@ -111,4 +112,343 @@ status solution_run(const solution_request *r, const solution_choice *why, sweep
     request.solve.restart = r->restart;
     TRY(cell_run(&request, out, f));
     return tell_change(r, why, &out->solve, f);
+}
+
+enum { MOST = 64 };
+
+static double scale_of(const scene_quantity *q, double value)
+{
+    const double scale = fmax(fabs(value), q->near_zero);
+    return scale > 0 ? scale : 1;
+}
+
+static point_reference of_truth(const scene_quantity *q, const truth *t, rows_reference kind)
+{
+    return (point_reference){kind, t->value, t->uncertainty / scale_of(q, t->value)};
+}
+
+/* Does another formulation solve the same problem? Theories of shear in stability differ. */
+static int same_physics(const sweep *s, int a, int b)
+{
+    const series *one = &s->series[a], *other = &s->series[b];
+    const scene *here = &s->point[one->point].scene;
+    if (one->point != other->point || other->missing[0] != '\0' || other->without.other)
+        return 0;
+    return one->without.other || features_theory(here, one->formulation.type) ==
+                                     features_theory(here, other->formulation.type);
+}
+
+typedef struct known_limit {
+    double value, uncertainty;
+} known_limit;
+
+static int known_limits(const sweep *s, int index, int quantity, known_limit out[MOST])
+{
+    int count = 0;
+    for (int i = 0; i < s->seriess && count < MOST; i++) {
+        if (!same_physics(s, index, i))
+            continue;
+        const mesh_limit fit = verdict_limit(s, i, quantity, 0);
+        if (isfinite(fit.limit) && isfinite(fit.limit_uncertainty))
+            out[count++] = (known_limit){fit.limit, fit.limit_uncertainty};
+    }
+    return count;
+}
+
+static point_reference of_limits(const sweep *s, int index, int quantity, double tolerance)
+{
+    const scene_quantity *q = &s->point[s->series[index].point].scene.quantity[quantity];
+    const point_reference none = {ROWS_NONE, NAN, NAN};
+    known_limit all[MOST];
+    const int count = known_limits(s, index, quantity, all);
+    int best = 0;
+    if (count == 0)
+        return none;
+    for (int i = 1; i < count; i++)
+        if (all[i].uncertainty < all[best].uncertainty)
+            best = i;
+    double doubt = all[best].uncertainty;
+    for (int i = 0; i < count; i++)
+        doubt = fmax(doubt, fabs(all[i].value - all[best].value) - all[i].uncertainty);
+    const double scale = scale_of(q, all[best].value), most = tolerance / 2;
+    if (!(all[best].uncertainty / scale <= most))
+        return none;
+    if (!(doubt / scale <= most))
+        return (point_reference){ROWS_DISPUTED, NAN, NAN};
+    return (point_reference){ROWS_LIMIT, all[best].value, doubt / scale};
+}
+
+point_reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
+                             const truths *derived, double tolerance)
+{
+    const series *one = &s->series[series_index];
+    const sweep_point *p = &s->point[one->point];
+    const scene_quantity *q = &p->scene.quantity[quantity];
+    const truth *row =
+        stored != NULL ? verdict_truth(stored, p, &one->formulation, quantity) : NULL;
+    point_reference found = {ROWS_NONE, NAN, NAN};
+    if (row != NULL)
+        found = of_truth(q, row, ROWS_STORED);
+    if (found.doubt <= tolerance / 2) /* NAN is not */
+        return found;
+    row = derived != NULL ? verdict_truth(derived, p, &one->formulation, quantity) : NULL;
+    if (row != NULL)
+        found = of_truth(q, row, ROWS_DERIVED);
+    return found.doubt <= tolerance / 2 ? found : of_limits(s, series_index, quantity, tolerance);
+}
+
+/* Rows of the request that hold at the point: few of many, which every quantity looks through. */
+static status borrow(const truths *all, const sweep_point *p, known_truths *out, fault *f)
+{
+    out->borrowed = 1;
+    out->stored.row = calloc((size_t)all->rows + 1, sizeof *out->stored.row);
+    if (out->stored.row == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for truths");
+    for (int i = 0; i < all->rows; i++)
+        if (truth_holds(&all->row[i], p->type, p->parameter))
+            out->stored.row[out->stored.rows++] = all->row[i];
+    return STATUS_OK;
+}
+
+static status find_stored(const parameter_ranges *r, const sweep_point *p, known_truths *out,
+                          fault *f)
+{
+    const ranges_request *q = &r->request;
+    fault why;
+    if (q->file == NULL)
+        return q->truths != NULL ? borrow(q->truths, p, out, f) : STATUS_OK;
+    if (!scene_file_states(q->file, "truths"))
+        return STATUS_OK;
+    if (scene_truths_add(q->file, p->parameter, &out->stored, &why) == STATUS_OK)
+        return STATUS_OK;
+    truths_free(&out->stored); /* expressions that have no value here */
+    out->stored = (truths){0};
+    return STATUS_OK;
+}
+
+/* Of loads at which it buckles, the theory of shear that the scene follows. */
+static const char *theory_of(const scene *s, const char *quantity)
+{
+    const unsigned both = FEATURE_ENGESSER | FEATURE_HARINGX, needs = features_needed(s) & both;
+    for (int i = 0; i < s->quantities; i++)
+        if (strcmp(s->quantity[i].name, quantity) == 0 &&
+            s->quantity[i].what.kind != SCENE_CRITICAL_FACTOR)
+            return "";
+    if (needs == FEATURE_ENGESSER)
+        return "engesser";
+    return needs == FEATURE_HARINGX ? "haringx" : "";
+}
+
+static status add_row(const sweep_point *p, const derived_value *v, truths *t, fault *f)
+{
+    truth *row = &t->row[t->rows++];
+    *row = (truth){.type = p->type,
+                   .value = v->value,
+                   .uncertainty = v->uncertainty,
+                   .at = NAN,
+                   .met = 1,
+                   .judged = 1,
+                   .formulation = strdup(""),
+                   .theory = strdup(theory_of(&p->scene, v->quantity)),
+                   .quantity = strdup(v->quantity),
+                   .unit = strdup(v->unit),
+                   .kind = strdup("exact"),
+                   .model = strdup("same"),
+                   .convention = strdup(v->convention),
+                   .source = strdup(v->source)};
+    memcpy(row->parameter, p->parameter, sizeof row->parameter);
+    return row->formulation != NULL && row->theory != NULL && row->quantity != NULL &&
+                   row->unit != NULL && row->kind != NULL && row->model != NULL &&
+                   row->convention != NULL && row->source != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "out of memory for truths");
+}
+
+static status ask_scene(const char *script, const sweep_point *p, derived_value **value, int *count,
+                        fault *f)
+{
+    FILE *text = tmpfile();
+    const write_head head = {p->type->name, p->type->summary, p->type->source};
+    if (text == NULL)
+        return fault_set(f, STATUS_FAULT, "no temporary file for the scene");
+    status outcome = write_scene(text, &p->scene, &head, f);
+    if (outcome == STATUS_OK)
+        outcome = derive_scene(script, text, value, count, f);
+    fclose(text);
+    return outcome;
+}
+
+static status derive(const parameter_ranges *r, const sweep_point *p, known_truths *out, fault *f)
+{
+    derived_value *value = NULL;
+    int count = 0;
+    char text[PARAMETERS_TEXT];
+    fault why;
+    parameters_source_text(p->type, p->parameter, text, sizeof text);
+    if (case_omits_nothing(p->type, p->parameter))
+        return STATUS_OK; /* derived is what the source has */
+    const status outcome =
+        r->request.file != NULL
+            ? ask_scene(r->request.derive, p, &value, &count, &why)
+            : derive_values(r->request.derive, p->type->name, text, &value, &count, &why);
+    if (outcome != STATUS_OK)
+        return STATUS_OK;
+    out->derived.row = calloc((size_t)count + 1, sizeof *out->derived.row);
+    status added = out->derived.row != NULL
+                       ? STATUS_OK
+                       : fault_set(f, STATUS_FAULT, "out of memory for truths");
+    for (int i = 0; i < count && added == STATUS_OK; i++)
+        added = add_row(p, &value[i], &out->derived, f);
+    free(value);
+    return added;
+}
+
+/* Has every quantity that is asked for one of the same model? */
+static int all_stored(const parameter_ranges *r, const sweep_point *p, const truths *t)
+{
+    for (int i = 0; i < r->quantities; i++)
+        if (truth_of(t, p->type, p->parameter, r->quantity[i].name, "same") == NULL)
+            return 0;
+    return 1;
+}
+
+status known_at(const parameter_ranges *r, const sweep_point *p, known_truths *out, fault *f)
+{
+    memset(out, 0, sizeof *out);
+    status outcome = find_stored(r, p, out, f);
+    if (outcome == STATUS_OK && r->request.derive != NULL && !all_stored(r, p, &out->stored))
+        outcome = derive(r, p, out, f);
+    if (outcome != STATUS_OK)
+        known_free(out);
+    return outcome;
+}
+
+void known_free(known_truths *k)
+{
+    if (k->borrowed)
+        free(k->stored.row);
+    else
+        truths_free(&k->stored);
+    truths_free(&k->derived);
+    memset(k, 0, sizeof *k);
+}
+
+static status plan(const void *asked, void *found, fault *f)
+{
+    const convergence_request *r = asked;
+    convergence *c = found;
+    c->level = r->level;
+    c->verbose = r->verbose;
+    TRY(plan_one(r->type, r->parameter, r->cells.formulation, r->cells.formulations, r->mesh,
+                 r->meshes, &c->sweep, f));
+    c->made = environment_now(r->cells.jobs);
+    return narrow_to(&c->sweep, r->cells.select, f);
+}
+
+static status run(const void *asked, void *found, fault *f)
+{
+    const convergence_request *r = asked;
+    convergence *c = found;
+    return run_sweep(&r->cells, &c->sweep, f);
+}
+
+static status judge(const void *asked, void *found, fault *f)
+{
+    convergence *c = found;
+    (void)asked;
+    TRY(families_add_truths(&c->sweep, 0, &c->truths, f));
+    return judgement_make(&c->sweep, &c->truths, 0, &c->judgement, f);
+}
+
+/* How many of the formulations run. */
+static int running(const sweep *s)
+{
+    int count = 0;
+    for (int i = 0; i < s->seriess; i++)
+        count += s->series[i].missing[0] == '\0';
+    return count;
+}
+
+/* What it comes to, in lines of words. */
+static void write_answer(FILE *to, double level, const sweep *s, const truths *t)
+{
+    paragraph words;
+    reach_line_write(paragraph_begin(&words, to), s, t, level);
+    paragraph_end(&words, 0, 0);
+}
+
+static void write_text(FILE *to, const convergence *c)
+{
+    if (c->verbose || running(&c->sweep) == 1) {
+        table_convergence(to, &c->sweep, &c->truths);
+        fputc('\n', to);
+    } else if (running(&c->sweep) > 1)
+        table_beside(to, &c->sweep, &c->truths);
+    write_answer(to, c->level, &c->sweep, &c->truths);
+}
+
+static status write_form(FILE *to, const char *format, const void *found, fault *f)
+{
+    const convergence *c = found;
+    if (strcmp(format, "json") == 0)
+        return json_convergence_write(to, &c->sweep, &c->truths, c->level, f);
+    if (strcmp(format, "csv") == 0)
+        csv_convergence(to, &c->sweep, &c->truths);
+    else
+        write_text(to, c);
+    return STATUS_OK;
+}
+
+static experiment_cells cells(const void *found)
+{
+    const convergence *c = found;
+    return (experiment_cells){&c->sweep, &c->judgement, &c->made};
+}
+
+void convergence_free(convergence *c)
+{
+    judgement_free(&c->judgement);
+    sweep_free(&c->sweep);
+    truths_free(&c->truths);
+}
+
+const experiment_type experiment_converge = {.name = "converge",
+                                             .plan = plan,
+                                             .run = run,
+                                             .judge = judge,
+                                             .cells = cells,
+                                             .write = write_form};
+
+status meshes_parse(const char *list, int most, int mesh[], int *count, fault *f)
+{
+    for (const char *at = list;; at++) {
+        const int length = (int)strcspn(at, ",");
+        char *end;
+        if (*count == most)
+            return fault_set(f, STATUS_REFUSED, "too many meshes; give at most %d", most);
+        errno = 0;
+        const long value = strtol(at, &end, 10);
+        if (end == at || end != at + length || errno != 0 || value < 1 || value > MESHES_FINEST)
+            return fault_set(f, STATUS_REFUSED,
+                             "number of elements '%.*s': give a whole number from 1 to %d",
+                             length < 40 ? length : 40, at, MESHES_FINEST);
+        mesh[(*count)++] = (int)value;
+        at = end;
+        if (*at == '\0')
+            return STATUS_OK;
+    }
+}
+
+static const char *const names[OUTCOME_KINDS] = {"value",         "coarse",   "wrong",
+                                                 "not converged", "singular", "refused",
+                                                 "no value",      "fault",    "skip"};
+
+const char *outcome_name(outcome_kind kind)
+{
+    return kind >= 0 && kind < OUTCOME_KINDS ? names[kind] : "?";
+}
+
+int outcome_is_good(outcome_kind kind)
+{
+    return kind == OUTCOME_VALUE || kind == OUTCOME_COARSE;
 }

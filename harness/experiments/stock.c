@@ -1,11 +1,11 @@
-#include "harness/experiments/stock.h"
+#include "harness/experiments/experiments.h"
 
 #include <dirent.h>
+#include <dlfcn.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "harness/experiments/deal.h"
+#include <unistd.h>
 
 static status path_of(const char *folder, const char *name, char out[PATH_MAX], fault *f)
 {
@@ -251,4 +251,150 @@ status stock_first(const char *folder, batch_label *out, fault *f)
                              "%.200s: no batches in it; run a verb with --shard K/N --into this "
                              "folder",
                              folder);
+}
+
+int deal_cut(int items, const double cost[], double most, int first[])
+{
+    int batches = 0;
+    double all = 0;
+    for (int i = 0; i < items; i++) {
+        if (i == 0 || all + cost[i] > most) {
+            first[batches++] = i;
+            all = 0;
+        }
+        all += cost[i];
+    }
+    first[batches] = items;
+    return batches;
+}
+
+static int dearest(const void *left, const void *right, void *context)
+{
+    const double *cost = context;
+    const int a = *(const int *)left, b = *(const int *)right;
+    if (cost[a] != cost[b])
+        return cost[a] > cost[b] ? -1 : 1;
+    return a < b ? -1 : 1;
+}
+
+void deal_order(int batches, const double cost[], int order[])
+{
+    for (int i = 0; i < batches; i++)
+        order[i] = i;
+    qsort_r(order, (size_t)batches, sizeof *order, dearest, (void *)cost);
+}
+
+/* What a shard has so far; a heap of them has the one with the least on top, of two the first. */
+typedef struct hand {
+    double sum;
+    int shard;
+} hand;
+
+static int is_before(const hand *a, const hand *b)
+{
+    return a->sum < b->sum || (a->sum == b->sum && a->shard < b->shard);
+}
+
+/* The top has changed. */
+static void sift(hand heap[], int count)
+{
+    const hand moved = heap[0];
+    int at = 0;
+    for (int below = 1; below < count; below = 2 * at + 1) {
+        if (below + 1 < count && is_before(&heap[below + 1], &heap[below]))
+            below++;
+        if (!is_before(&heap[below], &moved))
+            break;
+        heap[at] = heap[below];
+        at = below;
+    }
+    heap[at] = moved;
+}
+
+int deal_out(int batches, const double cost[], int shards, int shard[])
+{
+    int *order = malloc(((size_t)batches + 1) * sizeof *order);
+    hand *heap = malloc(((size_t)shards + 1) * sizeof *heap);
+    const int good = order != NULL && heap != NULL;
+    if (good) {
+        deal_order(batches, cost, order);
+        for (int k = 0; k < shards; k++)
+            heap[k] = (hand){0, k};
+        for (int i = 0; i < batches; i++) {
+            shard[order[i]] = heap[0].shard;
+            heap[0].sum += cost[order[i]];
+            sift(heap, shards);
+        }
+    }
+    free(order);
+    free(heap);
+    return good ? 0 : -1;
+}
+
+static status take(const shard_work *w, const stock *s, int batch, fault *f)
+{
+    char path[PATH_MAX];
+    batch_label label;
+    FILE *from = NULL;
+    long end = 0;
+    TRY(stock_path(s, batch, path, f));
+    TRY(batch_open(path, &label, &from, &end, f));
+    batch_label_free(&label);
+    status outcome = w->take(w->context, batch, from, f);
+    if (outcome == STATUS_OK && ftell(from) != end)
+        outcome = fault_set(f, STATUS_FAULT, "%.200s: has other bytes than the batch takes", path);
+    fclose(from);
+    return outcome;
+}
+
+status merge_take(const shard_work *w, const stock *s, fault *f)
+{
+    for (int i = 0; i < s->batches; i++)
+        if (s->where[i] >= 0)
+            TRY(take(w, s, i, f));
+    return STATUS_OK;
+}
+
+/* A function without arguments that returns a text, of a library that may be another one. */
+static const char *answer_of(const char *name)
+{
+    char *(*function)(void);
+    void *const found = dlsym(RTLD_DEFAULT, name);
+    if (found == NULL)
+        return NULL;
+    memcpy(&function, &found, sizeof function);
+    return function();
+}
+
+/* OpenBLAS names itself; of another library the name of its file. */
+static void name_blas(char *out, size_t size)
+{
+    const char *config = answer_of("openblas_get_config"),
+               *core = answer_of("openblas_get_corename");
+    char path[PATH_MAX];
+    Dl_info where;
+    void *const product = dlsym(RTLD_DEFAULT, "dgemm_");
+    if (config != NULL)
+        snprintf(out, size, "%.150s%s%.80s", config, core != NULL ? ", kernels of " : "",
+                 core != NULL ? core : "");
+    else if (product != NULL && dladdr(product, &where) != 0 &&
+             realpath(where.dli_fname, path) != NULL)
+        snprintf(out, size, "%.200s", strrchr(path, '/') != NULL ? strrchr(path, '/') + 1 : path);
+    else
+        snprintf(out, size, "unknown");
+}
+
+machine node_here(void)
+{
+    machine out = {.host = "unknown"};
+    const environment e = environment_now(1);
+    gethostname(out.host, sizeof out.host - 1);
+    snprintf(out.processor, sizeof out.processor, "%s", e.processor);
+    name_blas(out.blas, sizeof out.blas);
+    return out;
+}
+
+int node_same_kind(const machine *a, const machine *b)
+{
+    return strcmp(a->processor, b->processor) == 0 && strcmp(a->blas, b->blas) == 0;
 }

@@ -1,6 +1,6 @@
 #include <limits.h>
 
-#include "harness/experiments/meshes.h"
+#include "harness/experiments/experiments.h"
 #include "harness/library/call.h"
 #include "harness/library/contestants.h"
 #include "harness/library/known.h"

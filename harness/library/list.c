@@ -1,7 +1,6 @@
 #include <string.h>
 
-#include "harness/experiments/list_json.h"
-#include "harness/experiments/list_subject.h"
+#include "harness/experiments/experiments.h"
 #include "harness/library/call.h"
 #include "harness/library/known.h"
 #include "harness/library/text.h"

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "cases/format/write.h"
-#include "harness/experiments/list_json.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 #include "harness/library/call.h"
 #include "harness/library/source.h"

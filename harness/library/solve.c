@@ -2,8 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/experiments/meshes.h"
-#include "harness/experiments/solution.h"
+#include "harness/experiments/experiments.h"
 #include "harness/library/call.h"
 #include "harness/library/options.h"
 #include "harness/library/result_handle.h"

@@ -1,7 +1,6 @@
 #include <limits.h>
 
-#include "harness/experiments/regressions.h"
-#include "harness/experiments/verification.h"
+#include "harness/experiments/experiments.h"
 #include "harness/library/call.h"
 #include "harness/library/contestants.h"
 #include "harness/library/known.h"

@@ -10,7 +10,7 @@ allows the limit: the band that it may move in until another verdict is seen tha
 (harness/study/verdict.c, judgement.c).  The band over the derivative is the fault.  Two doors:
   verdict    the verdict differs, whichever sign the fault has;
   baseline   the limit at the default point differs from the committed one by more than 1e-5
-             (harness/experiments/regressions.c), where no exact truth judges it as closely.
+             (harness/experiments/verification.c), where no exact truth judges it as closely.
 Errors of meshes against the committed ones notice some smaller faults of one sign: not counted.
 """
 import argparse
@@ -31,7 +31,7 @@ CONSTANTS = (
 SIZE = 1e-3  # of the planted faults
 WANTED = 1e-3  # faults that no row may let pass without a reason
 LEAST = 1e-9  # faults that are told apart
-SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # study/verdict.c; of a prediction; experiments/regressions.c
+SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # study/verdict.c; of a prediction; experiments/verification.c
 CHANGED = 1e-7  # of a value: less is taken for round-off and the steps of a motion
 NEAR = 1e-2  # of a limit: a value on coarse meshes that is farther off tells little of it
 SOUND = 1e-3  # tolerance of a limit, cases/scene/scene.h

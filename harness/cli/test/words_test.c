@@ -4,8 +4,7 @@
 #include <stdlib.h>
 
 #include "elements/shared/choice.h"
-#include "harness/experiments/against.h"
-#include "harness/experiments/outcome.h"
+#include "harness/experiments/experiments.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 

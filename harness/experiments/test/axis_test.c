@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/experiments/axis.h"
+#include "harness/experiments/experiments.h"
 
 static const parameter_type axis_table[] = {
     {"width", "m", 0.05, 1e-3, 10, NULL, "of a strip"},

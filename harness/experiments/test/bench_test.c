@@ -5,8 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/experiments/against.h"
-#include "harness/experiments/timing.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 #include "harness/tools/kit/cells.h"

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/experiments/checks.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 
 static void tell(const char *key, const checks_family *family, const claims *c)

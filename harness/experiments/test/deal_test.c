@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/experiments/deal.h"
+#include "harness/experiments/experiments.h"
 #include "harness/records/records.h"
 
 /* The examples of FIPS 180-4. */

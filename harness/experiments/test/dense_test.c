@@ -3,7 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/experiments/timing.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 #include "harness/newton/newton.h"
 #include "harness/tools/kit/cells.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/experiments/design.h"
+#include "harness/experiments/experiments.h"
 
 static const parameter_type table[] = {
     {"a", "m", 1, -100, 100, NULL, ""},

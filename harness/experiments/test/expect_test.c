@@ -2,9 +2,7 @@
 #include <gsl/gsl_test.h>
 #include <stdio.h>
 
-#include "harness/experiments/extreme_expect.h"
-#include "harness/experiments/extreme_judge.h"
-#include "harness/experiments/extreme_run.h"
+#include "harness/experiments/experiments_impl.h"
 
 static char all[] = "*", word[32];
 

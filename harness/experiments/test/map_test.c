@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/experiments/ranges_table_impl.h"
+#include "harness/experiments/experiments_impl.h"
 
 enum { PLACES = 8 };
 

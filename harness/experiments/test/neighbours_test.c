@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/experiments/extreme_judge.h"
-#include "harness/experiments/extreme_sweep.h"
+#include "harness/experiments/experiments_impl.h"
 #include "harness/formulations/formulations.h"
 
 enum { MESHES = 1 + OUTCOME_NEIGHBOURS };

@@ -8,8 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/experiments/merge.h"
-#include "harness/experiments/shard.h"
+#include "harness/experiments/experiments.h"
 #include "harness/numerics/numerics.h"
 #include "harness/records/test/folder.h"
 

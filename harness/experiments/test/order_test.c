@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/experiments/pace_order.h"
-#include "harness/experiments/pace_reach.h"
+#include "harness/experiments/experiments_impl.h"
 
 enum { RUNS = 5 };
 

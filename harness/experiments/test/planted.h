@@ -5,7 +5,7 @@
 #include <gsl/gsl_test.h>
 #include <string.h>
 
-#include "harness/experiments/checks.h"
+#include "harness/experiments/experiments.h"
 
 static const element_type *base; /* what the fault is planted into */
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/experiments/tally.h"
+#include "harness/experiments/experiments.h"
 
 enum { POINTS = 6, MESHES = 2 };
 

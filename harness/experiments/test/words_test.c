@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/experiments/pace_list.h"
-#include "harness/experiments/pace_method.h"
+#include "harness/experiments/experiments.h"
 
 static void list_is(const char *text, double ratio, int count, const double right[])
 {

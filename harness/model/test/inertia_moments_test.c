@@ -6,7 +6,7 @@
 
 #include "elements/shared/lumped.h"
 #include "elements/test/worst.h"
-#include "harness/experiments/specimen.h"
+#include "harness/experiments/experiments.h"
 
 enum { MOST = SPECIMEN_COORDINATES };
 
