@@ -2,8 +2,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "harness/cli/cli.h"
-#include "harness/cli/contest.h"
+#include "harness/cli/cli_impl.h"
 #include "harness/experiments/experiments.h"
 
 static int is_named(const bench_options *r)

@@ -1,4 +1,4 @@
-#include "harness/cli/case_input.h"
+#include "harness/cli/cli.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,8 +6,6 @@
 
 #include "cases/scene/omission.h"
 #include "cases/scene/unit.h"
-#include "harness/cli/command.h"
-#include "harness/cli/message.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/study/study.h"

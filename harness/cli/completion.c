@@ -7,7 +7,6 @@
 
 #include "cases/format/scene_file.h"
 #include "elements/shared/choice.h"
-#include "harness/cli/case_input.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 

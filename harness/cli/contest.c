@@ -1,6 +1,6 @@
 /* bench --against: one cell in alternation with another formulation, at equal error or at given
  * meshes, or with the same cell of another program. */
-#include "harness/cli/contest.h"
+#include "harness/cli/cli_impl.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,9 +8,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/cli/case_input.h"
-#include "harness/cli/message.h"
-#include "harness/cli/named.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"

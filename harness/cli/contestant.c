@@ -1,4 +1,4 @@
-#include "harness/cli/contest.h"
+#include "harness/cli/cli_impl.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "harness/cli/command.h"
 #include "harness/experiments/experiments.h"
 #include "harness/model/model.h"
 #include "harness/numerics/numerics.h"

@@ -1,9 +1,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "harness/cli/case_input.h"
 #include "harness/cli/cli.h"
-#include "harness/cli/named.h"
 #include "harness/experiments/experiments.h"
 #include "harness/records/records.h"
 

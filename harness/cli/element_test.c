@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/cli/named.h"
 #include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 

@@ -7,7 +7,6 @@
 #include "cases/format/meaning.h"
 #include "elements/feature.h"
 #include "harness/cli/cli.h"
-#include "harness/cli/named.h"
 #include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"

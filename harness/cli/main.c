@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/cli/message.h"
 
 /* Not inlined: what it needs of the stack is taken once the stack is known to suffice. */
 static __attribute__((noinline)) int run(int count, char **arguments)

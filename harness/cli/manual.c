@@ -1,5 +1,5 @@
 /* The pages of the manual, in the words of mdoc(7). */
-#include "harness/cli/manual.h"
+#include "harness/cli/cli_impl.h"
 
 #include <ctype.h>
 #include <stdio.h>

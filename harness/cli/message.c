@@ -1,15 +1,15 @@
-#include "harness/cli/message.h"
+#include "harness/cli/cli.h"
 
+#include <argp.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/cli/command.h"
-#include "harness/formulations/formulations.h"
+#include "elements/shared/choice.h"
 #include "harness/records/records.h"
+#include "harness/terminal/terminal.h"
 
 int message_finish(int code)
 {
@@ -173,4 +173,246 @@ void guard_formulation(const formulation *chosen, int seconds)
         sigaction(mishap[i].signal, &action, NULL);
     }
     alarm((unsigned)seconds);
+}
+
+enum { INDENT = 2, COLUMN = 30 };
+
+static void write_option(FILE *to, const verb_option *o)
+{
+    int at = o->letter != 0 ? fprintf(to, "  -%c, ", o->letter) : fprintf(to, "      ");
+    at += fprintf(to, "--%s", o->name);
+    if (o->argument != NULL)
+        at += verb_optional(o) ? fprintf(to, "[=%s", o->argument + 1)
+                               : fprintf(to, "=%s", o->argument);
+    if (at + 1 >= COLUMN) {
+        fputc('\n', to);
+        at = 0;
+    }
+    paragraph_write(to, at, COLUMN, o->help);
+}
+
+static void write_examples(FILE *to, const char *lines)
+{
+    fprintf(to, strchr(lines, '\n') != NULL ? "\nexamples\n" : "\nexample\n");
+    while (*lines != '\0') {
+        const size_t length = strcspn(lines, "\n");
+        fprintf(to, "  %.*s\n", (int)length, lines);
+        lines += length + (lines[length] == '\n');
+    }
+}
+
+void help_write(FILE *to, const verb *v)
+{
+    const verb_option *o;
+    fprintf(to, "usage: beamwork %s %s%s[OPTION...]\n", v->name, v->arguments,
+            v->arguments[0] != '\0' ? " " : "");
+    paragraph_write(to, 0, INDENT, v->about);
+    fprintf(to, "\noptions\n");
+    for (int i = 0; (o = verb_option_at(v, i, NULL)) != NULL; i++)
+        write_option(to, o);
+    write_examples(to, v->examples);
+}
+
+enum { FIRST_KEY = 256, MOST_ROWS = 256 };
+
+static const char *name_of(const void *context, int i)
+{
+    const verb_option *o = verb_option_at(context, i, NULL);
+    return o != NULL ? o->name : NULL;
+}
+
+static int others_take(const verb *const *verbs, const char *word)
+{
+    const verb_option *o = NULL;
+    for (; *verbs != NULL; verbs++)
+        for (int i = 0; (*verbs)->answer != NULL && (o = verb_option_at(*verbs, i, NULL)) != NULL;
+             i++)
+            if (strcmp(o->name, word) == 0)
+                return 1;
+    return 0;
+}
+
+/* The verb has no such option; another verb may. begun: so many options begin so. */
+static status refuse_word(const verb *v, const verb *const *verbs, const char *text, int begun,
+                          fault *f)
+{
+    char word[64];
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(text, "="), text);
+    if (begun > 1)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s begins several options; 'beamwork %s -h' lists them", word, v->name);
+    if (others_take(verbs, word + 2))
+        return fault_set(f, STATUS_REFUSED, "%s takes no %s; 'beamwork %s -h' lists its options",
+                         v->name, word, v->name);
+    const char *near = choice_nearest(word + 2, name_of, v);
+    return fault_set(f, STATUS_REFUSED,
+                     "unknown option %s%s%s%s; 'beamwork %s -h' lists the options", word,
+                     near != NULL ? ", did you mean --" : "", near != NULL ? near : "",
+                     near != NULL ? "?" : "", v->name);
+}
+
+/* *more: 1 where the next argument is its value. */
+static status check_word(const verb *v, const verb *const *verbs, const char *word, int last,
+                         int *more, fault *f)
+{
+    const char *value;
+    int begun;
+    const verb_option *o = verb_word(v, word, &value, &begun);
+    if (o == NULL && word[1] != '-')
+        return *value == '?' ? STATUS_OK
+                             : fault_set(f, STATUS_REFUSED,
+                                         "unknown option -%c; 'beamwork %s -h' lists the options",
+                                         *value, v->name);
+    if (o == NULL)
+        return refuse_word(v, verbs, word, begun, f);
+    if (value != NULL && o->argument == NULL)
+        return fault_set(f, STATUS_REFUSED, "--%s takes no value", o->name);
+    *more = value == NULL && o->argument != NULL && !verb_optional(o);
+    return *more && last
+               ? fault_set(f, STATUS_REFUSED, "--%s needs a value: %s", o->name, o->argument)
+               : STATUS_OK;
+}
+
+/* What is none, or lacks its value, is refused in one line with the nearest one, before any is
+ * taken. */
+static status check_options(const verb *v, const verb *const *verbs, int count,
+                            char *const argument[], fault *f)
+{
+    for (int i = 1; i < count && strcmp(argument[i], "--") != 0; i++) {
+        int more = 0;
+        if (argument[i][0] == '-' && argument[i][1] != '\0')
+            TRY(check_word(v, verbs, argument[i], i + 1 == count, &more, f));
+        i += more;
+    }
+    return STATUS_OK;
+}
+
+/* As argp's own, but an output that cannot be written is told. */
+static void show_usage(const struct argp_state *state)
+{
+    argp_state_help(state, stdout, ARGP_HELP_USAGE & ~(unsigned)ARGP_HELP_EXIT_ERR);
+    exit(message_finish(EXIT_AS_EXPECTED));
+}
+
+static void add_argument(command_line *l, const char *text)
+{
+    if (l->arguments == verb_most_arguments(l->verb->arguments))
+        message_refuse("too many arguments; 'beamwork --help' shows the usage");
+    l->argument[l->arguments++] = text;
+}
+
+/* An option that takes one value has it once; lists (-f, -n, --set) and switches may be given
+ * again. */
+static void add_given(command_line *l, const verb_option *o, const char *value)
+{
+    char text[160];
+    const int once = o->argument != NULL && (o->traits & OPTION_REPEATS) == 0;
+    if (once && given_value(l, o->name) != NULL) {
+        snprintf(text, sizeof text, "--%s is given twice; give it one value", o->name);
+        message_refuse(text);
+    }
+    if (l->givens == COMMAND_MOST_GIVEN)
+        message_refuse("too many options; give fewer");
+    l->given[l->givens++] = (given_option){o, value};
+}
+
+typedef struct reading {
+    command_line *line;
+    char *request;
+} reading;
+
+static void take_option(reading *r, const verb_option *o, size_t at, const char *value)
+{
+    fault f;
+    add_given(r->line, o, value);
+    if (option_take(o, r->request + at + o->member, value, &f) != STATUS_OK)
+        message_refuse(f.text);
+}
+
+static error_t take(int key, char *value, struct argp_state *state)
+{
+    reading *r = state->input;
+    const verb *v = r->line->verb;
+    size_t at;
+    if (key == ARGP_KEY_ARG)
+        return add_argument(r->line, value), 0;
+    if (key < 0 || key >= FIRST_KEY + MOST_ROWS)
+        return ARGP_ERR_UNKNOWN;
+    const verb_option *o =
+        key >= FIRST_KEY ? verb_option_at(v, key - FIRST_KEY, &at) : verb_letter(v, (char)key, &at);
+    if (o != NULL && key < FIRST_KEY && key != o->letter)
+        fprintf(stderr, "beamwork: -%c is --%s now; the letter goes with the next version\n", key,
+                o->name);
+    if (o == NULL || o == verb_help) { /* -? as well */
+        help_write(stdout, v);
+        exit(message_finish(EXIT_AS_EXPECTED));
+    } else if (o == verb_help + 1)
+        show_usage(state);
+    else
+        take_option(r, o, at, value);
+    return 0;
+}
+
+/* The options as argp has them: letters are other names of an option. */
+static int add_row(struct argp_option row[], int n, const verb_option *o, int index)
+{
+    row[n++] = (struct argp_option){o->name,     FIRST_KEY + index,
+                                    o->argument, verb_optional(o) ? OPTION_ARG_OPTIONAL : 0,
+                                    o->help,     0};
+    for (int letter = '!'; letter <= '~'; letter++)
+        if (verb_is_letter(o, (char)letter))
+            row[n++] = (struct argp_option){
+                .key = letter, .flags = OPTION_ALIAS | (letter != o->letter ? OPTION_HIDDEN : 0)};
+    return n;
+}
+
+static void end_groups(command_line *l, char *request)
+{
+    fault f;
+    for (const verb_group *g = l->verb->shared; g->group != NULL; g++)
+        if (g->group->end != NULL && g->group->end(request + g->member, l, &f) != STATUS_OK)
+            message_refuse(f.text);
+}
+
+void command_parse(const verb *v, const verb *const *verbs, int count, char **arguments,
+                   command_line *line, void *request)
+{
+    struct argp_option row[MOST_ROWS] = {{0}};
+    reading r = {line, request};
+    const verb_option *o;
+    char name[64];
+    fault f;
+    int n = 0;
+    *line = (command_line){.verb = v, .verbs = verbs};
+    if (check_options(v, verbs, count, arguments, &f) != STATUS_OK)
+        message_refuse(f.text);
+    for (int i = 0; (o = verb_option_at(v, i, NULL)) != NULL; i++)
+        n = add_row(row, n, o, i);
+    row[n] = (struct argp_option){.key = '?', .flags = OPTION_HIDDEN | OPTION_ALIAS};
+    for (const verb_group *g = v->shared; g->group != NULL; g++)
+        if (g->group->begin != NULL)
+            g->group->begin(r.request + g->member, line);
+    const struct argp parser = {.options = row, .parser = take, .args_doc = v->arguments};
+    snprintf(name, sizeof name, "beamwork %s", v->name);
+    arguments[0] = name;
+    argp_err_exit_status = EXIT_REFUSED;
+    argp_parse(&parser, count, arguments, ARGP_NO_HELP, NULL, &r);
+    end_groups(line, request);
+}
+
+int command_run(const verb *v, const verb *const *verbs, int count, char **arguments)
+{
+    command_line line;
+    if (v->before != NULL)
+        v->before(arguments);
+    char *request = calloc(1, v->request + 1);
+    if (request == NULL)
+        return message_fail(STATUS_FAULT, "out of memory for a command line");
+    command_parse(v, verbs, count, arguments, &line, request);
+    const int code = v->answer(&line, request);
+    for (const verb_group *g = v->shared; g->group != NULL; g++)
+        if (g->group->close != NULL)
+            g->group->close(request + g->member);
+    free(request);
+    return code;
 }

@@ -2,8 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/cli/cli.h"
-#include "harness/cli/manual.h"
+#include "harness/cli/cli_impl.h"
 #include "harness/experiments/experiments.h"
 #include "harness/records/records.h"
 #include "harness/terminal/terminal.h"

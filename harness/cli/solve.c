@@ -3,10 +3,7 @@
 #include <string.h>
 
 #include "cases/scene/names.h"
-#include "harness/cli/case_input.h"
 #include "harness/cli/cli.h"
-#include "harness/cli/message.h"
-#include "harness/cli/named.h"
 #include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/cli/named.h"
 #include "harness/experiments/experiments.h"
 
 typedef struct stress_request {

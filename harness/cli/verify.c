@@ -1,16 +1,10 @@
+#include "harness/cli/cli_impl.h"
+
 #include <limits.h>
-#include <stdio.h>
 #include <unistd.h>
 
-#include "harness/cli/case_input.h"
-#include "harness/cli/cli.h"
-#include "harness/cli/named.h"
-#include "harness/cli/verification_work.h"
 #include "harness/exchange/exchange.h"
-#include "harness/experiments/experiments.h"
 #include "harness/numerics/numerics.h"
-#include "harness/records/records.h"
-#include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
 
 typedef struct verify_request {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/cli/cells.h"
+#include "harness/cli/cli_impl.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/cli/manual.h"
+#include "harness/cli/cli_impl.h"
 
 static void written_as(const char *text, const char *wanted, const char *what)
 {

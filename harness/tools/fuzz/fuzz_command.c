@@ -4,9 +4,7 @@
 #include <setjmp.h>
 #include <string.h>
 
-#include "harness/cli/case_input.h"
-#include "harness/cli/command.h"
-#include "harness/cli/named.h"
+#include "harness/cli/cli.h"
 #include "harness/tools/fuzz/fuzz.h"
 
 /* Linked with --wrap: the end of the program is the end of one execution. */
