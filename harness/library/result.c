@@ -1,11 +1,8 @@
+#include "harness/library/library_impl.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "harness/library/call.h"
-#include "harness/library/result_handle.h"
-#include "harness/library/text.h"
-#include "harness/records/records.h"
 
 static status write_json(const bw_result *r, char **json, fault *f)
 {
@@ -107,4 +104,113 @@ size_t bw_result_curve(const bw_result *r, const char *quantity, const double **
     if (y != NULL)
         *y = points > 0 ? found->curve.value : NULL;
     return (size_t)points;
+}
+
+/* Numbers of a result that are put into arrays when they are asked for. */
+
+/* The field of a type, among those that are numbers; -1: none. */
+static int field_of(const record_type *type, const char *name, const schema_field **out)
+{
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const int count = name != NULL ? schema_fields(type, 0, list) : 0;
+    for (int i = 0; i < count && i < RESULT_COLUMNS; i++)
+        if (strcmp(list[i]->name, name) == 0 && list[i]->kind != FIELD_TEXT &&
+            list[i]->kind != FIELD_ENUM && list[i]->count == 0) {
+            *out = list[i];
+            return i;
+        }
+    return -1;
+}
+
+static double number_of(const subject *s, const schema_field *field)
+{
+    field_value v;
+    schema_read(s, field, &v);
+    return field->kind == FIELD_DOUBLE ? *v.numbers : (double)v.whole;
+}
+
+static double *read_column(const bw_result *r, const record_type *type, const schema_field *field)
+{
+    const gathering g = {&r->sweep, NULL, r->truths};
+    subjects list = {0};
+    gather_mesh(&g, type, 0, 0, &list);
+    double *out = list.bad ? NULL : malloc(((size_t)list.count + 1) * sizeof *out);
+    for (int i = 0; out != NULL && i < list.count; i++)
+        out[i] = number_of(&list.row[i], field);
+    gather_free(&list);
+    return out;
+}
+
+/* Of `rows` records of a type; kept[RESULT_COLUMNS]: those that were asked for before. */
+static size_t column_of(const bw_result *r, const record_type *type, double *kept[], int rows,
+                        const char *name, const double **values)
+{
+    const schema_field *field = NULL;
+    const int i = rows > 0 ? field_of(type, name, &field) : -1;
+    if (i >= 0 && kept[i] == NULL)
+        kept[i] = read_column(r, type, field);
+    const double *found = i >= 0 ? kept[i] : NULL;
+    if (values != NULL)
+        *values = found;
+    return found != NULL ? (size_t)rows : 0;
+}
+
+size_t bw_result_steps(bw_result *r, const char *column, const double **values)
+{
+    return column_of(r, &record_step, r != NULL ? r->step : NULL,
+                     r != NULL ? result_handle_solution(r)->steps : 0, column, values);
+}
+
+size_t bw_result_motion(bw_result *r, const char *column, const double **values)
+{
+    return column_of(r, &record_motion, r != NULL ? r->motion : NULL,
+                     r != NULL ? result_handle_solution(r)->motions : 0, column, values);
+}
+
+static const shapes *shapes_of(const bw_result *r)
+{
+    static const shapes none = {0};
+    return r != NULL ? &result_handle_solution(r)->shapes : &none;
+}
+
+static double *read_positions(const shapes *s)
+{
+    const size_t count = (size_t)s->states * (size_t)s->points;
+    double *out = malloc((3 * count + 1) * sizeof *out);
+    for (size_t i = 0; out != NULL && i < count; i++)
+        memcpy(out + 3 * i, s->point[i].r, sizeof s->point[i].r);
+    return out;
+}
+
+size_t bw_result_shapes(bw_result *r, size_t *points, const double **position)
+{
+    const shapes *s = shapes_of(r);
+    if (s->states > 0 && r->position == NULL)
+        r->position = read_positions(s);
+    const double *found = s->states > 0 ? r->position : NULL;
+    if (points != NULL)
+        *points = found != NULL ? (size_t)s->points : 0;
+    if (position != NULL)
+        *position = found;
+    return found != NULL ? (size_t)s->states : 0;
+}
+
+size_t bw_result_members(const bw_result *r, const int **first)
+{
+    const shapes *s = shapes_of(r);
+    if (first != NULL)
+        *first = s->states > 0 ? s->first : NULL;
+    return s->states > 0 ? (size_t)s->members : 0;
+}
+
+const char *bw_result_shape_kind(const bw_result *r, size_t state)
+{
+    const shapes *s = shapes_of(r);
+    return state < (size_t)s->states ? shapes_kind_name(s->state[state].kind) : NULL;
+}
+
+double bw_result_shape_value(const bw_result *r, size_t state)
+{
+    const shapes *s = shapes_of(r);
+    return state < (size_t)s->states ? s->state[state].value : NAN;
 }

@@ -1,13 +1,12 @@
+#include "harness/library/library_impl.h"
+
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cases/format/write.h"
 #include "harness/experiments/experiments.h"
-#include "harness/formulations/formulations.h"
-#include "harness/library/call.h"
-#include "harness/library/source.h"
-#include "harness/library/text.h"
-#include "harness/study/study.h"
 
 /* At its defaults; the file and its name are taken. */
 static status new_scene(const case_type *type, scene_file *file, char *name, bw_scene **out,
@@ -159,4 +158,299 @@ void bw_scene_free(bw_scene *s)
         return;
     source_release(s->from);
     free(s);
+}
+
+static status list_write_list(FILE *to, const list_subject *what, const truths *ledger, fault *f)
+{
+    double value[CASE_MAX_PARAMETERS] = {0};
+    if (what->type != NULL) {
+        parameters_default(what->type, value);
+        return list_json_case(to, what->type, value, f);
+    }
+    if (what->chosen.type != NULL)
+        return list_json_formulation(to, &what->chosen, ledger->rule, ledger->rules, f);
+    return list_json_all(to, what->cases, what->formulations, f);
+}
+
+static status list_of(const char *name, char **json, fault *f)
+{
+    list_subject what;
+    truths ledger = {0};
+    document_text t;
+    if (json == NULL)
+        return fault_set(f, STATUS_REFUSED, "bw_list: give a place for the text");
+    *json = NULL;
+    TRY(list_subject_find(name, &what, f));
+    TRY(text_begin(&t, f));
+    known_read(NULL, &ledger, NULL); /* it may be missing */
+    const status outcome = text_end(&t, list_write_list(t.to, &what, &ledger, f), json, f);
+    truths_free(&ledger);
+    return outcome;
+}
+
+bw_status bw_list(const char *what, char **json, char **why)
+{
+    call c;
+    call_begin(&c, why);
+    return call_end(&c, list_of(what, json, &c.fault));
+}
+
+static status lost(fault *f)
+{
+    return fault_set(f, STATUS_FAULT, "out of memory for a document");
+}
+
+status text_begin(document_text *t, fault *f)
+{
+    *t = (document_text){0};
+    t->to = open_memstream(&t->bytes, &t->size);
+    return t->to != NULL ? STATUS_OK : lost(f);
+}
+
+status text_end(document_text *t, status written, char **out, fault *f)
+{
+    const int failed = fclose(t->to) != 0;
+    *out = NULL;
+    if (written != STATUS_OK || failed) {
+        free(t->bytes);
+        return written != STATUS_OK ? written : lost(f);
+    }
+    *out = t->bytes;
+    return STATUS_OK;
+}
+
+status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
+                         int *named, fault *f)
+{
+    int all = 0;
+    char one[FORMULATION_KEY + 64];
+    *count = 0;
+    for (const char *at = names != NULL ? names : ""; *at != '\0';) {
+        const int blanks = (int)strspn(at, " "), length = (int)strcspn(at + blanks, " ");
+        at += blanks;
+        if (length >= (int)sizeof one)
+            return fault_set(f, STATUS_REFUSED, "formulation '%.60s...': the name is too long", at);
+        snprintf(one, sizeof one, "%.*s", length, at);
+        if (length > 0)
+            TRY(formulation_list_add(one, CONTESTANTS_MOST, list, count, f));
+        all |= strcmp(one, "all") == 0;
+        at += length;
+    }
+    if (named != NULL)
+        *named = *count > 0 && !all;
+    return STATUS_OK;
+}
+
+int contestants_jobs(void)
+{
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    return processors < 1 ? 1 : processors < WORKERS_MOST ? (int)processors : WORKERS_MOST;
+}
+
+status contestants_finished(const sweep *s, fault *f)
+{
+    return s->unfinished == 0 ? STATUS_OK
+                              : fault_set(f, STATUS_TIME_LIMIT, "stopped before %d cells were done",
+                                          s->unfinished);
+}
+
+/* What is asked, and what answers it; converge frees it. */
+typedef struct study {
+    const bw_scene *scene;
+    double level;
+    const char *select;
+    json_t *kept;
+    formulation formulation[CONTESTANTS_MOST];
+    int formulations, mesh[SCENE_MESHES], meshes, jobs, stop;
+    truths truths;
+    sweep sweep;
+} study;
+
+static status read_truths(study *s, fault *f)
+{
+    const scene_file *file = source_file(s->scene->from);
+    return file != NULL ? scene_truths_add(file, s->scene->parameter, &s->truths, f)
+                        : known_read(source_case(s->scene->from), &s->truths, f);
+}
+
+static status prepare(study *s, const char *names, const char *meshes, const char *options,
+                      fault *f)
+{
+    const call_option table[] = {{"error", OPTION_SHARE, &s->level, 0, 0},
+                                 {"select", OPTION_WORDS, &s->select, 0, 0},
+                                 {"jobs", OPTION_WHOLE, &s->jobs, 1, WORKERS_MOST},
+                                 {"stop", OPTION_FILE, &s->stop, 1, INT_MAX},
+                                 {.name = NULL}};
+    TRY(options_read(options, table, &s->kept, f));
+    TRY(contestants_parse(names, s->formulation, &s->formulations, NULL, f));
+    if (s->formulations == 0)
+        TRY(formulation_list_add("all", CONTESTANTS_MOST, s->formulation, &s->formulations, f));
+    if (meshes != NULL)
+        TRY(meshes_parse(meshes, SCENE_MESHES, s->mesh, &s->meshes, f));
+    TRY(read_truths(s, f));
+    TRY(plan_one(source_case(s->scene->from), s->scene->parameter, s->formulation, s->formulations,
+                 s->mesh, s->meshes, &s->sweep, f));
+    return narrow_to(&s->sweep, s->select, f);
+}
+
+static status write_study(study *s, char **json, fault *f)
+{
+    const sweep_request request = {.jobs = s->jobs, .stop = s->stop};
+    document_text t;
+    TRY(run_sweep(&request, &s->sweep, f));
+    TRY(contestants_finished(&s->sweep, f));
+    TRY(families_add_truths(&s->sweep, 0, &s->truths, f));
+    TRY(text_begin(&t, f));
+    return text_end(&t, json_convergence_write(t.to, &s->sweep, &s->truths, s->level, f), json, f);
+}
+
+static status converge(const bw_scene *from, const char *names, const char *meshes,
+                       const char *options, char **json, fault *f)
+{
+    study s = {.scene = from, .level = REACH_LINE_LEVEL, .jobs = contestants_jobs()};
+    if (json != NULL)
+        *json = NULL;
+    if (from == NULL || json == NULL)
+        return fault_set(f, STATUS_REFUSED, "bw_converge: give a scene and a place for the text");
+    status outcome = prepare(&s, names, meshes, options, f);
+    if (outcome == STATUS_OK)
+        outcome = write_study(&s, json, f);
+    sweep_free(&s.sweep);
+    truths_free(&s.truths);
+    json_decref(s.kept);
+    return outcome;
+}
+
+bw_status bw_converge(const bw_scene *from, const char *formulations, const char *meshes,
+                      const char *options, char **json, char **why)
+{
+    call c;
+    call_begin(&c, why);
+    return call_end(&c, converge(from, formulations, meshes, options, json, &c.fault));
+}
+
+enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };
+
+/* What is asked, and what answers it; verify frees it. */
+typedef struct verify_trial {
+    const bw_scene *scene;
+    const char *results;
+    sweep_request request;
+    const case_type *type[2];
+    formulation formulation[CONTESTANTS_MOST];
+    json_t *kept;
+    const char *former_path; /* of results that this run may not be worse than; NULL: none */
+    stored_results former;
+    truths truths;
+    sweep sweep;
+    judgement judgement;
+} verify_trial;
+
+static status verify_read_truths(verify_trial *v, fault *f)
+{
+    if (v->scene == NULL)
+        return known_read_all(&v->truths, f);
+    const scene_file *file = source_file(v->scene->from);
+    TRY(known_read(file == NULL ? source_case(v->scene->from) : NULL, &v->truths, f));
+    return file != NULL ? scene_truths_add_all(file, &v->truths, f) : STATUS_OK;
+}
+
+static status read_former(verify_trial *v, fault *f)
+{
+    known_lock();
+    const status outcome = results_read(v->former_path, &v->former, f);
+    known_unlock();
+    return outcome;
+}
+
+static status verify_prepare(verify_trial *v, const char *names, const char *options, fault *f)
+{
+    sweep_request *r = &v->request;
+    const call_option table[] = {{"jobs", OPTION_WHOLE, &r->jobs, 1, WORKERS_MOST},
+                                 {"time_limit", OPTION_WHOLE, &r->time_limit, 0, LONGEST},
+                                 {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS},
+                                 {"shapes", OPTION_WHOLE, &r->shapes, 0, PICTURES},
+                                 {"stop", OPTION_FILE, &r->stop, 1, INT_MAX},
+                                 {"tolerance", OPTION_SHARE, &r->tolerance, 0, 0},
+                                 {"not_worse_than", OPTION_WORDS, &v->former_path, 0, 0},
+                                 {.name = NULL}};
+    file_place where;
+    TRY(options_read(options, table, &v->kept, f));
+    TRY(contestants_parse(names, v->formulation, &r->formulations, &r->named, f));
+    r->formulation = v->formulation;
+    if (v->scene != NULL) {
+        v->type[0] = source_case(v->scene->from);
+        r->cases = v->type;
+    }
+    if (v->former_path != NULL)
+        TRY(read_former(v, f));
+    if (v->results != NULL) {
+        TRY(output_try(v->results, OUTPUT_WHOLE_FILE, &where, f));
+        TRY(kept_check(v->results, f));
+    }
+    return verify_read_truths(v, f);
+}
+
+static status judge(verify_trial *v, fault *f)
+{
+    const sweep_request *r = &v->request;
+    const int whole = r->select == NULL && r->formulations == 0 && v->scene == NULL;
+    TRY(plan_sweep(r, &v->truths, &v->sweep, f));
+    TRY(verification_run(r, whole, NULL, &v->truths, &v->sweep, &v->judgement, f));
+    TRY(contestants_finished(&v->sweep, f));
+    if (v->former_path == NULL)
+        return STATUS_OK;
+    known_lock();
+    const status outcome =
+        regressions_find(&v->former, v->former_path, &v->sweep, &v->judgement, f);
+    known_unlock();
+    return outcome;
+}
+
+static status keep(const verify_trial *v, const environment *e, fault *f)
+{
+    if (v->results == NULL)
+        return STATUS_OK;
+    known_lock();
+    const status outcome = store_write(v->results, NULL, &v->sweep, &v->judgement, e, f);
+    known_unlock();
+    return outcome;
+}
+
+static status answer(verify_trial *v, char **json, fault *f)
+{
+    document_text t;
+    TRY(judge(v, f));
+    const environment e = environment_now(v->request.jobs);
+    TRY(keep(v, &e, f));
+    TRY(text_begin(&t, f));
+    return text_end(&t, json_write_verdicts(t.to, &v->sweep, &v->judgement, &e, NULL, f), json, f);
+}
+
+static status verify(verify_trial *v, const char *names, const char *options, char **json, fault *f)
+{
+    if (json == NULL)
+        return fault_set(f, STATUS_REFUSED, "bw_verify: give a place for the text");
+    *json = NULL;
+    status outcome = verify_prepare(v, names, options, f);
+    if (outcome == STATUS_OK)
+        outcome = answer(v, json, f);
+    judgement_free(&v->judgement);
+    results_free(&v->former);
+    sweep_free(&v->sweep);
+    truths_free(&v->truths);
+    json_decref(v->kept);
+    return outcome;
+}
+
+bw_status bw_verify(const bw_scene *from, const char *formulations, const char *select,
+                    const char *options, const char *into, char **json, char **why)
+{
+    call c;
+    call_begin(&c, why);
+    verify_trial v = {
+        .scene = from,
+        .results = into,
+        .request = {.select = select, .jobs = contestants_jobs(), .time_limit = TIME_LIMIT}};
+    return call_end(&c, verify(&v, formulations, options, json, &c.fault));
 }

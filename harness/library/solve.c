@@ -1,13 +1,17 @@
+#include "harness/library/library_impl.h"
+
+#include <fcntl.h>
+#include <gsl/gsl_errno.h>
+#include <limits.h>
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/shared/choice.h"
 #include "harness/experiments/experiments.h"
-#include "harness/library/call.h"
-#include "harness/library/options.h"
-#include "harness/library/result_handle.h"
 #include "harness/numerics/numerics.h"
-#include "harness/study/study.h"
 
 enum { STEPS_MOST = 1000000 };
 
@@ -145,4 +149,395 @@ void bw_result_free(bw_result *r)
     }
     free(r->position);
     free(r);
+}
+
+_Static_assert((int)BW_FAULT == (int)STATUS_FAULT && (int)BW_NO_VALUE == (int)STATUS_NO_VALUE,
+               "a bw_status is a status");
+
+/* GSL has one handler for all threads: the first call puts it off, the last one back. `nested`:
+ * calls of this thread alone. */
+static _Thread_local int nested;
+static struct {
+    pthread_mutex_t lock;
+    int inside;
+    gsl_error_handler_t *before;
+    locale_t plain;
+} state = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+/* A process that is forked has none of the other threads: it must not wait for them, and calls that
+ * they are inside do not count there. */
+static void before_fork(void)
+{
+    known_hold();
+    pthread_mutex_lock(&state.lock);
+}
+
+static void after_fork(void)
+{
+    pthread_mutex_unlock(&state.lock);
+    known_let_go();
+}
+
+static void in_child(void)
+{
+    state.inside = nested;
+    after_fork();
+}
+
+static void mind_forks(void)
+{
+    pthread_atfork(before_fork, after_fork, in_child);
+}
+
+static locale_t go_in(void)
+{
+    static pthread_once_t forks = PTHREAD_ONCE_INIT;
+    pthread_once(&forks, mind_forks);
+    nested++;
+    pthread_mutex_lock(&state.lock);
+    if (state.plain == (locale_t)0)
+        state.plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (state.inside++ == 0)
+        state.before = gsl_set_error_handler_off();
+    const locale_t plain = state.plain;
+    pthread_mutex_unlock(&state.lock);
+    return plain;
+}
+
+static void go_out(void)
+{
+    nested--;
+    pthread_mutex_lock(&state.lock);
+    if (--state.inside == 0)
+        gsl_set_error_handler(state.before);
+    pthread_mutex_unlock(&state.lock);
+}
+
+void call_begin(call *c, char **why)
+{
+    c->fault.text[0] = '\0';
+    c->text = NULL;
+    c->why = why;
+    if (why != NULL)
+        *why = NULL;
+    c->locale = uselocale(go_in());
+    fegetenv(&c->arithmetic);
+    fesetenv(FE_DFL_ENV);
+}
+
+/* Bytes of the UTF-8 character that begins here; 0: none does. */
+static int character(const unsigned char *at)
+{
+    const int more = (at[0] >= 0xc2) + (at[0] >= 0xe0) + (at[0] >= 0xf0);
+    if (at[0] < ' ' || at[0] == 0x7f || (at[0] >= 0x80 && at[0] < 0xc2) || at[0] > 0xf4)
+        return 0;
+    for (int i = 1; i <= more; i++)
+        if ((at[i] & 0xc0) != 0x80)
+            return 0;
+    return 1 + more;
+}
+
+/* One line of UTF-8, whatever names were given: what is none becomes '?'. */
+static char *line_of(const fault *f)
+{
+    char *out = strdup(f->text);
+    if (out == NULL)
+        return NULL;
+    for (unsigned char *at = (unsigned char *)out; *at != '\0';) {
+        const int bytes = character(at);
+        if (bytes == 0)
+            *at = '?';
+        at += bytes > 0 ? bytes : 1;
+    }
+    return out;
+}
+
+bw_status call_end(call *c, status outcome)
+{
+    fesetenv(&c->arithmetic);
+    uselocale(c->locale);
+    go_out();
+    if (outcome != STATUS_OK && c->why != NULL)
+        *c->why = c->text != NULL ? c->text : line_of(&c->fault);
+    else
+        free(c->text);
+    return (bw_status)outcome;
+}
+
+static pthread_mutex_t hdf5 = PTHREAD_MUTEX_INITIALIZER;
+static struct {
+    H5E_auto2_t print;
+    void *context;
+} host;                      /* what it wants told of HDF5's errors */
+static char place[PATH_MAX]; /* "": where they usually are */
+
+void known_hold(void)
+{
+    pthread_mutex_lock(&hdf5);
+}
+
+void known_let_go(void)
+{
+    pthread_mutex_unlock(&hdf5);
+}
+
+/* HDF5 says nothing of its errors, until speak. */
+static void hush(void)
+{
+    H5Eget_auto2(H5E_DEFAULT, &host.print, &host.context);
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}
+
+static void speak(void)
+{
+    H5Eset_auto2(H5E_DEFAULT, host.print, host.context);
+}
+
+void known_lock(void)
+{
+    known_hold();
+    hush();
+}
+
+void known_unlock(void)
+{
+    speak();
+    known_let_go();
+}
+
+static void place_now(char path[PATH_MAX])
+{
+    if (place[0] != '\0')
+        memcpy(path, place, PATH_MAX);
+    else
+        data_place_truths(path);
+}
+
+status known_read_held(const case_type *type, truths *out, fault *f)
+{
+    char path[PATH_MAX];
+    place_now(path);
+    hush();
+    const status outcome =
+        type != NULL ? truths_read_case(path, type, out, f) : truths_read_rules(path, out, f);
+    speak();
+    return outcome;
+}
+
+status known_read(const case_type *type, truths *out, fault *f)
+{
+    known_hold();
+    const status outcome = known_read_held(type, out, f);
+    known_let_go();
+    return outcome;
+}
+
+status known_read_all(truths *out, fault *f)
+{
+    char path[PATH_MAX];
+    place_now(path);
+    known_lock();
+    const status outcome = truths_read(path, out, f);
+    known_unlock();
+    return outcome;
+}
+
+status known_place(const char *path, fault *f)
+{
+    truths t;
+    const size_t length = path != NULL ? strlen(path) : 0;
+    if (length >= PATH_MAX)
+        return fault_set(f, STATUS_REFUSED, "truths: the path is too long; give a shorter one");
+    memcpy(place, path != NULL ? path : "", length + 1);
+    const status outcome = known_read_all(&t, f);
+    if (outcome == STATUS_OK)
+        truths_free(&t);
+    else
+        place[0] = '\0';
+    return outcome;
+}
+
+struct source {
+    atomic_int holders;
+    const case_type *type;
+    scene_file *file;
+    char *name;
+    int is_known; /* 1: it was read */
+    truths known;
+};
+
+status source_new(const case_type *type, scene_file *file, char *name, source **out, fault *f)
+{
+    *out = calloc(1, sizeof **out);
+    if (*out == NULL) {
+        scene_file_free(file);
+        free(name);
+        return fault_set(f, STATUS_FAULT, "out of memory for a scene");
+    }
+    **out = (source){.type = type, .file = file, .name = name};
+    atomic_init(&(*out)->holders, 1);
+    return STATUS_OK;
+}
+
+source *source_hold(source *s)
+{
+    atomic_fetch_add(&s->holders, 1);
+    return s;
+}
+
+void source_release(source *s)
+{
+    if (s == NULL || atomic_fetch_sub(&s->holders, 1) > 1)
+        return;
+    truths_free(&s->known);
+    scene_file_free(s->file);
+    free(s->name);
+    free(s);
+}
+
+const case_type *source_case(const source *s)
+{
+    return s->type;
+}
+
+const scene_file *source_file(const source *s)
+{
+    return s->file;
+}
+
+status source_known(source *s, const truths **out, fault *f)
+{
+    status outcome = STATUS_OK;
+    known_hold();
+    if (!s->is_known)
+        outcome = known_read_held(s->file == NULL ? s->type : NULL, &s->known, f);
+    s->is_known |= outcome == STATUS_OK;
+    *out = s->is_known ? &s->known : NULL;
+    known_let_go();
+    return outcome;
+}
+
+/* What belongs to no scene. */
+
+const char *bw_version(void)
+{
+    return environment_version();
+}
+
+void bw_free_text(char *text)
+{
+    free(text);
+}
+
+const char *bw_status_name(bw_status s)
+{
+    return s >= BW_OK && s <= BW_NO_VALUE ? status_name((status)s) : "unknown";
+}
+
+bw_status bw_truths(const char *path, char **why)
+{
+    call c;
+    call_begin(&c, why);
+    return call_end(&c, known_place(path, &c.fault));
+}
+
+static status load(const char *path, char **name, fault *f)
+{
+    const element_type *type;
+    if (name != NULL)
+        *name = NULL;
+    if (path == NULL)
+        return fault_set(f, STATUS_REFUSED, "bw_formulation_load: give the path of an object");
+    TRY(plugin_load(path, &type, f));
+    TRY(formulations_add(type, NULL, f));
+    if (name != NULL && (*name = strdup(type->name)) == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a name");
+    return STATUS_OK;
+}
+
+bw_status bw_formulation_load(const char *path, char **name, char **why)
+{
+    call c;
+    call_begin(&c, why);
+    return call_end(&c, load(path, name, &c.fault));
+}
+
+static const char *name_at(const void *context, int i)
+{
+    return ((const call_option *)context)[i].name;
+}
+
+static status unknown(const char *key, const call_option table[], fault *f)
+{
+    const char *near = choice_nearest(key, name_at, table);
+    return fault_set(f, STATUS_REFUSED,
+                     "unknown option '%.60s'%s%s%s; beamwork.h lists those of each function", key,
+                     near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+                     near != NULL ? "'?" : "");
+}
+
+static int is_within(const call_option *o, json_int_t value)
+{
+    return value >= o->least && value <= o->most;
+}
+
+static status take(const call_option *o, json_t *value, fault *f)
+{
+    const double number = json_number_value(value);
+    switch (o->kind) {
+    case OPTION_SWITCH:
+        if (!json_is_boolean(value))
+            return fault_set(f, STATUS_REFUSED, "option '%s': give true or false", o->name);
+        *(int *)o->to = json_is_true(value);
+        return STATUS_OK;
+    case OPTION_WHOLE:
+        if (!json_is_integer(value) || !is_within(o, json_integer_value(value)))
+            return fault_set(f, STATUS_REFUSED, "option '%s': give a whole number from %d to %d",
+                             o->name, o->least, o->most);
+        *(int *)o->to = (int)json_integer_value(value);
+        return STATUS_OK;
+    case OPTION_FILE:
+        if (!json_is_integer(value) || !is_within(o, json_integer_value(value)) ||
+            fcntl((int)json_integer_value(value), F_GETFD) < 0)
+            return fault_set(f, STATUS_REFUSED, "option '%s': give the descriptor of an open file",
+                             o->name);
+        *(int *)o->to = (int)json_integer_value(value);
+        return STATUS_OK;
+    case OPTION_SHARE:
+        if (!json_is_number(value) || !(number > 0 && number < 1))
+            return fault_set(f, STATUS_REFUSED, "option '%s': give a number between 0 and 1",
+                             o->name);
+        *(double *)o->to = number;
+        return STATUS_OK;
+    case OPTION_WORDS:
+        break;
+    }
+    if (!json_is_string(value))
+        return fault_set(f, STATUS_REFUSED, "option '%s': give a text", o->name);
+    *(const char **)o->to = json_string_value(value);
+    return STATUS_OK;
+}
+
+status options_read(const char *json, const call_option table[], json_t **kept, fault *f)
+{
+    json_error_t error;
+    const char *key;
+    json_t *value;
+    *kept = NULL;
+    if (json == NULL)
+        return STATUS_OK;
+    *kept = json_loads(json, JSON_REJECT_DUPLICATES, &error);
+    if (*kept == NULL)
+        return fault_set(f, STATUS_REFUSED, "options: line %d, column %d: %.150s", error.line,
+                         error.column, error.text);
+    if (!json_is_object(*kept))
+        return fault_set(f, STATUS_REFUSED, "options: give an object, such as {\"threads\": 2}");
+    json_object_foreach(*kept, key, value)
+    {
+        const call_option *o = table;
+        while (o->name != NULL && strcmp(o->name, key) != 0)
+            o++;
+        TRY(o->name != NULL ? take(o, value, f) : unknown(key, table, f));
+    }
+    return STATUS_OK;
 }
