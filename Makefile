@@ -247,7 +247,7 @@ $(BUILD)/%.avx2.o: %.c
 
 $(PRICES:.c=.o): harness/study/study.h
 $(EXPENSES:.c=.o): harness/study/study.h
-$(PACKED): cases/format/packed.h cases/case.h elements/shared/parameter.h
+$(PACKED): cases/format/format_impl.h cases/case.h elements/shared/parameter.h
 $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o) $(PACKED): $(BUILD)/%.o: $(BUILD)/%.c
 	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@
 

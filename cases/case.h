@@ -1,6 +1,6 @@
 /* A case: a table of parameters and a function from their values to a scene.
  * One file in cases/ defines one const case_type whose symbol is case_<file name>: in C, or as a
- * scene file, which the build reads (cases/format/packed.h). */
+ * scene file, which the build reads (cases/format/format_impl.h). */
 #ifndef BEAMWORK_CASE_H
 #define BEAMWORK_CASE_H
 

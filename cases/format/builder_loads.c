@@ -1,7 +1,7 @@
 /* Springs of a scene and what loads it. */
-#include <string.h>
+#include "cases/format/format_impl.h"
 
-#include "cases/format/builder.h"
+#include <string.h>
 
 /* Adds one load of the scene, as the entry describes it; its index. */
 static int add(const fields *f, const scene_load *what)

@@ -1,9 +1,10 @@
 /* Members of a scene and what moves it. */
-#include <stdio.h>
+#include "cases/format/format_impl.h"
+
+#include <math.h>
 #include <string.h>
 
-#include "cases/format/builder.h"
-#include "cases/format/range.h"
+#include "cases/scene/functions.h"
 #include "elements/section/taper.h"
 
 static int share(const fields *f, const document_node *name)
@@ -185,4 +186,286 @@ void builder_motions(builder *b)
         if (driver >= 0)
             fields_read(&f, entry_driver, &b->scene->driver[driver]);
     }
+}
+
+/* Analyses of a scene. */
+
+/* What its table does not say. */
+static void complete(const fields *f, int index, scene_analysis *a)
+{
+    const fields control = fields_below(f, "continuation"), motion = fields_below(f, "motion"),
+                 what = fields_below(f, scene_analysis_name(a->kind));
+    if (a->kind == SCENE_CONTINUATION) {
+        scene_control *how = &a->of.continuation.control;
+        how->step_max = fields_number(&control, "step_max", how->step);
+    }
+    if (a->kind == SCENE_MOTION)
+        builder_in_time(&motion, &a->of.motion);
+    if (a->follows >= index) {
+        document_mistake(f->b->mistakes, document_find(what.map, "about"), 0,
+                         "'%s' does not stand before this one; move it up",
+                         fields_text(&what, "about", ""));
+        a->follows = SCENE_NONE;
+    }
+}
+
+void builder_analyses(builder *b)
+{
+    for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
+        const fields f = fields_of(b, &b->list[SCENE_ANALYSES].entry[i]);
+        const int index = scene_add_linear(b->scene);
+        if (index < 0)
+            return;
+        builder_call(b, SCENE_ANALYSES, index, i);
+        fields_read(&f, entry_analysis, &b->scene->analysis[index]);
+        complete(&f, index, &b->scene->analysis[index]);
+    }
+}
+
+void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q)
+{
+    const scene_analysis *a = &what->b->scene->analysis[q->analysis];
+    char who[128] = "";
+    for (int k = SCENE_LINEAR; k <= SCENE_MOTION; k++)
+        if (scene_gives((scene_analysis_kind)k, q)) {
+            const size_t used = strlen(who);
+            snprintf(who + used, sizeof who - used, "%s%s", used > 0 ? ", " : "",
+                     scene_analysis_name((scene_analysis_kind)k));
+        }
+    document_mistake(what->b->mistakes, document_find(what->map, "analysis"), 0,
+                     "'%s' is %s and has no %s; name an analysis that has: %s", a->name,
+                     scene_analysis_name(a->kind), key, who);
+}
+
+/* Functions of time: one expression of t, pieces of them, or a table. */
+
+enum { MOST_TEXT = 4000 };
+
+/* An expression with the values of its names in their places, and where its characters stand in the
+ * file. */
+typedef struct written_out {
+    char text[MOST_TEXT];
+    int place[MOST_TEXT];
+    size_t used;
+} written_out;
+
+static int is_own_name(const char *text, size_t length)
+{
+    return (length == 1 && *text == 't') || functions_find(text, (int)length) != NULL;
+}
+
+/* 0: there is no room. */
+static int put(written_out *to, const char *text, size_t length, int place)
+{
+    if (to->used + length >= MOST_TEXT)
+        return 0;
+    memcpy(to->text + to->used, text, length);
+    for (size_t i = 0; i <= length; i++)
+        to->place[to->used + i] = place;
+    to->used += length;
+    to->text[to->used] = '\0';
+    return 1;
+}
+
+static int tell_unknown(const fields *f, const document_node *n, int place, int length)
+{
+    char name[64], remedy[FAULT_TEXT];
+    snprintf(name, sizeof name, "%.*s", length, n->text + place);
+    const int is_time = strcmp(name, "time") == 0 || strcmp(name, "T") == 0;
+    document_mistake(f->b->mistakes, n, place, "unknown name '%s'%s", name,
+                     mistakes_remedy(is_time ? "t" : scope_nearest(f->names, name),
+                                     "; a function of time has t, pi, deg, functions such as sin "
+                                     "and exp, and the names of 'parameters' and 'let'",
+                                     remedy));
+    return 0;
+}
+
+/* A name becomes its value; 0 after a mistake. */
+static int put_name(const fields *f, const document_node *n, int place, int length, written_out *to)
+{
+    const char *at = n->text + place;
+    const scope *name = scope_find(f->names, at, (size_t)length);
+    char number[40];
+    if (is_own_name(at, (size_t)length)) {
+        if (name != NULL)
+            document_mistake(f->b->mistakes, n, place,
+                             "'%.*s' is a word of functions of time and a name of this file; "
+                             "rename the latter",
+                             length, at);
+        return name == NULL && put(to, at, (size_t)length, place);
+    }
+    if (name == NULL || name->word != NULL || name->constants != NULL)
+        return tell_unknown(f, n, place, length);
+    if (isnan(name->number)) /* its own mistake is told already */
+        return 0;
+    snprintf(number, sizeof number, name->number < 0 ? "(%.17g)" : "%.17g", name->number);
+    return put(to, number, strlen(number), place);
+}
+
+/* 0 after a mistake. */
+static int write_out(const fields *f, const document_node *n, written_out *to)
+{
+    int at = 0;
+    to->used = 0;
+    put(to, "", 0, 0);
+    while (n->text[at] != '\0') {
+        const int length = (int)scope_name_length(n->text + at);
+        const char before = at > 0 ? n->text[at - 1] : ' ';
+        /* the e of 1e-3 belongs to its number */
+        const int named = length > 0 && before != '.' && !(before >= '0' && before <= '9');
+        const int taken = length > 0 ? length : 1, errors = f->b->mistakes->count;
+        if (named ? put_name(f, n, at, length, to) : put(to, n->text + at, (size_t)taken, at)) {
+            at += taken;
+            continue;
+        }
+        if (f->b->mistakes->count == errors && to->used + 60 >= MOST_TEXT)
+            document_mistake(f->b->mistakes, n, at, "too long; split it into pieces");
+        return 0;
+    }
+    put(to, "", 0, at);
+    return 1;
+}
+
+static void add_piece(const fields *f, const document_node *n, double until, int index,
+                      builder_piece *add)
+{
+    written_out one;
+    formula *read = NULL;
+    formula_mistake why;
+    if (n == NULL || !write_out(f, n, &one))
+        return;
+    if (formula_parse(one.text, &read, &why) != STATUS_OK)
+        document_mistake(f->b->mistakes, n, one.place[why.at], "function of time: %s", why.what);
+    else
+        add(f->b->scene, index, until, one.text);
+    formula_free(read);
+}
+
+static void add_pieces(const fields *f, const document_node *list, int index, builder_piece *add)
+{
+    double before = -INFINITY;
+    if (list->count == 0)
+        document_mistake(f->b->mistakes, list, 0,
+                         "no piece; give [{until: [s], is: ...}, {is: ...}]");
+    for (int i = 0; i < list->count; i++) {
+        fields piece = *f;
+        piece.map = list->item[i];
+        const int last = i == list->count - 1, ends = fields_have(&piece, "until");
+        const double until = fields_number(&piece, "until", 0);
+        if (!last && !(ends && until > before))
+            document_mistake(f->b->mistakes, piece.map, 0,
+                             "a piece ends behind the one before it; give until: [s]");
+        if (last && ends)
+            document_mistake(f->b->mistakes, document_find(piece.map, "until"), 0,
+                             "the last piece has no end; remove 'until', or add the piece "
+                             "behind it");
+        before = until;
+        add_piece(&piece, document_find(piece.map, "is"), until, index, add);
+    }
+}
+
+/* Slopes of the cubic spline that begins and ends at rest, whose curvature does not jump between:
+ * m[k-1]/h + 2 m[k] (1/h + 1/g) + m[k+1]/g = 3 (rise/h^2 + next rise/g^2). */
+static void spline_slopes(int count, const double at[], const double value[], double m[],
+                          double room[])
+{
+    m[0] = room[0] = 0;
+    for (int k = 1; k < count - 1; k++) {
+        const double h = at[k] - at[k - 1], g = at[k + 1] - at[k];
+        const double right =
+            3 * ((value[k] - value[k - 1]) / (h * h) + (value[k + 1] - value[k]) / (g * g));
+        const double pivot = 2 / h + 2 / g - room[k - 1] / h;
+        room[k] = 1 / (g * pivot);
+        m[k] = (right - m[k - 1] / h) / pivot;
+    }
+    m[count - 1] = 0;
+    for (int k = count - 2; k > 0; k--)
+        m[k] -= room[k] * m[k + 1];
+}
+
+/* From one station to the next, by the slopes there. */
+static void add_cubic(scene *s, int index, builder_piece *add, const double at[2],
+                      const double value[2], const double slope[2])
+{
+    char text[400];
+    const double h = at[1] - at[0], mean = (value[1] - value[0]) / h;
+    const double second = (3 * mean - 2 * slope[0] - slope[1]) / h,
+                 third = (slope[0] + slope[1] - 2 * mean) / (h * h);
+    snprintf(text, sizeof text,
+             "%.17g + (t - (%.17g))*((%.17g) + (t - (%.17g))*((%.17g) + (t - (%.17g))*(%.17g)))",
+             value[0], at[0], slope[0], at[0], second, at[0], third);
+    add(s, index, at[1], text);
+}
+
+static void add_line(scene *s, int index, builder_piece *add, const double at[2],
+                     const double value[2])
+{
+    char text[120];
+    snprintf(text, sizeof text, "%.17g + (t - (%.17g))*(%.17g)", value[0], at[0],
+             (value[1] - value[0]) / (at[1] - at[0]));
+    add(s, index, at[1], text);
+}
+
+static void add_level(scene *s, int index, builder_piece *add, double until, double value)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.17g", value);
+    add(s, index, until, text);
+}
+
+static void add_table(const fields *f, int index, builder_piece *add, int spline)
+{
+    double *at, *value;
+    const int count = fields_values(f, "at", &at), values = fields_values(f, "value", &value);
+    int ascends = 1;
+    for (int k = 1; k < count; k++)
+        ascends &= at[k] > at[k - 1];
+    if (count != values || count < 2 || !ascends) {
+        document_mistake(f->b->mistakes, document_find(f->map, "at"), 0,
+                         "a table has two instants or more, ascending, and as many values; 'at' "
+                         "has %d and 'value' %d",
+                         count, values);
+        return;
+    }
+    double *m = arena_take(f->b->arena, 2 * (size_t)count * sizeof *m);
+    if (m == NULL)
+        return;
+    if (spline)
+        spline_slopes(count, at, value, m, m + count);
+    if (at[0] > 0)
+        add_level(f->b->scene, index, add, at[0], value[0]);
+    for (int k = 0; k < count - 1 && spline; k++)
+        add_cubic(f->b->scene, index, add, at + k, value + k, m + k);
+    for (int k = 0; k < count - 1 && !spline; k++)
+        add_line(f->b->scene, index, add, at + k, value + k);
+    add_level(f->b->scene, index, add, 0, value[count - 1]);
+}
+
+void builder_function(const fields *f, int index, builder_piece *add, int spline)
+{
+    const document_node *one = document_find(f->map, "time"),
+                        *list = document_find(f->map, "pieces");
+    const fields table = fields_below(f, "table");
+    if (one != NULL)
+        add_piece(f, one, 0, index, add);
+    if (list != NULL)
+        add_pieces(f, list, index, add);
+    if (table.map != NULL)
+        add_table(&table, index, add, spline);
+}
+
+int builder_has_function(const fields *f)
+{
+    return fields_have(f, "time") || fields_have(f, "pieces") || fields_have(f, "table");
+}
+
+int builder_stations(const fields *f, const char *values, double **path, double **value)
+{
+    const int stations = fields_values(f, "path", path), count = fields_values(f, values, value);
+    if (stations == count)
+        return count;
+    document_mistake(
+        f->b->mistakes, document_find(f->map, fields_have(f, values) ? values : "path"), 0,
+        "'path' has %d values and '%s' %d; give as many of both", stations, values, count);
+    return 0;
 }

@@ -1,9 +1,10 @@
 /* Nodes of a scene: supports, rigid bodies, rotations. */
+#include "cases/format/format_impl.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "cases/format/builder.h"
-#include "cases/format/expression.h"
+#include "elements/shared/choice.h"
 
 /* Lengths of a unit vector below it are round-off. */
 static const double round_off = 1e-12;
@@ -174,4 +175,269 @@ void builder_nodes(builder *b)
         check_masters(&f, n);
         read_rotation(&f, n);
     }
+}
+
+/* Sections of a scene. */
+
+/* Index of a point that a wall names; -1 after a mistake. */
+static int point_of(const fields *wall, const char *key, const document_node *points)
+{
+    const document_node *name = document_find(wall->map, key);
+    if (points != NULL)
+        for (int i = 0; i < points->count; i++)
+            if (strcmp(points->key[i]->text, name->text) == 0)
+                return i;
+    char known[FAULT_TEXT] = "";
+    if (points != NULL)
+        for (int i = 0, used = 0; i < points->count && used < 100; i++)
+            used += snprintf(known + used, sizeof known - (size_t)used, "%s%.20s",
+                             i > 0 ? ", " : "", points->key[i]->text);
+    document_mistake(wall->b->mistakes, name, 0,
+                     "the section has no point '%.40s'; its points are: %s", name->text,
+                     known[0] != '\0' ? known : "none; add points: {NAME: [y, z]}");
+    return -1;
+}
+
+static void read_walls(const fields *f, section_spec *spec)
+{
+    const document_node *points = document_find(f->map, "points");
+    unrolled *walls;
+    const int count = unroll_entries(document_find(f->map, "walls"), f->names, f->b->arena,
+                                     f->b->mistakes, &walls);
+    spec->kind = SECTION_WALLS;
+    spec->points = points != NULL ? points->count : 0;
+    spec->walls = count;
+    if (spec->points > SECTION_MAX_POINTS || count > SECTION_MAX_WALLS || count == 0) {
+        document_mistake(f->b->mistakes, f->place, 0,
+                         "%d points and %d walls; give 1 to %d of each", spec->points, count,
+                         SECTION_MAX_WALLS);
+        spec->points = spec->walls = 0;
+        return;
+    }
+    for (int i = 0; i < spec->points; i++)
+        expression_vector(points->item[i], 2, f->names, f->b->mistakes, spec->point[i]);
+    for (int i = 0; i < count; i++) {
+        const fields wall = fields_of(f->b, &walls[i]);
+        spec->wall[i].from = point_of(&wall, "from", points);
+        spec->wall[i].to = point_of(&wall, "to", points);
+        spec->wall[i].thickness = fields_number(&wall, "thickness", 1);
+    }
+}
+
+static void read_shear_factor(const fields *f, section_spec *spec)
+{
+    const document_node *k = document_find(f->map, "shear_factor");
+    if (k != NULL && k->kind == DOCUMENT_LIST)
+        expression_vector(k, 2, f->names, f->b->mistakes, spec->shear_factor);
+    else
+        spec->shear_factor[0] = spec->shear_factor[1] = fields_number(f, "shear_factor", 0);
+}
+
+static int are_zero(int count, const double value[])
+{
+    int i = 0;
+    while (i < count && value[i] == 0)
+        i++;
+    return i == count;
+}
+
+/* What the table does not say of constants. */
+static void read_rest(const fields *f, section_spec *spec)
+{
+    const fields those = fields_below(f, "constants");
+    section *c = &spec->constants;
+    if (!fields_have(&those, "Ip"))
+        c->Ip = c->Iy + c->Iz;
+    if ((fields_vector(&those, "D", 9, c->D) && are_zero(9, c->D)) ||
+        (fields_vector(&those, "F", 9, c->F) && are_zero(9, c->F)))
+        spec->zeros |= SECTION_ZERO_SHEAR;
+}
+
+/* 36 numbers, or six of the diagonal. */
+static void read_matrix(const fields *f, const char *key, double out[36])
+{
+    double *given;
+    const int count = fields_values(f, key, &given);
+    if (count == 36)
+        memcpy(out, given, 36 * sizeof *out);
+    for (int k = 0; k < 6 && count == 6; k++)
+        out[7 * k] = given[k];
+    if (fields_have(f, key) && count != 6 && count != 36)
+        document_mistake(f->b->mistakes, document_find(f->map, key), 0,
+                         "%s: %d numbers; give the 36 of a matrix, or the six of its diagonal", key,
+                         count);
+}
+
+static void read_matrices(const fields *f, section_spec *spec)
+{
+    spec->kind = SECTION_MATRICES;
+    read_matrix(f, "stiffness", spec->constants.stiffness);
+    read_matrix(f, "mass", spec->constants.mass);
+}
+
+/* Material and overrides belong to all sections but those of matrices, and masses of their own to
+ * these. */
+static void check_material(const fields *f)
+{
+    static const struct {
+        const char *key, *about;
+    } material[] = {{"young", "modulus of elasticity"}, {"shear_modulus", "E/(2 (1 + nu))"}},
+      other[] = {{"young", ""}, {"shear_modulus", ""}, {"density", ""}, {"given", ""}};
+    mistakes *m = f->b->mistakes;
+    if (!fields_have(f, "stiffness")) {
+        for (size_t i = 0; i < sizeof material / sizeof material[0]; i++)
+            if (!fields_have(f, material[i].key))
+                document_mistake(m, f->place, 0, "%.40s: '%s' is missing (%s)", f->place->text,
+                                 material[i].key, material[i].about);
+        if (fields_have(f, "mass"))
+            document_mistake(m, document_find(f->map, "mass"), 0,
+                             "a mass matrix is of a section with a stiffness matrix; give a "
+                             "density");
+        return;
+    }
+    for (size_t i = 0; i < sizeof other / sizeof other[0]; i++)
+        if (fields_have(f, other[i].key))
+            document_mistake(
+                m, document_find(f->map, other[i].key), 0,
+                "'%s' does not apply to a section given by its stiffness matrix; remove it",
+                other[i].key);
+}
+
+void builder_sections(builder *b)
+{
+    for (int i = 0; i < b->list[SCENE_SECTIONS].count; i++) {
+        const unrolled *entry = &b->list[SCENE_SECTIONS].entry[i];
+        const fields f = fields_of(b, entry);
+        section_spec spec;
+        section computed;
+        int known = 0;
+        fault why = {""};
+        section_spec_init(&spec);
+        check_material(&f);
+        fields_read(&f, entry_section, &spec);
+        if (fields_have(&f, "stiffness"))
+            read_matrices(&f, &spec);
+        else if (fields_have(&f, "walls"))
+            read_walls(&f, &spec);
+        else if (fields_have(&f, "constants"))
+            read_rest(&f, &spec);
+        else if (fields_have(&f, "rectangle"))
+            read_shear_factor(&f, &spec);
+        else
+            build_shapes_read(&f, &spec);
+        for (int k = 0; k < 2; k++) {
+            static const char *const of_walls[] = {"points", "cells"};
+            if (!fields_have(&f, "walls") && fields_have(&f, of_walls[k]))
+                document_mistake(b->mistakes, document_find(f.map, of_walls[k]), 0,
+                                 "%s are of walls; add them, or leave the %s out", of_walls[k],
+                                 of_walls[k]);
+        }
+        if (spec.kind != SECTION_RECTANGLE && fields_have(&f, "shear_factor"))
+            document_mistake(
+                b->mistakes, document_find(f.map, "shear_factor"), 0,
+                "a shear factor applies to a rectangle only; remove it, or use 'given'");
+        if (b->mistakes->count == 0) {
+            known = section_compute(&spec, &computed, &why) == STATUS_OK;
+            if (!known)
+                document_mistake(b->mistakes, f.place, 0, "%s", why.text);
+        }
+        if (spec.kind != SECTION_WALLS && fields_have(&f, "thickness_terms"))
+            document_mistake(b->mistakes, document_find(f.map, "thickness_terms"), 0,
+                             "thickness terms apply to walls only; remove them");
+        builder_call(b, SCENE_SECTIONS, scene_add_section(b->scene, &spec), i);
+        b->names = section_names_add(b->names, entry->name,
+                                     known && !computed.matrices ? &computed : NULL, b->arena);
+    }
+}
+
+/* Motions in time. */
+
+/* Where neither a step nor a tolerance is given: 0.1 % of the motion. The step is of the last
+ * station. */
+static const double usual_tolerance = 1e-3, usual_of_radau = 1e-5, usual_step = 1e-3;
+
+/* A number of one parameter set of alpha, between two. */
+static double between(const fields *f, const char *key, double otherwise, double least, double most,
+                      const char *range)
+{
+    const double value = fields_number(f, key, otherwise);
+    if (value >= least && value <= most)
+        return value;
+    document_mistake(f->b->mistakes, document_find(f->map, key), 0, "%s = %g; give %s", key, value,
+                     range);
+    return otherwise;
+}
+
+static scene_alpha alpha_of(const fields *f)
+{
+    double pair[2];
+    if (fields_vector(f, "parameters", 2, pair))
+        return (scene_alpha){pair[0], pair[1]};
+    if (fields_have(f, "hht"))
+        return (scene_alpha){0, between(f, "hht", 0, 0, 1. / 3,
+                                        "alpha of Hilber, Hughes and Taylor, from 0 to 1/3")};
+    if (fields_word(f, "trapezoidal", "no|yes", 0))
+        return (scene_alpha){0, 0};
+    return scene_alpha_of_radius(between(f, "rho", 0.9, 0, 1, "a spectral radius from 0 to 1"));
+}
+
+static const char *const of_alpha[] = {"rho", "hht", "trapezoidal", "parameters"};
+
+/* Without an integrator: by a parameter that no other one has, or by steps that are all alike. */
+static int asks_for_alpha(const fields *f)
+{
+    int asks = fields_have(f, "step") && !fields_have(f, "tolerance");
+    for (int i = 0; i < 4; i++)
+        asks |= fields_have(f, of_alpha[i]);
+    return asks;
+}
+
+/* Parameters of alpha that another integrator does not have, unless that is a parameter's choice.
+ */
+static void check_parameters(const fields *f, scene_scheme scheme)
+{
+    const int chosen = choice_index(SCENE_SCHEME_CHOICES, fields_text(f, "integrator", "")) < 0;
+    for (int i = 0; i < 4 && scheme != SCENE_ALPHA && !chosen; i++)
+        if (fields_have(f, of_alpha[i]))
+            document_mistake(f->b->mistakes, document_find(f->map, of_alpha[i]), 0,
+                             "%s applies to the integrator alpha only; remove it", of_alpha[i]);
+}
+
+/* Parameter sets of alpha have names of their own where integrators are compared (motion -u). */
+static scene_scheme scheme_of(const fields *f)
+{
+    static const char *const set[][2] = {{"hht", "hht: 0.1"}, {"trapezoidal", "trapezoidal: yes"}};
+    const char *given = fields_text(f, "integrator", "");
+    for (int i = 0; i < 2; i++)
+        if (strcmp(given, set[i][0]) == 0) {
+            document_mistake(f->b->mistakes, document_find(f->map, "integrator"), 0,
+                             "integrator: %s is alpha with a parameter; give 'integrator: alpha' "
+                             "and '%s'",
+                             given, set[i][1]);
+            return SCENE_ALPHA;
+        }
+    return (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES,
+                                     asks_for_alpha(f) ? SCENE_ALPHA : SCENE_RADAU);
+}
+
+static void read_steps(const fields *f, scene_motion *how)
+{
+    const int steps = fields_have(f, "step"), count = how->path.stations;
+    const double last = count > 0 ? how->path.value[count - 1] : 0;
+    if (!steps)
+        how->step = usual_step * (last > 0 ? last : 1);
+    if (!steps && !fields_have(f, "tolerance"))
+        how->tolerance = how->scheme == SCENE_RADAU ? usual_of_radau : usual_tolerance;
+    if (!steps && how->tolerance == 0)
+        document_mistake(f->b->mistakes, document_find(f->map, "tolerance"), 0,
+                         "without a tolerance all steps are alike; give 'step' [s]");
+}
+
+void builder_in_time(const fields *f, scene_motion *how)
+{
+    how->scheme = scheme_of(f);
+    how->alpha = alpha_of(f);
+    check_parameters(f, how->scheme);
+    if (how->path.value != NULL)
+        read_steps(f, how);
 }

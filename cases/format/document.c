@@ -1,6 +1,8 @@
-#include "cases/format/document.h"
+#include "cases/format/format.h"
 
+#include <jansson.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
 
@@ -296,4 +298,152 @@ void document_mistake(mistakes *m, const document_node *n, int offset, const cha
     const int inside = n->kind == DOCUMENT_TEXT && n->inset >= 0;
     mistakes_add(m, n->line, n->column + (inside ? n->inset + characters(n->text, offset) : 0),
                  "%s", text);
+}
+
+enum { BLOCK = 1 << 10, ALIGNMENT = 16 };
+/* A file of the largest size needs less. */
+static const size_t most = (size_t)1 << 28;
+
+typedef struct arena_block {
+    struct arena_block *next;
+    size_t size;
+    _Alignas(ALIGNMENT) char bytes[];
+} arena_block;
+
+static void *add_block(arena *a, size_t size)
+{
+    const size_t room = size > BLOCK ? size : BLOCK;
+    arena_block *b = a->total + room > most ? NULL : calloc(1, sizeof *b + room);
+    if (b == NULL) {
+        a->failed = 1;
+        return NULL;
+    }
+    b->next = a->block;
+    b->size = room;
+    a->block = b;
+    a->used = size;
+    a->total += room;
+    return b->bytes;
+}
+
+void *arena_take(arena *a, size_t size)
+{
+    const size_t rounded = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    if (a->block == NULL || a->used + rounded > a->block->size)
+        return add_block(a, rounded);
+    void *taken = a->block->bytes + a->used;
+    a->used += rounded;
+    return taken;
+}
+
+const char *arena_copy(arena *a, const char *text, size_t length)
+{
+    char *copy = arena_take(a, length + 1);
+    if (copy != NULL)
+        memcpy(copy, text, length);
+    return copy;
+}
+
+void *arena_grow(arena *a, void *list, int count, size_t size)
+{
+    if ((count & (count - 1)) != 0)
+        return list;
+    void *larger = arena_take(a, (count == 0 ? 1 : 2 * (size_t)count) * size);
+    if (larger != NULL && count > 0)
+        memcpy(larger, list, (size_t)count * size);
+    return larger;
+}
+
+void arena_free(arena *a)
+{
+    while (a->block != NULL) {
+        arena_block *next = a->block->next;
+        free(a->block);
+        a->block = next;
+    }
+    memset(a, 0, sizeof *a);
+}
+
+/* Is the place before that of the mistake? */
+static int is_before(int line, int column, const mistake *other)
+{
+    return line < other->line || (line == other->line && column < other->column);
+}
+
+void mistakes_add(mistakes *m, int line, int column, const char *format, ...)
+{
+    int at = 0;
+    while (at < m->count && !is_before(line, column, &m->list[at]))
+        at++;
+    if (at > 0 && m->list[at - 1].line == line && m->list[at - 1].column == column)
+        return;
+    if (m->count == MISTAKES_MOST)
+        m->more++;
+    if (at == MISTAKES_MOST)
+        return;
+    const int kept = m->count < MISTAKES_MOST ? m->count : MISTAKES_MOST - 1;
+    memmove(&m->list[at + 1], &m->list[at], (size_t)(kept - at) * sizeof *m->list);
+    m->count = kept + 1;
+    m->list[at].line = line;
+    m->list[at].column = column;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(m->list[at].text, sizeof m->list[at].text, format, arguments);
+    va_end(arguments);
+}
+
+const char *mistakes_remedy(const char *near, const char *remedy, char text[FAULT_TEXT])
+{
+    if (near != NULL)
+        snprintf(text, FAULT_TEXT, "; did you mean '%.60s'?", near);
+    else
+        snprintf(text, FAULT_TEXT, "%s", remedy);
+    return text;
+}
+
+status mistakes_status(const mistakes *m, fault *f)
+{
+    if (m->out_of_memory)
+        return fault_set(f, STATUS_FAULT, "%.100s: out of memory", m->file);
+    if (m->count == 0)
+        return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED, "%.100s:%d:%d: %.200s", m->file, m->list[0].line,
+                     m->list[0].column, m->list[0].text);
+}
+
+void mistakes_print(const mistakes *m, FILE *to)
+{
+    for (int i = 0; i < m->count; i++)
+        fprintf(to, "%s:%d:%d: %s\n", m->file, m->list[i].line, m->list[i].column, m->list[i].text);
+    if (m->more > 0)
+        fprintf(to, "%s: and %d more; correct these first\n", m->file, m->more);
+    if (m->out_of_memory)
+        fprintf(to, "%s: out of memory\n", m->file);
+}
+
+static json_t *list_of(const mistakes *m)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < m->count; i++) {
+        const mistake *one = &m->list[i];
+        json_t *entry = json_pack("{s:i, s:i, s:s}", "line", one->line, "column", one->column,
+                                  "text", one->text);
+        if (json_array_append_new(list, entry) != 0) {
+            json_decref(list);
+            return NULL;
+        }
+    }
+    return list;
+}
+
+status mistakes_json(const mistakes *m, FILE *to, fault *f)
+{
+    json_t *all =
+        json_pack("{s:s, s:o, s:i}", "file", m->file, "mistakes", list_of(m), "more", m->more);
+    const int written = all != NULL && json_dumpf(all, to, JSON_INDENT(1)) == 0;
+    json_decref(all);
+    if (!written)
+        return fault_set(f, STATUS_FAULT, "the list of mistakes cannot be written");
+    fputc('\n', to);
+    return STATUS_OK;
 }

@@ -1,9 +1,7 @@
-#include "cases/format/keys.h"
+#include "cases/format/format_impl.h"
 
 #include <string.h>
 
-#include "cases/format/range.h"
-#include "cases/scene/scene.h"
 #include "elements/shared/choice.h"
 
 const entry_field keys_let[] = {

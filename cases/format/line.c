@@ -1,8 +1,10 @@
-#include "cases/format/line.h"
+#include "cases/format/format_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "cases/scene/quantity_type.h"
 
 static int is_blank(char c)
 {
@@ -143,4 +145,167 @@ int line_number(const char *text, double *value)
         copy[i] = (char)(text[i] == 'D' || text[i] == 'd' ? 'e' : text[i]);
     *value = strtod(copy, &end);
     return *end == '\0' && isfinite(*value);
+}
+
+/* Without the name of its analysis. */
+static void put_sentence(const scene *s, const scene_quantity *q, char *text, size_t size)
+{
+    FILE *to = fmemopen(text, size, "w");
+    text[0] = '\0';
+    if (to == NULL)
+        return;
+    const quantity_type *type = quantity_type_of(q);
+    type->meaning(to, s, q);
+    if (!type->names_analysis)
+        meaning_state(to, s, q);
+    if (q->factor == -1)
+        fputs(", with the other sign", to);
+    else if (q->factor != 1)
+        fprintf(to, ", times %.10g", q->factor);
+    if (q->offset != 0)
+        fprintf(to, ", plus %.10g", q->offset);
+    fclose(to);
+    text[size - 1] = '\0';
+}
+
+/* Does another analysis of the same kind answer in the same words? */
+static int has_twin(const scene *s, const scene_quantity *q, const char *text)
+{
+    char other[MEANING_ROOM];
+    for (int i = 0; i < s->quantities; i++) {
+        const scene_quantity *r = &s->quantity[i];
+        if (r->analysis == q->analysis || r->what.kind != q->what.kind)
+            continue;
+        put_sentence(s, r, other, sizeof other);
+        if (strcmp(other, text) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size)
+{
+    const scene_quantity *q = &s->quantity[quantity];
+    char sentence[MEANING_ROOM];
+    put_sentence(s, q, sentence, sizeof sentence);
+    if (has_twin(s, q, sentence))
+        snprintf(text, size, "%s (%s)", sentence, scene_name(s, SCENE_ANALYSES, q->analysis).text);
+    else
+        snprintf(text, size, "%s", sentence);
+}
+
+/* Of which states of which analysis a quantity is. */
+
+/* [rad/s] at path parameter 1. */
+static double speed(const scene_analysis *a)
+{
+    const double *omega = scene_walk_of(a)->frame.omega;
+    return sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]);
+}
+
+static const char *path_name(const scene_analysis *a)
+{
+    if (a->kind == SCENE_MOTION)
+        return "motion";
+    return a->kind == SCENE_CONTINUATION ? "path of the load factor" : "static path";
+}
+
+/* The analysis along whose path stations are counted, or NULL: there is no path. */
+static const scene_analysis *path_of(const scene *s, const scene_analysis *a)
+{
+    const scene_analysis *walked =
+        scene_path_of(a) == NULL && a->follows != SCENE_NONE ? &s->analysis[a->follows] : a;
+    return scene_path_of(walked) != NULL ? walked : NULL;
+}
+
+/* Where on the path: its last station, or the value of its parameter. */
+static void at_station(FILE *to, const scene *s, const scene_quantity *q, const scene_analysis *a)
+{
+    const scene_path *path = scene_path_of(a);
+    const double last = path->value[path->stations - 1],
+                 at = q->reduction == SCENE_AT ? q->at : last;
+    if (a->kind == SCENE_ROTATION && speed(a) * last == 0) {
+        fputs(", at rest", to);
+    } else if (a->kind == SCENE_ROTATION) {
+        fprintf(to, ", turning at %.10g rad/s", speed(a) * at);
+    } else if (a->kind == SCENE_CONTINUATION) {
+        const scene_control *control = &scene_continuation_of(a)->control;
+        fputs(", where the ", to);
+        meaning_coordinate(to, s, control->node, control->component);
+        fprintf(to, " is %.10g m", at);
+    } else if (a->kind == SCENE_MOTION) {
+        fprintf(to, ", %.10g s after the start of the motion", at);
+    } else if (q->reduction != SCENE_AT) {
+        fputs(", at the end of the static path", to);
+    } else {
+        fprintf(to, ", at %.10g on the static path (0 to %.10g)", at, last);
+    }
+}
+
+/* Of a motion, between its stations. */
+static void passing(FILE *to, const scene_quantity *q)
+{
+    static const char *const way[] = {"rises through", "falls through", "passes"};
+    const scene_passing *p = &q->passing;
+    if (q->reduction == SCENE_MEAN)
+        fputs(", mean over time", to);
+    else if (q->reduction == SCENE_MAX_TIME || q->reduction == SCENE_MIN_TIME)
+        fprintf(to, ", time at which it is %s",
+                q->reduction == SCENE_MAX_TIME ? "largest" : "least");
+    else if (q->reduction == SCENE_CROSSING)
+        fprintf(to, ", time at which it %s %.10g, number %d", way[p->direction], p->level,
+                p->order + 1);
+    else
+        fprintf(to, ", %s at which it %s %.10g",
+                q->reduction == SCENE_PERIOD ? "period" : "frequency", way[p->direction], p->level);
+    if (p->from > 0 || p->until > 0)
+        fprintf(to, ", from %.10g s on", p->from);
+    if (p->until > 0)
+        fprintf(to, " until %.10g s", p->until);
+}
+
+static void along_path(FILE *to, const scene *s, const scene_quantity *q, const scene_analysis *a)
+{
+    const char *name = a->kind == SCENE_ROTATION ? "speeds at which the axes turn" : path_name(a);
+    switch (q->reduction) {
+    case SCENE_LAST:
+    case SCENE_AT:
+        at_station(to, s, q, a);
+        break;
+    case SCENE_MAX:
+        fprintf(to, ", largest value along the %s", name);
+        break;
+    case SCENE_MIN:
+        fprintf(to, ", least value along the %s", name);
+        break;
+    case SCENE_CURVE:
+        fprintf(to, ", along the %s, over %s [%s]", name, q->x.name, q->x.unit);
+        break;
+    case SCENE_MAX_TIME:
+    case SCENE_MIN_TIME:
+    case SCENE_CROSSING:
+    case SCENE_PERIOD:
+    case SCENE_PER_SECOND:
+    case SCENE_MEAN:
+    case SCENE_REDUCTIONS:
+        passing(to, q);
+        break;
+    }
+}
+
+void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
+{
+    const scene_analysis *a = &s->analysis[q->analysis], *path = path_of(s, a);
+    if (path != NULL)
+        along_path(to, s, q, path);
+    else if (a->kind == SCENE_LINEAR)
+        fputs(", small displacements", to);
+    else if (a->follows != SCENE_NONE)
+        fputs(", of the structure under its loads, small displacements", to);
+    else
+        fputs(", of the undeformed structure", to);
+    if (path != NULL && path->kind == SCENE_STATIC && scene_rotates(path))
+        fprintf(to, ", while the axes turn at %.10g rad/s", speed(path));
+    if (a->kind == SCENE_COMPLIANCE && scene_compliance_of(a)->moments != SCENE_MOMENTS_SPATIAL)
+        fprintf(to, ", moments %s", scene_moments_name(scene_compliance_of(a)->moments));
 }

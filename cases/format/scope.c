@@ -1,5 +1,6 @@
-#include "cases/format/scope.h"
+#include "cases/format/format_impl.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "cases/scene/functions.h"
@@ -98,4 +99,118 @@ int scope_accepts(const scope *names, const document_node *key, mistakes *m)
         return 0;
     }
     return 1;
+}
+
+enum { LONGEST = 4096 };
+
+static int has_name(const document_node *n)
+{
+    if (n->kind == DOCUMENT_TEXT)
+        return strchr(n->text, '$') != NULL;
+    for (int i = 0; i < n->count; i++)
+        if (has_name(n->item[i]) || (n->key != NULL && has_name(n->key[i])))
+            return 1;
+    return 0;
+}
+
+/* Length of the loop name that $ or ${ here stands before; 0: none does. */
+static size_t substitute_name_at(const char *at, int *braces)
+{
+    *braces = at[0] == '$' && at[1] == '{';
+    const size_t length = *at == '$' ? scope_name_length(at + 1 + *braces) : 0;
+    return *braces && at[2 + length] != '}' ? 0 : length;
+}
+
+int substitute_is_left(const char *text)
+{
+    int braces;
+    for (const char *at = text; *at != '\0'; at++)
+        if (substitute_name_at(at, &braces) > 0)
+            return 1;
+    return 0;
+}
+
+/* The text of a name, said: for people; 0: a mistake was told. */
+static int value_text(const document_node *n, int at, size_t length, int said, const scope *names,
+                      mistakes *m, char out[64])
+{
+    const char *name = n->text + at + (n->text[at + 1] == '{' ? 2 : 1);
+    const scope *known = scope_find(names, name, length);
+    char word[48], remedy[FAULT_TEXT];
+    if (known != NULL && known->word != NULL) {
+        snprintf(out, 64, "%s", known->word);
+        return 1;
+    }
+    if (known != NULL && said) {
+        snprintf(out, 64, "%g", known->number);
+        return 1;
+    }
+    if (known != NULL && known->number == floor(known->number) && fabs(known->number) < 1e9) {
+        snprintf(out, 64, "%.0f", known->number);
+        return 1;
+    }
+    if (known != NULL) {
+        document_mistake(m, n, at,
+                         "$%s is %g: only whole numbers and words can stand in names; count with "
+                         "one loop name and compute with 'let'",
+                         known->name, known->number);
+        return 0;
+    }
+    snprintf(word, sizeof word, "%.*s", (int)(length < 40 ? length : 40), name);
+    document_mistake(m, n, at, "unknown loop name '$%s'%s", word,
+                     mistakes_remedy(scope_nearest(names, word), "; name it under 'for'", remedy));
+    return 0;
+}
+
+static const char *substitute_text(const document_node *n, int said, const scope *names, arena *a,
+                                   mistakes *m)
+{
+    char text[LONGEST];
+    size_t used = 0;
+    for (const char *at = n->text; *at != '\0' && used + 64 < sizeof text;) {
+        int braces;
+        const size_t length = substitute_name_at(at, &braces);
+        char value[64];
+        if (length > 0 && value_text(n, (int)(at - n->text), length, said, names, m, value)) {
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s", value);
+            at += 1 + length + 2 * (size_t)braces;
+        } else {
+            text[used++] = *at++;
+        }
+    }
+    return arena_copy(a, text, used);
+}
+
+const char *substitute_said(const document_node *n, const scope *names, arena *a, mistakes *m)
+{
+    return substitute_text(n, 1, names, a, m);
+}
+
+const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
+                                     mistakes *m)
+{
+    if (!has_name(n))
+        return n;
+    document_node *copy = arena_take(a, sizeof *copy);
+    if (copy == NULL)
+        return NULL;
+    *copy = *n;
+    if (n->kind == DOCUMENT_TEXT) {
+        copy->text = substitute_text(n, 0, names, a, m);
+        copy->inset = strcmp(n->text, copy->text != NULL ? copy->text : "") == 0 ? n->inset : -1;
+        return copy->text != NULL ? copy : NULL;
+    }
+    copy->item = arena_take(a, (size_t)n->count * sizeof(document_node *));
+    if (n->key != NULL)
+        copy->key = arena_take(a, (size_t)n->count * sizeof(document_node *));
+    if (copy->item == NULL || (n->key != NULL && copy->key == NULL))
+        return NULL;
+    for (int i = 0; i < n->count; i++) {
+        copy->item[i] = (document_node *)substitute_node(n->item[i], names, a, m);
+        if (n->key != NULL)
+            copy->key[i] = (document_node *)substitute_node(n->key[i], names, a, m);
+        if (copy->item[i] == NULL || (n->key != NULL && copy->key[i] == NULL))
+            return NULL;
+    }
+    return copy;
 }

@@ -1,13 +1,11 @@
-#include "cases/format/unroll.h"
+#include "cases/format/format_impl.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-#include "cases/format/choose.h"
-#include "cases/format/expression.h"
-#include "cases/format/range.h"
-#include "cases/format/substitute.h"
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "elements/shared/choice.h"
 
 typedef struct unroller {
     arena *arena;
@@ -138,4 +136,251 @@ const scope *unroll_let(const document_node *let, const scope *names, arena *a, 
         names = accepted ? with : names;
     }
     return names;
+}
+
+static const scope *find(const document_node *key, const scope *names, mistakes *m)
+{
+    const scope *known = scope_find(names, key->text, strlen(key->text));
+    char remedy[FAULT_TEXT];
+    if (known == NULL)
+        document_mistake(m, key, 0, "unknown name '%.40s'%s", key->text,
+                         mistakes_remedy(scope_nearest(names, key->text),
+                                         "; a name of 'parameters', 'let' or 'for' is expected",
+                                         remedy));
+    return known;
+}
+
+/* Is this its value? -1 after a mistake. */
+static int has_value(const scope *known, const document_node *n, const scope *names, mistakes *m)
+{
+    double value;
+    if (known->word == NULL)
+        return expression_number(n, names, m, &value) ? value == known->number : -1;
+    const int is_text = n->kind == DOCUMENT_TEXT;
+    if (is_text && (known->choices == NULL || choice_index(known->choices, n->text) >= 0))
+        return strcmp(known->word, n->text) == 0;
+    document_mistake(m, n, 0, "%s has no such value; give one of %s", known->name,
+                     known->choices != NULL ? known->choices : "its words");
+    return -1;
+}
+
+static int has_one_of(const scope *known, const document_node *n, const scope *names, mistakes *m)
+{
+    int has = n->kind == DOCUMENT_LIST ? 0 : has_value(known, n, names, m);
+    for (int i = 0; n->kind == DOCUMENT_LIST && i < n->count; i++) {
+        const int one = has_value(known, n->item[i], names, m);
+        has = one < 0 ? one : has | one;
+    }
+    return has > 0;
+}
+
+int choose_holds(const document_node *conditions, const scope *names, mistakes *m)
+{
+    if (conditions != NULL && conditions->kind != DOCUMENT_MAP)
+        document_mistake(m, conditions, 0, "'if' is a map: if: {NAME: VALUE, NAME: [VALUE, ...]}");
+    int holds = conditions == NULL || conditions->kind == DOCUMENT_MAP;
+    for (int i = 0; holds && conditions != NULL && i < conditions->count; i++) {
+        const scope *known = find(conditions->key[i], names, m);
+        holds = known != NULL && has_one_of(known, conditions->item[i], names, m);
+    }
+    return holds;
+}
+
+/* Behind the key that is its value, or behind else; NULL: behind none, or after a mistake. */
+static const document_node *entry_of(const scope *known, const document_node *map,
+                                     const scope *names, mistakes *m)
+{
+    const document_node *found = document_find(map, "else");
+    for (int i = 0; i < map->count; i++) {
+        if (strcmp(map->key[i]->text, "else") == 0)
+            continue;
+        const int has = has_value(known, map->key[i], names, m);
+        if (has != 0)
+            found = has > 0 ? map->item[i] : NULL;
+    }
+    return found;
+}
+
+const document_node *choose_value(const document_node *n, const scope *names, mistakes *m)
+{
+    if (n->kind != DOCUMENT_MAP)
+        return n;
+    if (n->count != 1 || n->item[0]->kind != DOCUMENT_MAP) {
+        document_mistake(m, n, 0, "a choice is one name: {NAME: {VALUE: ..., else: ...}}");
+        return NULL;
+    }
+    const int before = m->count;
+    const scope *known = find(n->key[0], names, m);
+    const document_node *found = known != NULL ? entry_of(known, n->item[0], names, m) : NULL;
+    if (found == NULL && m->count == before)
+        document_mistake(m, n->key[0], 0,
+                         "nothing is said of the value that %s has; add it, or else: ...",
+                         n->key[0]->text);
+    return found != NULL ? choose_value(found, names, m) : NULL;
+}
+
+const char *const placement_list[PLACEMENT_LISTS] = {"nodes", "members", "springs", "loads"};
+
+static void rotate(const double R[9], double v[3])
+{
+    const double before[3] = {v[0], v[1], v[2]};
+    mat3_mul_vec(R, before, v);
+}
+
+void placement_turn(const placement *p, double v[3])
+{
+    if (p != NULL && p->turned)
+        rotate(p->R, v);
+}
+
+void placement_move(const placement *p, double at[3])
+{
+    if (p == NULL)
+        return;
+    placement_turn(p, at);
+    for (int i = 0; i < 3; i++)
+        at[i] += p->origin[i];
+}
+
+const document_node *placement_port(const placement *p, const char *name)
+{
+    return p != NULL ? document_find(p->connect, name) : NULL;
+}
+
+/* axes: {x: [3], z: [3]}, of any length, at right angles. */
+static void read_axes(const document_node *axes, const scope *names, mistakes *m, placement *p)
+{
+    double x[3], z[3], y[3];
+    const int read = expression_vector(document_find(axes, "x"), 3, names, m, x) &
+                     expression_vector(document_find(axes, "z"), 3, names, m, z);
+    vec3_cross(z, x, y);
+    if (!read)
+        return;
+    if (!(fabs(vec3_dot(x, z)) <= 1e-9 * vec3_norm(x) * vec3_norm(z)) ||
+        rotation_triad(x, y, p->R) != 0)
+        document_mistake(m, axes, 0, "x and z are not at right angles; give two that are");
+    p->turned = 1;
+}
+
+/* turn: {z: angle}, about one axis of the scene. */
+static void read_turn(const document_node *turn, const scope *names, mistakes *m, placement *p)
+{
+    static const char axis[] = "x|y|z";
+    double phi[3] = {0}, angle, q[4];
+    if (turn->count != 1) {
+        document_mistake(m, turn, 0, "turn: one angle is expected, as {z: pi/2}; give 'axes' else");
+        return;
+    }
+    if (expression_number(turn->item[0], names, m, &angle))
+        phi[choice_index(axis, turn->key[0]->text)] = angle;
+    rotation_exp(phi, q);
+    rotation_matrix(q, p->R);
+    p->turned = 1;
+}
+
+/* Every place of the part is connected, and nothing else is. */
+static void check_ports(const document_node *part, const unrolled *instance, const placement *p,
+                        mistakes *m)
+{
+    const document_node *places = document_find(part, "places");
+    const int ports = places != NULL && places->kind == DOCUMENT_LIST ? places->count : 0;
+    int connected = 0;
+    for (int i = 0; i < ports; i++) {
+        const document_node *one = places->item[i];
+        if (one->kind != DOCUMENT_TEXT)
+            document_mistake(m, one, 0, "places: a list of names is expected");
+        else if (placement_port(p, one->text) == NULL)
+            document_mistake(m, instance->place, 0,
+                             "%.40s: '%.40s' is not connected; add connect: {%.40s: NODE}",
+                             instance->name, one->text, one->text);
+        else
+            connected++;
+    }
+    if (places != NULL && places->kind != DOCUMENT_LIST)
+        document_mistake(m, places, 0, "places: a list of names is expected");
+    else if (p->connect != NULL && p->connect->count > connected)
+        document_mistake(m, p->connect, 0, "the part has %d places, not %d; connect those", ports,
+                         p->connect->count);
+}
+
+static const placement *read_placement(const document_node *part, const unrolled *instance,
+                                       arena *a, mistakes *m)
+{
+    placement *p = arena_take(a, sizeof *p);
+    if (p == NULL)
+        return NULL;
+    const document_node *axes = document_find(instance->value, "axes"),
+                        *turn = document_find(instance->value, "turn");
+    p->name = instance->name;
+    p->connect = document_find(instance->value, "connect");
+    expression_vector(document_find(instance->value, "at"), 3, instance->names, m, p->origin);
+    if (axes != NULL)
+        read_axes(axes, instance->names, m, p);
+    if (turn != NULL)
+        read_turn(turn, instance->names, m, p);
+    check_ports(part, instance, p, m);
+    return p;
+}
+
+/* "INSTANCE.ENTRY"; NULL when memory ran out. */
+static const char *full_name(const placement *p, const char *name, arena *a)
+{
+    char text[200];
+    const int length = snprintf(text, sizeof text, "%.90s.%.90s", p->name, name);
+    return arena_copy(a, text, (size_t)length);
+}
+
+static void add_entries(const document_node *part, const placement *p, const scope *names, arena *a,
+                        mistakes *m, unrolled *list[], int count[])
+{
+    for (int k = 0; k < PLACEMENT_LISTS; k++) {
+        unrolled *own;
+        const int entries =
+            unroll_entries(document_find(part, placement_list[k]), names, a, m, &own);
+        for (int i = 0; i < entries; i++) {
+            if (count[k] >= UNROLL_MOST) {
+                document_mistake(m, own[i].place, 0,
+                                 "more than %d entries when instances are written out",
+                                 UNROLL_MOST);
+                return;
+            }
+            own[i].name = full_name(p, own[i].name, a);
+            own[i].placed = p;
+            list[k] = arena_grow(a, list[k], count[k], sizeof *list[k]);
+            if (list[k] == NULL || own[i].name == NULL) {
+                count[k] = 0; /* memory ran out, which the arena knows */
+                return;
+            }
+            list[k][count[k]++] = own[i];
+        }
+    }
+}
+
+static const char *part_at(const void *context, int i)
+{
+    const document_node *parts = context;
+    return parts != NULL && i < parts->count ? parts->key[i]->text : NULL;
+}
+
+void placement_unroll(const document_node *root, const scope *names, arena *a, mistakes *m,
+                      unrolled *list[], int count[])
+{
+    const document_node *parts = document_find(root, "parts");
+    unrolled *instance;
+    const int instances = unroll_entries(document_find(root, "instances"), names, a, m, &instance);
+    for (int i = 0; i < instances && !a->failed; i++) {
+        const document_node *name = document_find(instance[i].value, "part");
+        const document_node *part = document_find(parts, name->text);
+        char remedy[FAULT_TEXT];
+        if (part == NULL) {
+            document_mistake(m, name, 0, "no part '%.40s'%s", name->text,
+                             mistakes_remedy(choice_nearest(name->text, part_at, parts),
+                                             "; add it under 'parts'", remedy));
+            continue;
+        }
+        const placement *p = read_placement(part, &instance[i], a, m);
+        if (p != NULL)
+            add_entries(part, p, unroll_let(document_find(part, "let"), names, a, m), a, m, list,
+                        count);
+    }
 }

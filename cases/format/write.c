@@ -1,8 +1,8 @@
-#include "cases/format/write.h"
+#include "cases/format/format_impl.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-#include "cases/format/write_impl.h"
 #include "cases/scene/omission.h"
 
 static void write_physics(writer *w)
@@ -73,4 +73,261 @@ char *write_scene_text(const scene *s, const write_head *head)
     if (written != STATUS_OK)
         text[0] = '\0';
     return text;
+}
+
+/* Nodes, members, springs, motions and loads of a scene file. */
+
+/* In how many components the fixed axes say how it moves. */
+static int components_of(const scene_node *n)
+{
+    return n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3;
+}
+
+static int how_of(const scene_node *n, int c)
+{
+    return c < SCENE_RX ? n->translation[c] : n->angle[c - SCENE_RX];
+}
+
+static void write_hold(writer *w, const void *entry)
+{
+    const scene_node *n = entry;
+    unsigned held = 0;
+    for (int c = 0; c < components_of(n); c++)
+        held |= how_of(n, c) == SCENE_HELD ? 1u << c : 0;
+    if (held == 0)
+        return;
+    write_values_key(w, "hold");
+    write_values_bits(w, ENTRY_COMPONENTS, held);
+}
+
+static void write_drive(writer *w, const void *entry)
+{
+    const scene_node *n = entry;
+    int driven = 0;
+    for (int c = 0; c < components_of(n); c++)
+        if (how_of(n, c) >= 0) {
+            if (driven == 0)
+                write_values_key(w, "drive");
+            fprintf(w->to, "%s%s: ", driven++ == 0 ? "{" : ", ", write_values_component[c]);
+            write_values_motion(w, how_of(n, c));
+        }
+    fputs(driven > 0 ? "}" : "", w->to);
+}
+
+static void write_angle(writer *w, int how)
+{
+    if (how >= 0)
+        write_values_motion(w, how);
+    else
+        fputs(how == SCENE_HELD ? "held" : "free", w->to);
+}
+
+static void write_rotation(writer *w, const void *entry)
+{
+    const scene_node *n = entry;
+    const int vector = n->rotation == SCENE_ROTATION_VECTOR;
+    if (!vector && n->rotation != SCENE_ROTATION_SEQUENCE)
+        return;
+    write_values_key(w, "rotation");
+    fputs(vector ? "{vector: [" : "{sequence: [", w->to);
+    for (int i = 0; i < 3 && (vector || write_values_any(3, n->axis[i])); i++) {
+        fputs(i > 0 ? ", " : "", w->to);
+        if (!vector) {
+            fputs("{axis: ", w->to);
+            write_values_numbers(w, 3, n->axis[i]);
+            fputs(", angle: ", w->to);
+        }
+        write_angle(w, n->angle[i]);
+        fputs(vector ? "" : "}", w->to);
+    }
+    fputs("]}", w->to);
+}
+
+/* A list of the scene: KEY, and its entries, each in a line. */
+static void write_list(writer *w, const char *key, scene_list list, const entry_field *table,
+                       const write_own own[])
+{
+    const scene *s = w->scene;
+    const struct {
+        int count;
+        size_t size;
+        const void *first;
+    } all[SCENE_LISTS] = {[SCENE_NODES] = {s->nodes, sizeof *s->node, s->node},
+                          [SCENE_MEMBERS] = {s->members, sizeof *s->member, s->member},
+                          [SCENE_SPRINGS] = {s->springs, sizeof *s->spring, s->spring},
+                          [SCENE_DRIVERS] = {s->drivers, sizeof *s->driver, s->driver},
+                          [SCENE_LOADS] = {s->loads, sizeof *s->load, s->load}};
+    for (int i = 0; i < all[list].count; i++) {
+        if (i == 0)
+            fprintf(w->to, "%s:\n", key);
+        write_values_named(w, "  ", list, i);
+        fputs(": ", w->to);
+        write_entry(w, table, (const char *)all[list].first + (size_t)i * all[list].size, own);
+        fputc('\n', w->to);
+    }
+}
+
+static void write_warp(writer *w, int warp)
+{
+    if (warp >= 0)
+        fprintf(w->to, "{shared: w%d}", warp);
+    else
+        fputs(warp == SCENE_WARP_FREE ? "free" : "fixed", w->to);
+}
+
+static void write_warping(writer *w, const void *entry)
+{
+    const scene_member *m = entry;
+    write_values_key(w, "warping");
+    fputc('[', w->to);
+    write_warp(w, m->warp_p);
+    fputs(", ", w->to);
+    write_warp(w, m->warp_q);
+    fputc(']', w->to);
+}
+
+static void write_section(writer *w, const void *entry)
+{
+    const scene_member *m = entry;
+    write_values_key(w, "section");
+    write_values_named(w, scene_member_tapers(m) ? "[" : "", SCENE_SECTIONS, m->section);
+    if (scene_member_tapers(m)) {
+        write_values_named(w, ", ", SCENE_SECTIONS, m->section_q);
+        fputc(']', w->to);
+    }
+}
+
+static void write_release(writer *w, const void *entry)
+{
+    static const char *const end[] = {"from", "to"};
+    const scene_release *release = ((const scene_member *)entry)->release;
+    if (release[0].count + release[1].count == 0)
+        return;
+    write_values_key(w, "release");
+    fputc('{', w->to);
+    for (int i = 0; i < 2; i++) {
+        if (release[i].count == 0)
+            continue;
+        fprintf(w->to, "%s%s: [", i == 1 && release[0].count > 0 ? ", " : "", end[i]);
+        for (int k = 0; k < release[i].count; k++)
+            fprintf(w->to, "%s%s", k > 0 ? ", " : "",
+                    write_values_component[release[i].component[k]]);
+        fputc(']', w->to);
+    }
+    fputc('}', w->to);
+}
+
+static void write_stiffness(writer *w, const void *entry)
+{
+    write_values_key(w, "stiffness");
+    write_values_matrix(w, ((const scene_spring *)entry)->stiffness);
+}
+
+static void write_scaled(writer *w, const char *text, double scale)
+{
+    if (scale == 0 || scale == 1) {
+        write_values_quoted(w, text);
+        return;
+    }
+    fprintf(w->to, "\"(%s)*%.17g\"", text, scale);
+}
+
+/* A function of time. */
+static void write_pieces(writer *w, const scene_function *f)
+{
+    if (f->pieces == 0)
+        return;
+    write_values_key(w, "pieces");
+    fputc('[', w->to);
+    for (int i = 0; i < f->pieces; i++) {
+        fputs(i > 0 ? ", {" : "{", w->to);
+        if (i < f->pieces - 1) {
+            fputs("until: ", w->to);
+            write_values_number(w, f->piece[i].until);
+            fputs(", ", w->to);
+        }
+        fputs("is: ", w->to);
+        write_scaled(w, f->piece[i].text, f->scale);
+        fputc('}', w->to);
+    }
+    fputc(']', w->to);
+}
+
+static void write_stations(writer *w, int count, const double path[], const char *key,
+                           const double value[])
+{
+    write_values_key(w, "path");
+    write_values_numbers(w, count, path);
+    write_values_key(w, key);
+    write_values_numbers(w, count, value);
+}
+
+/* What a motion is known by. */
+static void write_known(writer *w, const void *entry)
+{
+    const scene_driver *d = entry;
+    if (d->value != NULL && (d->function.pieces == 0 || d->stations > 1 || d->value[0] != 0))
+        write_stations(w, d->stations, d->path, "value", d->value);
+    write_pieces(w, &d->function);
+}
+
+static void write_vector(writer *w, const void *entry)
+{
+    const scene_load *load = entry;
+    write_values_key(w, entry_of_load(load->kind)->name);
+    write_values_numbers(w, 3, load->vector);
+}
+
+static void write_on(writer *w, const void *entry)
+{
+    const scene_load *load = entry;
+    write_values_key(w, "on");
+    write_values_name(w, scene_load_along(load) ? SCENE_MEMBERS : SCENE_NODES, load->where);
+}
+
+/* Which part of its member a load acts on. */
+static void write_range(writer *w, const void *entry)
+{
+    const scene_load *load = entry;
+    if (scene_load_within(load)) {
+        write_values_key(w, "where");
+        write_values_number(w, load->range[0]);
+    } else if (scene_load_along(load)) {
+        write_values_if(w, "from", load->range[0], 0);
+        write_values_if(w, "to", load->range[1], 1);
+    }
+    if (load->varies) {
+        write_values_key(w, "to_value");
+        write_values_numbers(w, 3, load->last);
+    }
+}
+
+static void write_factor(writer *w, const void *entry)
+{
+    const scene_load *load = entry;
+    if (load->stations > 0)
+        write_stations(w, load->stations, load->path, "factor", load->factor);
+    write_pieces(w, &load->function);
+}
+
+void write_structure(writer *w)
+{
+    static const write_own node[] = {
+        {"hold", write_hold}, {"drive", write_drive}, {"rotation", write_rotation}, {NULL, NULL}};
+    static const write_own member[] = {{"section", write_section},
+                                       {"warping", write_warping},
+                                       {"release", write_release},
+                                       {NULL, NULL}};
+    static const write_own spring[] = {{"stiffness", write_stiffness}, {NULL, NULL}};
+    static const write_own driver[] = {{"path", write_known}, {NULL, NULL}};
+    static const write_own load[] = {{"force", write_vector},
+                                     {"on", write_on},
+                                     {"where", write_range},
+                                     {"path", write_factor},
+                                     {NULL, NULL}};
+    write_list(w, "nodes", SCENE_NODES, entry_node, node);
+    write_list(w, "members", SCENE_MEMBERS, entry_member, member);
+    write_list(w, "springs", SCENE_SPRINGS, entry_spring, spring);
+    write_list(w, "motions", SCENE_DRIVERS, entry_driver, driver);
+    write_list(w, "loads", SCENE_LOADS, entry_load, load);
 }

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 #include "cases/scene/scene.h"
 #include "elements/shared/status.h"
 #include "harness/experiments/experiments.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"

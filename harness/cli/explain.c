@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/meaning.h"
+#include "cases/format/format.h"
 #include "cases/scene/inputs.h"
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/format/meaning.h"
+#include "cases/format/format.h"
 #include "elements/feature.h"
 #include "harness/cli/cli.h"
 #include "harness/experiments/experiments.h"

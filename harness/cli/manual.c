@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "cases/format/key_list.h"
+#include "cases/format/format.h"
 #include "harness/formulations/formulations.h"
 
 enum { WIDTH = 78 };

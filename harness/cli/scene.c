@@ -2,9 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/format/key_list.h"
-#include "cases/format/schema_file.h"
-#include "cases/format/write.h"
+#include "cases/format/format.h"
 #include "harness/cli/cli.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/write.h"
+#include "cases/format/format.h"
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
 #include "harness/study/study.h"

@@ -4,8 +4,7 @@
 
 #include <stdio.h>
 
-#include "cases/format/mistakes.h"
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 #include "cases/scene/scene.h"
 #include "harness/study/study.h"
 

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "cases/format/document.h"
+#include "cases/format/format.h"
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 #include "elements/shared/status.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/line.h"
+#include "cases/format/format.h"
 #include "elements/shared/choice.h"
 
 enum { WORDS = 128, LAST = -1, ALL = 0 };

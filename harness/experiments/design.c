@@ -193,7 +193,7 @@ double axis_value(const sweep_axis *a, int i)
     const int parts = a->count - 1;
     if (a->kind == AXIS_LOG)
         return i == 0 ? a->from : a->from * pow(a->to / a->from, (double)i / parts);
-    const double step = (a->to - a->from) / parts; /* as cases/format/range.c has it */
+    const double step = (a->to - a->from) / parts; /* as cases/format/expression.c has it */
     return a->from + i * step;
 }
 

@@ -13,7 +13,7 @@
 
 #include "cases/case.h"
 #include "cases/extremes/extreme.h"
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 #include "cases/scene/omission.h"
 #include "cases/scene/scene.h"
 #include "elements/element.h"

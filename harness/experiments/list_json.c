@@ -3,7 +3,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "cases/format/meaning.h"
+#include "cases/format/format.h"
 #include "elements/feature.h"
 #include "elements/shared/choice.h"
 #include "harness/model/model.h"

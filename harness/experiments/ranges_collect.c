@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cases/format/write.h"
+#include "cases/format/format.h"
 #include "harness/model/model.h"
 
 status ranges_collect_beside(const char *path, const char *ending, char out[PATH_MAX], fault *f)

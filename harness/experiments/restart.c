@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/write.h"
+#include "cases/format/format.h"
 #include "cases/scene/names.h"
 
 status restart_possible(const scene *s, fault *f)

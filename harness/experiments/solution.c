@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/write.h"
+#include "cases/format/format.h"
 #include "harness/model/model.h"
 
 static cell_request cell_of(const solution_request *r, const scene *s)

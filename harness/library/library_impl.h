@@ -7,7 +7,7 @@
 #include <locale.h>
 #include <stdio.h>
 
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 #include "elements/shared/status.h"
 #include "harness/formulations/formulations.h"
 #include "harness/library/beamwork.h"

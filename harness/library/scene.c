@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cases/format/write.h"
+#include "cases/format/format.h"
 #include "harness/experiments/experiments.h"
 
 /* At its defaults; the file and its name are taken. */

@@ -5,7 +5,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "cases/format/meaning.h"
+#include "cases/format/format.h"
 #include "cases/scene/names.h"
 #include "harness/model/model.h"
 

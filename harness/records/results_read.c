@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/line.h"
+#include "cases/format/format.h"
 
 static int compare_cells(const void *a, const void *b)
 {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/write.h"
+#include "cases/format/format.h"
 
 void store_environment(record_file *r, hid_t at, const environment *e)
 {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/line.h"
+#include "cases/format/format.h"
 #include "elements/shared/choice.h"
 
 static const char head[] = "rule,formulations,cases,condition,quantities,verdicts,largest_error,"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/line.h"
+#include "cases/format/format.h"
 #include "elements/shared/choice.h"
 
 static const char head[] = "case,parameters,formulation,theory,elements,quantity,at,value,unit,"

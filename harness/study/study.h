@@ -13,8 +13,7 @@
 #include <sys/types.h>
 
 #include "cases/case.h"
-#include "cases/format/mistakes.h"
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 #include "cases/scene/edit.h"
 #include "cases/scene/scene.h"
 #include "elements/shared/status.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 #include "harness/formulations/formulations.h"
 
 enum { INDENT = 4 };

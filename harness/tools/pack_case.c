@@ -1,14 +1,13 @@
 /* Writes a scene file of cases/ as C: the case as a constant, its parameters as a table, its
- * document as a list without pointers (cases/format/packed.h).
+ * document as a list without pointers (cases/format/format_impl.h).
  * usage: pack_case FILE.yaml >FILE.c   The file must be a scene at its defaults. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/document.h"
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 
-/* The tree in the order of packed.h; texts one behind the other. */
+/* The tree in the order of format_impl.h; texts one behind the other. */
 typedef struct packing {
     const document_node **node; /* [nodes] */
     int *first;
@@ -110,7 +109,7 @@ static void write_packed(const scene_file *file, packing *p)
     p->node[0] = scene_file_document(file);
     place(p);
     printf("/* Generated from %s. */\n", scene_file_path(scene_file_case(file)));
-    puts("#include \"cases/format/packed.h\"\n#include <stddef.h>\n");
+    puts("#include \"cases/format/format_impl.h\"\n#include <stddef.h>\n");
     printf("extern const case_type case_%s;\n", scene_file_case(file)->name);
     write_texts(p);
     write_nodes(p);

@@ -3,8 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/document.h"
-#include "cases/format/unroll.h"
+#include "cases/format/format_impl.h"
 
 static void check_tree(void)
 {

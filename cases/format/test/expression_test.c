@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/format/expression.h"
-#include "cases/format/range.h"
+#include "cases/format/format_impl.h"
 #include "elements/math/pi.h"
 
 /* The text as a value that begins in line 3, column 10. */

@@ -5,9 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/meaning.h"
-#include "cases/format/scene_file.h"
-#include "cases/format/write.h"
+#include "cases/format/format.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 

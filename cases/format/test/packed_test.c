@@ -3,8 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <string.h>
 
-#include "cases/format/packed.h"
-#include "cases/format/scene_file.h"
+#include "cases/format/format_impl.h"
 #include "cases/format/test/same_scene.h"
 #include "cases/scene/names.h"
 #include "harness/formulations/formulations.h"

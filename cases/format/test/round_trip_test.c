@@ -4,9 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 #include "cases/format/test/same_scene.h"
-#include "cases/format/write.h"
 #include "cases/scene/unit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"

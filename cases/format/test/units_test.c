@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/format/expression.h"
-#include "cases/format/units.h"
+#include "cases/format/format_impl.h"
 #include "elements/math/pi.h"
 
 /* What the check says; empty: nothing. */

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/scene_file.h"
-#include "cases/format/write.h"
+#include "cases/format/format.h"
 #include "harness/study/study.h"
 #include "harness/tools/fuzz/fuzz.h"
 

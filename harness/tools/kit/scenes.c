@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/scene_file.h"
+#include "cases/format/format.h"
 #include "harness/formulations/formulations.h"
 
 const char *const scenes_integrator[] = {"alpha", "conserving", "radau", "explicit"};

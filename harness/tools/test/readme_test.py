@@ -52,7 +52,7 @@ class Readme(unittest.TestCase):
 
 # A file of `quantities` is of one kind; the builder looks at the kind first.
 THEIRS = (ROOT / "cases" / "scene", ROOT / "cases" / "quantities",
-          ROOT / "cases" / "format" / "builder_analyses.c")
+          ROOT / "cases" / "format" / "builder_members.c")
 
 
 class Unions(unittest.TestCase):
