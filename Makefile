@@ -205,7 +205,7 @@ $(REGISTRY): FORCE
 $(QUANTITIES): LIST = \#define QUANTITY_TYPES(each) $(patsubst cases/quantities/%.c,each(%),$(sort $(wildcard cases/quantities/*.c)))
 $(QUANTITIES): FORCE
 	@mkdir -p $(@D); echo '$(LIST)' | cmp -s - $@ || echo '$(LIST)' >$@
-$(BUILD)/cases/scene/quantity_type.o: $(QUANTITIES)
+$(BUILD)/cases/scene/quantity.o: $(QUANTITIES)
 
 $(PACK_CASE): $(BUILD)/harness/tools/pack_case.o $(filter $(addprefix $(BUILD)/,cases/format/% cases/scene/% cases/quantities/% elements/math/% elements/section/% elements/shared/%),$(OBJECTS))
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)

@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_EXTREME_H
 #define BEAMWORK_EXTREME_H
 
-#include "cases/scene/edit.h"
+#include "cases/scene/scene.h"
 
 enum { EXTREME_MAX_SETTINGS = 8, EXTREME_MAX_QUANTITIES = 4, EXTREME_MAX_VALUES = 12 };
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/functions.h"
+#include "cases/scene/scene.h"
 #include "elements/section/taper.h"
 
 static int share(const fields *f, const document_node *name)

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 /* Unit of a value where the file gives none. */
 static const char *usual_unit(const scene *s, const scene_quantity *q)

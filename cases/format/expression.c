@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/functions.h"
+#include "cases/scene/scene.h"
 
 enum { DEEPEST = 60, NUMBER_TEXT = 64 };
 

@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/list.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 #include "elements/shared/choice.h"
 
 const char fields_components[] = "ux|uy|uz|rx|ry|rz";

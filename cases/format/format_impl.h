@@ -6,8 +6,6 @@
 
 #include "cases/case.h"
 #include "cases/format/format.h"
-#include "cases/scene/entry.h"
-#include "cases/scene/meaning_words.h"
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static int is_blank(char c)
 {

@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/omission.h"
-#include "cases/scene/unit.h"
-#include "cases/scene/warping.h"
+#include "cases/scene/scene.h"
 #include "elements/shared/choice.h"
 
 static const char *text_of(const document_node *entry, const char *key, const char *otherwise)

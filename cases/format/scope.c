@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/functions.h"
+#include "cases/scene/scene.h"
 #include "elements/shared/choice.h"
 
 static const scope *add(const scope *names, const char *name, double number, const char *word,

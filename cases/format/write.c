@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/omission.h"
+#include "cases/scene/scene.h"
 
 static void write_physics(writer *w)
 {

@@ -1,6 +1,5 @@
 /* Point of a continuation at which the tangent is singular. */
-#include "cases/scene/meaning_words.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
     {"analysis", ENTRY_NAME, .needed = 1, .summary = "continuation",

@@ -1,6 +1,5 @@
 /* Displacement of a node, or a component of its rotation vector. */
-#include "cases/scene/meaning_words.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {QUANTITY_ANALYSIS,
                                      QUANTITY_NODE(component.node),

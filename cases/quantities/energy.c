@@ -1,5 +1,5 @@
 /* Energy of a whole motion. */
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,

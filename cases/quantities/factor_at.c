@@ -1,5 +1,5 @@
 /* Load factor of a continuation. */
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {QUANTITY_ANALYSIS, QUANTITY_TAKEN, {.name = NULL}};
 

@@ -1,5 +1,5 @@
 /* Largest rate of growth of a small motion; 0: stable. */
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {QUANTITY_ANALYSIS, QUANTITY_TAKEN, {.name = NULL}};
 

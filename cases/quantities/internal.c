@@ -1,6 +1,5 @@
 /* Resultant of the stresses on a section of a member. */
-#include "cases/scene/meaning_words.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,

@@ -1,6 +1,5 @@
 /* Momentum of a whole motion, or its angular momentum about the origin. */
-#include "cases/scene/meaning_words.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,

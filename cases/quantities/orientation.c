@@ -1,6 +1,5 @@
 /* Entry of the rotation matrix of a node. */
-#include "cases/scene/meaning_words.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,

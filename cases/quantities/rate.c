@@ -1,6 +1,5 @@
 /* Velocity of a node, or its angular velocity in its own axes. */
-#include "cases/scene/meaning_words.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {QUANTITY_ANALYSIS,
                                      QUANTITY_NODE(component.node),

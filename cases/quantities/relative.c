@@ -1,6 +1,5 @@
 /* Displacement or rotation of a node in the axes of another one that carries it along. */
-#include "cases/scene/meaning_words.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,

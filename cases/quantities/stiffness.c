@@ -1,6 +1,5 @@
 /* One by an entry on the diagonal of the compliance matrix. */
-#include "cases/scene/meaning_words.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {QUANTITY_ANALYSIS,
                                      {"component", ENTRY_WORD, .needed = 1,

@@ -1,8 +1,7 @@
 /* Largest stress of a member, or of a section of it. */
 #include <math.h>
 
-#include "cases/scene/meaning_words.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,

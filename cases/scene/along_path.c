@@ -1,8 +1,6 @@
-#include "cases/scene/along_path.h"
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "elements/math/dense.h"
 
@@ -117,5 +115,258 @@ status along_path_proportional(const scene *s, fault *f)
         if (driver->value != NULL && !is_straight(driver->stations, driver->path, driver->value))
             return fault_set(f, STATUS_REFUSED, "driver %s: %s", driver->name, words);
     }
+    return STATUS_OK;
+}
+
+const char *const scene_column_name[SCENE_COLUMNS] = {"linear",
+                                                      "static",
+                                                      "continuation",
+                                                      "buckling",
+                                                      "buckling about a path",
+                                                      "modal",
+                                                      "modal about a linear analysis",
+                                                      "modal about a path",
+                                                      "compliance",
+                                                      "compliance about a path",
+                                                      "rotation",
+                                                      "motion"};
+
+static int called(const scene *s, scene_list list, int i, char *who, int size)
+{
+    if (who != NULL)
+        snprintf(who, (size_t)size, "%s", scene_called(s, list, i).text);
+    return 1;
+}
+
+/* The first load for which `is` holds. */
+static int load_that(const scene *s, int (*is)(const scene_load *), char *who, int size)
+{
+    for (int i = 0; i < s->loads; i++)
+        if (is(&s->load[i]))
+            return called(s, SCENE_LOADS, i, who, size);
+    return 0;
+}
+
+#define LOAD(name, condition)                                                                      \
+    static int is_##name(const scene_load *l)                                                      \
+    {                                                                                              \
+        return condition;                                                                          \
+    }                                                                                              \
+    static int has_##name(const scene *s, int analysis, char *who, int size)                       \
+    {                                                                                              \
+        (void)analysis;                                                                            \
+        return load_that(s, is_##name, who, size);                                                 \
+    }
+LOAD(force, l->kind == SCENE_FORCE && !l->follower && vec3_norm(l->at) == 0)
+LOAD(following_force, l->kind == SCENE_FORCE && l->follower)
+LOAD(force_beside, l->kind == SCENE_FORCE && vec3_norm(l->at) > 0)
+LOAD(moment, l->kind == SCENE_MOMENT && !l->follower)
+LOAD(following_moment, l->kind == SCENE_MOMENT && l->follower)
+LOAD(line, l->kind == SCENE_DISTRIBUTED && !l->follower)
+LOAD(following_line, l->kind == SCENE_DISTRIBUTED && l->follower)
+LOAD(part_of_line, l->kind == SCENE_DISTRIBUTED && !l->follower && l->range[1] - l->range[0] < 1)
+LOAD(varying_line, l->kind == SCENE_DISTRIBUTED && !l->follower && l->varies)
+LOAD(lumped_line, l->kind == SCENE_DISTRIBUTED && !l->follower && l->lumped)
+LOAD(line_of_moments, l->kind == SCENE_DISTRIBUTED_MOMENT)
+LOAD(force_within, l->kind == SCENE_MEMBER_FORCE && !l->follower)
+LOAD(following_force_within, l->kind == SCENE_MEMBER_FORCE && l->follower)
+LOAD(moment_within, l->kind == SCENE_MEMBER_MOMENT)
+LOAD(gravity, l->kind == SCENE_GRAVITY)
+LOAD(weight, l->kind == SCENE_WEIGHT)
+LOAD(staying, along_path_factor(l, 0) != 0)
+
+#define MEMBER(name, condition)                                                                    \
+    static int has_##name(const scene *s, int analysis, char *who, int size)                       \
+    {                                                                                              \
+        (void)analysis;                                                                            \
+        for (int i = 0; i < s->members; i++) {                                                     \
+            const scene_member *m = &s->member[i];                                                 \
+            if (condition)                                                                         \
+                return called(s, SCENE_MEMBERS, i, who, size);                                     \
+        }                                                                                          \
+        return 0;                                                                                  \
+    }
+MEMBER(strain, vec3_norm(m->strain) > 0)
+MEMBER(curvature, vec3_norm(m->curvature) > 0)
+MEMBER(taper, scene_member_tapers(m))
+MEMBER(release, m->release[0].count + m->release[1].count > 0)
+MEMBER(damping, m->damping > 0)
+MEMBER(matrices, s->section[m->section].kind == SECTION_MATRICES)
+MEMBER(held_warping, m->warp_p == SCENE_WARP_FIXED || m->warp_q == SCENE_WARP_FIXED)
+
+#define NODE(name, condition)                                                                      \
+    static int has_##name(const scene *s, int analysis, char *who, int size)                       \
+    {                                                                                              \
+        (void)analysis;                                                                            \
+        for (int i = 0; i < s->nodes; i++) {                                                       \
+            const scene_node *n = &s->node[i];                                                     \
+            if (condition)                                                                         \
+                return called(s, SCENE_NODES, i, who, size);                                       \
+        }                                                                                          \
+        return 0;                                                                                  \
+    }
+NODE(mass, n->body.mass > 0)
+NODE(inertia, n->body.inertia[0] + n->body.inertia[1] + n->body.inertia[2] > 0)
+NODE(tied, n->attached != SCENE_NONE)
+NODE(fork, n->rotation == SCENE_ROTATION_FORK)
+
+static int has_spring(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    return s->springs > 0 && called(s, SCENE_SPRINGS, 0, who, size);
+}
+
+/* A warping that the ends of two members have as one. */
+static int has_shared_warping(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    for (int i = 0; i < 2 * s->members; i++)
+        for (int j = 0; j < i; j++) {
+            const scene_member *a = &s->member[i / 2], *b = &s->member[j / 2];
+            const int one = i % 2 ? a->warp_q : a->warp_p, other = j % 2 ? b->warp_q : b->warp_p;
+            if (one >= 0 && one == other)
+                return called(s, SCENE_MEMBERS, i / 2, who, size);
+        }
+    return 0;
+}
+
+static int has_start(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_MOTION) {
+            const scene_start *b = &s->analysis[i].of.motion.start;
+            if (vec3_norm(b->velocity) > 0 || vec3_norm(b->spin) > 0)
+                return called(s, SCENE_ANALYSES, i, who, size);
+        }
+    return 0;
+}
+
+static int has_drive(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    return s->drivers > 0 && called(s, SCENE_DRIVERS, 0, who, size);
+}
+
+/* Of the analysis, or of the one whose states it is about. */
+static int has_spin(const scene *s, int analysis, char *who, int size)
+{
+    const int follows = s->analysis[analysis].follows;
+    return scene_rotates(&s->analysis[analysis])
+               ? called(s, SCENE_ANALYSES, analysis, who, size)
+               : follows != SCENE_NONE && has_spin(s, follows, who, size);
+}
+
+static const char *const no_potential = "has no potential: the tangent is not symmetric and "
+                                        "stability may be lost by flutter; ask for "
+                                        "it about a static path, or for a motion",
+                         *const no_drive =
+                             "is moved, and a continuation changes loads only; take it away, or "
+                             "ask for a static path",
+                         *const no_spin = "turns, and this analysis does not count the Coriolis "
+                                          "forces on what moves there; ask a rotation of that "
+                                          "omega for its frequencies";
+
+/* Columns: linear, static, continuation, buckling and about a path, modal and about a linear
+ * analysis and a path, compliance and about a path, rotation, motion. */
+const scene_input scene_inputs[] = {
+    {"force", "uuuuu-uu-uuu", NULL, has_force},
+    {"force that follows", "uusxu-xu-usu", no_potential, has_following_force},
+    {"force beside its node", "uuusu-su-uuu", NULL, has_force_beside},
+    {"moment", "uussu-su-usu", NULL, has_moment},
+    {"moment that follows", "uusxu-xu-usu", no_potential, has_following_moment},
+    {"load along a member", "uuuuu-uu-uuu", NULL, has_line},
+    {"load along a member that follows", "uusxu-xu-usu", no_potential, has_following_line},
+    {"load along a part of a member", "uuuuu-uu-uuu", NULL, has_part_of_line},
+    {"load that changes along a member", "uuuuu-uu-uuu", NULL, has_varying_line},
+    {"lumped load along a member", "uuuuu-uu-uuu", NULL, has_lumped_line},
+    {"moments along a member", "uusxu-xu-usu", no_potential, has_line_of_moments},
+    {"force within a member", "uuuuu-uu-uuu", NULL, has_force_within},
+    {"force within a member that follows", "uusxu-xu-usu", no_potential,
+     has_following_force_within},
+    {"moment within a member", "uusxu-xu-usu", no_potential, has_moment_within},
+    {"gravity on members", "uuuuu-uu-uuu", NULL, has_gravity},
+    {"weight of a body", "uuuuu-uu-uuu", NULL, has_weight},
+    {"load that stays", "uuuuu-uu-uuu", NULL, has_staying},
+    {"strain of a member", "uuuuuuuuuuuu", NULL, has_strain},
+    {"initial curvature", "uuuuuuuuuuuu", NULL, has_curvature},
+    {"taper", "uuuuuuuuuuuu", NULL, has_taper},
+    {"section by its matrices", "uuuuuuuuuuuu", NULL, has_matrices},
+    {"spring", "uuuuuuuuuuuu", NULL, has_spring},
+    {"release", "uuuuuuuuuuuu", NULL, has_release},
+    {"warping held", "uuuuuuuuuuuu", NULL, has_held_warping},
+    {"warping shared", "uuuuuuuuuuuu", NULL, has_shared_warping},
+    {"node that another carries", "uuuuuuuuuuuu", NULL, has_tied},
+    {"fork", "uuuuuuuuuuuu", NULL, has_fork},
+    {"mass of a node", "-ii-iuuu-iuu", NULL, has_mass},
+    {"inertia of a node", "-ii-iuuu-iuu", NULL, has_inertia},
+    {"motion of a node", "uuxuu-uu-uuu", no_drive, has_drive},
+    {"velocity at the start", "-----------u", NULL, has_start},
+    {"axes that turn", "-uu-u--x-uuu", no_spin, has_spin},
+    {"damping", "----i--i---u", NULL, has_damping},
+    {NULL, "", NULL, NULL}};
+
+scene_column scene_column_of(const scene *s, int analysis)
+{
+    const scene_analysis *a = &s->analysis[analysis];
+    switch (a->kind) {
+    case SCENE_LINEAR:
+        return SCENE_OF_LINEAR;
+    case SCENE_STATIC:
+        return SCENE_OF_STATIC;
+    case SCENE_CONTINUATION:
+        return SCENE_OF_CONTINUATION;
+    case SCENE_BUCKLING:
+        return a->follows == SCENE_NONE ? SCENE_OF_BUCKLING : SCENE_OF_BUCKLING_ABOUT;
+    case SCENE_MODAL:
+        return a->follows == SCENE_NONE                       ? SCENE_OF_MODAL
+               : s->analysis[a->follows].kind == SCENE_LINEAR ? SCENE_OF_MODAL_LINEAR
+                                                              : SCENE_OF_MODAL_ABOUT;
+    case SCENE_COMPLIANCE:
+        return a->follows == SCENE_NONE ? SCENE_OF_COMPLIANCE : SCENE_OF_COMPLIANCE_ABOUT;
+    case SCENE_ROTATION:
+        return SCENE_OF_ROTATION;
+    case SCENE_MOTION:
+        break;
+    }
+    return SCENE_OF_MOTION;
+}
+
+int scene_inputs_flutter(const scene *s, int analysis)
+{
+    if (s->analysis[analysis].follows == SCENE_NONE)
+        return 0;
+    for (const scene_input *i = scene_inputs; i->name != NULL; i++)
+        if ((i->part[SCENE_OF_BUCKLING] == SCENE_PART_STATE ||
+             i->part[SCENE_OF_BUCKLING] == SCENE_PART_REFUSED) &&
+            i->stands(s, analysis, NULL, 0))
+            return 1;
+    return 0;
+}
+
+/* What is sought along a path: a linear solution would take it for zero. */
+static status check_unknown(const scene *s, int analysis, scene_column column, fault *f)
+{
+    for (int d = 0; d < s->drivers; d++)
+        if (s->driver[d].value == NULL && s->driver[d].function.pieces == 0 &&
+            (column == SCENE_OF_LINEAR || column == SCENE_OF_BUCKLING))
+            return fault_set(f, STATUS_REFUSED,
+                             "%s (%s) and motion %s: its value is unknown, and this analysis seeks "
+                             "none; ask for a static path",
+                             scene_called(s, SCENE_ANALYSES, analysis).text,
+                             scene_column_name[column], s->driver[d].name);
+    return STATUS_OK;
+}
+
+status scene_inputs_check(const scene *s, int analysis, fault *f)
+{
+    const scene_column column = scene_column_of(s, analysis);
+    char who[SCENE_NAME + 32];
+    TRY(check_unknown(s, analysis, column, f));
+    for (const scene_input *i = scene_inputs; i->name != NULL; i++)
+        if (i->part[column] == SCENE_PART_REFUSED && i->stands(s, analysis, who, sizeof who))
+            return fault_set(f, STATUS_REFUSED, "%s (%s) and %s (%s): it %s",
+                             scene_called(s, SCENE_ANALYSES, analysis).text,
+                             scene_column_name[column], who, i->name, i->why);
     return STATUS_OK;
 }

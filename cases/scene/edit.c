@@ -1,11 +1,9 @@
-#include "cases/scene/edit.h"
-#include "cases/scene/entry.h"
-#include "cases/scene/unit.h"
-#include "elements/section/taper.h"
+#include "cases/scene/scene.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
+
+#include "elements/section/taper.h"
 
 /* The same section seen from the other end, turned by pi about z: y' = -y, z' = z, and sectorial
  * coordinates change their sign with x. Face and axis turn together, so that Qy and Mw keep their

@@ -1,5 +1,5 @@
 /* What is asked of a structure: analyses and quantities. */
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 
 static const entry_field nothing[] = {{.name = NULL}};
 

@@ -1,11 +1,11 @@
-#include "cases/scene/formula.h"
+#include "cases/scene/scene.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/functions.h"
+#include "elements/math/pi.h"
 
 enum { MOST = 256, DEEPEST = 32 };
 
@@ -287,4 +287,165 @@ void formula_at(const formula *f, double t, double out[3])
     out[0] = stack[0].v;
     out[1] = stack[0].d;
     out[2] = stack[0].dd;
+}
+
+int function_add(scene_function *to, double until, const char *text)
+{
+    scene_piece *longer = realloc(to->piece, ((size_t)to->pieces + 1) * sizeof *longer);
+    if (longer == NULL)
+        return -1;
+    fault ignored;
+    to->piece = longer;
+    scene_piece *p = &to->piece[to->pieces];
+    *p = (scene_piece){until, strdup(text), NULL};
+    if (p->text == NULL)
+        return -1;
+    formula_read(text, &p->is, &ignored);
+    to->pieces++;
+    return 0;
+}
+
+void function_free(scene_function *f)
+{
+    for (int i = 0; i < f->pieces; i++) {
+        free(f->piece[i].text);
+        formula_free(f->piece[i].is);
+    }
+    free(f->piece);
+    *f = (scene_function){0, NULL, 0};
+}
+
+int function_copy(scene_function *to, const scene_function *from)
+{
+    for (int i = 0; i < from->pieces; i++)
+        if (function_add(to, from->piece[i].until, from->piece[i].text) < 0)
+            return -1;
+    to->scale = from->scale;
+    return 0;
+}
+
+status function_check(const scene_function *s, fault *f)
+{
+    for (int i = 0; i < s->pieces; i++) {
+        formula *again = NULL;
+        if (s->piece[i].is == NULL) {
+            TRY(formula_read(s->piece[i].text, &again, f));
+            formula_free(again);
+            return fault_set(f, STATUS_FAULT, "out of memory for a function of time");
+        }
+        if (i > 0 && i < s->pieces - 1 && !(s->piece[i].until > s->piece[i - 1].until))
+            return fault_set(f, STATUS_REFUSED,
+                             "a function of time in pieces: the end of piece %d, %g s, is not "
+                             "behind that of the one before; sort them",
+                             i + 1, s->piece[i].until);
+    }
+    return STATUS_OK;
+}
+
+void function_at(const scene_function *f, double t, double out[3])
+{
+    int i = 0;
+    while (i < f->pieces - 1 && t >= f->piece[i].until)
+        i++;
+    formula_at(f->piece[i].is, t, out);
+    for (int k = 0; k < 3 && f->scale != 0; k++)
+        out[k] *= f->scale;
+}
+
+/* Instants of a piece at which it is looked at: both ends, and between. */
+enum { LOOKS = 64 };
+
+static int is_finite(const double at[3], int derivatives)
+{
+    for (int k = 0; k <= derivatives; k++)
+        if (!isfinite(at[k]))
+            return 0;
+    return 1;
+}
+
+int function_finite(const scene_function *f, double end, int derivatives, double *time)
+{
+    double from = 0, at[3];
+    for (int i = 0; i < f->pieces && from <= end; i++) {
+        const int last = i == f->pieces - 1;
+        const double to = last ? end : fmin(end, f->piece[i].until);
+        for (int k = 0; k <= LOOKS && from <= to; k++) {
+            *time = k == LOOKS ? to : from + k * (to - from) / LOOKS;
+            formula_at(f->piece[i].is, *time, at);
+            if (!is_finite(at, derivatives))
+                return 0;
+        }
+        from = last ? INFINITY : fmax(from, f->piece[i].until);
+    }
+    return 1;
+}
+
+int function_smooth(const scene_function *f, double end, double *time, int *derivative)
+{
+    static const double noise = 1e-9;
+    for (int i = 0; i + 1 < f->pieces; i++) {
+        double before[3], behind[3];
+        *time = f->piece[i].until;
+        if (*time <= 0 || *time >= end)
+            continue;
+        formula_at(f->piece[i].is, *time, before);
+        formula_at(f->piece[i + 1].is, *time, behind);
+        for (*derivative = 0; *derivative < 2; ++*derivative)
+            if (fabs(before[*derivative] - behind[*derivative]) >
+                noise * (1 + fabs(before[*derivative])))
+                return 0;
+    }
+    return 1;
+}
+
+static double sign_of(double x)
+{
+    return (x > 0) - (x < 0);
+}
+
+/* The remainder with the sign of the divisor, as of an angle in turns. */
+static double modulo(double x, double y)
+{
+    const double rest = fmod(x, y);
+    return rest != 0 && (rest < 0) != (y < 0) ? rest + y : rest;
+}
+
+static const expression_function all[] = {
+    {.name = "pi", .value = PI},
+    {.name = "deg", .value = PI / 180},
+    {.name = "abs", .arguments = 1, .of_one = fabs, .kinked = 1},
+    {.name = "sign", .arguments = 1, .of_one = sign_of, .kinked = 1},
+    {.name = "sqrt", .arguments = 1, .of_one = sqrt, .in_time = JET_SQRT},
+    {.name = "exp", .arguments = 1, .of_one = exp, .in_time = JET_EXP},
+    {.name = "log", .arguments = 1, .of_one = log, .in_time = JET_LOG},
+    {.name = "sin", .arguments = 1, .of_one = sin, .in_time = JET_SIN},
+    {.name = "cos", .arguments = 1, .of_one = cos, .in_time = JET_COS},
+    {.name = "tan", .arguments = 1, .of_one = tan, .in_time = JET_TAN},
+    {.name = "asin", .arguments = 1, .of_one = asin, .in_time = JET_ASIN},
+    {.name = "acos", .arguments = 1, .of_one = acos, .in_time = JET_ACOS},
+    {.name = "atan", .arguments = 1, .of_one = atan, .in_time = JET_ATAN},
+    {.name = "sinh", .arguments = 1, .of_one = sinh, .in_time = JET_SINH},
+    {.name = "cosh", .arguments = 1, .of_one = cosh, .in_time = JET_COSH},
+    {.name = "tanh", .arguments = 1, .of_one = tanh, .in_time = JET_TANH},
+    {.name = "floor", .arguments = 1, .of_one = floor, .kinked = 1},
+    {.name = "ceil", .arguments = 1, .of_one = ceil, .kinked = 1},
+    {.name = "atan2", .arguments = 2, .of_two = atan2},
+    {.name = "hypot", .arguments = 2, .of_two = hypot},
+    {.name = "mod", .arguments = 2, .of_two = modulo, .kinked = 1},
+    {.name = "min", .arguments = -1, .of_two = fmin, .kinked = 1},
+    {.name = "max", .arguments = -1, .of_two = fmax, .kinked = 1},
+};
+enum { FUNCTIONS = sizeof all / sizeof all[0] };
+
+const expression_function *functions_find(const char *name, int length)
+{
+    for (int i = 0; i < FUNCTIONS; i++)
+        if (strlen(all[i].name) == (size_t)length && memcmp(all[i].name, name, (size_t)length) == 0)
+            return &all[i];
+    return NULL;
+}
+
+const char *functions_name(int i)
+{
+    return i < FUNCTIONS ? all[i].name : NULL;
 }

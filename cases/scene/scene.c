@@ -1,7 +1,6 @@
-#include "cases/scene/list.h"
+#include "cases/scene/scene.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

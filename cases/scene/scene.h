@@ -1,18 +1,529 @@
+/* scene/: a scene: what a structure is, what loads and drives it, what is asked. */
+#ifndef BEAMWORK_CASES_SCENE_SCENE_H
+#define BEAMWORK_CASES_SCENE_SCENE_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "elements/feature.h"
+#include "elements/section/section.h"
+#include "elements/shared/status.h"
+
+/* What is analysed: a kind, and what that kind alone needs.  Every scene_add_* returns the index of
+ * the new analysis, or -1 when memory ran out.  What a kind has is read through its function below,
+ * which ends the program when the analysis is of another kind: nothing else names the union. */
+
+typedef struct scene scene;
+
+enum { SCENE_NONE = -1, SCENE_NAME = 48, SCENE_UNIT = 16 }; /* sizes with the final zero */
+
+typedef enum scene_analysis_kind {
+    SCENE_LINEAR,     /* one linear solution with the loads at factor 1 */
+    SCENE_STATIC,     /* nonlinear equilibrium along the path */
+    SCENE_BUCKLING,   /* linear prestress about the undeformed state: what the loads have at path 0
+                         stays, what they gain by path 1 is times the factor; or about the last
+                         of a path */
+    SCENE_MODAL,      /* natural frequencies about the present state */
+    SCENE_COMPLIANCE, /* at every station of the static path before it */
+    SCENE_CONTINUATION, /* path of a load factor, by arc length or by one coordinate */
+    SCENE_ROTATION,     /* stationary: equilibrium and frequencies in the rotating frame */
+    SCENE_MOTION        /* in time: the path parameter is the time [s] */
+} scene_analysis_kind;
+
+/* What a reaction's moment does while its node turns (harness/newton/newton.h). */
+typedef enum scene_moments {
+    SCENE_MOMENTS_SPATIAL,
+    SCENE_MOMENTS_SEMITANGENTIAL,
+    SCENE_MOMENTS_SYMMETRISED
+} scene_moments;
+#define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
+const char *scene_moments_name(scene_moments);
+
+/* Where to stop: of the path parameter, ascending; of a continuation: of its control coordinate
+ * [m], as met. */
+typedef struct scene_path {
+    int stations;
+    double *value; /* [stations] */
+} scene_path;
+
+/* The scene's axes turn.  Along a static path or a continuation this is constant, in a stationary
+ * rotation it is times the path parameter.  Zero: at rest. */
+typedef struct scene_rotating_frame {
+    double omega[3];  /* angular velocity [rad/s] */
+    double centre[3]; /* a point on its axis [m] */
+} scene_rotating_frame;
+
+/* Static, rotation. */
+typedef struct scene_walk {
+    scene_path path;
+    int steps_between; /* load steps from one station to the next, to begin with; >= 1 */
+    int modes;         /* rotation: how many to look for at first, of all families together */
+    scene_rotating_frame frame;
+} scene_walk;
+
+typedef struct scene_compliance {
+    int node;
+    scene_moments moments;
+    unsigned released; /* bit i: component i at the node, though prescribed, is free and its
+                          reaction is a dead load */
+} scene_compliance;
+
+/* How the path of proportional loads is followed, whose factor is unknown.  The control coordinate
+ * is a translation of any node, also of an attached one; by arc length it is what curves are drawn
+ * over.  The arc is the root of the mean, over all nodes, of (displacement/size of the scene)^2 +
+ * rotation^2, dimensionless. */
+typedef struct scene_control {
+    int node, component;
+    int by_arc;            /* 1: steps are lengths of arc, 0: steps of the control coordinate */
+    double step, step_max; /* first and largest step [m, or 1 by arc length] */
+    int constant_steps; /* 1: all steps are `step`, and a branch jump ends the path; 0: steps adapt,
+                           and a jump is walked around */
+} scene_control;
+
+typedef struct scene_continuation {
+    scene_path path;
+    scene_rotating_frame frame;
+    scene_control control;
+} scene_continuation;
+
+/* How a motion is integrated. */
+typedef enum scene_scheme {
+    SCENE_ALPHA,      /* generalized-alpha: order 2, damps what is not resolved */
+    SCENE_CONSERVING, /* order 2, keeps energy and momenta */
+    SCENE_RADAU,      /* Radau IIA of three stages: order 5 */
+    SCENE_EXPLICIT,   /* Runge-Kutta of order 8: for truths */
+    SCENE_SCHEMES
+} scene_scheme;
+
+#define SCENE_SCHEME_CHOICES "alpha|conserving|radau|explicit"
+
+/* How the mass of members lies. */
+typedef enum scene_mass {
+    SCENE_MASS_USUAL, /* consistent where the formulation and all integrators of the motions that
+                         go on from each other have it so, and the scene does not lump it */
+    SCENE_LUMPED,     /* at the nodes, with all formulations alike */
+    SCENE_CONSISTENT  /* along the elements, as a formulation has it that offers that */
+} scene_mass;
+
+#define SCENE_MASS_CHOICES "lumped|consistent"
+
+/* Of generalized-alpha: alpha_m, alpha_f by rho, the spectral radius of what is not resolved; or as
+ * given. */
+typedef struct scene_alpha {
+    double mass, force; /* alpha_m, alpha_f */
+} scene_alpha;
+
+/* Velocities at the begin: that of a rigid body that turns about a point. */
+typedef struct scene_start {
+    double velocity[3], spin[3], centre[3]; /* [m/s], [rad/s], [m] */
+} scene_start;
+
+/* In time, from rest or with `start`; about the last state of the path it follows, of a motion with
+ * its rates and at its time. */
+typedef struct scene_motion {
+    scene_path path; /* instants at which quantities are read [s] */
+    scene_scheme scheme;
+    scene_alpha alpha;
+    double step;      /* [s] first one; without a tolerance all */
+    double tolerance; /* of the error of a step, relative to the size; 0: steps stay */
+    scene_start start;
+    scene_mass mass;
+} scene_motion;
+
+typedef struct scene_analysis {
+    scene_analysis_kind kind;
+    int follows; /* analysis whose state(s) this one is about, or SCENE_NONE: undeformed */
+    union {
+        scene_walk walk;
+        scene_compliance compliance;
+        scene_continuation continuation;
+        scene_motion motion;
+    } of;
+    char name[SCENE_NAME]; /* "": none */
+} scene_analysis;
+
+int scene_add_linear(scene *s);
+int scene_add_static(scene *s, int stations, const double path[], int steps_between);
+/* As many eigenvalues as the quantities ask for. */
+int scene_add_buckling(scene *s, int follows);
+int scene_add_modal(scene *s, int follows);
+int scene_add_compliance(scene *s, int follows, scene_compliance what);
+int scene_add_continuation(scene *s, int stations, const double path[], scene_control control);
+int scene_add_rotation(scene *s, int stations, const double path[], int steps_between, int modes,
+                       scene_rotating_frame frame);
+int scene_add_motion(scene *s, int follows, int stations, const double path[], scene_motion how);
+/* alpha_m = (2 rho - 1)/(rho + 1), alpha_f = rho/(rho + 1) (Chung & Hulbert 1993). */
+scene_alpha scene_alpha_of_radius(double rho);
+/* Turns the axes of a static path or a continuation. */
+void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
+
+/* "linear", "static", ...: as a scene file says it. */
+const char *scene_analysis_name(scene_analysis_kind);
+
+const scene_walk *scene_walk_of(const scene_analysis *a);
+const scene_compliance *scene_compliance_of(const scene_analysis *a);
+const scene_continuation *scene_continuation_of(const scene_analysis *a);
+const scene_motion *scene_motion_of(const scene_analysis *a);
+/* Is it a motion that is told to spread its mass along the elements? */
+int scene_spreads(const scene_analysis *a);
+/* Is it a motion whose elements are to do that where they can? */
+int scene_may_spread(const scene *s, int analysis);
+/* NULL: the kind has none. */
+const scene_path *scene_path_of(const scene_analysis *a);
+/* What a motion starts from, and the motions before it that it goes on from: a static path, a
+ * continuation, a rotation; SCENE_NONE: the undeformed state. */
+int scene_origin_of(const scene *s, int analysis);
+const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);
+/* Do the axes turn? */
+int scene_rotates(const scene_analysis *a);
+
+/* Functions of time as text: + - * / ^, parentheses, sin cos tan asin acos atan sinh cosh tanh exp
+ * log sqrt, pi, deg and the time t [s]. Values are SI, angles in radians (30*deg*t). ^ binds to the
+ * right and before signs: -t^2 = -(t^2). What has kinks is given in pieces (scene.h), so that
+ * steps can end there. */
+
+typedef struct formula formula;
+
+typedef struct formula_mistake {
+    int at;           /* character of the text, from 0 */
+    const char *what; /* and what to do */
+} formula_mistake;
+
+/* REFUSED, FAULT out of memory: why. */
+status formula_parse(const char *text, formula **out, formula_mistake *);
+/* REFUSED: what is wrong, and at which character (from 1). */
+status formula_read(const char *text, formula **out, fault *f);
+void formula_free(formula *);
+/* Its value and its first two derivatives by t; not finite where it has none. */
+void formula_at(const formula *, double t, double out[3]);
+
+/* A function of time in pieces, each a formula: between them it may have kinks and jumps, where no
+ * step goes across. */
+
+typedef struct scene_piece {
+    double until; /* [s]; of the last: for ever */
+    char *text;
+    formula *is; /* NULL: text is wrong, see function_check */
+} scene_piece;
+
+typedef struct scene_function {
+    int pieces;
+    scene_piece *piece; /* [pieces] ascending */
+    double scale;       /* of its value; 0: 1 */
+} scene_function;
+
+/* A further piece, behind those that there are; text is copied. -1: out of memory. */
+int function_add(scene_function *, double until, const char *text);
+/* The pieces of another one, and its scale; `to` has none yet. -1: out of memory. */
+int function_copy(scene_function *to, const scene_function *from);
+void function_free(scene_function *);
+/* REFUSED: what is wrong with it. */
+status function_check(const scene_function *, fault *);
+/* Value and first two derivatives at t; at the end of a piece: of the next one. */
+void function_at(const scene_function *, double t, double out[3]);
+/* Is it finite from 0 to `end`, with so many of its derivatives (0 to 2), at both ends of all
+ * pieces and at 63 instants between? 0: not at *time. */
+int function_finite(const scene_function *, double end, int derivatives, double *time);
+/* Do value and velocity go on from piece to piece before `end`? 0: not at *time, the value
+ * (*derivative 0) or the velocity (1). */
+int function_smooth(const scene_function *, double end, double *time, int *derivative);
+
+/* What is wanted of an analysis: a name, how it is judged, and what is extracted, one struct for
+ * each kind.  What a kind has is read through its function below, which ends the program when the
+ * quantity is of another kind: nothing else names the union. */
+
+typedef enum scene_quantity_kind {
+    SCENE_COORDINATE,       /* displacement or rotation-vector component of a node */
+    SCENE_REACTION,         /* of a prescribed component at a node */
+    SCENE_COMPLIANCE_ENTRY, /* of the 6 x 6 matrix of the analysis' node */
+    SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (i, i), only the non-held coordinates free */
+    SCENE_CRITICAL_FACTOR,  /* load factor of linear buckling */
+    SCENE_GROWTH,           /* largest rate of growth of a small motion [1/s]; 0: stable */
+    SCENE_FREQUENCY,        /* [Hz] */
+    SCENE_FACTOR_AT,        /* load factor of a continuation where the control coordinate is ... */
+    SCENE_CRITICAL_POINT,   /* of a continuation */
+    SCENE_DRIVER_VALUE,     /* of an unknown driver */
+    SCENE_INTERNAL,         /* resultant of the stresses on a section of a member */
+    SCENE_STRESS,           /* largest of a section or a member */
+    SCENE_RATE,             /* velocity of a node, or its angular velocity in its own axes */
+    SCENE_BALANCE,          /* energy or momentum of a motion */
+    SCENE_RELATIVE,         /* displacement or rotation of a node in the axes of another */
+    SCENE_READING           /* what a file of cases/quantities reads of nodes, as it says itself */
+} scene_quantity_kind;
+
+/* A point of a path at which the tangent stiffness is singular. */
+typedef enum scene_critical { SCENE_LIMIT_POINT, SCENE_BIFURCATION } scene_critical;
+
+typedef enum scene_family {
+    SCENE_ANY,
+    SCENE_NOT_AXIAL,
+    SCENE_AXIAL,
+    SCENE_BENDING_Y,
+    SCENE_BENDING_Z,
+    SCENE_TORSION
+} scene_family;
+
+typedef enum scene_reduction {
+    SCENE_LAST,
+    SCENE_MAX,
+    SCENE_MIN,
+    SCENE_AT,
+    SCENE_CURVE,
+    /* of a motion, wherever its stations lie: places and rates only */
+    SCENE_MAX_TIME,   /* when the largest value is met [s] */
+    SCENE_MIN_TIME,   /* when the least one is [s] */
+    SCENE_CROSSING,   /* when a level is passed [s] */
+    SCENE_PERIOD,     /* from one crossing to the next of its direction, mean of all [s] */
+    SCENE_PER_SECOND, /* one by that [Hz] */
+    SCENE_MEAN,       /* over time */
+    SCENE_REDUCTIONS
+} scene_reduction;
+
+/* Which way a level is passed. */
+typedef enum scene_direction { SCENE_RISING, SCENE_FALLING, SCENE_EITHER } scene_direction;
+#define SCENE_DIRECTION_CHOICES "rising|falling|either"
+#define SCENE_TAKE_CHOICES      "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean"
+
+/* What of a motion a value is taken of. */
+typedef struct scene_passing {
+    double level; /* as extracted, in SI units */
+    scene_direction direction;
+    int order;          /* among the crossings of that direction, from 0 */
+    double from, until; /* [s] window; until 0: to the end */
+} scene_passing;
+
+typedef struct scene_component {
+    int node, component; /* SCENE_UX .. SCENE_RZ */
+} scene_component;
+
+/* Resultants of the stresses of what lies towards the end q of a member on what lies towards p, in
+ * the principal axes of the turned section, moments about its centroid. The parts of the torque add
+ * up to that about the shear centre, Mx - (ys Qz - zs Qy): of Saint-Venant's torsion, of the
+ * restrained warping (the bimoment falls by it along the member), and of what stresses along the
+ * fibres, which the twist turns, add. */
+typedef enum scene_resultant {
+    SCENE_N,
+    SCENE_QY,
+    SCENE_QZ,
+    SCENE_MX,
+    SCENE_MY,
+    SCENE_MZ,
+    SCENE_BIMOMENT,
+    SCENE_MX_SAINT_VENANT,
+    SCENE_MX_WARPING,
+    SCENE_MX_WAGNER,
+    SCENE_RESULTANTS
+} scene_resultant;
+
+/* Which section of a member. */
+typedef enum scene_along {
+    SCENE_ALONG_PLACE,  /* at a place of it */
+    SCENE_ALONG_MAX,    /* where the value is largest */
+    SCENE_ALONG_MIN,    /* where it is least */
+    SCENE_ALONG_LARGEST /* where its magnitude is largest: that magnitude */
+} scene_along;
+
+typedef struct scene_internal {
+    int member;
+    scene_resultant resultant;
+    scene_along along;
+    double place; /* of SCENE_ALONG_PLACE: 0 at p .. 1 at q, of the initial length */
+    int before;   /* of what jumps there: 1 on the side of p, 0 on that of q */
+} scene_internal;
+
+/* Of all points of a section (elements/section/stress.h) [Pa]. */
+typedef enum scene_stress_measure {
+    SCENE_VON_MISES,
+    SCENE_NORMAL_MAX, /* along the fibres, tension positive */
+    SCENE_NORMAL_MIN
+} scene_stress_measure;
+
+typedef struct scene_stress {
+    int member;
+    scene_stress_measure measure;
+    int whole;    /* 1: of all sections of the member; 0: of the one at ... */
+    double place; /* 0 at p .. 1 at q, of the initial length */
+    int before;   /* as of scene_internal */
+} scene_stress;
+
+/* Of a whole motion. */
+typedef enum scene_balance {
+    SCENE_KINETIC,    /* [J] */
+    SCENE_STRAIN,     /* stored in members and springs [J] */
+    SCENE_ENERGY,     /* both */
+    SCENE_WORK,       /* of loads and of what is driven, since the begin */
+    SCENE_DISSIPATED, /* by damping, since the begin */
+    SCENE_DRIFT,      /* energy and what was dissipated, less energy of the begin and work */
+    SCENE_PX,         /* momentum [kg m/s] */
+    SCENE_PY,
+    SCENE_PZ,
+    SCENE_LX, /* angular momentum about the origin [kg m^2/s] */
+    SCENE_LY,
+    SCENE_LZ,
+    SCENE_BALANCES
+} scene_balance;
+#define SCENE_BALANCE_CHOICES "kinetic|strain|energy|work|dissipated|drift|px|py|pz|lx|ly|lz"
+
+/* Of a node as seen from another that carries it along: how its place has moved in the axes of
+ * that, and its turn against it. */
+typedef struct scene_relative {
+    int node, component, from;
+} scene_relative;
+
+/* What a kind reads that has no struct of its own: as its table of keys says. */
+typedef struct scene_reading {
+    const struct quantity_type *type;
+    int node[4], component[4];
+    double number[4];
+} scene_reading;
+
+typedef struct scene_entry {
+    int row, column; /* response, load: SCENE_UX .. SCENE_RZ */
+} scene_entry;
+
+typedef struct scene_critical_load {
+    int sign;  /* 1: of positive factors, -1: of negative ones */
+    int order; /* among those of the sign by size, from 0 */
+} scene_critical_load;
+
+typedef struct scene_mode {
+    int order; /* among the modes of the family and half-waves, from 0 */
+    scene_family family;
+    int half_waves; /* 0: any */
+} scene_mode;
+
+typedef enum scene_ordinate { SCENE_LOAD_FACTOR, SCENE_CONTROL } scene_ordinate;
+
+typedef struct scene_point {
+    scene_critical kind;
+    int order;               /* among the points of the kind along the path, from 0 */
+    scene_ordinate ordinate; /* what of it: load factor, or control coordinate [m] */
+} scene_point;
+
+/* What is extracted; made by the functions of the kinds. */
+typedef struct scene_extract {
+    scene_quantity_kind kind;
+    union {
+        scene_component component; /* coordinate, reaction, rate */
+        scene_entry entry;         /* of compliance and stiffness */
+        scene_critical_load load;
+        scene_mode mode;
+        scene_point point;
+        int driver;
+        scene_internal internal;
+        scene_stress stress;
+        scene_balance balance;
+        scene_relative relative;
+        scene_reading reading;
+    } of;
+} scene_extract;
+
+scene_extract scene_coordinate(int node, int component);
+scene_extract scene_reaction(int node, int component);
+scene_extract scene_compliance_entry(int row, int column);
+scene_extract scene_stiffness_entry(int component);
+scene_extract scene_critical_factor(int sign, int order);
+scene_extract scene_growth(void);
+/* Of any number of half-waves. */
+scene_extract scene_frequency(int order, scene_family family);
+scene_extract scene_frequency_of(int order, scene_family family, int half_waves);
+scene_extract scene_factor_at(void);
+scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
+scene_extract scene_driver_value(int driver);
+scene_extract scene_rate(int node, int component);
+/* Of its rotation matrix: 0 .. 2. */
+scene_extract scene_orientation_entry(int node, int row, int column);
+scene_extract scene_balance_of(scene_balance what);
+scene_extract scene_relative_to(int node, int component, int from);
+/* place: 0 at p .. 1 at q, on the side of q */
+scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
+scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
+/* Over a member: of its sections the one that has most, of SCENE_NORMAL_MIN least. */
+scene_extract scene_stress_along(int member, scene_stress_measure measure);
+scene_extract scene_stress_at(int member, double place, scene_stress_measure measure);
+/* A resultant or a stress at a place, on the side of p of what jumps there (before) or of q. */
+scene_extract scene_beside(scene_extract what, int before);
+/* What scene files call it. */
+#define SCENE_STRESS_CHOICES    "von_mises|normal_max|normal_min"
+#define SCENE_RESULTANT_CHOICES "N|Qy|Qz|Mx|My|Mz|bimoment|Mx_saint_venant|Mx_warping|Mx_wagner"
+
+/* Abscissa of a curve. */
+typedef struct scene_abscissa {
+    char name[SCENE_NAME], unit[SCENE_UNIT];
+    int is_quantity; /* 1: the curve of the quantity that is called so, station by station, in its
+                        unit; else: */
+    double factor, offset; /* the path parameter, or the control coordinate, times factor plus
+                              offset */
+} scene_abscissa;
+
+/* Of an analytic model with an error of its own: shown, never judged. */
+typedef struct scene_prediction {
+    double value;       /* [unit of the quantity] */
+    const char *source; /* NULL: there is none */
+} scene_prediction;
+
+typedef struct scene_quantity {
+    char name[SCENE_NAME], unit[SCENE_UNIT];
+    int analysis;
+    scene_extract what;
+    scene_reduction reduction; /* of the stations of a path */
+    double at;                 /* path parameter or control coordinate, of SCENE_AT */
+    scene_passing passing;     /* of a motion */
+    scene_abscissa x;          /* of a curve */
+    double factor, offset;     /* reported value = factor * extracted value + offset */
+    double near_zero;   /* absolute scale for relative errors of values near zero; 0: |value| */
+    double tolerance;   /* relative, of the limit against the truth: SCENE_TOLERANCE unless a case
+                         says why not */
+    double least_order; /* of convergence in the number of elements */
+    scene_prediction prediction;
+} scene_quantity;
+
+/* The new quantity, to be filled further, never NULL: of the last station, factor 1, tolerance
+ * SCENE_TOLERANCE, the rest 0. */
+scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, int analysis,
+                                   scene_extract what);
+/* All along the path, over its parameter or the control coordinate times factor plus offset. */
+void scene_set_curve(scene_quantity *q, const char *x_name, const char *x_unit, double factor,
+                     double offset);
+/* All along the path, over another quantity whose curve is of the same stations. */
+void scene_set_curve_over(scene_quantity *q, const char *quantity, const char *unit);
+/* Index of the quantity that a curve is over; SCENE_NONE: it is over its path. */
+int scene_abscissa_of(const scene *s, const scene_quantity *q);
+/* At one value of the path parameter or the control coordinate. */
+void scene_set_at(scene_quantity *q, double at);
+/* Of a motion, of its whole time: SCENE_MAX_TIME to SCENE_MEAN, SCENE_MAX, SCENE_MIN. */
+void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
+/* Is it read between the stations of a motion? */
+int scene_is_passed(const scene_quantity *q, scene_analysis_kind);
+
+const scene_component *scene_component_of(const scene_quantity *q);
+const scene_entry *scene_entry_of(const scene_quantity *q);
+const scene_critical_load *scene_critical_load_of(const scene_quantity *q);
+const scene_mode *scene_mode_of(const scene_quantity *q);
+const scene_point *scene_point_of(const scene_quantity *q);
+int scene_driver_of(const scene_quantity *q);
+const scene_relative *scene_relative_of(const scene_quantity *q);
+scene_balance scene_balance_in(const scene_quantity *q);
+const scene_internal *scene_internal_of(const scene_quantity *q);
+const scene_stress *scene_stress_of(const scene_quantity *q);
+/* Is it of this kind and this analysis? */
+int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
+/* Is the analysis read: by a quantity, or by an analysis that follows it and is read itself? Where
+ * there are no quantities, all of them are. */
+int scene_reads(const scene *s, int analysis);
+/* Takes away the quantities whose names the other scene does not have. */
+void scene_keep_quantities(scene *s, const scene *of);
+/* Of a response to a force or a moment, SCENE_UX to SCENE_RZ both. */
+const char *scene_compliance_unit(int row, int column);
+/* Can it be extracted from an analysis of this kind? */
+int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
+
 /* A scene: pure data that says what a structure is, how it is held and driven,
  * what is analysed and which quantities are wanted.  No solver is called here
  * and no formulation is known: a file could hold the same data.
  *
  * Every scene_* function that adds something returns its index in its list, or
  * -1 when memory ran out (scene_valid then says so once, at the end). */
-#ifndef BEAMWORK_SCENE_H
-#define BEAMWORK_SCENE_H
-
-#include "cases/scene/analysis.h"
-#include "cases/scene/function.h"
-#include "cases/scene/quantity.h"
-#include "elements/feature.h"
-#include "elements/section/section.h"
-#include "elements/shared/status.h"
 
 /* Of a limit, relative: what engineers ask of a model. A limit of its own within it is seen all the
  * same, by its uncertainty. */
@@ -73,7 +584,7 @@ typedef struct scene_node {
     double axis[3][3]; /* of the sequence; a zero axis ends it. Of a fork: the section's own axis,
                           and the web's direction */
     scene_body body;
-    char name[SCENE_NAME]; /* "": none, as of every entry; cases/scene/names.h */
+    char name[SCENE_NAME]; /* "": none, as of every entry; cases/scene/scene.h */
 } scene_node;
 
 /* What an end of a member does not pass on to its node, in the member's axes there (y as in
@@ -310,5 +821,446 @@ status scene_constants(const scene *s, int i, section *out, fault *f);
 /* Indices in range, members of positive length, supports that do not contradict, drivers that are
  * used, curves and names unique: refused with the culprit. */
 status scene_validate(const scene *s, fault *f);
+
+/* Values along the path of a static analysis: on a line from station to station, before the first
+ * and behind the last as there. */
+
+/* What the load is times at a path parameter; without stations the parameter itself. */
+double along_path_factor(const scene_load *, double path);
+/* Derivative of that by the path parameter; at a station: of what follows. */
+double along_path_rate(const scene_load *, double path);
+/* Of a known driver [m or rad]. */
+double along_path_value(const scene_driver *, double path);
+/* For messages, and empty where loads change however far the path goes: "; nothing changes outside
+ * path 0 to 1 ...". */
+typedef struct along_path_words {
+    char text[256];
+} along_path_words;
+along_path_words along_path_end(const scene *);
+/* REFUSED: something does not change in proportion from path 0 to 1. */
+status along_path_proportional(const scene *, fault *);
+
+/* Changes of a scene that must not change its answer: for checks that need no truth. */
+
+typedef enum scene_edit_kind {
+    SCENE_EDIT_NONE,
+    SCENE_EDIT_REVERSE, /* every member runs from its q to its p */
+    SCENE_EDIT_SPLIT,   /* the first member becomes two, that meet at `amount` of its length */
+    SCENE_EDIT_UNIT /* all lengths in another unit, `amount` of them to the metre; quantities are
+                       still reported in metres */
+} scene_edit_kind;
+
+typedef struct scene_edit {
+    scene_edit_kind kind;
+    double amount; /* fraction of the length, 0 .. 1; or units in 1 m */
+} scene_edit;
+
+/* REFUSED: a member that the change is not defined for. */
+status scene_edit_apply(scene *s, const scene_edit *edit, fault *f);
+
+/* What entries of a scene are called: as the user named them, or by their number. */
+
+typedef enum scene_list {
+    SCENE_SECTIONS,
+    SCENE_NODES,
+    SCENE_MEMBERS,
+    SCENE_SPRINGS,
+    SCENE_DRIVERS,
+    SCENE_LOADS,
+    SCENE_ANALYSES,
+    SCENE_QUANTITIES
+} scene_list;
+enum { SCENE_LISTS = SCENE_QUANTITIES + 1 };
+
+typedef struct scene_words {
+    char text[SCENE_NAME + 16];
+} scene_words;
+
+/* How many entries the list has; "node". */
+int scene_count(const scene *s, scene_list list);
+const char *scene_list_word(scene_list list);
+/* A longer name is cut off; where there is no such entry nothing is done. */
+void scene_set_name(scene *s, scene_list list, int index, const char *name);
+/* "" where it has none, or is no entry. */
+const char *scene_own_name(const scene *s, scene_list list, int index);
+/* "node_3", which no other entry of the list is called. */
+scene_words scene_numbered(const scene *s, scene_list list, int index);
+/* "tip"; without a name by its number. */
+scene_words scene_name(const scene *s, scene_list list, int index);
+/* For messages: "node tip", without a name "node 3". */
+scene_words scene_called(const scene *s, scene_list list, int index);
+
+/* What entries of a scene consist of: a line for each key, with what a file calls it, where its
+ * value is, its unit and its range.  From these lines a file is read, checked, described and
+ * written, other units are taken, members are reversed, and scenes are compared. */
+
+typedef enum entry_kind {
+    ENTRY_TEXT,      /* any text */
+    ENTRY_NAME,      /* of another entry: int, its index, or SCENE_NONE */
+    ENTRY_WORD,      /* one of `words`, or a parameter with such choices: int; double: left as it is
+                        where the key is not there */
+    ENTRY_FLAG,      /* one of `words`, those with an odd index mean 1: int */
+    ENTRY_WORDS,     /* one or a list of them: unsigned, a bit for each */
+    ENTRY_NUMBER,    /* an expression: double */
+    ENTRY_WHOLE,     /* one without a fraction: int */
+    ENTRY_VECTOR,    /* a list of `count` expressions: double[] */
+    ENTRY_DIRECTION, /* one of three, which turns with the part it is in */
+    ENTRY_POSITION,  /* one of three, which is placed with the part it is in */
+    ENTRY_NUMBERS,   /* a list of any length, or a range: scene_path */
+    ENTRY_FORMS,     /* several forms, as the summary says */
+    ENTRY_MAP,       /* a map with the keys `below`, whose values are in the same struct */
+    ENTRY_ENTRIES,   /* names, each with such a map */
+    ENTRY_LIST,      /* a list of such maps */
+    ENTRY_NAMES,     /* names of one's own, each with one value as `below` (its first key) says */
+    ENTRY_LATER      /* has a meaning, but is not carried yet */
+} entry_kind;
+
+/* How a word turns with the axes. */
+typedef enum entry_turns {
+    ENTRY_STAYS,
+    ENTRY_COMPONENT, /* as a displacement or a rotation along them */
+    ENTRY_AXIS,      /* as a direction */
+    ENTRY_DIAGONAL   /* as a component; what it is of keeps its sign */
+} entry_turns;
+
+enum { ENTRY_MOST_ORDER = 100000 }; /* of an eigenvalue, a point, a crossing */
+
+struct quantity_type;
+
+typedef struct entry_field {
+    const char *name; /* NULL ends a table */
+    entry_kind kind;
+    int needed; /* 1: must be there */
+    int group; /* keys of one group > 0 exclude each other; with `needed`, one of them must be there
+                */
+    int count;
+    const char *words; /* "a|b|c" */
+    const struct entry_field *below;
+    /* of a number: gives the power of length and of force by which it is scaled; others: for the
+     * reader */
+    const char *unit, *summary;
+    /* Where it is left out, of every key but those that must be there: what may be written instead,
+     * in the words of the file, or what happens. */
+    const char *usual, *left_out;
+    /* Where its value is in the struct of the entry: ENTRY_IN. size 0: nowhere, functions of its
+     * own read and write it. Of a map: of the int that says which of a group stands there. */
+    size_t at, size;
+    int first, falls;   /* value of the first word, or of the map; by how much the next is lower */
+    double otherwise;   /* a number that is left out, where `usual` does not say it; NAN: none */
+    double least, most; /* range of a number; both 0: any */
+    const char *range;  /* in words; NULL: by these two */
+    scene_list of;      /* NAME: in which list */
+    size_t zeros;       /* of the unsigned in which the bit `zero` says that a zero is given */
+    unsigned zero;      /* 0: there is no such bit */
+    int always;         /* 1: written also where it could be left out */
+    entry_turns turns;
+    const struct quantity_type *type; /* of a map: what says its summary, keys and value */
+    const char *mirrors; /* "++-": signs of its numbers when the ends of its member are exchanged */
+} entry_field;
+
+#define ENTRY_IN(type, member) .at = offsetof(type, member), .size = sizeof(((type *)0)->member)
+
+#define ENTRY_COMPONENTS "ux|uy|uz|rx|ry|rz"
+
+extern const entry_field entry_section[], entry_node[], entry_member[], entry_spring[],
+    entry_driver[], entry_load[], entry_analysis[], entry_quantity[];
+
+/* The key of the vector of a load: "force", with its unit. */
+const entry_field *entry_of_load(scene_load_kind);
+
+/* Of a map: its keys; of all: what it is. */
+const entry_field *entry_below(const entry_field *);
+const char *entry_summary(const entry_field *);
+/* What a number is where the file does not say. */
+double entry_usual(const entry_field *);
+/* Of a word: the int of that index, its index, and the int that it stands for. */
+int entry_value(const entry_field *, int index);
+int entry_index(const entry_field *, int value);
+int entry_word(const entry_field *, const char *word);
+/* Is the value as if the key were left out? */
+int entry_is_usual(const entry_field *, const void *entry);
+/* Of a map in a group: is it the one that stands there? Of others: 1. */
+int entry_stands(const entry_field *, const void *entry);
+/* "at least 0" */
+const char *entry_range(const entry_field *, char text[FAULT_TEXT]);
+int entry_in_range(const entry_field *, double value);
+/* REFUSED: a number is none or beyond its range ("damping = -1; give at least 0"), a name is that
+ * of no entry, a word is none of its words. */
+status entry_check(const scene *s, const entry_field *table, const void *entry, fault *f);
+
+typedef enum entry_base { ENTRY_LENGTH, ENTRY_FORCE } entry_base;
+/* Power of length or force in a unit, seconds and angles kept: of "kg/m^3" -4 and 1. */
+int entry_power(const char *unit, entry_base);
+/* All numbers that have a unit, when there are `times` of one base unit in its place. */
+void entry_scale(const entry_field *table, void *entry, entry_base, double times);
+/* Its member's ends are exchanged. */
+void entry_mirror(const entry_field *table, void *entry);
+/* Bit for bit, but for what functions of its own read and write. */
+int entry_same(const entry_field *table, const void *a, const void *b);
+
+/* A value with its first two derivatives by the time, and what formulas do with such. */
+
+typedef struct jet {
+    double v, d, dd;
+} jet;
+
+typedef enum jet_operation {
+    JET_NUMBER, /* a constant */
+    JET_TIME,
+    JET_NEGATE,
+    JET_ADD, /* of two, to JET_POWER */
+    JET_SUBTRACT,
+    JET_MULTIPLY,
+    JET_DIVIDE,
+    JET_POWER,
+    JET_SIN, /* of one */
+    JET_COS,
+    JET_TAN,
+    JET_ASIN,
+    JET_ACOS,
+    JET_ATAN,
+    JET_SINH,
+    JET_COSH,
+    JET_TANH,
+    JET_EXP,
+    JET_LOG,
+    JET_SQRT
+} jet_operation;
+
+/* The operation on a, and on b where it is of two; not finite where it has no value or no
+ * derivative. Not of JET_NUMBER and JET_TIME. */
+jet jet_of(jet_operation what, jet a, jet b);
+
+/* Functions and constants of expressions, and which of them functions of time have. */
+
+typedef struct expression_function {
+    const char *name;
+    int arguments; /* 0: a constant; -1: two or more */
+    double value;  /* of a constant */
+    double (*of_one)(double);
+    double (*of_two)(double, double); /* of more: taken again and again */
+    int kinked;                       /* 1: it has kinks or jumps */
+    jet_operation in_time; /* JET_NUMBER: none, of what changes in time it cannot be taken */
+} expression_function;
+
+/* The function or constant with that name of `length` bytes, or NULL. */
+const expression_function *functions_find(const char *name, int length);
+/* The i-th name, or NULL behind the last. */
+const char *functions_name(int i);
+
+/* What of a scene has part in which analysis: the one place that says it, by which analyses are
+ * refused, `beamwork explain inputs` is printed, and a test walks all cells. */
+
+/* As which an analysis counts: eigenvalues and compliances about a loaded state are others than
+ * those about the undeformed one. */
+typedef enum scene_column {
+    SCENE_OF_LINEAR,
+    SCENE_OF_STATIC,
+    SCENE_OF_CONTINUATION,
+    SCENE_OF_BUCKLING,
+    SCENE_OF_BUCKLING_ABOUT,
+    SCENE_OF_MODAL,
+    SCENE_OF_MODAL_LINEAR,
+    SCENE_OF_MODAL_ABOUT,
+    SCENE_OF_COMPLIANCE,
+    SCENE_OF_COMPLIANCE_ABOUT,
+    SCENE_OF_ROTATION,
+    SCENE_OF_MOTION,
+    SCENE_COLUMNS
+} scene_column;
+
+typedef enum scene_part {
+    SCENE_PART_USED = 'u',
+    SCENE_PART_STATE = 's', /* used; refused in a state where the tangent is not symmetric */
+    /* used in axes that turn, and about a path where the tangent is not symmetric, so that what is
+     * in motion decides about stability; else it has no part */
+    SCENE_PART_INERTIA = 'i',
+    SCENE_PART_NONE = '-',   /* by what the analysis is: the answer is the same without */
+    SCENE_PART_REFUSED = 'x' /* by name, that analysis alone */
+} scene_part;
+
+typedef struct scene_input {
+    const char *name;                   /* "loads that follow" */
+    const char part[SCENE_COLUMNS + 1]; /* scene_part */
+    const char *why;                    /* it is refused, and what helps; NULL: it is nowhere */
+    /* 1: the scene, or that analysis, has it; who: "load p". */
+    int (*stands)(const scene *, int analysis, char *who, int size);
+} scene_input;
+
+/* The table; one without a name ends it. */
+extern const scene_input scene_inputs[];
+/* "buckling about a path" */
+extern const char *const scene_column_name[SCENE_COLUMNS];
+
+scene_column scene_column_of(const scene *, int analysis);
+/* 1: it is about a state, and the scene has something that makes the tangent of some states not
+ * symmetric: then masses decide about stability. */
+int scene_inputs_flutter(const scene *, int analysis);
+/* REFUSED: the analysis cannot have something that the scene has; the others may. */
+status scene_inputs_check(const scene *, int analysis, fault *);
+
+/* Lists of a scene, for the files that add to them. */
+
+/* Room for one more entry of `list` (the address of its pointer), zeroed: its index, or -1. */
+int scene_grow(scene *s, void *list, int *count, size_t size);
+/* A copy [n] of numbers; NULL: memory ran out. */
+double *scene_copy(scene *s, int n, const double from[]);
+
+/* Parts of the words of a quantity: nodes, members, coordinates and ordinals. */
+
+/* " of node_1 (0.1, 0, 0)" behind the preposition. */
+void meaning_node(FILE *to, const scene *s, const char *preposition, int node);
+/* " of member_0 (node_0 to node_1)" */
+void meaning_member(FILE *to, const scene *s, int member);
+/* " at the end", " at 0.5 of the length": before: of what jumps there. */
+void meaning_place(FILE *to, double where, int before);
+/* "x" of SCENE_UX and SCENE_RX. */
+char meaning_axis(int component);
+/* "force along", "moment about". */
+const char *meaning_load(int component);
+/* "first", "second", ... of 0, 1, ... */
+void meaning_ordinal(FILE *to, int order);
+/* "displacement of node_1 (...) along x", "rotation of ... about x". */
+void meaning_coordinate(FILE *to, const scene *s, int node, int component);
+
+/* Words of the physics that a scene may leave out, as scene files have them. */
+
+typedef struct scene_omission {
+    unsigned feature; /* a bit of SCENE_OMITTABLE */
+    const char *word;
+} scene_omission;
+
+/* All of them, in the order in which they are written, up to a word of NULL. */
+extern const scene_omission scene_omissions[];
+
+enum { SCENE_OMISSION_WORDS = 100 };
+/* "shear, trapeze"; empty where there are none. */
+void scene_omission_words(unsigned omits, char words[SCENE_OMISSION_WORDS]);
+
+/* "haringx" */
+const char *scene_shear_word(scene_shear theory);
+
+/* A kind of quantity: all that is to be said of it, but for how a solution is asked for it
+ * (harness/analysis) where it is more than a reading of nodes.  One file each in cases/quantities:
+ * the build finds it. */
+
+/* What a kind reads of where nodes are and how they move, in one state of a structure. */
+typedef struct quantity_state {
+    /* displacement [m] or rotation-vector component [rad]; NAN: it has lost its direction */
+    double (*component)(const struct quantity_state *, int node, int component);
+    /* the same in the axes of another node */
+    double (*relative)(const struct quantity_state *, int from, int node, int component);
+    /* place [m], and rotation matrix by rows */
+    void (*frame)(const struct quantity_state *, int node, double place[3], double R[9]);
+    /* of a motion in time: velocity [m/s], or angular velocity in the node's own axes [rad/s] */
+    double (*rate)(const struct quantity_state *, int node, int component);
+    double (*driver)(const struct quantity_state *, int driver);
+} quantity_state;
+
+/* What is met between the stations of a motion. */
+typedef enum quantity_passing {
+    QUANTITY_AT_STATIONS,
+    QUANTITY_EXTREMES, /* the largest and the least value */
+    QUANTITY_CROSSINGS /* these, and when a level is passed */
+} quantity_passing;
+
+typedef struct quantity_type {
+    const char *key, *summary;
+    scene_quantity_kind kind; /* SCENE_READING of one that nothing outside its file names */
+    const entry_field *field; /* of the map below the key */
+    unsigned analyses;        /* 1 << kind of analysis: those that have it */
+    quantity_passing passing;
+    /* of the value where nothing else is said; gives its powers of length and force */
+    const char *(*unit)(const scene *, const scene_quantity *);
+    /* In words; names_analysis: also of which analysis. */
+    void (*meaning)(FILE *, const scene *, const scene_quantity *);
+    int names_analysis;
+    /* NULL of most: is it this one, of two of a kind; what follows from what is read of a file:
+     * what is wrong with the key, or NULL; REFUSED: what the table does not say. */
+    int (*is)(const scene_quantity *);
+    /* As extracted, without factor and offset, of what is read of nodes alone; and the components
+     * of turns that it needs, where nodes may turn by themselves: 1: *out is the one of index i, 0:
+     * there are no more. */
+    double (*read)(const scene_quantity *, const quantity_state *);
+    int (*turns)(const scene *, const scene_quantity *, int i, scene_component *out);
+    const char *(*settle)(const scene *, scene_quantity *, const char **key);
+    status (*check)(const scene *, const scene_quantity *, fault *);
+} quantity_type;
+
+/* The type of a quantity; is it this one; makes it one, to be filled. */
+const quantity_type *quantity_type_of(const scene_quantity *q);
+int quantity_type_is(const quantity_type *, const scene_quantity *q);
+void quantity_type_begin(const quantity_type *, scene_quantity *q);
+
+/* Keys of most kinds: first, and last. */
+#define QUANTITY_ANALYSIS                                                                          \
+    {"analysis",                                                                                   \
+     ENTRY_NAME,                                                                                   \
+     .needed = 1,                                                                                  \
+     .summary = "analysis",                                                                        \
+     ENTRY_IN(scene_quantity, analysis),                                                           \
+     .of = SCENE_ANALYSES}
+#define QUANTITY_TAKEN                                                                             \
+    {"at", ENTRY_NUMBER, .group = 1, .summary = "station", .left_out = "as take says"},            \
+        {"take",                                                                                   \
+         ENTRY_WORD,                                                                               \
+         .group = 1,                                                                               \
+         .words = SCENE_TAKE_CHOICES,                                                              \
+         .summary = "of all stations",                                                             \
+         .usual = "last"}
+#define QUANTITY_NODE(member)                                                                      \
+    {"node",                                                                                       \
+     ENTRY_NAME,                                                                                   \
+     .needed = 1,                                                                                  \
+     .summary = "node",                                                                            \
+     ENTRY_IN(scene_quantity, what.of.member),                                                     \
+     .of = SCENE_NODES}
+#define QUANTITY_COMPONENT(text, member)                                                           \
+    {"component",                                                                                  \
+     ENTRY_WORD,                                                                                   \
+     .needed = 1,                                                                                  \
+     .words = ENTRY_COMPONENTS,                                                                    \
+     .summary = (text),                                                                            \
+     ENTRY_IN(scene_quantity, what.of.member),                                                     \
+     .turns = ENTRY_COMPONENT}
+/* A place of a member, and its side. */
+#define QUANTITY_SIDE(member)                                                                      \
+    {"side",                                                                                       \
+     ENTRY_WORD,                                                                                   \
+     .words = "from|to",                                                                           \
+     .summary = "of 'where', towards that node: resultants jump where a "                          \
+                "load acts",                                                                       \
+     .usual = "to",                                                                                \
+     ENTRY_IN(scene_quantity, what.of.member),                                                     \
+     .first = 1,                                                                                   \
+     .falls = 1}
+#define QUANTITY_ALL_STATES                                                                        \
+    (1u << SCENE_STATIC | 1u << SCENE_MOTION | 1u << SCENE_CONTINUATION | 1u << SCENE_ROTATION)
+
+/* A scene in another unit of length. */
+
+/* All lengths in a unit of which there are x in 1 m, x > 0; newtons and seconds stay, so that
+ * masses are divided by x. Quantities are reported as before. REFUSED: x is no such
+ * number, or a driver moves lengths and angles at once. */
+status scene_change_unit(scene *s, double x, fault *f);
+/* All forces in a unit of which there are y in 1 N, masses alike; metres and seconds stay.
+ * Quantities are reported as before. */
+void scene_change_force(scene *s, double y);
+/* Do the numbers look like those of another system than SI?  Says which, and why; 0: no. Of scenes
+ * without dimensions nothing is said. */
+int scene_looks_foreign(const scene *s, char words[FAULT_TEXT]);
+
+/* What an end of a member does with its warping where nobody says it. */
+
+/* An end of a member of which nobody has said anything yet. */
+enum { SCENE_WARP_BY_SUPPORT = -3 };
+
+/* Gives every end that is SCENE_WARP_BY_SUPPORT what its support does.  Held: all six components of
+ * its node are held or driven, or the node is part of a rigid body, or one that
+ * members or springs are joined to at other nodes too.
+ * Free: a turn is released there, or the node is a fork, is free or has only a mass.  Where
+ * exactly two members meet at such a node and run on in one line with one section in the same axes,
+ * nothing releases and nobody says anything, they share it: a node does not cut a beam. */
+void scene_warping_by_supports(scene *s);
 
 #endif

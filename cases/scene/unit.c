@@ -1,10 +1,6 @@
-#include "cases/scene/unit.h"
+#include "cases/scene/scene.h"
 
 #include <math.h>
-#include <stddef.h>
-#include <stdio.h>
-
-#include "cases/scene/quantity_type.h"
 
 /* Each number times x to the power of its length. */
 typedef struct scaled {

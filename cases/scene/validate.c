@@ -1,13 +1,9 @@
 /* What a scene must be before anything is built from it. */
+#include "cases/scene/scene_impl.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/entry.h"
-#include "cases/scene/validate_motion.h"
-#include "cases/scene/validate_node.h"
-#include "cases/scene/validate_plane.h"
-#include "cases/scene/validate_release.h"
-#include "cases/scene/validate_wanted.h"
 #include "elements/math/dense.h"
 #include "elements/section/matrices.h"
 #include "elements/section/taper.h"

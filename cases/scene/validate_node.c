@@ -1,9 +1,10 @@
-#include "cases/scene/validate_node.h"
-#include "cases/scene/names.h"
+#include "cases/scene/scene_impl.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/rotation.h"
 
 /* Does a straight member of the node run along the direction, or a curved one end there?  Also 1
  * when no member ends there. */
@@ -138,5 +139,226 @@ status scene_validate_node(const scene *s, int i, fault *f)
                              "%s: contradictory supports, it moves with %s; hold that one instead",
                              scene_called(s, SCENE_NODES, i).text,
                              scene_called(s, SCENE_NODES, n->attached).text);
+    return STATUS_OK;
+}
+
+/* Directions and places are in the plane within this part of their size. */
+static const double within = 1e-9;
+
+static int is_across(const scene *s, const double v[3])
+{
+    return fabs(v[scene_normal(s)]) > within * vec3_norm(v);
+}
+
+/* Is it not along the normal, though it is there? */
+static int is_beside(const scene *s, const double v[3])
+{
+    double in[3] = {v[0], v[1], v[2]};
+    in[scene_normal(s)] = 0;
+    return vec3_norm(in) > within * vec3_norm(v);
+}
+
+static status refuse(const scene *s, scene_words who, const char *what, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED,
+                     "%s: %s, and the scene is held in its plane: take that or plane: %s away",
+                     who.text, what, scene_plane_name(s));
+}
+
+static double size_of(const scene *s)
+{
+    double size = 0;
+    for (int i = 0; i < s->nodes; i++)
+        for (int k = 0; k < 3; k++)
+            size = fmax(size, fabs(s->node[i].position[k] - s->node[0].position[k]));
+    return size;
+}
+
+/* A place beside the plane of the nodes. */
+static int is_out(const scene *s, const double place[3])
+{
+    const int n = scene_normal(s);
+    return fabs(place[n] - s->node[0].position[n]) > within * size_of(s);
+}
+
+/* The turn k of a node: its axis. */
+static void axis_of(const scene_node *n, int k, double axis[3])
+{
+    memset(axis, 0, 3 * sizeof *axis);
+    if (n->rotation == SCENE_ROTATION_SEQUENCE)
+        memcpy(axis, n->axis[k], 3 * sizeof *axis);
+    else
+        axis[k] = 1;
+}
+
+static status check_turns(const scene *s, int i, fault *f)
+{
+    const scene_node *n = &s->node[i];
+    for (int k = 0; k < 3 && n->rotation != SCENE_ROTATION_FORK; k++) {
+        double axis[3];
+        axis_of(n, k, axis);
+        if (n->angle[k] >= 0 && is_beside(s, axis))
+            return refuse(s, scene_called(s, SCENE_NODES, i), "it is turned out of the plane", f);
+        if (n->angle[k] == SCENE_FREE && is_beside(s, axis) && is_across(s, axis))
+            return refuse(s, scene_called(s, SCENE_NODES, i),
+                          "it turns about an axis that is neither in the plane nor across it", f);
+    }
+    if (n->rotation == SCENE_ROTATION_FORK && is_across(s, n->axis[0]))
+        return refuse(s, scene_called(s, SCENE_NODES, i), "the axis of its fork leaves the plane",
+                      f);
+    if (n->rotation == SCENE_ROTATION_FORK && is_across(s, n->axis[1]) && is_beside(s, n->axis[1]))
+        return refuse(s, scene_called(s, SCENE_NODES, i),
+                      "the web of its fork is neither in the plane nor across it", f);
+    return STATUS_OK;
+}
+
+static status check_node(const scene *s, int i, fault *f)
+{
+    const scene_node *n = &s->node[i];
+    const scene_words who = scene_called(s, SCENE_NODES, i);
+    if (is_out(s, n->position))
+        return refuse(s, who, "it does not lie in one plane with the first node", f);
+    if (n->translation[scene_normal(s)] >= 0)
+        return refuse(s, who, "it is moved out of the plane", f);
+    if (scene_has_body(n) && is_across(s, n->body.centre))
+        return refuse(s, who, "the centre of its body lies beside the plane", f);
+    return check_turns(s, i, f);
+}
+
+/* Its axes at the begin: x along the chord. Of a member in the plane it is the same along it which
+ * of y and z are across. */
+static void axes_of(const scene *s, int member, double R[9])
+{
+    const scene_member *m = &s->member[member];
+    double along[3];
+    for (int k = 0; k < 3; k++)
+        along[k] = s->node[m->q].position[k] - s->node[m->p].position[k];
+    rotation_triad(along, m->y_axis, R);
+}
+
+static void to_fixed(const double R[9], const double v[3], double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = vec3_dot(&R[3 * i], v);
+}
+
+static status check_release(const scene *s, int i, const double R[9], fault *f)
+{
+    for (int end = 0; end < 2; end++) {
+        const scene_release *r = &s->member[i].release[end];
+        for (int k = 0; k < r->count; k++) {
+            const int c = r->component[k] % 3;
+            const double axis[3] = {R[c], R[3 + c], R[6 + c]};
+            if (is_across(s, axis) && is_beside(s, axis))
+                return refuse(s, scene_called(s, SCENE_MEMBERS, i),
+                              "it is released along or about an axis that is neither in the plane "
+                              "nor across it",
+                              f);
+        }
+    }
+    return STATUS_OK;
+}
+
+static status check_member(const scene *s, int i, fault *f)
+{
+    const scene_member *m = &s->member[i];
+    const scene_words who = scene_called(s, SCENE_MEMBERS, i);
+    double R[9], curvature[3], strain[3];
+    axes_of(s, i, R);
+    to_fixed(R, m->curvature, curvature);
+    to_fixed(R, m->strain, strain);
+    if (is_beside(s, curvature))
+        return refuse(s, who, "its initial curvature leaves the plane", f);
+    if (is_across(s, strain))
+        return refuse(s, who, "its initial strain leaves the plane", f);
+    return check_release(s, i, R, f);
+}
+
+static status check_load(const scene *s, int i, fault *f)
+{
+    const scene_load *l = &s->load[i];
+    const scene_words who = scene_called(s, SCENE_LOADS, i);
+    const int turns = scene_load_turns(l);
+    double R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, v[2][3], at[3];
+    if (l->axes == SCENE_AXES_MEMBER && scene_load_along(l))
+        axes_of(s, l->where, R);
+    to_fixed(R, l->vector, v[0]);
+    to_fixed(R, l->last, v[1]);
+    to_fixed(R, l->at, at);
+    for (int k = 0; k < 2; k++)
+        if (turns ? is_beside(s, v[k]) : is_across(s, v[k]))
+            return refuse(s, who, turns ? "it turns out of the plane" : "it acts out of the plane",
+                          f);
+    return is_across(s, at) ? refuse(s, who, "it acts beside the plane", f) : STATUS_OK;
+}
+
+/* An axis in the plane gives rise to forces in it, one across too; another one does not. */
+static status check_frame(const scene *s, int i, fault *f)
+{
+    const scene_rotating_frame *r = scene_rotating_frame_of(&s->analysis[i]);
+    if (r == NULL || !(vec3_norm(r->omega) > 0))
+        return STATUS_OK;
+    const int along = !is_beside(s, r->omega);
+    if (!along && (is_across(s, r->omega) || is_out(s, r->centre)))
+        return refuse(s, scene_called(s, SCENE_ANALYSES, i),
+                      "it rotates about an axis that is neither in the plane nor across it", f);
+    return STATUS_OK;
+}
+
+static status check_analysis(const scene *s, int i, fault *f)
+{
+    const scene_analysis *a = &s->analysis[i];
+    const scene_words who = scene_called(s, SCENE_ANALYSES, i);
+    if (a->kind == SCENE_CONTINUATION &&
+        scene_continuation_of(a)->control.component == scene_normal(s))
+        return refuse(s, who, "its control leaves the plane", f);
+    if (a->kind == SCENE_MOTION) {
+        const scene_start *start = &scene_motion_of(a)->start;
+        if (is_across(s, start->velocity) || is_beside(s, start->spin))
+            return refuse(s, who, "it starts with a velocity out of the plane", f);
+    }
+    return check_frame(s, i, f);
+}
+
+static int leaves(const scene *s, int component)
+{
+    return component < SCENE_RX ? component == scene_normal(s)
+                                : component - SCENE_RX != scene_normal(s);
+}
+
+static status check_driver(const scene *s, int i, fault *f)
+{
+    const scene_driver *d = &s->driver[i];
+    if (d->value == NULL && d->condition_driver != SCENE_NONE && leaves(s, d->condition_component))
+        return refuse(s, scene_called(s, SCENE_DRIVERS, i),
+                      "its value is found from a motion out of the plane", f);
+    return STATUS_OK;
+}
+
+/* What is held there has no stiffness, compliance or growth to tell. */
+static status check_quantity(const scene *s, int i, fault *f)
+{
+    const scene_quantity *q = &s->quantity[i];
+    const int entry =
+        q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY;
+    if (entry && (leaves(s, scene_entry_of(q)->row) || leaves(s, scene_entry_of(q)->column)))
+        return fault_set(
+            f, STATUS_REFUSED,
+            "quantity %s: it is of a motion out of the plane, and the scene is held in "
+            "its plane: take that or plane: %s away",
+            q->name, scene_plane_name(s));
+    return STATUS_OK;
+}
+
+status scene_validate_plane(const scene *s, fault *f)
+{
+    static status (*const check[])(const scene *, int, fault *) = {
+        check_node, check_member, check_load, check_driver, check_analysis, check_quantity};
+    const int count[] = {s->nodes, s->members, s->loads, s->drivers, s->analyses, s->quantities};
+    if (s->plane == SCENE_SPACE)
+        return STATUS_OK;
+    for (size_t k = 0; k < sizeof count / sizeof count[0]; k++)
+        for (int i = 0; i < count[k]; i++)
+            TRY(check[k](s, i, f));
     return STATUS_OK;
 }

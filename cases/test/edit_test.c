@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/scene/edit.h"
+#include "cases/scene/scene.h"
 #include "cases/test/refuse.h"
 
 /* A member with names of warping, divisions, and a load along it in its own axes that follows. */

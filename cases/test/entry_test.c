@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/entry.h"
+#include "cases/scene/scene.h"
 
 static void has_powers(void)
 {

@@ -1,6 +1,6 @@
 /* Formulas of the time: values and derivatives against differences, points without derivatives, and
  * what is refused at which character. */
-#include "cases/scene/formula.h"
+#include "cases/scene/scene.h"
 
 #include <gsl/gsl_test.h>
 #include <math.h>

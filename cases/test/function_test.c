@@ -1,6 +1,6 @@
 /* Functions of time in pieces: where one ends the next begins, which of them hang together, and
  * which are finite. */
-#include "cases/scene/function.h"
+#include "cases/scene/scene.h"
 
 #include <gsl/gsl_test.h>
 #include <math.h>

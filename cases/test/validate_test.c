@@ -3,7 +3,7 @@
  * accepted. */
 #include <math.h>
 
-#include "cases/scene/inputs.h"
+#include "cases/scene/scene.h"
 #include "cases/test/refuse.h"
 
 static const double x_axis[3] = {1, 0, 0}, zero[3] = {0, 0, 0};

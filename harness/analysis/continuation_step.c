@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/along_path.h"
+#include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
 status continuation_step_alloc(analysis_context *c, int analysis, outcome_continuation *o,

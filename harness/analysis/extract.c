@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 #include "elements/math/pi.h"
 #include "harness/model/model.h"
 #include "harness/time/time.h"

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/along_path.h"
+#include "cases/scene/scene.h"
 #include "elements/math/pi.h"
 #include "harness/model/model.h"
 

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/along_path.h"
-#include "cases/scene/inputs.h"
+#include "cases/scene/scene.h"
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/omission.h"
-#include "cases/scene/unit.h"
+#include "cases/scene/scene.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/study/study.h"

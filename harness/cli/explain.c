@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cases/format/format.h"
-#include "cases/scene/inputs.h"
+#include "cases/scene/scene.h"
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
 #include "harness/formulations/formulations.h"

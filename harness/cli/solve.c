@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "harness/cli/cli.h"
 #include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"

@@ -1,6 +1,6 @@
 #include "harness/exchange/exchange_impl.h"
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 
 int carried_static(const scene *s)
 {

@@ -2,8 +2,7 @@
 
 #include <stdlib.h>
 
-#include "cases/scene/along_path.h"
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 
 status deck_check(const deck_request *r, fault *f)
 {

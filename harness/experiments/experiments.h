@@ -14,7 +14,6 @@
 #include "cases/case.h"
 #include "cases/extremes/extreme.h"
 #include "cases/format/format.h"
-#include "cases/scene/omission.h"
 #include "cases/scene/scene.h"
 #include "elements/element.h"
 #include "elements/section/section.h"

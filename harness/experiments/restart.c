@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cases/format/format.h"
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 
 status restart_possible(const scene *s, fault *f)
 {

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "cases/scene/inputs.h"
+#include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 #include "elements/section/matrices.h"
 #include "elements/section/walls.h"

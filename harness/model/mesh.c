@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "elements/field/field_mass.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"

@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/analysis.h"
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
 /* What bends over a length l with ends that do not turn gives way by F l^3/(12 EI) and slides by F

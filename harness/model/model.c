@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "harness/formulations/formulations.h"
 
 /* In scenes with a motion, loads along members do their work on the field that its mass has. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 #include "elements/math/larger.h"
 #include "elements/math/offset.h"

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "cases/scene/along_path.h"
+#include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/section/matrices.h"

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 #include "elements/section/taper.h"
 

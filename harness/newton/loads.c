@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-#include "cases/scene/along_path.h"
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 #include "elements/math/larger.h"
 #include "elements/math/pi.h"

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "elements/field/field_mass.h"
 #include "elements/math/dense.h"
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
 status quadratic_forms_alloc(const equations *eq, const sparse *pattern, quadratic_forms *p,

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 
 /* A line for a value; for a curve one for each of its points, and one that says why it ends early.
  */

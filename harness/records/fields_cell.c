@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/omission.h"
+#include "cases/scene/scene.h"
 #include "elements/feature.h"
 #include "harness/model/model.h"
 

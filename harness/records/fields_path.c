@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "elements/feature.h"
 
 static void get_moments(const subject *s, field_value *out)

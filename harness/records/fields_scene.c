@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "cases/format/format.h"
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
 static const schema_field fields_of_scene[] = {

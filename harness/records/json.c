@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/omission.h"
+#include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
 enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };

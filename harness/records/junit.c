@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
-#include "cases/scene/omission.h"
+#include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
 static void escaped(FILE *to, const char *text)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/omission.h"
+#include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
 enum { MOST_ROWS = 50 }; /* a comment is read, not searched: the JSON has the rest */

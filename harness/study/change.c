@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
 /* Round-off is below a thousandth of these: of strains, of places and turns; and of other values.

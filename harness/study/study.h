@@ -14,7 +14,6 @@
 
 #include "cases/case.h"
 #include "cases/format/format.h"
-#include "cases/scene/edit.h"
 #include "cases/scene/scene.h"
 #include "elements/shared/status.h"
 #include "harness/analysis/analysis.h"

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cases/scene/omission.h"
+#include "cases/scene/scene.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/records/records.h"

@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/along_path.h"
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "elements/shared/choice.h"
 #include "harness/model/model.h"
 #include "harness/time/time.h"

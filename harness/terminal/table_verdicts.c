@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 
 enum { NAME = 23, LIMIT = 16, DOUBT = 7, ORDER = 5, MOST_RULES = 16 };
 

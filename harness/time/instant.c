@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/quantity_type.h"
+#include "cases/scene/scene.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 

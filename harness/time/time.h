@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_TIME_H
 #define BEAMWORK_TIME_H
 
-#include "cases/scene/quantity.h"
+#include "cases/scene/scene.h"
 #include "elements/shared/status.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"

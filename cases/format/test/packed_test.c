@@ -5,7 +5,7 @@
 
 #include "cases/format/format_impl.h"
 #include "cases/format/test/same_scene.h"
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "harness/formulations/formulations.h"
 
 static void compare_parameters(const char *name, const parameter_type *packed,

@@ -6,7 +6,7 @@
 
 #include "cases/format/format.h"
 #include "cases/format/test/same_scene.h"
-#include "cases/scene/unit.h"
+#include "cases/scene/scene.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 

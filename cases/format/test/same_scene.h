@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "cases/scene/entry.h"
+#include "cases/scene/scene.h"
 
 static inline int same_numbers(int n, const double a[], const double b[])
 {

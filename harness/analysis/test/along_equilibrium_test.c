@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/inputs.h"
+#include "cases/scene/scene.h"
 #include "elements/math/quadrature.h"
 #include "elements/test/sections.h"
 #include "elements/test/worst.h"

@@ -2,7 +2,7 @@
  * superposition, a compliance that is the derivative of the path, a critical load that is the limit
  * point of a continuation, a motion that stays in the balance that it starts from; what has no part
  * leaves the answer as it is; what is refused is refused by name, alone. */
-#include "cases/scene/inputs.h"
+#include "cases/scene/scene.h"
 
 #include <gsl/gsl_test.h>
 #include <math.h>

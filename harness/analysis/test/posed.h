@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/scene/inputs.h"
+#include "cases/scene/scene.h"
 #include "elements/test/sections.h"
 #include "harness/tools/kit/ask.h"
 

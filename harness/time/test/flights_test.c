@@ -3,7 +3,7 @@
  * the member change. */
 #include <stdio.h>
 
-#include "cases/scene/edit.h"
+#include "cases/scene/scene.h"
 #include "harness/time/test/flight.h"
 #include "harness/tools/kit/scenes.h"
 

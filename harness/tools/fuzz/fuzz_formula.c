@@ -3,7 +3,7 @@
  * zero where no t is. */
 #include <math.h>
 
-#include "cases/scene/function.h"
+#include "cases/scene/scene.h"
 #include "harness/tools/fuzz/fuzz.h"
 
 static const double instant[] = {0, 1e-3, 0.5, 1, -2, 1e6};

@@ -6,7 +6,7 @@
 #define BEAMWORK_TEST_ASK_H
 
 #include "cases/case.h"
-#include "cases/scene/edit.h"
+#include "cases/scene/scene.h"
 #include "harness/analysis/analysis.h"
 
 enum { ASK_QUANTITIES = 256, ASK_POINTS = 16 };

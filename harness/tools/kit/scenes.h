@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_TEST_SCENES_H
 #define BEAMWORK_TEST_SCENES_H
 
-#include "cases/scene/names.h"
+#include "cases/scene/scene.h"
 #include "harness/tools/kit/ask.h"
 #include "harness/tools/kit/cells.h"
 
