@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "cases/shared/hexapod.h"
+#include "cases/shared/shared.h"
 
 enum { STROKE = HEXAPOD_PARAMETERS, STEPS };
 enum { MAX_STEPS = 101 };

@@ -4,8 +4,7 @@
  * is judged by its own uncertainty. */
 #include <stddef.h>
 
-#include "cases/shared/hexapod.h"
-#include "cases/shared/timed.h"
+#include "cases/shared/shared.h"
 
 enum { CRANK_ANGLE = TIMED_PARAMETERS, DURATION };
 

@@ -1,7 +1,6 @@
 /* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z: compliance of
  * the deformed sheet. N section 4.1, Fig. 5. */
-#include "cases/shared/sheet.h"
-#include "cases/shared/sheet_prediction.h"
+#include "cases/shared/shared.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -2,8 +2,7 @@
  * axis, and stops there; a body of a tenth of the effector's mass floats between the two sets of
  * sheets.  After N section 4.2; what moves there moves slowly, masses are ours.  No truth is
  * stored: what meshes go to is judged by its own uncertainty. */
-#include "cases/shared/joint.h"
-#include "cases/shared/timed.h"
+#include "cases/shared/shared.h"
 
 #include <stddef.h>
 

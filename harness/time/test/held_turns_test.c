@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cases/shared/timed.h"
+#include "cases/shared/shared.h"
 #include "elements/math/rotation.h"
 #include "harness/time/test/moving.h"
 #include "harness/tools/kit/scenes.h"

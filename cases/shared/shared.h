@@ -1,0 +1,159 @@
+/* shared/: what built-in cases have in common. */
+#ifndef BEAMWORK_CASES_SHARED_SHARED_H
+#define BEAMWORK_CASES_SHARED_SHARED_H
+
+#include "cases/case.h"
+#include "cases/scene/scene.h"
+
+/* The spherical flexure joint of N section 4.2: base - three folded sheets - intermediate body -
+ * three more - end effector. All fold lines pass through the joint's centre. Geometry reconstructed
+ * from N Table 1 and its published stiffnesses. */
+
+/* The first parameters of every case with such joints, in this order. */
+enum {
+    JOINT_LENGTH,
+    JOINT_WIDTH,
+    JOINT_THICKNESS,
+    JOINT_YOUNG,
+    JOINT_POISSON,
+    JOINT_FOLD_ANGLE,
+    JOINT_RADIUS,
+    JOINT_POLAR,
+    JOINT_AZIMUTH,
+    JOINT_FOLD_WARPING,
+    JOINT_WAGNER,
+    JOINT_DIRECTION,
+    JOINT_PARAMETERS
+};
+
+/* Their entries. */
+extern const parameter_type joint_parameters[];
+
+#define JOINT_DEGREE 0.017453292519943295
+
+/* Section and physics that all joints of a scene share; refuses sheets that would reach through the
+ * centre. Returns the section's index in *profile. */
+status joint_prepare(const double value[], scene *s, int *profile, fault *f);
+
+/* Adds one joint between two bodies (nodes of the scene): centre [m], axes: columns are the joint's
+ * x (azimuth 0), y and z in global directions, row-major. Returns the node of the intermediate
+ * body, placed at the centre. */
+int joint_add(const double value[], scene *s, int profile, const double centre[3],
+              const double axes[9], int base, int effector);
+
+/* The flexure hexapod of N section 4.3: six legs, each of a crank, a rod and two spherical joints,
+ * carry a platform.  The published sizes are not in the paper: synthetic. */
+
+enum { HEXAPOD_LEGS = 6 };
+
+/* Parameters of every case with such a hexapod, behind those of its joints. */
+enum {
+    HEXAPOD_BASE_RADIUS = JOINT_PARAMETERS,
+    HEXAPOD_CRANK_LENGTH,
+    HEXAPOD_CRANK_AZIMUTH,
+    HEXAPOD_PLATFORM_RADIUS,
+    HEXAPOD_PLATFORM_AZIMUTH,
+    HEXAPOD_HEIGHT,
+    HEXAPOD_PARAMETERS
+};
+extern const parameter_type hexapod_parameters[];
+
+/* Nodes of what floats: the rod, at its lower end, and the bodies inside the joints, at their
+ * centres, the lower one first. */
+typedef struct hexapod_leg {
+    int rod, joint[2];
+} hexapod_leg;
+
+/* The platform's node at the centre of its joints; it is left free. */
+int hexapod_platform(const double value[], scene *s);
+/* All legs, cranks turned by the driver `angle` [rad] about horizontal tangents, positive upwards.
+ * Refuses cranks that reach beyond the centre. */
+status hexapod_add(const double value[], scene *s, int angle, int platform, int *profile,
+                   hexapod_leg legs[HEXAPOD_LEGS], fault *f);
+
+/* The clamped sheet flexure that several scenes share (N section 4.1): along x, its width along z,
+ * its thickness along y. */
+
+/* The first parameters of every such case, in this order. */
+enum {
+    SHEET_LENGTH,
+    SHEET_WIDTH,
+    SHEET_THICKNESS,
+    SHEET_YOUNG,
+    SHEET_POISSON,
+    SHEET_DEFLECTION,
+    SHEET_TIP_WARPING,
+    SHEET_WARPING,
+    SHEET_SHEAR,
+    SHEET_TRAPEZE,
+    SHEET_WAGNER,
+    SHEET_SHEAR_FACTOR,
+    SHEET_MOMENTS,
+    SHEET_PARAMETERS
+};
+
+/* Their entries. */
+extern const parameter_type sheet_parameters[];
+
+/* Steel-like sheet section; width along the member's local z. shear_factor 0: the formula. */
+void sheet_section(double width, double thickness, double young, double poisson,
+                   double shear_factor, section_spec *out);
+
+/* Section, nodes, member with a clamped root, physics and meshes.  The tip is left free; root and
+ * tip are returned. Refuses a tip deflection that the length cannot reach. */
+status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f);
+
+/* Compliance at the tip along a static path, prescribed motion replaced by its reactions: adds
+ * the entries C_<response>_<load> whose row and column are listed, as values at the end of the
+ * path. */
+void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int count);
+
+/* Closed-form solution of a clamped-free sheet flexure (N section 3.5, Eq. 54), by hand for the
+ * state of sheet_cantilever: tip displaced along y and not turned.  One Hellinger-Reissner
+ * interpolation for the whole sheet: a prediction, with an error of its own. */
+
+extern const char sheet_prediction_source[];
+
+typedef struct sheet_prediction {
+    double u_x;        /* tip displacement along x [m] */
+    double F_y, M_z;   /* reactions [N, N m] */
+    double C_xx, C_zz; /* compliance of the tip, spatial moments [m/N] */
+} sheet_prediction;
+
+/* tip_warps: 1, the tip is free to warp; shear: 0, rigid in shear; k: shear factor.  Values that do
+ * not exist are NAN. */
+sheet_prediction sheet_prediction_of(const section *c, double length, double deflection,
+                                     int tip_warps, int shear, scene_moments moments);
+
+/* What cases of motion in time have in common. */
+
+/* The first parameters of every such case, in this order. */
+enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETERS };
+#define TIMED_INTEGRATORS "alpha|conserving|radau|explicit"
+/* Defaults for judging meshes: error-controlled steps whose error of time is far below that of the
+ * meshes; what it is stands with each case. */
+#define TIMED_HOW(step, rule, tolerance)                                                           \
+    [TIMED_INTEGRATOR] = {"integrator",          "", SCENE_RADAU, 0, 0, TIMED_INTEGRATORS,         \
+                          "how it is integrated"},                                                 \
+    [TIMED_STEP] = {"step", "s", step, 1e-9, 1e3, NULL, "of the integration: " rule},              \
+    [TIMED_TOLERANCE] = {                                                                          \
+        "tolerance",                                                                               \
+        "1",                                                                                       \
+        tolerance,                                                                                 \
+        0,                                                                                         \
+        0.1,                                                                                       \
+        NULL,                                                                                      \
+        "of the error of time, relative to the largest motion; 0: all steps are alike"}
+
+/* A motion that ends when it is looked at; follows: SCENE_NONE, or a static path; start: velocities
+ * at its begin. */
+int timed_add(scene *s, const double value[], int follows, scene_start start);
+/* Where a node is: those of its coordinates x, y, z that have a name. size: what their errors are
+ * measured by where they are smaller [m]. */
+void timed_places(scene *s, int motion, int node, double size, const char *const name[3]);
+
+/* A driver that goes from 0 to `end` [m or rad] in that time [s] and stays: 10 s^3 - 15 s^4 + 6
+ * s^5, which begins and ends without acceleration. */
+int timed_driver(scene *s, double end, double duration);
+
+#endif
