@@ -2,10 +2,17 @@
  * a rigid motion and a potential make of them, and fixed-end forces of the uniform beam. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "elements/element.h"
 #include "elements/field/field.h"
+#include "elements/field/field_mass.h"
 #include "elements/math/dense.h"
+#include "elements/shared/status.h"
+#include "elements/sheet/potential.h"
+#include "elements/sheet/torsion.h"
+#include "elements/test/bimoment_values.h"
 #include "elements/test/nodes.h"
 #include "elements/test/random.h"
 #include "elements/test/sections.h"
@@ -235,7 +242,7 @@ static void fixed_ends(void)
         }
 }
 
-int main(void)
+static void field_tests(void)
 {
     const section c = angle();
     for (int nodes = 2; nodes <= 3; nodes++)
@@ -253,5 +260,282 @@ int main(void)
             }
         }
     fixed_ends();
+}
+
+/* What the mass inside of an element adds to its frequencies (elements/field/field_mass.h): every
+ * entry against the exact dynamic stiffness of uniform beams. */
+
+static const double inner_l0 = 0.8;
+
+static void add_inner(int i, int j, double value, double B[FIELD_INNER * FIELD_INNER])
+{
+    B[i * FIELD_INNER + j] = B[j * FIELD_INNER + i] = value;
+}
+
+/* B of a uniform element is what stands with -omega^4 in the power series of its exact dynamic
+ * stiffness: z = omega l sqrt(rho/E) in z cot(z), z/sin(z) of rods and shafts, z^4 = rho A
+ * omega^2 l^4/(E I) in Bernoulli's beam, (59 z^8/161700) E I/l^3 and so on. */
+static void field_inner_tests(void)
+{
+    const double A = 0.2, I[3] = {0.013, 0.007, 0.009}, density = 3, stiffness[2] = {A, 0.009},
+                 mass[2] = {density * A, density * 0.02};
+    section_spec spec = sections_of(A, I[0], I[1], I[2]);
+    spec.density = density;
+    const section c = sections_computed(&spec);
+    const element_request request = {.section = &c, .length = inner_l0, .features = FEATURE_MASS};
+    displacement_field f;
+    double B[FIELD_INNER * FIELD_INNER], exact[FIELD_INNER * FIELD_INNER] = {0};
+    field_prepare(&request, 2, &f);
+    field_inner(&request, &f, B);
+    for (int k = 0; k < 2; k++) {
+        const int p = 3 * k, q = NODE_COORDINATES + p;
+        const double b = mass[k] * mass[k] * inner_l0 * inner_l0 * inner_l0 / stiffness[k];
+        add_inner(p, p, b / 45, exact);
+        add_inner(q, q, b / 45, exact);
+        add_inner(p, q, b * 7 / 360, exact);
+    }
+    for (int across = 1; across < 3; across++) {
+        const int v = across, w = NODE_COORDINATES + v, t = across == 1 ? 5 : 4,
+                  u = NODE_COORDINATES + t;
+        const double b = mass[0] * mass[0] * pow(inner_l0, 5) / I[across == 1 ? 1 : 0],
+                     l = across == 1 ? inner_l0 : -inner_l0;
+        for (int side = 0; side < 2; side++) {
+            add_inner(side ? w : v, side ? w : v, b * 59 / 161700, exact);
+            add_inner(side ? u : t, side ? u : t, b * inner_l0 * inner_l0 * 71 / 4365900, exact);
+            add_inner(side ? w : v, side ? u : t, (side ? -1 : 1) * b * l * 223 / 2910600, exact);
+            add_inner(side ? w : v, side ? t : u, (side ? 1 : -1) * b * l * 1681 / 23284800, exact);
+        }
+        add_inner(v, w, b * 1279 / 3880800, exact);
+        add_inner(t, u, -b * inner_l0 * inner_l0 * 1097 / 69854400, exact);
+    }
+    for (int i = 0; i < FIELD_INNER; i++)
+        for (int j = 0; j < FIELD_INNER; j++) {
+            const double size = sqrt(exact[i * (FIELD_INNER + 1)] * exact[j * (FIELD_INNER + 1)]);
+            gsl_test(!(fabs(B[i * FIELD_INNER + j] - exact[i * FIELD_INNER + j]) <= 1e-11 * size),
+                     "B[%d][%d] = %.12g, not %.12g", i, j, B[i * FIELD_INNER + j],
+                     exact[i * FIELD_INNER + j]);
+        }
+}
+
+/* Coefficients of the third-order potential against values to 120 digits, and the limits of the
+ * stress functions. */
+
+extern const element_type element_sheet_second, element_sheet_third, element_sheet_third_printed;
+
+enum { COEFFICIENTS_N = 8, MX = 1, MYP, MYQ, MODES = 5 };
+enum {
+    ONE,
+    PX = 1 + SHEET_LOCAL_PX,
+    ZP = 1 + SHEET_LOCAL_ZP,
+    ZQ = 1 + SHEET_LOCAL_ZQ,
+    WP = 1 + SHEET_LOCAL_WP,
+    WQ = 1 + SHEET_LOCAL_WQ
+};
+
+/* Unit torques M, PP, PQ, QP, QQ: stress and the variable it is multiplied with. */
+static const int stress_of[MODES] = {MX, MYP, MYP, MYQ, MYQ},
+                 variable_of[MODES] = {ONE, ZP, ZQ, ZP, ZQ};
+
+static double find(int count, const sheet_potential_term terms[], int i, int j, int a, int b)
+{
+    for (int k = 0; k < count; k++)
+        if (terms[k].i == i && terms[k].j == j &&
+            ((terms[k].a == a && terms[k].b == b) || (terms[k].a == b && terms[k].b == a)))
+            return terms[k].c;
+    return 0;
+}
+
+static double error_of(double got, double expected)
+{
+    return expected == 0 ? fabs(got) : fabs(got / expected - 1);
+}
+
+/* A[k][l] of the table, lower triangle by rows. */
+static double compliance(const double value[], int k, int l)
+{
+    return k >= l ? value[k * (k + 1) / 2 + l] : value[l * (l + 1) / 2 + k];
+}
+
+/* What the table says of the coefficient of v_a v_b in A_ij: every pair of unit torques that makes
+ * it. */
+static double expected_compliance(const double value[], int i, int j, int a, int b)
+{
+    double sum = 0;
+    for (int k = 0; k < MODES; k++)
+        for (int l = 0; l < MODES; l++) {
+            const int va = variable_of[k], vb = variable_of[l];
+            if (stress_of[k] == i && stress_of[l] == j &&
+                ((va == a && vb == b) || (va == b && vb == a)))
+                sum += compliance(value, k, l);
+        }
+    return sum;
+}
+
+static void coefficients(void)
+{
+    static const int twist[3] = {PX, WP, WQ}, ends[3][2] = {{WP, WP}, {WP, WQ}, {WQ, WQ}};
+    double worst = 0;
+    for (size_t row = 0; row < sizeof bimoment_values / sizeof bimoment_values[0]; row++) {
+        const double lambda = bimoment_values[row].lambda, *value = bimoment_values[row].value;
+        /* L = GJ = 1, EIw = 1/lambda^2 */
+        const section c = {.young = 1,
+                           .shear_modulus = 1,
+                           .A = 1,
+                           .Iy = 1,
+                           .Iz = 1,
+                           .It = 1,
+                           .Iw = 1 / (lambda * lambda),
+                           .Ip = 2};
+        const element_request request = {.section = &c, .length = 1, .features = FEATURE_WARPING};
+        sheet_potential p;
+        gsl_test(sheet_coefficients_prepare(&request, bimoment_values[row].printed, &p, NULL) !=
+                     STATUS_OK,
+                 "potential, lambda = %g", lambda);
+        double error = 0;
+        for (int k = 0; k < MODES; k++)
+            for (int l = 0; l <= k; l++) {
+                const int i = stress_of[k], j = stress_of[l], a = variable_of[k],
+                          b = variable_of[l];
+                error = fmax(error, error_of(find(p.terms_A, p.A, i, j, a, b),
+                                             expected_compliance(value, i, j, a, b)));
+            }
+        for (int k = 0; k < MODES; k++)
+            for (int m = 0; m < 3; m++)
+                error = fmax(
+                    error, error_of(find(p.terms_b, p.b, stress_of[k], 0, variable_of[k], twist[m]),
+                                    value[15 + 3 * k + m]));
+        for (int m = 0; m < 3; m++)
+            error = fmax(error, error_of(find(p.terms_P0, p.P0, 0, 0, ends[m][0], ends[m][1]),
+                                         value[30 + m]));
+        gsl_test(!(error < 2e-14), "lambda = %g, sign of u_y %s: coefficients (%.1e)", lambda,
+                 bimoment_values[row].printed ? "printed" : "corrected", error);
+        worst = fmax(worst, error);
+    }
+    gsl_test(!(worst > 0 && worst < 2e-14), "largest relative error of all coefficients: %.1e",
+             worst);
+}
+
+/* Without warping stiffness the torque twists by t/GJ: the limit lambda -> inf, reached like
+ * 1/lambda. */
+static void uniform_torsion(void)
+{
+    static const double torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
+        {1}, {-1, 4, -5, 2}, {0, 2, -4, 2}, {0, 0, -2, 2}, {0, 0, -1, 2}};
+    sheet_torsion_integrals limit, near[2];
+    double error[2] = {0};
+    sheet_torsion_integrate(INFINITY, torque, &limit);
+    for (int n = 0; n < 2; n++) {
+        sheet_torsion_integrate(n == 0 ? 1e6 : 1e8, torque, &near[n]);
+        for (int k = 0; k < SHEET_TORSION_MODES; k++)
+            for (int l = 0; l < SHEET_TORSION_MODES; l++)
+                error[n] = fmax(error[n], fabs(near[n].compliance[k][l] - limit.compliance[k][l]));
+    }
+    gsl_test(!(error[0] < 3e-6 && fabs(error[1] / error[0] - 0.01) < 1e-3),
+             "lambda -> inf is uniform torsion (%.1e, %.1e)", error[0], error[1]);
+}
+
+static void stiffness_at_rest(const element_type *type, const section *c, unsigned features,
+                              double C[COEFFICIENTS_N * COEFFICIENTS_N])
+{
+    const double e[COEFFICIENTS_N] = {0};
+    const element_request request = {.section = c, .length = 0.9, .features = features};
+    element_data *d = calloc(1, type->data_size(&request));
+    gsl_test(d == NULL || type->prepare(&request, d, NULL) != STATUS_OK, "%s: prepared",
+             type->name);
+    type->stress(d, e, NULL, &(stress_output){.C = C});
+    free(d);
+}
+
+/* Undeformed, the third-order element is the second-order one: with shear in the width only, as N
+ * Eq. 50 has it, and up to the hyperbolic twist, which is the cubic one for lambda -> 0. */
+static void second_order_limit(void)
+{
+    section c = {.young = 3.1,
+                 .shear_modulus = 1.3,
+                 .A = 0.7,
+                 .Iy = 0.23,
+                 .Iz = 0.0117,
+                 .It = 0.031,
+                 .Iw = 1e4,
+                 .Ip = 0.2417};
+    double second[COEFFICIENTS_N * COEFFICIENTS_N], third[COEFFICIENTS_N * COEFFICIENTS_N],
+        worst = 0;
+    c.F[4] = 1 / (0.83 * c.A);
+    for (int warping = 0; warping < 2; warping++)
+        for (int printed = 0; printed < 2; printed++) {
+            const unsigned features = FEATURE_SHEAR | (warping ? FEATURE_WARPING : 0);
+            const element_type *type =
+                printed ? &element_sheet_third_printed : &element_sheet_third;
+            stiffness_at_rest(&element_sheet_second, &c, features, second);
+            stiffness_at_rest(type, &c, features, third);
+            /* without amplitudes e7 = e8 = e2: only their sum of stiffness counts */
+            if (!warping)
+                for (int pass = 0; pass < 2; pass++) {
+                    double *C = pass == 0 ? second : third;
+                    for (int i = 0; i < COEFFICIENTS_N; i++)
+                        C[COEFFICIENTS_N * i + 1] +=
+                            C[COEFFICIENTS_N * i + 6] + C[COEFFICIENTS_N * i + 7],
+                            C[COEFFICIENTS_N * i + 6] = C[COEFFICIENTS_N * i + 7] = 0;
+                    for (int j = 0; j < COEFFICIENTS_N; j++)
+                        C[COEFFICIENTS_N + j] +=
+                            C[COEFFICIENTS_N * 6 + j] + C[COEFFICIENTS_N * 7 + j],
+                            C[COEFFICIENTS_N * 6 + j] = C[COEFFICIENTS_N * 7 + j] = 0;
+                }
+            for (int i = 0; i < COEFFICIENTS_N; i++)
+                for (int j = 0; j < COEFFICIENTS_N; j++)
+                    worst = fmax(worst, fabs(third[COEFFICIENTS_N * i + j] -
+                                             second[COEFFICIENTS_N * i + j]) /
+                                            (sqrt(second[(COEFFICIENTS_N + 1) * i] *
+                                                  second[(COEFFICIENTS_N + 1) * j]) +
+                                             1e-300));
+        }
+    gsl_test(!(worst < 1e-14), "the undeformed third-order element is the second-order one (%.1e)",
+             worst);
+}
+
+static void sheet_coefficients_tests(void)
+{
+    coefficients();
+    uniform_torsion();
+    second_order_limit();
+}
+
+/* Lines of faults: as they are written, and with both ends where they are too long. */
+
+static void line_of(int length, int middle)
+{
+    char path[4000];
+    fault f;
+    memset(f.text, '#', sizeof f.text);
+    memset(path, 'p', sizeof path);
+    path[length] = '\0';
+    const status s = fault_set(&f, STATUS_FAULT, "culprit %s remedy", path);
+    const int whole = (int)strlen("culprit  remedy") + length < FAULT_TEXT;
+    gsl_test_int((int)s, STATUS_FAULT, "status");
+    gsl_test(memchr(f.text, '\0', sizeof f.text) == NULL, "%d characters: it ends", length);
+    gsl_test(strncmp(f.text, "culprit p", 9) != 0 ||
+                 strcmp(f.text + strlen(f.text) - 8, "p remedy") != 0,
+             "%d characters: both ends are there", length);
+    gsl_test((strstr(f.text, " ... ") == NULL) != whole || whole == middle,
+             "%d characters: the middle", length);
+    gsl_test(whole && strlen(f.text) != strlen("culprit  remedy") + (size_t)length,
+             "%d characters: all of them", length);
+}
+
+static void status_tests(void)
+{
+    const int most = FAULT_TEXT - 1 - (int)strlen("culprit  remedy");
+    for (int length = 1; length < 3999; length += length < 2 * FAULT_TEXT ? 1 : 97)
+        line_of(length, length > most);
+    gsl_test(fault_set(NULL, STATUS_SINGULAR, "nobody listens") != STATUS_SINGULAR,
+             "nobody listens");
+}
+
+int main(void)
+{
+    field_tests();
+    field_inner_tests();
+    sheet_coefficients_tests();
+    status_tests();
     return gsl_test_summary();
 }

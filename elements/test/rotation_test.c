@@ -3,11 +3,18 @@
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
+#include "elements/beamw/lanes.h"
+#include "elements/collocation/lanes.h"
+#include "elements/math/arc.h"
 #include "elements/math/dense.h"
 #include "elements/math/pi.h"
+#include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
+#include "elements/sheet/lanes.h"
+#include "elements/test/lanes_batch.h"
 
 static const double eps = 4 * DBL_EPSILON;
 static const double axis[3] = {0.48, -0.6, 0.64}; /* of length 1 */
@@ -132,7 +139,7 @@ static void triads(void)
     gsl_test_int(rotation_triad(zero, y, R), -1, "nor from a vector of length zero");
 }
 
-int main(void)
+static void rotation_tests(void)
 {
     for (double angle = -2 * PI; angle < 2 * PI + 0.1; angle += PI / 16)
         one_angle(angle);
@@ -141,5 +148,319 @@ int main(void)
     small_angles();
     products();
     triads();
+}
+
+/* Points along an arc of constant curvature, beside the integral of its tangent: the deflections
+ * across it have all their digits, however flat or wound it is. */
+
+enum { POINTS = 16 };
+
+/* r = int exp(turn s) e ds from 0 to x: r less x e, from what a turn adds to e, so that nothing
+ * cancels. The integrand is (sin w)/w t x e + (1 - cos w)/w^2 t x (t x e), t = turn s. */
+static void integrate(const double turn[3], const double e[3], double x, double across[3])
+{
+    double at[POINTS], weight[POINTS];
+    quadrature_points(POINTS, at, weight);
+    across[0] = across[1] = across[2] = 0;
+    for (int i = 0; i < POINTS; i++) {
+        const double s = x * at[i], part[3] = {turn[0] * s, turn[1] * s, turn[2] * s},
+                     w = vec3_norm(part), half = sin(w / 2);
+        double once[3], twice[3];
+        vec3_cross(part, e, once);
+        vec3_cross(part, once, twice);
+        for (int k = 0; k < 3; k++)
+            across[k] += x * weight[i] *
+                         (w > 0 ? sin(w) / w * once[k] + 2 * half * half / (w * w) * twice[k] : 0);
+    }
+}
+
+static void compare(double angle, double x)
+{
+    static const double direction[][3] = {{0, 0, 1}, {0, 1, 0}, {0.6, 0, 0.8}, {0, 0.6, -0.8}},
+                        e[] = {1.01, 0, 0}, sheared[] = {0.98, 0.03, -0.02};
+    for (int i = 0; i < 4; i++)
+        for (int shear = 0; shear < 2; shear++) {
+            const double *along = shear ? sheared : e;
+            double turn[3], r[3], q[4], exact[3], right[4], worst = 0, turned = 0;
+            for (int k = 0; k < 3; k++)
+                turn[k] = angle * direction[i][k];
+            arc_at(turn, along, x, r, q);
+            integrate(turn, along, x, exact);
+            const double size = vec3_norm(exact), digits = 1e-15 * x * 2;
+            for (int k = 0; k < 3; k++)
+                worst = fmax(worst, fabs(r[k] - x * along[k] - exact[k]));
+            gsl_test(!(worst <= 2e-12 * size + digits), "%g rad, at %g: off by %.1e of %.1e", angle,
+                     x, worst, size);
+            const double part[3] = {turn[0] * x, turn[1] * x, turn[2] * x};
+            rotation_exp(part, right);
+            for (int k = 0; k < 4; k++)
+                turned = fmax(turned, fabs(q[k] - right[k]));
+            gsl_test(!(turned < 1e-15), "%g rad, at %g: orientation off by %.1e", angle, x, turned);
+        }
+}
+
+static void arc_tests(void)
+{
+    static const double angle[] = {0,   1e-12, 1e-8, 1e-6, 9e-5, 1.1e-4, 1e-3, 0.01,
+                                   0.1, 0.25,  0.29, 0.31, 0.5,  1,      2,    3},
+                        x[] = {0.1, 0.5, 1};
+    for (size_t i = 0; i < sizeof angle / sizeof angle[0]; i++)
+        for (int k = 0; k < 3; k++)
+            compare(angle[i], x[k]);
+}
+
+/* Newton's equations of many elements at once have the numbers of one at a time, with and without
+ * AVX2. */
+
+extern const element_type element_sheet_second, element_sheet_second_consistent,
+    element_sheet_third, element_sheet_third_printed;
+
+typedef void equations_function(int count, const element_data *const data[], const node_state x[],
+                                const double *const e[], const double *const inner[],
+                                const double *const s[], equations_output out[], status outcome[]);
+
+static const struct {
+    const element_type *type;
+    equations_function *equations; /* beside the one that the type chooses for the processor */
+} family[] = {{&element_sheet_second, sheet_lanes_second_equations_plain},
+              {&element_sheet_second_consistent, sheet_lanes_second_equations_plain},
+              {&element_sheet_third, sheet_lanes_third_equations_plain},
+              {&element_sheet_third_printed, sheet_lanes_third_equations_plain}};
+
+/* Equations of one element. */
+typedef struct whole {
+    double J[S * X], C[S * S], incompatibility[S], sigma[S], force[X], present[X], K[X * X];
+    status outcome;
+} whole;
+
+/* From its strains and stresses, by the sums of elements/math/dense.h. */
+static void alone_of(const batch *b, int k, const double e[], int tangent, whole *out)
+{
+    const int n = b->strains, columns = NODE_COORDINATES * b->nodes;
+    double more[S], work[S * X];
+    memset(out, 0, sizeof *out);
+    strain_output strain = {.e = out->incompatibility,
+                            .J = out->J,
+                            .s = tangent ? b->weight[k] : NULL,
+                            .H = tangent ? out->K : NULL};
+    stress_output stress = {.sigma = out->sigma, .C = out->C};
+    b->type->strain(b->data[k], b->x + k * b->nodes, &strain);
+    out->outcome = b->type->stress(b->data[k], e, NULL, &stress);
+    for (int i = 0; i < n; i++)
+        out->incompatibility[i] -= e[i];
+    dense_mul_vec(n, n, out->C, out->incompatibility, more);
+    for (int i = 0; i < n; i++)
+        out->sigma[i] += more[i];
+    dense_add_transpose_mul(columns, n, 1, out->J, out->sigma, out->force);
+    dense_add_transpose_mul(columns, n, 1, out->J, b->weight[k], out->present);
+    if (tangent)
+        dense_add_congruence(n, columns, out->J, out->C, out->K, work);
+}
+
+/* Other numbers; zero has no sign here: that of a sum of nothing is anyone's. */
+static int differs(const whole *a, const whole *b)
+{
+    const double *p = a->J, *q = b->J;
+    int different = a->outcome != b->outcome;
+    for (size_t i = 0; i < offsetof(whole, outcome) / sizeof *p && a->outcome == STATUS_OK; i++)
+        different |= p[i] != q[i];
+    return different;
+}
+
+static void equations(batch *b, equations_function *many, int first, int count, int tangent)
+{
+    equations_output out[MANY];
+    const double *e[MANY], *s[MANY], *inner[MANY] = {NULL};
+    double at[MANY][S];
+    status outcome[MANY];
+    static whole together[MANY], alone;
+    int different = 0;
+    memset(together, 0, sizeof together);
+    for (int k = 0; k < count; k++) {
+        whole *w = &together[k];
+        for (int i = 0; i < b->strains; i++)
+            at[k][i] = 0.93 * b->alone[first + k].e[i];
+        e[k] = at[k];
+        s[k] = b->weight[first + k];
+        out[k] = (equations_output){.J = w->J,
+                                    .C = w->C,
+                                    .incompatibility = w->incompatibility,
+                                    .sigma = w->sigma,
+                                    .force = w->force,
+                                    .present = w->present,
+                                    .K = tangent ? w->K : NULL};
+    }
+    many(count, b->data + first, b->x + first * b->nodes, e, inner, s, out, outcome);
+    for (int k = 0; k < count; k++) {
+        together[k].outcome = outcome[k];
+        alone_of(b, first + k, e[k], tangent, &alone);
+        different += differs(&alone, &together[k]);
+    }
+    gsl_test_int(different, 0, "%s: elements of other equations, %d at once, tangent %d", b->name,
+                 count, tangent);
+}
+
+static void compare_equations(batch *b, equations_function *many)
+{
+    for (int count = 1; count <= MANY; count++)
+        for (int first = 0; first + count <= MANY; first++)
+            for (int tangent = 0; tangent < 2; tangent++)
+                equations(b, many, first, count, tangent);
+}
+
+static void lanes_equations_tests(void)
+{
+    for (size_t i = 0; i < sizeof family / sizeof family[0]; i++)
+        for (int k = 0; k < BATCH_FEATURES; k++) {
+            batch b = batch_of(family[i].type, NULL, 0, k);
+            compare_equations(&b, b.type->equations_many);
+            b.name = "without AVX2";
+            compare_equations(&b, family[i].equations);
+            batch_free(&b);
+        }
+}
+
+/* Strains and stresses of many elements at once have the bits of one at a time, with and without
+ * AVX2. */
+
+extern const element_type element_beamw, element_beamw_vlasov, element_beamw_first,
+    element_beamw_consistent;
+extern const element_type element_sheet_second, element_sheet_second_consistent,
+    element_sheet_third, element_sheet_third_printed, element_collocation,
+    element_geometrically_exact;
+
+typedef void strains_function(int count, const element_data *const data[], const node_state x[],
+                              strain_output out[]);
+typedef void stresses_function(int count, const element_data *const data[], const double *const e[],
+                               const double *const inner[], stress_output out[], status outcome[]);
+
+/* What a family exports beside the functions that its types choose for the processor. */
+static const struct {
+    const element_type *type;
+    strains_function *strain;
+    stresses_function *stress;
+    double option[3]; /* the first ones */
+} lanes_family[] = {
+    {&element_beamw, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},
+    {&element_beamw_vlasov, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},
+    {&element_beamw_first, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},
+    {&element_beamw_consistent, beamw_lanes_helicoidal_plain, beamw_lanes_consistent_plain, {0}},
+    {&element_beamw_consistent,
+     beamw_lanes_helicoidal_plain,
+     beamw_lanes_consistent_plain,
+     {0, 0, 1}},
+    {&element_beamw_consistent,
+     beamw_lanes_helicoidal_plain,
+     beamw_lanes_consistent_plain,
+     {0, 1, 1}},
+    {&element_sheet_second, sheet_lanes_strain_plain, sheet_lanes_second_plain, {0}},
+    {&element_sheet_second_consistent, sheet_lanes_strain_plain, sheet_lanes_second_plain, {0}},
+    {&element_sheet_third, sheet_lanes_strain_plain, sheet_lanes_third_plain, {0}},
+    {&element_sheet_third_printed, sheet_lanes_strain_plain, sheet_lanes_third_plain, {0}},
+    {&element_collocation, exact_lanes_stages_strain_plain, exact_lanes_stages_stress_plain, {2}},
+    {&element_collocation, exact_lanes_stages_strain_plain, exact_lanes_stages_stress_plain, {5}},
+    {&element_geometrically_exact,
+     exact_lanes_gauss_strain_plain,
+     exact_lanes_gauss_stress_plain,
+     {0}},
+    {&element_geometrically_exact,
+     exact_lanes_gauss_strain_plain,
+     exact_lanes_gauss_stress_plain,
+     {1}},
+};
+
+/* The strains wanted: e, J and H by the bits of what. */
+static strain_output strain_of(const batch *b, int k, answers *a, int what)
+{
+    return (strain_output){.e = what & 1 ? a->e : NULL,
+                           .J = what & 2 ? a->J : NULL,
+                           .s = what & 4 ? b->weight[k] : NULL,
+                           .H = what & 4 ? a->H : NULL};
+}
+
+static stress_output stress_of(const batch *b, answers *a, int what)
+{
+    return (stress_output){.energy = what & 1 ? &a->energy : NULL,
+                           .sigma = what & 2 ? a->sigma : NULL,
+                           .C = what & 4 ? a->C : NULL,
+                           .residual = what & 1 ? &a->residual : NULL,
+                           .memory = what & 4 && b->type->memory != NULL ? a->memory : NULL};
+}
+
+/* Elements [first, first + count) at once. */
+static void strains(batch *b, strains_function *many, int first, int count, int what)
+{
+    strain_output out[MANY];
+    answers together[MANY], alone;
+    int different = 0;
+    memset(together, 0, sizeof together);
+    for (int k = 0; k < count; k++)
+        out[k] = strain_of(b, first + k, &together[k], what);
+    many(count, b->data + first, b->x + first * b->nodes, out);
+    for (int k = 0; k < count; k++) {
+        memset(&alone, 0, sizeof alone);
+        strain_output one = strain_of(b, first + k, &alone, what);
+        b->type->strain(b->data[first + k], b->x + (first + k) * b->nodes, &one);
+        different += memcmp(&alone, &together[k], sizeof alone) != 0;
+    }
+    gsl_test_int(different, 0, "%s: elements of other strains, %d at once, wanted %d", b->name,
+                 count, what);
+}
+
+static void stresses(batch *b, stresses_function *many, int first, int count, int what)
+{
+    stress_output out[MANY];
+    const double *e[MANY] = {NULL}, *inner[MANY];
+    status outcome[MANY];
+    answers together[MANY], alone;
+    int different = 0;
+    memset(together, 0, sizeof together);
+    for (int k = 0; k < count; k++) {
+        out[k] = stress_of(b, &together[k], what);
+        e[k] = b->alone[first + k].e;
+        inner[k] = b->inner[first + k];
+    }
+    many(count, b->data + first, e, inner, out, outcome);
+    for (int k = 0; k < count; k++) {
+        memset(&alone, 0, sizeof alone);
+        stress_output one = stress_of(b, &alone, what);
+        const status ended = b->type->stress(b->data[first + k], e[k], inner[k], &one);
+        different += ended != outcome[k] ||
+                     (ended == STATUS_OK && memcmp(&alone, &together[k], sizeof alone) != 0);
+    }
+    gsl_test_int(different, 0, "%s: elements of other stresses, %d at once, wanted %d", b->name,
+                 count, what);
+}
+
+static void lanes_compare(batch *b, strains_function *strain, stresses_function *stress)
+{
+    for (int what = 1; what < 8; what++)
+        for (int count = 1; count <= MANY; count++)
+            for (int first = 0; first + count <= MANY; first += 3) {
+                if (strain != NULL)
+                    strains(b, strain, first, count, what);
+                if (stress != NULL)
+                    stresses(b, stress, first, count, what);
+            }
+}
+
+static void lanes_tests(void)
+{
+    for (size_t i = 0; i < sizeof lanes_family / sizeof lanes_family[0]; i++)
+        for (int k = 0; k < BATCH_FEATURES; k++) {
+            batch b = batch_of(lanes_family[i].type, lanes_family[i].option, 3, k);
+            lanes_compare(&b, b.type->strain_many, b.type->stress_many);
+            b.name = "without AVX2";
+            lanes_compare(&b, lanes_family[i].strain, lanes_family[i].stress);
+            batch_free(&b);
+        }
+}
+
+int main(void)
+{
+    rotation_tests();
+    arc_tests();
+    lanes_equations_tests();
+    lanes_tests();
     return gsl_test_summary();
 }

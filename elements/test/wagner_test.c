@@ -4,9 +4,12 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "elements/math/pi.h"
 #include "elements/math/quadrature.h"
+#include "elements/section/stress.h"
+#include "elements/section/taper.h"
 #include "elements/section/walls.h"
 #include "elements/test/sections.h"
 
@@ -220,7 +223,7 @@ static void ring(void)
              "polygon: %g of Ip^2/A", c.wagner_torque / (c.Ip * c.Ip / c.A));
 }
 
-int main(void)
+static void wagner_tests(void)
 {
     for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; i++)
         for (int k = 0; k < 6; k++) {
@@ -234,5 +237,339 @@ int main(void)
     strip(0.05, 0.05);
     strip(0.1, 3e-4);
     ring();
+}
+
+/* Stresses at the points of sections: integrated over the walls they are the resultants that made
+ * them; a rectangle's torsion is Saint-Venant's, whose published coefficients are Timoshenko's
+ * (Theory of Elasticity, 1970, section 109). */
+
+static stress_points points_of(const section_spec *spec, const section *c)
+{
+    static stress_points p;
+    fault f = {""};
+    gsl_test(stress_points_of(spec, c, &p, &f) != STATUS_OK, "points (%s)", f.text);
+    return p;
+}
+
+static double most(const stress_points *p, stress_resultants r, stress_measure what)
+{
+    return stress_of(p, &r, what);
+}
+
+static section_spec rectangle_spec(double width, double height)
+{
+    section_spec spec = sections_steel(SECTION_RECTANGLE);
+    spec.width = width;
+    spec.height = height;
+    return spec;
+}
+
+/* T = k1 (2a)^2 2b tau, b/a: Timoshenko's table. */
+static void torsion(double ratio, double coefficient, int flat)
+{
+    const double t = 0.01, w = ratio * t;
+    const section_spec spec = flat ? rectangle_spec(w, t) : rectangle_spec(t, w);
+    const section c = sections_computed(&spec);
+    const stress_points p = points_of(&spec, &c);
+    const double torque = 5,
+                 mises = most(&p, (stress_resultants){.twist = torque / (c.shear_modulus * c.It)},
+                              STRESS_VON_MISES);
+    gsl_test_rel(mises, sqrt(3) * torque / (coefficient * t * t * w), 2.5e-3,
+                 "torsion of 1 : %g, flat %d", ratio, flat);
+}
+
+/* The stress function's slope at the middles of the sides, by the double sine series. */
+static void torsion_exact(void)
+{
+    const double t = 0.02, w = 0.03;
+    const section_spec spec = rectangle_spec(w, t);
+    const section c = sections_computed(&spec);
+    const stress_points p = points_of(&spec, &c);
+    double shorter = 0; /* single series in 1/cosh of the other direction */
+    for (int n = 1; n < 200; n += 2)
+        shorter += 1 / (n * n * cosh(n * PI * t / (2 * w)));
+    for (int i = 0; i < p.count;
+         i++) /* tau_xy at z = w/2: the long side of the rectangle seen from z */
+        if (p.point[i].y == 0 && p.point[i].z > 0)
+            gsl_test_rel(p.point[i].across[3][0], -w * (1 - 8 / (PI * PI) * shorter), 1e-3,
+                         "middle of the short side, by the other series");
+}
+
+static void rectangle(void)
+{
+    const double w = 0.05, h = 0.02;
+    const section_spec spec = rectangle_spec(w, h);
+    const section c = sections_computed(&spec);
+    const stress_points p = points_of(&spec, &c);
+    const stress_resultants bent = {.N = 1e3, .My = 30, .Mz = -20};
+    const double N = 1e3 / (w * h), M = 30 * 6 / (h * w * w) + 20 * 6 / (w * h * h);
+    gsl_test_rel(most(&p, bent, STRESS_NORMAL_MAX), N + M, 1e-12, "corner in tension");
+    gsl_test_rel(most(&p, bent, STRESS_NORMAL_MIN), N - M, 1e-12, "corner in compression");
+    gsl_test_rel(most(&p, bent, STRESS_VON_MISES), M + N, 1e-12, "no shear at corners");
+    gsl_test_rel(most(&p, (stress_resultants){.Qy = 600}, STRESS_VON_MISES),
+                 sqrt(3) * 1.5 * 600 / (w * h), 1e-12, "shear parabola");
+    gsl_test_rel(most(&p, (stress_resultants){.Qy = 600, .Qz = -800}, STRESS_VON_MISES),
+                 sqrt(3) * 1.5 * 1000 / (w * h), 1e-12, "both parabolas at the centre");
+    gsl_test_rel(most(&p, (stress_resultants){.bimoment = -2}, STRESS_NORMAL_MAX),
+                 2 * w * h / 4 / c.Iw, 1e-12, "bimoment");
+    gsl_test_rel(most(&p, (stress_resultants){.warping = 2}, STRESS_VON_MISES),
+                 sqrt(3) * 2 * w / 2 * h * h / (8 * c.Iw), 1e-12, "shear of the warping");
+    gsl_test_rel(most(&p, (stress_resultants){.twist = 0.1, .turned = 1}, STRESS_NORMAL_MAX),
+                 c.young * 0.005 * (w * w + h * h) / 6, 1e-12, "fibres at the corners, turned");
+    const section_spec high = rectangle_spec(h, w);
+    const section d = sections_computed(&high);
+    const stress_points q = points_of(&high, &d);
+    gsl_test_rel(most(&q, (stress_resultants){.warping = 2, .bimoment = 1}, STRESS_VON_MISES),
+                 most(&p, (stress_resultants){.warping = 2, .bimoment = 1}, STRESS_VON_MISES),
+                 1e-12, "lying and standing");
+}
+
+/* Resultants of the stresses that resultants make in walls: Simpson's rule is exact, for all are
+ * quadratic along a wall. */
+static void integrated(const char *name, const section_spec *spec)
+{
+    static const double by[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+    const section c = sections_computed(spec);
+    const stress_points p = points_of(spec, &c);
+    for (int k = 0; k < 4; k++) {
+        double Q[2] = {0}, torque = 0;
+        int from = 0;
+        while (from <
+               p.count) { /* ends and middle of a wall on both surfaces, then more points of it */
+            const stress_point *at = &p.point[from];
+            const double length = hypot(at[4].y - at[0].y, at[4].z - at[0].z);
+            double t = 0;
+            for (int w = 0; w < spec->walls; w++) { /* walls of the tests differ in length */
+                const double *a = spec->point[spec->wall[w].from],
+                             *b = spec->point[spec->wall[w].to];
+                if (fabs(hypot(b[0] - a[0], b[1] - a[1]) - length) < 1e-9)
+                    t = spec->wall[w].thickness;
+            }
+            for (int i = 0; i < 6; i++) {
+                const double share = length * t * (i / 2 == 1 ? 4 : 1) / 12;
+                double tau[2] = {0};
+                for (int r = 0; r < 4; r++)
+                    for (int j = 0; j < 2; j++)
+                        tau[j] += by[k][r] * at[i].across[r][j];
+                Q[0] += share * tau[0];
+                Q[1] += share * tau[1];
+                torque += share * ((at[i].y - c.ys) * tau[1] - (at[i].z - c.zs) * tau[0]);
+            }
+            if (k ==
+                3) /* what varies through the wall: half of t^3/3, the other half is across it */
+                torque += length * t * t * t / 3;
+            from += 6;
+            while (from < p.count && (p.count - from) >= 2 &&
+                   fabs((p.point[from].y - at[0].y) * (at[4].z - at[0].z) -
+                        (p.point[from].z - at[0].z) * (at[4].y - at[0].y)) < 1e-12 &&
+                   hypot(p.point[from].y - at[4].y, p.point[from].z - at[4].z) > 1e-12 &&
+                   hypot(p.point[from].y - at[0].y, p.point[from].z - at[0].z) > 1e-12 &&
+                   hypot(p.point[from].y - at[0].y, p.point[from].z - at[0].z) < length)
+                from += 2;
+        }
+        const double scale = k == 3 ? c.It : 1, arm = sqrt(c.Ip / c.A);
+        gsl_test_abs(Q[0], k == 0, 1e-10 * (k == 3 ? c.It / arm : 1 / (k == 2 ? arm : 1)),
+                     "%s: Qy of unit %d", name, k);
+        gsl_test_abs(Q[1], k == 1, 1e-10 * (k == 3 ? c.It / arm : 1 / (k == 2 ? arm : 1)),
+                     "%s: Qz of unit %d", name, k);
+        gsl_test_abs(torque,
+                     k == 2   ? c.Iw > 0
+                     : k == 3 ? c.It
+                              : 0,
+                     1e-10 * fmax(scale, arm), "%s: torque of unit %d about the shear centre", name,
+                     k);
+    }
+}
+
+static section_spec walls_spec(int points, const double point[][2], int walls, const int ends[][2],
+                               const double thickness[], int cells)
+{
+    section_spec spec = sections_steel(SECTION_WALLS);
+    spec.points = points;
+    spec.walls = walls;
+    spec.cells = cells;
+    memcpy(spec.point, point, (size_t)points * sizeof spec.point[0]);
+    for (int i = 0; i < walls; i++) {
+        spec.wall[i].from = ends[i][0];
+        spec.wall[i].to = ends[i][1];
+        spec.wall[i].thickness = thickness[i];
+    }
+    return spec;
+}
+
+static void tube(void)
+{
+    section_spec spec = sections_steel(SECTION_TUBE);
+    spec.diameter = 0.1;
+    spec.wall_thickness = 0.01;
+    const section c = sections_computed(&spec);
+    const stress_points p = points_of(&spec, &c);
+    const double bend = 500 * 0.05 / c.Iy, turn = 200 * 0.05 / c.It;
+    gsl_test_rel(
+        most(&p, (stress_resultants){.My = 300, .Mz = 400, .twist = 200 / (c.shear_modulus * c.It)},
+             STRESS_VON_MISES),
+        sqrt(bend * bend + 3 * turn * turn), 1e-12, "tube bent and twisted");
+}
+
+static void stress_tests(void)
+{
+    static const double channel[][2] = {{0.05, 0}, {0, 0.001}, {0, 0.1}, {0.06, 0.11}},
+                        box[][2] = {{0, 0}, {0.1, 0.01}, {0.11, 0.07}, {0, 0.05}, {0.16, 0.08}};
+    static const int chain[][2] = {{0, 1}, {2, 1}, {2, 3}},
+                     ring[][2] = {{0, 1}, {1, 2}, {3, 2}, {3, 0}, {2, 4}};
+    static const double thin[] = {2e-3, 3e-3, 4e-3}, walls[] = {2e-3, 1e-3, 3e-3, 2e-3, 1.5e-3};
+    static const double table[][2] = {{1, 0.208}, {1.5, 0.231}, {2, 0.246},  {3, 0.267},
+                                      {5, 0.291}, {10, 0.312},  {100, 0.333}};
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
+        for (int flat = 0; flat < 2; flat++)
+            torsion(table[i][0], i == 6 ? 0.3313 : table[i][1], flat);
+    torsion_exact();
+    rectangle();
+    tube();
+    const section_spec open = walls_spec(4, channel, 3, chain, thin, 0),
+                       closed = walls_spec(5, box, 5, ring, walls, 1);
+    integrated("channel", &open);
+    integrated("box with a lip", &closed);
+    const section_spec given = section_spec_constants(1, 1);
+    stress_points p;
+    fault f = {""};
+    gsl_test(stress_points_of(&given, &given.constants, &p, &f) != STATUS_REFUSED ||
+                 strstr(f.text, "no points") == NULL,
+             "given constants are refused (%s)", f.text);
+}
+
+/* Sections that change along a member: their ends, their middle, and what is refused. */
+
+/* Doubly symmetric, web along z. */
+static section_spec i_shape(double depth, double flange, double thickness)
+{
+    const double b = flange / 2, h = depth / 2,
+                 point[][2] = {{-b, h}, {0, h}, {b, h}, {-b, -h}, {0, -h}, {b, -h}},
+                 thick[] = {thickness, thickness, 1e-3, thickness, thickness};
+    static const int ends[][2] = {{0, 1}, {1, 2}, {1, 4}, {3, 4}, {4, 5}};
+    return section_spec_walls(2e11, 8e10, 5, point, ends, thick);
+}
+
+static status checked(const section_spec *p, const section_spec *q, fault *f)
+{
+    const section a = sections_computed(p), b = sections_computed(q), *const ends[] = {&a, &b};
+    return section_taper_check(p, q, ends, f);
+}
+
+static void ends_are_ends(const char *name, const section_spec *p, const section_spec *q)
+{
+    section_spec at;
+    const section ends[] = {sections_computed(p), sections_computed(q)};
+    for (int k = 0; k < 2; k++) {
+        section_taper_at(p, q, k, &at);
+        const section c = sections_computed(&at);
+        gsl_test_rel(c.A, ends[k].A, 1e-14, "%s, end %d: A", name, k);
+        gsl_test_rel(c.Iy, ends[k].Iy, 1e-14, "%s, end %d: Iy", name, k);
+        gsl_test_rel(c.It, ends[k].It, 1e-14, "%s, end %d: It", name, k);
+        gsl_test_rel(c.F[0], ends[k].F[0], 1e-13, "%s, end %d: F", name, k);
+    }
+}
+
+static void rectangles(void)
+{
+    section_spec p = section_spec_rectangle(2e11, 8e10, 0.04, 0.02),
+                 q = section_spec_rectangle(1e11, 6e10, 0.02, 0.03), at;
+    fault f = {""};
+    p.density = 8000;
+    q.density = 4000;
+    gsl_test(checked(&p, &q, &f) != STATUS_OK, "rectangles: %s", f.text);
+    ends_are_ends("rectangle", &p, &q);
+    section_taper_at(&p, &q, 0.25, &at);
+    const section c = sections_computed(&at);
+    gsl_test_rel(c.A, 0.035 * 0.0225, 1e-15, "a quarter along: both sizes are linear");
+    gsl_test_rel(c.young, 1.75e11, 1e-15, "a quarter along: E");
+    gsl_test_rel(c.density, 7000, 1e-15, "a quarter along: density");
+    p.given.It = 1e-9;
+    gsl_test(checked(&p, &q, &f) != STATUS_REFUSED || strstr(f.text, "'It'") == NULL,
+             "given at one end only: %s", f.text);
+    q.given.It = 3e-9;
+    gsl_test(checked(&p, &q, &f) != STATUS_OK, "given at both: %s", f.text);
+    section_taper_at(&p, &q, 0.25, &at);
+    gsl_test_rel(sections_computed(&at).It, 1.5e-9, 1e-15, "a quarter along: a given constant");
+}
+
+static void constants(void)
+{
+    section_spec p = section_spec_constants(1, 1), q, at;
+    p.constants = (section){.A = 1, .Iy = 2, .Iz = 3, .It = 4, .Ip = 5, .F = {0.5, 0, 0, 0, 0.25}};
+    q = p;
+    q.constants.Iy = 4;
+    q.constants.F[0] = 1;
+    fault f = {""};
+    gsl_test(checked(&p, &q, &f) != STATUS_OK, "constants: %s", f.text);
+    ends_are_ends("constants", &p, &q);
+    section_taper_at(&p, &q, 0.5, &at);
+    gsl_test_rel(sections_computed(&at).Iy, 3, 1e-15, "half way: Iy");
+    gsl_test_rel(sections_computed(&at).F[0], 0.75, 1e-15, "half way: F");
+    memset(q.constants.F, 0, sizeof q.constants.F);
+    gsl_test(checked(&p, &q, &f) != STATUS_REFUSED, "F at one end only is refused");
+}
+
+static void walls(void)
+{
+    const section_spec p = i_shape(0.1, 0.06, 2e-3);
+    section_spec wide = i_shape(0.1, 0.03, 1e-3), deep = i_shape(0.2, 0.06, 2e-3), at;
+    fault f = {""};
+    gsl_test(checked(&p, &wide, &f) != STATUS_OK, "flanges that change in their planes: %s",
+             f.text);
+    ends_are_ends("walls", &p, &wide);
+    section_taper_at(&p, &wide, 0.5, &at);
+    /* two flanges with 1.5 mm x 45 mm at 50 mm: Iw = 2 t b^3/12 (h/2)^2 */
+    gsl_test_rel(sections_computed(&at).Iw, 2 * 1.5e-3 * pow(0.045, 3) / 12 * 0.05 * 0.05, 1e-12,
+                 "half way: Iw");
+    gsl_test(checked(&p, &deep, &f) != STATUS_REFUSED || strstr(f.text, "warps") == NULL,
+             "flanges that leave their planes: %s", f.text);
+    section_spec plane = p;
+    plane.given.Iw = deep.given.Iw = 0;
+    gsl_test(checked(&plane, &deep, &f) != STATUS_OK, "the same without warping: %s", f.text);
+    wide.wall[2].from = 0;
+    gsl_test(checked(&p, &wide, &f) != STATUS_REFUSED, "walls that hang together otherwise");
+}
+
+/* Walls along z, or oblique, beside the shear centre: the web along an axis turned by an angle. */
+static void turned_walls(double angle)
+{
+    const double c = cos(angle), d = sin(angle);
+    section_spec shape[3] = {i_shape(0.1, 0.06, 2e-3), i_shape(0.1, 0.03, 1e-3),
+                             i_shape(0.2, 0.06, 2e-3)};
+    fault f = {""};
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < shape[k].points; i++) {
+            double *at = shape[k].point[i];
+            const double y = c * at[0] - d * at[1];
+            at[1] = d * at[0] + c * at[1];
+            at[0] = y;
+        }
+    gsl_test(checked(&shape[0], &shape[1], &f) != STATUS_OK, "in their planes at %g: %s", angle,
+             f.text);
+    gsl_test(checked(&shape[0], &shape[2], &f) != STATUS_REFUSED, "out of their planes at %g",
+             angle);
+}
+
+static void taper_tests(void)
+{
+    const section_spec rectangle = section_spec_rectangle(2e11, 8e10, 0.04, 0.02),
+                       i = i_shape(0.1, 0.06, 2e-3);
+    fault f = {""};
+    rectangles();
+    constants();
+    walls();
+    turned_walls(1.5707963267948966);
+    turned_walls(0.3);
+    gsl_test(checked(&rectangle, &i, &f) != STATUS_REFUSED ||
+                 strstr(f.text, "a rectangle to walls") == NULL,
+             "another form: %s", f.text);
+}
+
+int main(void)
+{
+    wagner_tests();
+    stress_tests();
+    taper_tests();
     return gsl_test_summary();
 }
