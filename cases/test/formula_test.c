@@ -1,10 +1,13 @@
 /* Formulas of the time: values and derivatives against differences, points without derivatives, and
  * what is refused at which character. */
-#include "cases/scene/scene.h"
-
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <signal.h>
+#include <stddef.h>
 #include <string.h>
+
+#include "cases/scene/scene.h"
+#include "elements/test/ended.h"
 
 static int at(const char *text, double t, double out[3])
 {
@@ -176,11 +179,162 @@ static void check_refusals(void)
     check_refused(wide, 258, "split it into pieces");
 }
 
-int main(void)
+static void formula_tests(void)
 {
     check_derivatives();
     check_binding();
     check_edges();
     check_refusals();
+}
+
+/* What a section of a scene comes to follows its description. */
+
+/* However often it was asked for. */
+static void constants_follow(void)
+{
+    scene s;
+    fault f;
+    section c;
+    scene_init(&s, "constants");
+    section_spec spec = section_spec_rectangle(1, 1, 2, 2);
+    const int i = scene_add_section(&s, &spec);
+    for (int times = 0; times < 2; times++)
+        gsl_test(scene_constants(&s, i, &c, &f) != STATUS_OK || c.A != 4, "area %g", c.A);
+    s.section[i].width = 3;
+    gsl_test(scene_constants(&s, i, &c, &f) != STATUS_OK || c.A != 6, "of another one: %g", c.A);
+    s.section[i].width = -1;
+    gsl_test_int((int)scene_constants(&s, i, &c, &f), STATUS_REFUSED, "of none: %s", f.text);
+    scene_free(&s);
+}
+
+static void constants_tests(void)
+{
+    constants_follow();
+}
+
+/* What one kind of analysis or quantity has cannot be read from another kind: the program ends. */
+
+typedef void kinds_reader(const void *analysis_or_quantity);
+
+static void read_walk(const void *a)
+{
+    scene_walk_of(a);
+}
+static void read_compliance(const void *a)
+{
+    scene_compliance_of(a);
+}
+static void read_continuation(const void *a)
+{
+    scene_continuation_of(a);
+}
+static void read_component(const void *q)
+{
+    scene_component_of(q);
+}
+static void read_entry(const void *q)
+{
+    scene_entry_of(q);
+}
+static void read_load(const void *q)
+{
+    scene_critical_load_of(q);
+}
+static void read_mode(const void *q)
+{
+    scene_mode_of(q);
+}
+static void read_point(const void *q)
+{
+    scene_point_of(q);
+}
+static void read_internal(const void *q)
+{
+    scene_internal_of(q);
+}
+
+static void read_stress(const void *q)
+{
+    scene_stress_of(q);
+}
+
+static void read_driver(const void *q)
+{
+    scene_driver_of(q);
+}
+
+/* One scene with every kind. */
+static void everything(scene *s)
+{
+    const double end = 1;
+    scene_init(s, "everything");
+    scene_add_linear(s);
+    scene_add_static(s, 1, &end, 1);
+    scene_add_buckling(s, SCENE_NONE);
+    scene_add_modal(s, SCENE_NONE);
+    scene_add_compliance(s, SCENE_NONE, (scene_compliance){.node = 0});
+    scene_add_continuation(s, 1, &end, (scene_control){.node = 0});
+    scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){.omega = {0, 0, 1}});
+    const scene_extract what[] = {
+        [SCENE_COORDINATE] = scene_coordinate(0, 0),
+        [SCENE_REACTION] = scene_reaction(0, 0),
+        [SCENE_COMPLIANCE_ENTRY] = scene_compliance_entry(0, 0),
+        [SCENE_STIFFNESS_ENTRY] = scene_stiffness_entry(0),
+        [SCENE_CRITICAL_FACTOR] = scene_critical_factor(1, 0),
+        [SCENE_GROWTH] = scene_growth(),
+        [SCENE_FREQUENCY] = scene_frequency(0, SCENE_ANY),
+        [SCENE_FACTOR_AT] = scene_factor_at(),
+        [SCENE_CRITICAL_POINT] = scene_critical_point(SCENE_LIMIT_POINT, 0, SCENE_CONTROL),
+        [SCENE_DRIVER_VALUE] = scene_driver_value(0),
+        [SCENE_INTERNAL] = scene_internal_at(0, 0, SCENE_N),
+        [SCENE_STRESS] = scene_stress_along(0, SCENE_VON_MISES),
+    };
+    for (size_t i = 0; i < sizeof what / sizeof what[0]; i++)
+        scene_add_quantity(s, "q", "1", 0, what[i]);
+}
+
+static void kinds_tests(void)
+{
+    static const struct {
+        const char *name;
+        kinds_reader *read;
+        unsigned analyses, quantities; /* kinds that have it; 0: it is not asked of them */
+    } row[] = {
+        {"walk", read_walk, 1 << SCENE_STATIC | 1 << SCENE_ROTATION, 0},
+        {"compliance", read_compliance, 1 << SCENE_COMPLIANCE, 0},
+        {"continuation", read_continuation, 1 << SCENE_CONTINUATION, 0},
+        {"component", read_component, 0, 1 << SCENE_COORDINATE | 1 << SCENE_REACTION},
+        {"entry", read_entry, 0, 1 << SCENE_COMPLIANCE_ENTRY | 1 << SCENE_STIFFNESS_ENTRY},
+        {"critical load", read_load, 0, 1 << SCENE_CRITICAL_FACTOR},
+        {"mode", read_mode, 0, 1 << SCENE_FREQUENCY},
+        {"point", read_point, 0, 1 << SCENE_CRITICAL_POINT},
+        {"driver", read_driver, 0, 1 << SCENE_DRIVER_VALUE},
+        {"resultant", read_internal, 0, 1 << SCENE_INTERNAL},
+        {"stress", read_stress, 0, 1 << SCENE_STRESS},
+    };
+    scene s;
+    everything(&s);
+    gsl_test(s.analyses != SCENE_ROTATION + 1 || s.quantities != SCENE_STRESS + 1,
+             "every kind is there");
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        if (row[i].analyses != 0)
+            for (int k = 0; k < s.analyses; k++)
+                gsl_test_int(ended_by(row[i].read, &s.analysis[k]),
+                             row[i].analyses >> s.analysis[k].kind & 1 ? 0 : SIGABRT,
+                             "%s of analysis %d", row[i].name, k);
+        if (row[i].quantities != 0)
+            for (int k = 0; k < s.quantities; k++)
+                gsl_test_int(ended_by(row[i].read, &s.quantity[k]),
+                             row[i].quantities >> s.quantity[k].what.kind & 1 ? 0 : SIGABRT,
+                             "%s of quantity %d", row[i].name, k);
+    }
+    scene_free(&s);
+}
+
+int main(void)
+{
+    formula_tests();
+    constants_tests();
+    kinds_tests();
     return gsl_test_summary();
 }

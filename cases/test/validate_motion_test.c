@@ -275,7 +275,7 @@ static void weighs_at_a_node(scene *s)
     scene_set_body(s, BODY, (scene_body){.mass = 1});
 }
 
-int main(void)
+static void validate_motion_tests(void)
 {
     refuse_all(sizeof refusals / sizeof refusals[0], refusals);
     accepts(held, "what no function moves stays at the end of the path");
@@ -283,5 +283,303 @@ int main(void)
     accepts(without_alpha, "parameters of another integrator");
     accepts(turns_steadily, "a start from a stationary rotation");
     accepts(weighs_at_a_node, "a mass at a node only");
+}
+
+/* What nodes may not be: every refusal names its culprit and says what to do, in one
+ * line; and what is refused is one thing only: the scene it was made from is accepted. */
+
+static const double x_axis[3] = {1, 0, 0}, zero[3] = {0, 0, 0};
+
+static void position(scene *s)
+{
+    s->node[TIP].position[1] = NAN;
+}
+
+static void driver_of_node(scene *s)
+{
+    s->node[TIP].translation[0] = 7;
+}
+
+static void half_a_vector(scene *s)
+{
+    s->node[TIP].rotation = SCENE_ROTATION_VECTOR;
+}
+
+static void fork_and_held(scene *s)
+{
+    scene_fork(s, ROOT, x_axis, y_axis);
+}
+
+static void web_along(scene *s)
+{
+    scene_fork(s, TIP, x_axis, x_axis);
+}
+
+static void no_web(scene *s)
+{
+    scene_fork(s, TIP, x_axis, zero);
+}
+
+static void fork_across(scene *s)
+{
+    scene_fork(s, TIP, y_axis, x_axis);
+}
+
+static void body_of_body(scene *s)
+{
+    s->node[TIP].attached = BODY;
+}
+
+static void body_of_itself(scene *s)
+{
+    s->node[BODY].attached = BODY;
+}
+
+static void body_of_nothing(scene *s)
+{
+    s->node[BODY].attached = 9;
+}
+
+static void body_held(scene *s)
+{
+    scene_hold(s, BODY, SCENE_UZ, SCENE_UZ);
+}
+
+static void spoil_body(scene *s, scene_body b)
+{
+    scene_set_body(s, 1, b);
+}
+
+static void negative_mass(scene *s)
+{
+    spoil_body(s, (scene_body){.mass = -1});
+}
+
+static void endless_inertia(scene *s)
+{
+    spoil_body(s, (scene_body){.mass = 1, .inertia = {INFINITY, 1, 1}});
+}
+
+static void centre_of_nothing(scene *s)
+{
+    spoil_body(s, (scene_body){.centre = {0, 1, 0}});
+}
+
+static void no_triangle(scene *s)
+{
+    spoil_body(s, (scene_body){.mass = 1, .inertia = {1, 1, 2.1}});
+}
+
+static void products_too_large(scene *s)
+{
+    spoil_body(s, (scene_body){.mass = 1, .inertia = {1, 1, 1, 0.6, 0, 0}});
+}
+
+static void loose_mass(scene *s)
+{
+    scene_set_body(s, scene_add_node(s, 0, 0, 7), (scene_body){.mass = 1});
+}
+
+static const refusal node_refusals[] = {
+    {position, "node 1: ", "at = "},
+    {driver_of_node, "node 1: ", "driver that does not exist"},
+    {half_a_vector, "node 1: ", "three drivers"},
+    {fork_and_held, "node 0: ", "a fork and RX held"},
+    {web_along, "node 1: ", "not at right angles"},
+    {no_web, "node 1: ", "not at right angles"},
+    {fork_across, "node 1: ", "no member there runs along"},
+    {body_of_body, "node 1: ", "attached to node 2, which is no body"},
+    {body_of_itself, "node 2: ", "attached to node 2, which is no body"},
+    {body_of_nothing, "node 2: ", "part_of: node 9 does not exist"},
+    {body_held, "node 2: ", "it moves with node 1"},
+    {negative_mass, "node 1: ", "mass = -"},
+    {endless_inertia, "node 1: ", "inertia = "},
+    {centre_of_nothing, "node 1: ", "a centre without a mass"},
+    {no_triangle, "node 1: ", "no body has this inertia"},
+    {products_too_large, "node 1: ", "no body has this inertia"},
+    {loose_mass, "node 3: ", "nothing holds its mass"},
+};
+
+static void validate_node_tests(void)
+{
+    refuse_all(sizeof node_refusals / sizeof node_refusals[0], node_refusals);
+}
+
+/* What analyses and quantities may not be: every refusal names its culprit and says what to do, in
+ * one line; and what is refused is one thing only: the scene it was made from is accepted. */
+
+/* The path of an unknown load factor, which changes loads only. */
+static void driven(scene *s)
+{
+    const double station[] = {0, 1};
+    free(scene_path_of(&s->analysis[0])->value);
+    s->analyses = 0;
+    scene_add_continuation(
+        s, 2, station,
+        (scene_control){.node = TIP, .component = SCENE_UX, .step = 0.1, .step_max = 0.1});
+}
+
+static void continued(scene *s)
+{
+    driven(s);
+    scene_drive(s, TIP, SCENE_UY, SCENE_FREE);
+    free(s->driver[0].path);
+    free(s->driver[0].value);
+    s->drivers = 0;
+}
+
+static void follows_itself(scene *s)
+{
+    s->analysis[0].follows = 0;
+}
+
+static void stations(scene *s)
+{
+    s->analysis[0].of.walk.path.value[1] = -1;
+}
+
+static void no_station(scene *s)
+{
+    s->analysis[0].of.walk.path.stations = 0;
+}
+
+static void spin(scene *s)
+{
+    scene_set_rotating_frame(s, 0, (scene_rotating_frame){.omega = {0, 0, NAN}});
+}
+
+static void two_names(scene *s)
+{
+    scene_add_quantity(s, "u", "m", 0, scene_coordinate(TIP, SCENE_UX));
+}
+
+static void no_analysis(scene *s)
+{
+    s->quantity[0].analysis = 1;
+}
+
+static void no_coordinate(scene *s)
+{
+    s->quantity[0].what.of.component.component = 6;
+}
+
+static void not_of_a_path(scene *s)
+{
+    scene_add_quantity(s, "frequency", "Hz", 0, scene_frequency(0, SCENE_ANY));
+}
+
+static void no_entry(scene *s)
+{
+    const int at_tip = scene_add_compliance(s, 0, (scene_compliance){.node = TIP});
+    scene_add_quantity(s, "entry", "m/N", at_tip, scene_compliance_entry(SCENE_UX, 6));
+}
+
+static void no_driver(scene *s)
+{
+    scene_add_quantity(s, "angle", "rad", 0, scene_driver_value(1));
+}
+
+static void uncontrolled(scene *s)
+{
+    continued(s);
+    s->analysis[0].of.continuation.control.component = SCENE_RX;
+}
+
+static void step(scene *s)
+{
+    continued(s);
+    s->analysis[0].of.continuation.control.step = 0;
+}
+
+static void smaller_step(scene *s)
+{
+    continued(s);
+    s->analysis[0].of.continuation.control.step_max = 0.05;
+}
+
+static void compliance_nowhere(scene *s)
+{
+    scene_add_compliance(s, SCENE_NONE, (scene_compliance){.node = SCENE_NONE});
+}
+
+static void compliance_of_compliance(scene *s)
+{
+    const scene_compliance at_tip = {.node = TIP};
+    scene_add_compliance(s, scene_add_compliance(s, 0, at_tip), at_tip);
+}
+
+static void critical_about_linear(scene *s)
+{
+    scene_add_buckling(s, scene_add_linear(s));
+}
+
+static void critical_about_buckling(scene *s)
+{
+    scene_add_buckling(s, scene_add_buckling(s, SCENE_NONE));
+}
+
+static void frequencies_about_rotation(scene *s)
+{
+    const double end = 1;
+    scene_add_modal(
+        s, scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){.omega = {0, 0, 1}}));
+}
+
+static void station_of_linear(scene *s)
+{
+    scene_set_at(
+        scene_add_quantity(s, "v", "m", scene_add_linear(s), scene_coordinate(TIP, SCENE_UY)), 0.5);
+}
+
+static void largest_of_frequencies(scene *s)
+{
+    scene_add_quantity(s, "f", "Hz", scene_add_modal(s, 0), scene_frequency(0, SCENE_ANY))
+        ->reduction = SCENE_MAX;
+}
+
+static const refusal wanted_refusals[] = {
+    {follows_itself, "analysis 0: ", "does not come before it"},
+    {stations, "analysis 0: ", "must ascend"},
+    {no_station, "analysis 0: ", "needs a station"},
+    {spin, "analysis 0: ", "omega = "},
+    {uncontrolled, "analysis 0: ", "component: no word has the value 3; give one of ux|uy|uz"},
+    {step, "analysis 0: ", "steps of 0 to 0.1"},
+    {smaller_step, "analysis 0: ", "steps of 0.1 to 0.05"},
+    {compliance_nowhere, "analysis 1: ", "node: no node is named; name one"},
+    {compliance_of_compliance, "analysis 2: ", "follows a path or nothing"},
+    {critical_about_linear, "analysis 2: ", "name a static one, or leave about out"},
+    {critical_about_buckling, "analysis 2: ", "name a static one, or leave about out"},
+    {frequencies_about_rotation, "analysis 2: ", "ask the rotation for its own frequencies"},
+    {station_of_linear, "quantity v: ", "analysis 1 has one state and no stations"},
+    {largest_of_frequencies, "quantity f: ", "analysis 1 has one state and no stations"},
+    {two_names, "quantity u: ", "two of that name"},
+    {no_analysis, "quantity u: ", "analysis: analysis 1 does not exist"},
+    {no_coordinate, "quantity u: ", "component: no word has the value 6"},
+    {not_of_a_path, "quantity frequency: ", "does not have it"},
+    {no_entry, "quantity entry: ", "column: no word has the value 6"},
+    {no_driver, "quantity angle: ", "motion: driver 1 does not exist"},
+};
+
+static void accepts_continuation(void)
+{
+    scene s;
+    fault f = {""};
+    refuse_sound(&s);
+    continued(&s);
+    gsl_test(scene_validate(&s, &f) != STATUS_OK, "a continued path is sound: %s", f.text);
+    scene_free(&s);
+}
+
+static void validate_wanted_tests(void)
+{
+    refuse_all(sizeof wanted_refusals / sizeof wanted_refusals[0], wanted_refusals);
+    accepts_continuation();
+}
+
+int main(void)
+{
+    validate_motion_tests();
+    validate_node_tests();
+    validate_wanted_tests();
     return gsl_test_summary();
 }
