@@ -4,9 +4,11 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdio.h>
 
 #include "elements/math/pi.h"
 #include "harness/analysis/test/hinged.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/accepted.h"
 #include "harness/tools/kit/scenes.h"
 
@@ -109,7 +111,7 @@ static void axes(const char *of, const char *chosen, int n, unsigned released, d
     cell_result_free(&r);
 }
 
-int main(void)
+static void hinge_tests(void)
 {
     for (int i = 0; accepted_at(i) != NULL; i++) {
         statics(accepted_at(i)->name, 1e-2);
@@ -125,5 +127,53 @@ int main(void)
         axes("arc", "geometrically_exact", n, 1U << 4, 0.1);
         axes("arc", "beamw", 2 * n, 1U << 4, 0.1);
     }
+}
+
+/* An end that is released from a clamped node is one at a support that lets it go: in every
+ * analysis, by every formulation and way of Newton. */
+
+#define SPRINGS "harness/analysis/test/springs.yaml"
+
+/* A released end of a clamped node and a support that lets the end go. */
+static void supported(const char *chosen, int dense)
+{
+    static const char *const released[] = {"hinge", "two_turns", "ball", "slide"};
+    for (int k = 0; k < 4; k++) {
+        cell_result at_support, at_node;
+        scenes_solve(SPRINGS, chosen, 4, &at_support, "of=support;released=%s;about=%d",
+                     released[k], !dense);
+        scenes_solve(SPRINGS, chosen, 4, &at_node, "of=end;released=%s;about=%d", released[k],
+                     !dense);
+        const int asked = dense ? 19 : 23;
+        gsl_test(at_node.solve.quantities != asked || at_support.solve.quantities != asked,
+                 "%s, %s: %d quantities", chosen, released[k], at_node.solve.quantities);
+        for (int i = 0; i < at_node.solve.quantities; i++) {
+            const double expected = at_support.solve.quantity[i].value,
+                         value = at_node.solve.quantity[i].value;
+            gsl_test(!(fabs(value - expected) <= 1e-8 * fabs(expected) + 1e-11),
+                     "%s, %s: %s is %.12g, at a support %.12g (%s)", chosen, released[k],
+                     at_node.scene.quantity[i].name, value, expected,
+                     at_node.solve.quantity[i].reason);
+        }
+        cell_result_free(&at_support);
+        cell_result_free(&at_node);
+    }
+}
+
+static void hinge_support_tests(void)
+{
+    static const char *const newton[] = {"", ":newton=displacement", ":newton=dense"};
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        for (int k = 0; k < 3; k++) {
+            char chosen[80];
+            snprintf(chosen, sizeof chosen, "%s%s", registry_formulations[i]->name, newton[k]);
+            supported(chosen, k == 2); /* without what follows a factored tangent */
+        }
+}
+
+int main(void)
+{
+    hinge_tests();
+    hinge_support_tests();
     return gsl_test_summary();
 }

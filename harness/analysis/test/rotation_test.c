@@ -1,14 +1,18 @@
 /* Structures that turn steadily, through the program's own door: what does not depend on the frame,
  * the formulation's algorithm or the reference point of a body; the stretch of a thick beam; and
  * that a structure at rest pays nothing. */
+#include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cases/case.h"
+#include "elements/math/pi.h"
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
+#include "harness/tools/kit/scenes.h"
 
 static status run(const case_type *type, const char *chosen, int n, const char *const assignment[],
                   cell_result *r)
@@ -173,12 +177,186 @@ static void instability_is_named(void)
     cell_result_free(&r);
 }
 
-int main(void)
+static void rotation_tests(void)
 {
     stretch();
     algorithms();
     reference_point();
     at_rest();
     instability_is_named();
+}
+
+/* A beam that nothing holds: six motions of a rigid body at no frequency, then those of the free
+ * beam, (k_i L)^2 sqrt(EI/(rho A L^4)) with cos(k_i L) cosh(k_i L) = 1. The stiffness matrix is
+ * singular; its shift must leave no trace in the frequencies. */
+
+enum { MODES = 10, RIGID = 6 };
+static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.1e11,
+                    density = 7300; /* m, m, m, Pa, kg/m^3 */
+static const double root[2] = {4.7300407448627040, 7.8532046240958376};
+
+/* 0: bending about the weak axis, then about the strong one, then the second of each. */
+static double exact(int i)
+{
+    const double height = i % 2 == 0 ? thickness : width, k = root[i / 2] / length;
+    return k * k * sqrt(young * height * height / 12 / density) / (2 * PI);
+}
+
+static void frequencies(const char *name, int elements, double allowed)
+{
+    cell_result r;
+    scenes_solve("harness/analysis/test/bars.yaml", name, elements, &r, "bar=free");
+    for (int i = 0; i < MODES && i < r.solve.quantities; i++) {
+        const double value = r.solve.quantity[i].value;
+        if (i < RIGID)
+            gsl_test_abs(value, 0, 1e-3 * exact(0), "%s: motion %d of a rigid body", name, i);
+        else
+            gsl_test_rel(value, exact(i - RIGID), allowed, "%s: frequency %d", name, i - RIGID);
+    }
+    gsl_test_int(r.solve.quantities, MODES, "all of them");
+    cell_result_free(&r);
+}
+
+static void free_beam_tests(void)
+{
+    frequencies("beamw_vlasov", 32, 1e-5);
+    frequencies("beamw_first", 32, 1e-5);
+    /* so many elements that assembling them changes the stiffness: solutions are refined */
+    frequencies("beamw_vlasov", 600, 2e-7);
+    frequencies("beamw_vlasov", 2400, 2e-7);
+}
+
+/* Model and solvers through their public door: what is left out changes nothing, round-off stays
+ * small. */
+
+static double solve_value_of(const char *case_name, const char *formulation_text, int n,
+                             int keep_all, const char *assignment, const char *quantity,
+                             long *iterations)
+{
+    cell_request request = cells_of(case_find(case_name, NULL), formulation_text, n);
+    cell_result result;
+    fault f = {""};
+    if (assignment[0] != '\0')
+        cells_set(&request, (const char *const[]){assignment, NULL});
+    request.keep_all = keep_all;
+    gsl_test(cell_run(&request, &result, &f) != STATUS_OK, "%s solved with %s (%s)", case_name,
+             formulation_text, f.text);
+    const double value = cells_value(&result, quantity);
+    if (iterations != NULL)
+        *iterations = result.counters.iterations;
+    cell_result_free(&result);
+    return value;
+}
+
+static void leaving_out_changes_nothing(void)
+{
+    static const struct {
+        const char *case_name, *quantity;
+    } pairs[] = {{"c_column", "buckling_load"},
+                 {"warping_torsion", "twist_ratio"},
+                 {"sheet_cantilever", "C_zz"},
+                 {"elastica", "theta"},
+                 {"wagner_torsion", "shortening"}};
+    for (size_t i = 0; i < 4; i++) {
+        const double lean =
+            solve_value_of(pairs[i].case_name, "beamw", 4, 0, "", pairs[i].quantity, NULL);
+        const double full =
+            solve_value_of(pairs[i].case_name, "beamw", 4, 1, "", pairs[i].quantity, NULL);
+        gsl_test_rel(full, lean, 1e-10, "%s: keeping everything gives the same %s",
+                     pairs[i].case_name, pairs[i].quantity);
+    }
+}
+
+static void newton(void)
+{
+    long mixed = 0, displacement = 0;
+    const double a =
+        solve_value_of("sheet_cantilever", "beamw_consistent", 4, 0, "", "C_xx", &mixed);
+    const double b = solve_value_of("sheet_cantilever", "beamw_consistent:newton=displacement", 4,
+                                    0, "", "C_xx", &displacement);
+    gsl_test_rel(b, a, 1e-9, "both kinds of Newton find the same equilibrium");
+    const double c =
+        solve_value_of("sheet_cantilever", "beamw_consistent:newton=dense", 4, 0, "", "C_xx", NULL);
+    gsl_test_rel(c, a, 1e-10, "and so does the uncondensed system");
+    gsl_test(!(mixed <= 4 * 15),
+             "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
+}
+
+/* In a first step of 15 degrees the ends of short elements change places: the strains cannot tell,
+ * the solver must. */
+static void no_element_is_turned_round(void)
+{
+    const double value = solve_value_of("spherical_joint", "beamw_consistent", 32, 0, "wagner=0",
+                                        "support_stiffness_max", NULL);
+    gsl_test_rel(value, 953153.87, 1e-3,
+                 "spherical joint on fine meshes: no silent jump to a reversed element");
+}
+
+static void fine_mesh(void)
+{
+    const double coarse =
+        solve_value_of("c_column", "beamw_vlasov", 256, 0, "shear=0", "buckling_load", NULL);
+    const double fine =
+        solve_value_of("c_column", "beamw_vlasov", 1024, 0, "shear=0", "buckling_load", NULL);
+    const double exact = 16117335.51891;
+    gsl_test_rel(fine, exact, 2e-6, "1024 elements: %.3g from the exact load", fine / exact - 1);
+    const double order = log((coarse - exact) / (fine - exact)) / log(4);
+    gsl_test(!(fabs(order - 2) < 0.1), "round-off does not hide the order on 1024 elements (%.2f)",
+             order);
+}
+
+/* Far below the largest values the geometric stiffness alone decides the pivots of K - A/s, and
+ * here they vanish. */
+static void frame_of_strips(void)
+{
+    const double exact = 0.6222080872197;
+    for (int n = 8; n <= 32; n *= 2) {
+        const double moment = solve_value_of("right_angle_frame", "beamw_consistent", n, 0, "",
+                                             "critical_moment", NULL);
+        gsl_test_rel((moment / exact - 1) * n * n, 0.411, 0.01,
+                     "right-angle frame of %d elements a leg: second order", n);
+    }
+}
+
+/* Equal elements round alike: their errors add up to much more than independent ones, and the
+ * inertia is that of the sums. */
+static void equal_elements(void)
+{
+    const double critical = solve_value_of("lateral_buckling", "geometrically_exact", 256, 0,
+                                           "load=mid", "load_factor", NULL);
+    gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
+}
+
+/* Two elements between forks have 14 motions, of which two are axial; in some of the others no
+ * vertex moves, and only sections turn and warp: they are no axial ones either. */
+static void modes_in_place(void)
+{
+    for (int keep_all = 0; keep_all < 2; keep_all++)
+        for (int k = 1; k <= 13; k++) {
+            char name[SCENE_NAME];
+            snprintf(name, sizeof name, "frequency_%d", k);
+            const double value =
+                solve_value_of("c_column", "beamw_consistent", 2, keep_all, "", name, NULL);
+            gsl_test(isfinite(value) != (k <= 12), "c_column, keep_all = %d: %s is %g Hz", keep_all,
+                     name, value);
+        }
+}
+
+static void solve_tests(void)
+{
+    modes_in_place();
+    leaving_out_changes_nothing();
+    newton();
+    no_element_is_turned_round();
+    fine_mesh();
+    frame_of_strips();
+    equal_elements();
+}
+
+int main(void)
+{
+    rotation_tests();
+    free_beam_tests();
+    solve_tests();
     return gsl_test_summary();
 }
