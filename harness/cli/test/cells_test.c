@@ -4,8 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/shared/choice.h"
 #include "harness/cli/cli_impl.h"
+#include "harness/experiments/experiments.h"
 #include "harness/formulations/formulations.h"
+#include "harness/records/records.h"
 #include "harness/study/study.h"
 
 /* Two meshes of a path with a curve, run; noise and times as if they were measured. */
@@ -122,7 +125,7 @@ static void kept(sweep *s)
     gsl_test(s->seriess != 0 || s->unfinished != 2, "two cells are missing");
 }
 
-int main(void)
+static void cells_tests(void)
 {
     sweep s;
     make(&s);
@@ -130,5 +133,85 @@ int main(void)
     digests(&s);
     kept(&s);
     sweep_free(&s);
+}
+
+/* Texts in pages of the manual are read as they were written, whatever they begin with. */
+
+static void written_as(const char *text, const char *wanted, const char *what)
+{
+    char *got = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&got, &size);
+    roff_text(to, text);
+    fclose(to);
+    gsl_test(strcmp(got, wanted) != 0, "%s: %s", what, got);
+    free(got);
+}
+
+static void roff_tests(void)
+{
+    written_as(".partial", "\\&.partial\n", "no request");
+    written_as("'quoted' \"and\"", "\\(aqquoted\\(aq \\(dqand\\(dq\n", "quotes stay straight");
+    written_as("--set a^2 ~ `b` c\\d", "\\-\\-set a\\(ha2 \\(ti \\(gab\\(ga c\\ed\n", "as typed");
+    written_as("One. Two\n three.", "One.\nTwo three.\n", "a sentence begins a line");
+    written_as("", "\n", "nothing");
+    written_as("aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa bbbbbbb .c",
+               "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa bbbbbbb\n"
+               "\\&.c\n",
+               "78 columns");
+}
+
+/* Every word that the program prints as a result is explained in the glossary: the words come from
+ * the program's own tables. */
+
+static glossary words;
+
+static void explained(const char *what, const char *word)
+{
+    gsl_test(glossary_find(&words, word) == NULL, "%s '%s'", what, word);
+}
+
+static void all_of(const char *what, const char *choices)
+{
+    char word[GLOSSARY_WORD];
+    for (int i = 0; glossary_part(choices, i, word); i++)
+        explained(what, word);
+}
+
+static void words_tests(void)
+{
+    const char *packed = getenv("BEAMWORK_TRUTHS");
+    fault f = {""};
+    gsl_test(glossary_read(packed != NULL ? packed : "build/truths.h5", &words, &f) != STATUS_OK,
+             "the glossary is read %s", f.text);
+    for (int i = 0; i < VERDICT_KINDS; i++)
+        explained("verdict", verdict_name((verdict_kind)i));
+    for (int i = 1; i < LIMIT_KINDS; i++) /* but "none" */
+        explained("kind of limit", limit_kind_name((limit_kind)i));
+    for (int i = 0; i <= STATUS_NO_VALUE; i++)
+        explained("status", status_name((status)i));
+    for (int i = 0; i < OUTCOME_KINDS; i++)
+        explained("outcome", outcome_name((outcome_kind)i));
+    for (unsigned bit = 1; bit < FEATURE_END; bit <<= 1)
+        explained("feature", feature_name(bit));
+    for (int i = 0; i <= SCENE_ROTATION; i++)
+        explained("analysis", scene_analysis_name((scene_analysis_kind)i));
+    for (int i = 0; i < COMPARISON_KINDS; i++)
+        explained("change", comparison_kind_names[i]);
+    for (int i = 0; i <= AGAINST_SLOWER; i++)
+        explained("comparison of times", against_name((against_outcome)i));
+    all_of("kind of truth", truth_kinds);
+    all_of("theory of shear", SCENE_SHEAR_THEORIES);
+    all_of("moment convention", SCENE_MOMENTS_CHOICES);
+    all_of("model", "same|other");
+    all_of("group of analyses", "statics|vibration|buckling");
+    glossary_free(&words);
+}
+
+int main(void)
+{
+    cells_tests();
+    roff_tests();
+    words_tests();
     return gsl_test_summary();
 }
