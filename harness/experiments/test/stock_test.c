@@ -1,5 +1,12 @@
 /* Folders with files that are not what they should be: each is told in one line, none is taken. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/experiments/experiments.h"
 #include "harness/experiments/test/number_work.h"
+#include "harness/records/records.h"
 
 /* A folder with all batches of the work, to be spoilt. */
 typedef struct filled {
@@ -217,12 +224,226 @@ static void machines(void)
     }
 }
 
-int main(void)
+static void stock_tests(void)
 {
     machines();
     damaged();
     foreign();
     others();
     nowhere();
+}
+
+/* Digests, and work cut and dealt. */
+
+/* The examples of FIPS 180-4. */
+static void known_digests(void)
+{
+    static const struct {
+        const char *text;
+        int times;
+        const char *right;
+    } known[] = {
+        {"", 1, "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"},
+        {"abc", 1, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"},
+        {"abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq", 1,
+         "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1"},
+        {"aaaaaaaaaa", 100000, "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0"}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        char text[DIGEST_TEXT];
+        digest d = digest_begin();
+        for (int k = 0; k < known[i].times; k++)
+            digest_add(&d, known[i].text, strlen(known[i].text));
+        digest_text(&d, text);
+        gsl_test(strcmp(text, known[i].right) != 0, "digest %zu: %s", i, text);
+    }
+}
+
+static void same_numbers(void)
+{
+    char plus[DIGEST_TEXT], minus[DIGEST_TEXT], other[DIGEST_TEXT];
+    digest a = digest_begin(), b = digest_begin(), c = digest_begin();
+    digest_add_number(&a, 0.0);
+    digest_add_number(&b, -0.0);
+    digest_add_number(&c, 5e-324);
+    digest_text(&a, plus);
+    digest_text(&b, minus);
+    digest_text(&c, other);
+    gsl_test(strcmp(plus, minus) != 0, "-0 is 0");
+    gsl_test(strcmp(plus, other) == 0, "the least number is not 0");
+    a = b = digest_begin();
+    digest_add_text(&a, "ab");
+    digest_add_text(&a, "c");
+    digest_add_text(&b, "a");
+    digest_add_text(&b, "bc");
+    digest_text(&a, plus);
+    digest_text(&b, minus);
+    gsl_test(strcmp(plus, minus) == 0, "texts keep their ends");
+}
+
+static void cut(void)
+{
+    static const double cost[] = {0.2, 0.2, 0.2, 3, 0.1, 0.4, 0.1};
+    int first[8];
+    gsl_test_int(deal_cut(7, cost, 0.5, first), 5, "batches");
+    static const int right[] = {0, 2, 3, 4, 6, 7};
+    gsl_test(memcmp(first, right, sizeof right) != 0, "cut where the next would be too much");
+    gsl_test_int(deal_cut(0, cost, 0.5, first), 0, "of nothing no batch");
+}
+
+/* Each batch to one shard, none much longer than another, the same each time. */
+static void dealt(void)
+{
+    enum { BATCHES = 500, SHARDS = 7 };
+    double cost[BATCHES], sum[SHARDS] = {0}, least = 1e300, most = 0;
+    int shard[BATCHES], again[BATCHES];
+    for (int i = 0; i < BATCHES; i++)
+        cost[i] = 0.1 + (i * 37 % 101) * 0.01 + (i % 50 == 0) * 4;
+    gsl_test(deal_out(BATCHES, cost, SHARDS, shard) != 0 ||
+                 deal_out(BATCHES, cost, SHARDS, again) != 0,
+             "dealt");
+    gsl_test(memcmp(shard, again, sizeof shard) != 0, "the same again");
+    for (int i = 0; i < BATCHES; i++) {
+        gsl_test(shard[i] < 0 || shard[i] >= SHARDS, "batch %d has a shard", i);
+        sum[shard[i]] += cost[i];
+    }
+    for (int k = 0; k < SHARDS; k++) {
+        least = sum[k] < least ? sum[k] : least;
+        most = sum[k] > most ? sum[k] : most;
+    }
+    gsl_test(most > 1.01 * least, "shards end together: %g to %g", least, most);
+}
+
+/* As by the rule itself: the dearest that is left to the first of the shards that have least. */
+static void dealt_by_the_rule(void)
+{
+    enum { BATCHES = 300, MOST = 40 };
+    double cost[BATCHES];
+    int shard[BATCHES], order[BATCHES];
+    for (int i = 0; i < BATCHES; i++)
+        cost[i] = 1 + i * 7 % 4; /* many cost the same */
+    deal_order(BATCHES, cost, order);
+    for (int shards = 1; shards <= MOST; shards++) {
+        double sum[MOST] = {0};
+        int wrong = deal_out(BATCHES, cost, shards, shard) != 0;
+        for (int i = 0; i < BATCHES; i++) {
+            int to = 0;
+            for (int k = 1; k < shards; k++)
+                to = sum[k] < sum[to] ? k : to;
+            wrong += shard[order[i]] != to;
+            sum[to] += cost[order[i]];
+        }
+        gsl_test_int(wrong, 0, "%d shards", shards);
+    }
+}
+
+static void deal_tests(void)
+{
+    dealt_by_the_rule();
+    known_digests();
+    same_numbers();
+    cut();
+    dealt();
+}
+
+/* Integrators, steps and tolerances as a command line has them. */
+
+static void list_is(const char *text, double ratio, int count, const double right[])
+{
+    pace_list out;
+    fault f = {""};
+    gsl_test(pace_list_read("step", text, ratio, &out, &f) != STATUS_OK, "%s is read: %s", text,
+             f.text);
+    gsl_test_int(out.count, count, "%s: values", text);
+    for (int i = 0; i < count && i < out.count; i++)
+        gsl_test_rel(out.value[i], right[i], 4e-16, "%s: value %d", text, i);
+}
+
+static void list_is_refused(const char *text)
+{
+    pace_list out;
+    fault f = {""};
+    gsl_test(pace_list_read("step", text, 2, &out, &f) != STATUS_REFUSED, "%s is refused", text);
+    gsl_test(strstr(f.text, "--step") == NULL || strstr(f.text, text) == NULL,
+             "%s: culprit and option are named: %s", text, f.text);
+}
+
+static void lists(void)
+{
+    list_is("0.1", 2, 1, (double[]){0.1});
+    list_is("0.1,0.03", 2, 2, (double[]){0.1, 0.03});
+    list_is("0.1..0.025", 2, 3, (double[]){0.1, 0.05, 0.025});
+    list_is("8..1", 2, 4, (double[]){8, 4, 2, 1});
+    list_is("1e-4..1e-8", 100, 3, (double[]){1e-4, 1e-6, 1e-8});
+    const char *const wrong[] = {
+        "",         "0",           "-1",      "0.1,",
+        "0.1..0.2", "a",           "0.1;0.2", "0.1..",
+        "1..1e-99", "0.1..0.05,1", "nan",     "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        list_is_refused(wrong[i]);
+}
+
+static void method_is(const char *text, scene_scheme scheme, double mass, double force, int order)
+{
+    pace_method m;
+    fault f = {""};
+    gsl_test(pace_method_read(text, (int)strlen(text), &m, &f) != STATUS_OK, "%s is read: %s", text,
+             f.text);
+    gsl_test(m.scheme != scheme || strcmp(m.name, text) != 0, "%s is that", text);
+    gsl_test_int(m.order, order, "%s: order", text);
+    gsl_test_abs(m.alpha.mass, mass, 1e-15, "%s: alpha_m", text);
+    gsl_test_abs(m.alpha.force, force, 1e-15, "%s: alpha_f", text);
+}
+
+static void methods(void)
+{
+    method_is("alpha", SCENE_ALPHA, 0.8 / 1.9, 0.9 / 1.9, 2);
+    method_is("alpha:rho=0.5", SCENE_ALPHA, 0, 1 / 3.0, 2);
+    method_is("hht", SCENE_ALPHA, 0, 0.05, 2);
+    method_is("hht:alpha=0.3", SCENE_ALPHA, 0, 0.3, 2);
+    method_is("trapezoidal", SCENE_ALPHA, 0, 0, 2);
+    method_is("conserving", SCENE_CONSERVING, 0, 0, 2);
+    method_is("radau", SCENE_RADAU, 0, 0, 5);
+    method_is("explicit", SCENE_EXPLICIT, 0, 0, 8);
+    const char *const wrong[] = {"",        "alph",        "alphas",         "alpha:rho=1.5",
+                                 "alpha:r", "hht:alpha=1", "radau:rho=0.5",  "trapezoidal:rho=1",
+                                 "Alpha",   "alpha:rho=",  "alpha:rho=0.5x", "hht:rho=0.5"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        pace_method m;
+        fault f = {""};
+        gsl_test(pace_method_read(wrong[i], (int)strlen(wrong[i]), &m, &f) != STATUS_REFUSED,
+                 "'%s' is refused", wrong[i]);
+        gsl_test(strstr(f.text, wrong[i]) == NULL, "'%s' is named", wrong[i]);
+    }
+}
+
+static void method_lists(void)
+{
+    pace_method list[PACE_LIST_MOST];
+    int count = 0;
+    fault f = {""};
+    gsl_test(pace_method_read_list(pace_method_all, PACE_LIST_MOST, list, &count, &f) != STATUS_OK,
+             "all: %s", f.text);
+    gsl_test_int(count, 6, "all");
+    count = 0;
+    gsl_test(pace_method_read_list("radau,alpha,radau", PACE_LIST_MOST, list, &count, &f) !=
+                 STATUS_REFUSED,
+             "given twice");
+    count = 0;
+    gsl_test(pace_method_read_list("radau,alpha", 1, list, &count, &f) != STATUS_REFUSED,
+             "too many");
+}
+
+static void words_tests(void)
+{
+    lists();
+    methods();
+    method_lists();
+}
+
+int main(void)
+{
+    stock_tests();
+    deal_tests();
+    words_tests();
     return gsl_test_summary();
 }

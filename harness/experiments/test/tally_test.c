@@ -1,9 +1,12 @@
 /* What a sweep comes to, of rows made by hand: shares, the map, the worst points. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "harness/experiments/experiments.h"
+#include "harness/experiments/experiments_impl.h"
+#include "harness/formulations/formulations.h"
 
 enum { POINTS = 6, MESHES = 2 };
 
@@ -149,7 +152,7 @@ static void same_in_pieces(const parameter_ranges *r, const rows *whole, const t
     tally_free(&t);
 }
 
-int main(void)
+static void tally_tests(void)
 {
     parameter_ranges r;
     rows w;
@@ -167,5 +170,207 @@ int main(void)
     tally_free(&t);
     rows_free(&w);
     ranges_free(&r);
+}
+
+/* What --vary says: values, limits, refusals. */
+
+static const parameter_type axis_table[] = {
+    {"width", "m", 0.05, 1e-3, 10, NULL, "of a strip"},
+    {"turn", "rad", 0, -1, 1, NULL, "of an end"},
+    {"shear", "1", 1, 0, 1, NULL, "0 or 1"},
+    {"ends", "", 0, 0, 0, "fixed|free|sliding", "how they are held"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+static const case_type strip = {.name = "strip", .parameters = {axis_table}};
+
+static sweep_axis read_good(const char *text)
+{
+    sweep_axis a;
+    fault f = {""};
+    gsl_test(axis_read(&strip, text, &a, &f) != STATUS_OK, "%s is read: %s", text, f.text);
+    return a;
+}
+
+static void values_are(const char *text, axis_kind kind, int count, const double right[])
+{
+    sweep_axis a = read_good(text);
+    gsl_test(a.kind != kind, "%s: kind %s", text, axis_kind_name(a.kind));
+    gsl_test_int(a.count, count, "%s: values", text);
+    for (int i = 0; i < a.count && i < count; i++)
+        gsl_test_rel(axis_value(&a, i), right[i], 4e-16, "%s: value %d", text, i);
+    axis_free(&a);
+}
+
+/* The ends are the numbers that stand there, not sums. */
+static void ends_are_exact(void)
+{
+    sweep_axis a = read_good("width=0.2..0.9/7"), b = read_good("width=0.2..0.9/7:log");
+    gsl_test(axis_value(&a, 0) != 0.2 || axis_value(&a, 7) != 0.9, "equal parts");
+    gsl_test(axis_value(&b, 0) != 0.2 || axis_value(&b, 7) != 0.9, "equal ratios");
+    axis_free(&a);
+    axis_free(&b);
+}
+
+/* Where a share of the way is: ends, middles, the share that falls on each word. */
+static void shares(void)
+{
+    sweep_axis a = read_good("turn=-1..1"), b = read_good("width=0.01..1:log"),
+               c = read_good("ends=free,fixed");
+    gsl_test_int(a.count, 0, "a range without parts has no values");
+    gsl_test_rel(axis_at(&a, 0.25), -0.5, 1e-15, "a quarter of the way");
+    gsl_test_rel(axis_at(&b, 0.5), 0.1, 1e-15, "half of the ratio");
+    gsl_test_int((int)axis_at(&c, 0.49), 1, "the first word");
+    gsl_test_int((int)axis_at(&c, 0.5), 0, "the second word");
+    gsl_test_int((int)axis_at(&c, 0.999999), 0, "the second word to the end");
+    axis_free(&c);
+}
+
+static void is_refused(const char *text, const char *word)
+{
+    sweep_axis a;
+    fault f = {""};
+    gsl_test(axis_read(&strip, text, &a, &f) != STATUS_REFUSED, "%s is refused", text);
+    gsl_test(strstr(f.text, word) == NULL, "%s: says '%s': %s", text, word, f.text);
+}
+
+static void axis_tests(void)
+{
+    values_are("width=0.1..0.5/4", AXIS_LINEAR, 5, (const double[]){0.1, 0.2, 0.3, 0.4, 0.5});
+    values_are("turn=1..-1/2", AXIS_LINEAR, 3, (const double[]){1, 0, -1});
+    values_are("width=0.001..10/4:log", AXIS_LOG, 5, (const double[]){0.001, 0.01, 0.1, 1, 10});
+    values_are("turn=-1..-0.01/2:log", AXIS_LOG, 3, (const double[]){-1, -0.1, -0.01});
+    values_are("width=0.3,0.1", AXIS_LIST, 2, (const double[]){0.3, 0.1});
+    values_are("shear=0..1/1", AXIS_LINEAR, 2, (const double[]){0, 1});
+    values_are("ends=sliding,fixed", AXIS_WORDS, 2, (const double[]){2, 0});
+    ends_are_exact();
+    shares();
+    is_refused("widht=1..2/3", "did you mean 'width'");
+    is_refused("width", "NAME=A..B/N");
+    is_refused("width=", "NAME=A..B/N");
+    is_refused("width=1..20/3", "outside its range");
+    is_refused("width=1..11/3", "outside its range");
+    is_refused("width=1,20", "outside its range");
+    is_refused("width=1mm..2/3", "SI without units");
+    is_refused("width=1..2/2.5", "whole number");
+    is_refused("width=1..2/0", "whole number");
+    is_refused("width=1..1/2", "one value");
+    is_refused("turn=-1..1/2:log", "one sign");
+    is_refused("width=1..2/2:ln", "equal ratios");
+    is_refused("width=1,1", "twice");
+    is_refused("width=1,,2", "missing");
+    is_refused("shear=0..1/2", "give 0 or 1");
+    is_refused("shear=0..1", "give 0 or 1");
+    is_refused("ends=fixed..free/1", "fixed|free|sliding");
+    is_refused("ends=fixd", "unknown choice");
+}
+
+/* Every formulation keeps every claim that it makes; and it makes enough of them. */
+
+static void tell(const char *key, const checks_family *family, const claims *c)
+{
+    for (int i = 0; i < c->count; i++)
+        gsl_test(c->claim[i].outcome == CLAIM_BROKEN, "%s, %s: %s (%.1e, allowed %.1e) %s", key,
+                 family->name, c->claim[i].name, c->claim[i].worst, c->claim[i].allowed,
+                 c->claim[i].sentence);
+    gsl_test(c->count == 0, "%s, %s: %d comparisons", key, family->name, claims_compared(c));
+}
+
+static void contract_tests(void)
+{
+    int compared = 0, by_matrices = 0;
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        formulation chosen;
+        formulation_default(registry_formulations[i], &chosen);
+        by_matrices += (chosen.type->offers & FEATURE_COUPLED) != 0;
+        for (int k = 0; k < CHECKS_FAMILIES; k++) {
+            static claims c;
+            memset(&c, 0, sizeof c);
+            checks_families[k].run(&chosen, &c);
+            tell(chosen.key, &checks_families[k], &c);
+            compared += claims_compared(&c);
+        }
+    }
+    gsl_test(compared < 100000, "%d comparisons", compared);
+    gsl_test(by_matrices < 1, "%d formulations carry sections by their matrices", by_matrices);
+}
+
+/* What stands in the fields of a sweep's map: one of each kind. */
+
+enum { PLACES = 8 };
+
+static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
+static const case_type map_box = {.name = "box", .parameters = {map_table}};
+
+/* With a truth at some points, and elsewhere with none. */
+static const struct {
+    tally_place place;
+    const char *mixed, *alike;
+} field[PLACES] = {
+    {{.points = 0}, ".", "."},
+    {{.points = 2, .other = 2}, "o", "o"},
+    {{.points = 2}, "?", "?"},
+    {{.points = 2, .asked = 2, .never = 1, .proven = 1}, "-*", "-"},
+    {{.points = 2, .asked = 2, .never = 1}, "-", "-"},
+    {{.points = 2, .asked = 2, .proven = 1, .least = 4}, "4*", "4"},
+    {{.points = 2, .asked = 2, .least = 8}, "8", "8"},
+    {{.points = 2, .asked = 1, .proven = 1, .least = 4}, "4*?", "4?"},
+};
+
+static void map_map_is(int mixed)
+{
+    parameter_ranges r = {.request = {.type = &map_box, .tolerance = 0.01},
+                          .formulations = 1,
+                          .meshes = 2,
+                          .mesh = {4, 8},
+                          .quantities = 1,
+                          .points_in_batch = PLACES,
+                          .batches = 1};
+    tally t;
+    fault f = {""};
+    char *text = NULL;
+    size_t size = 0;
+    axis_read(&map_box, "a=0..7/7", &r.axis[0], NULL);
+    design_make(DESIGN_GRID, 1, r.axis, 0, 0, &r.design, NULL);
+    snprintf(r.formulation[0].key, sizeof r.formulation[0].key, "beam");
+    gsl_test(tally_alloc(&r, &t, &f) != STATUS_OK, "%s", f.text);
+    gsl_test_int(t.columns, PLACES, "columns");
+    for (int q = 0; q < 2; q++) {
+        t.series[q].asked = 11;
+        t.series[q].proven = mixed ? 3 : 11;
+        for (int i = 0; i < PLACES; i++)
+            t.map[q * PLACES + i] = field[i].place;
+    }
+    FILE *to = open_memstream(&text, &size);
+    ranges_table_map(to, &t, 1);
+    fclose(to);
+    int lines = 0;
+    for (const char *at = text; (at = strstr(at, "\n  beam ")) != NULL; lines++) {
+        char word[16];
+        at += strlen("\n  beam ");
+        for (int i = 0; i < PLACES; i++) {
+            int length = 0;
+            sscanf(at, "%15s%n", word, &length);
+            at += length;
+            gsl_test_str(word, mixed ? field[i].mixed : field[i].alike, "field %d, mixed: %d", i,
+                         mixed);
+        }
+    }
+    gsl_test(lines == 0, "a map is drawn: %s", text);
+    free(text);
+    tally_free(&t);
+}
+
+static void map_tests(void)
+{
+    map_map_is(0);
+    map_map_is(1);
+}
+
+int main(void)
+{
+    tally_tests();
+    axis_tests();
+    contract_tests();
+    map_tests();
     return gsl_test_summary();
 }
