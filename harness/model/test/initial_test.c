@@ -5,10 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/rotation.h"
 #include "elements/test/sections.h"
 #include "harness/analysis/analysis.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
+#include "harness/tools/kit/scenes.h"
 
 static const char *const names[] = {
     "sheet_second",        "sheet_second_consistent",     "sheet_third", "sheet_third_printed",
@@ -134,7 +136,7 @@ static void no_energy_at_rest(const char *name)
     free(data);
 }
 
-int main(void)
+static void initial_tests(void)
 {
     for (int i = 0; i < NAMES; i++) {
         no_energy_at_rest(names[i]);
@@ -145,5 +147,200 @@ int main(void)
         shear(names[i], 2);
     }
     not_offered();
+}
+
+/* Centre lines for pictures: a shaft that is twisted, a beam that is bent to an arc. */
+
+enum { POINTS = 13, MOST = 60 };
+
+/* One element; its tip moved and turned. */
+static void moved(const char *name, const double tip[6], centreline_point out[POINTS])
+{
+    const double end = 1;
+    const section_spec spec = sections_of(1, 1, 1, 1);
+    formulation chosen;
+    scene s;
+    model *m = NULL;
+    model_state *state = NULL;
+    fault f = {""};
+    double x[MOST] = {0}, scale = 1;
+    scene_init(&s, "cantilever");
+    const int node = scenes_cantilever(&s, &spec);
+    scene_add_static(&s, 1, &end, 1);
+    gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK ||
+                 scene_validate(&s, &f) != STATUS_OK,
+             "%s", f.text);
+    const model_request request = {
+        .scene = &s, .type = chosen.type, .options = chosen.option, .elements = 1};
+    gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s: %s", name, f.text);
+    gsl_test_int(centreline_points(m, NULL), POINTS, "%s: points of a member", name);
+    for (int i = 0; i < 6; i++)
+        x[kinematics_coordinate(m, node, SCENE_UX + i)] = tip[i];
+    gsl_test(centreline_displaced(m, kinematics_rest(m), x, NULL, &scale, &state, &f) != STATUS_OK,
+             "%s: %s", name, f.text);
+    centreline_fill(m, state, out);
+    kinematics_state_free(state);
+    model_free(m);
+    scene_free(&s);
+}
+
+/* A cubic between ends that are tangents to an arc is off it by angle^3/384; triads follow its
+ * tangents, and share a twist evenly. */
+static void arc(const char *name, double angle, double twist)
+{
+    const double radius = angle > 0 ? 1 / angle : 0;
+    const double tip[6] = {angle > 0 ? radius * sin(angle) - 1 : 0,
+                           angle > 0 ? radius * (1 - cos(angle)) : 0,
+                           0,
+                           twist,
+                           0,
+                           angle};
+    const double off = pow(angle, 3) / 380;
+    centreline_point p[POINTS];
+    moved(name, tip, p);
+    for (int i = 0; i < POINTS; i++) {
+        const double t = (double)i / (POINTS - 1), a = angle * t;
+        const double r[3] = {angle > 0 ? radius * sin(a) : t, angle > 0 ? radius * (1 - cos(a)) : 0,
+                             0};
+        const double turn[3] = {twist * t, 0, a};
+        double q[4], same = 0;
+        rotation_exp(turn, q);
+        for (int k = 0; k < 3; k++)
+            gsl_test_abs(p[i].r[k], r[k], 1e-14 + off, "%s: place %d of point %d", name, k, i);
+        for (int k = 0; k < 4; k++)
+            same += p[i].q[k] * q[k];
+        gsl_test_abs(fabs(same), 1, 1e-14 + off, "%s: triad of point %d", name, i);
+    }
+}
+
+static void centreline_tests(void)
+{
+    static const char *const name[] = {"beamw", "collocation", "sheet_third"};
+    for (int i = 0; i < 3; i++) {
+        arc(name[i], 0, 0.9);
+        arc(name[i], 0.4, 0);
+    }
+}
+
+/* Where pieces of members begin and end, and which element is at a place. */
+
+enum { WHOLE, LOADED, OWN };
+
+/* Three members in a row: without loads within, with some, with some and divisions of its own. */
+static void row(scene *s)
+{
+    const double y[3] = {0, 1, 0};
+    const section_spec spec = section_spec_rectangle(2e11, 8e10, 0.01, 0.01);
+    scene_init(s, "row");
+    scene_add_section(s, &spec);
+    for (int i = 0; i < 4; i++)
+        scene_add_node(s, i, 0, 0);
+    for (int i = 0; i < 3; i++)
+        scene_add_member(s, i, i + 1, 0, y);
+    scene_member_at(s, OWN)->divisions = 3;
+    scene_add_load(s, SCENE_FORCE, 1, 1, 0, 0);
+    scene_add_load(s, SCENE_DISTRIBUTED, WHOLE, 1, 0, 0);
+    scene_add_load_within(s, SCENE_MEMBER_FORCE, LOADED, 0.7, 1, 0, 0);
+    scene_load *part = scene_load_at(s, scene_add_load(s, SCENE_DISTRIBUTED, LOADED, 1, 0, 0));
+    part->range[0] = 0.2;
+    part->range[1] = 0.7 + 1e-16;
+    scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.7005, 1, 0, 0); /* too near */
+    scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.9995, 1, 0, 0);
+    scene_add_load_within(s, SCENE_MEMBER_MOMENT, OWN, 1, 1, 0, 0);
+    scene_add_load_within(s, SCENE_MEMBER_FORCE, OWN, 0.5, 1, 0, 0);
+}
+
+static void pieces(const division *d)
+{
+    static const int expected[] = {1, 3, 2}, elements[] = {2, 6, 6};
+    static const double place[] = {0, 0.1, 0.2, 0.45, 0.7, 0.85};
+    for (int i = 0; i < 3; i++) {
+        gsl_test_int(division_pieces(d, i), expected[i], "pieces of member %d", i);
+        gsl_test_int(division_elements(d, i), elements[i], "elements of member %d", i);
+    }
+    for (int i = 0; i < 6; i++) {
+        gsl_test_abs(division_place(d, LOADED, i, 0), place[i], 1e-15, "element %d begins", i);
+        gsl_test_abs(division_inside(d, LOADED, i, place[i]), 0, 1e-14, "place of element %d", i);
+    }
+    gsl_test_abs(division_inside(d, LOADED, 3, 0.7), 1, 0, "a piece ends exactly");
+}
+
+static void elements_at(const division *d)
+{
+    static const struct {
+        double place;
+        int before, element;
+        double x;
+    } row[] = {{0, 0, 0, 0},    {0, 1, 0, 0},           {0.05, 0, 0, 0.5},      {0.2, 0, 2, 0},
+               {0.2, 1, 1, 1},  {0.2 - 1e-16, 0, 2, 0}, {0.325, 0, 2, 0.5},     {0.325, 1, 2, 0.5},
+               {0.45, 1, 2, 1}, {0.7, 0, 4, 0},         {0.7 + 1e-16, 1, 3, 1}, {1, 0, 5, 1},
+               {1, 1, 5, 1}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        double x;
+        gsl_test_int(division_at(d, LOADED, row[i].place, row[i].before, &x), row[i].element,
+                     "element at %.17g, before: %d", row[i].place, row[i].before);
+        gsl_test_abs(x, row[i].x, 1e-14, "point of it at %.17g, before: %d", row[i].place,
+                     row[i].before);
+    }
+}
+
+static void words(const scene *s)
+{
+    char text[400];
+    division_words(s, 2, text, sizeof text);
+    gsl_test(strcmp(text, "member_1 has 6 elements, 2 in each of 3 pieces: its loads begin, end or "
+                          "act at 0.2, 0.7 of its length; member_2 has 6 elements, 3 in each of 2 "
+                          "pieces: its loads begin, end or act at 0.5 of its length") != 0,
+             "words: %s", text);
+    division_words(s, 0, text, 60);
+    gsl_test(strncmp(text, "member_1 has n elements in each of 3 pieces: its loads", 54) != 0,
+             "words of any mesh: %s", text);
+    division_words(s, 2, text, 40);
+    gsl_test_int((int)strlen(text), 39, "words in little room");
+}
+
+static void division_tests(void)
+{
+    scene s;
+    division d;
+    fault f = {""};
+    row(&s);
+    gsl_test(division_make(&s, 2, &d, &f) != STATUS_OK, "is divided: %s", f.text);
+    pieces(&d);
+    elements_at(&d);
+    words(&s);
+    division_free(&d);
+    scene_free(&s);
+}
+
+/* Rigid motions about an origin, of a node at a place. */
+
+static void supports_tests(void)
+{
+    enum { N = 6 };
+    const double at[3] = {0.3, -0.7, 1.1}, length = 2;
+    /* u = t + w x at / length, and w / length, columns t and w */
+    const double expected[N][N] = {{1, 0, 0, 0, at[2] / length, -at[1] / length},
+                                   {0, 1, 0, -at[2] / length, 0, at[0] / length},
+                                   {0, 0, 1, at[1] / length, -at[0] / length, 0},
+                                   {0, 0, 0, 1 / length, 0, 0},
+                                   {0, 0, 0, 0, 1 / length, 0},
+                                   {0, 0, 0, 0, 0, 1 / length}};
+    double G[N * N + 1];
+    for (int i = 0; i <= N * N; i++)
+        G[i] = 17;
+    supports_rigid(at, length, G);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            gsl_test_abs(G[N * i + j], expected[i][j], 1e-15, "entry %d, %d", i, j);
+    gsl_test(G[N * N] != 17, "what stands behind is left alone");
+}
+
+int main(void)
+{
+    initial_tests();
+    centreline_tests();
+    division_tests();
+    supports_tests();
     return gsl_test_summary();
 }

@@ -6,7 +6,11 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/shared/lumped.h"
+#include "elements/test/nodes.h"
 #include "elements/test/random.h"
+#include "elements/test/worst.h"
+#include "harness/experiments/experiments.h"
 #include "harness/model/model.h"
 
 /* Columns of T: `shifts` displacements along the axes, then turns about unit axes in a plane (or
@@ -151,12 +155,196 @@ static void prescribed_moment(void)
         }
 }
 
-int main(void)
+static void movable_tests(void)
 {
     dimensions();
     whole_components();
     components_alone();
     nothing();
     prescribed_moment();
+}
+
+/* Masses at the nodes of straight elements: their moments, and those of sections by their matrices.
+ */
+
+enum { MOST = SPECIMEN_COORDINATES };
+
+/* What a scene with `mass: lumped` has, with all formulations alike. */
+static void at_nodes(const specimen *s, const node_state x[], double M[])
+{
+    const lumped_mass whole = lumped_of(&s->section, s->request.features, s->request.length);
+    lumped_element(&whole, s->nodes, lumped_shares(s->nodes), x, NULL, &(inertia_output){.M = M});
+}
+
+static void make(const char *name, const specimen_request *what, specimen *out)
+{
+    fault f = {""};
+    gsl_test(specimen_make(what, out, &f) != STATUS_OK, "%s: prepared %s", name, f.text);
+}
+
+/* Masses at the nodes of an element stand as the rule for loads does: trapezoids with two nodes,
+ * Simpson's with three, whose second moment about the end is exact. The twist has the section's own
+ * polar inertia, whatever gives it. */
+static void lumped_moments(const char *name)
+{
+    formulation chosen;
+    specimen s;
+    double M[MOST * MOST], x_moment = 0, polar = 0;
+    node_state x[ELEMENT_MAX_NODES];
+    gsl_test(formulation_parse(name, &chosen, NULL) != STATUS_OK, "%s", name);
+    const specimen_request what = {.given = chosen.type,
+                                   .options = chosen.option,
+                                   .features = FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+                                   .form = PROFILES_UNSYMMETRIC,
+                                   .unit = 1};
+    make(name, &what, &s);
+    s.section.Ip *= 1.3;
+    gsl_test(s.type.prepare(&s.request, s.data, NULL) != STATUS_OK, "%s: prepared again", name);
+    specimen_state(&s, 0, 1, x);
+    at_nodes(&s, x, M);
+    for (int k = 0; k < s.nodes; k++) {
+        x_moment += M[(NODE_COORDINATES * k + 1) * (s.coordinates + 1)] * pow(x[k].r[0], 2);
+        polar += M[(NODE_COORDINATES * k + 3) * (s.coordinates + 1)];
+    }
+    const double l = s.request.length, mass = s.section.density * s.section.A * l;
+    gsl_test_rel(x_moment, mass * l * l / (s.nodes == 2 ? 2 : 3), 1e-13,
+                 "%s: second moment of the masses", name);
+    gsl_test_rel(polar, s.section.density * s.section.Ip * l, 1e-13, "%s: polar inertia", name);
+    specimen_free(&s);
+}
+
+/* The mass matrix of one node of two is half that of the slice times its length. */
+static void slice(const char *name)
+{
+    formulation chosen;
+    specimen s;
+    double M[MOST * MOST], worst = 0;
+    node_state x[ELEMENT_MAX_NODES];
+    gsl_test(formulation_parse(name, &chosen, NULL) != STATUS_OK, "%s", name);
+    const specimen_request what = {.given = chosen.type,
+                                   .options = chosen.option,
+                                   .features = FEATURE_MASS | FEATURE_SHEAR,
+                                   .form = PROFILES_MATRICES,
+                                   .unit = 1};
+    make(name, &what, &s);
+    specimen_state(&s, 0, 1, x);
+    at_nodes(&s, x, M);
+    for (int i = 0; i < 36; i++)
+        worst = worst_of(worst, fabs(M[s.coordinates * (i / 6) + i % 6] -
+                                     s.request.length / 2 * s.section.mass[i]) /
+                                    (s.request.length * s.section.mass[0]));
+    gsl_test(!(worst < 1e-16), "%s: mass matrix of a node (%.1e)", name, worst);
+    specimen_free(&s);
+}
+
+static void inertia_moments_tests(void)
+{
+    lumped_moments("geometrically_exact:nodes=2");
+    lumped_moments("geometrically_exact:nodes=3");
+    lumped_moments("collocation");
+    slice("geometrically_exact:nodes=2");
+    slice("collocation");
+}
+
+/* Springs: their derivatives against differences, whatever the turn between their ends; nothing
+ * while both ends move as one; and the deformations that are known. */
+
+static void two_ends(const element_data *data, const node_state x[], strain_output *out)
+{
+    (void)data;
+    spring_strain(2, x, NULL, out);
+}
+
+static void to_ground(const element_data *data, const node_state x[], strain_output *out)
+{
+    (void)data;
+    spring_strain(1, x, NULL, out);
+}
+
+static const element_type spring[2] = {{.name = "to ground", .strain = to_ground},
+                                       {.name = "two ends", .strain = two_ends}};
+
+enum { SPRING_MOST = 2 * NODE_COORDINATES };
+
+static void turn_end(double angle, uint64_t *seed, node_state *x)
+{
+    double axis[3], size = 0;
+    for (int i = 0; i < 3; i++) {
+        axis[i] = random_number(seed);
+        size += axis[i] * axis[i];
+    }
+    for (int i = 0; i < 3; i++)
+        axis[i] *= angle / sqrt(size);
+    nodes_turn(x->R, axis);
+}
+
+static void derivatives(int nodes, double angle, uint64_t *seed)
+{
+    double d[SPRING_MOST], s[SPRING_STRAINS];
+    node_state x[2];
+    nodes_straight(2, 0.31, x);
+    nodes_increments(nodes, 0.31, 1, (unsigned)random_bits(seed), d);
+    nodes_move(nodes, 1, d, x);
+    turn_end(angle, seed, &x[nodes - 1]);
+    nodes_increments(nodes, 0.31, 1, (unsigned)random_bits(seed), d);
+    for (int k = 0; k < nodes; k++)
+        d[NODE_COORDINATES * k + 6] = 0;
+    for (int i = 0; i < SPRING_STRAINS; i++)
+        s[i] = random_number(seed) * (i < 3 ? 1 : 0.31);
+    const nodes_departure found =
+        nodes_differences(&spring[nodes - 1], NULL, nodes, SPRING_STRAINS, x, d, s);
+    gsl_test(!(found.first < 1e-8), "%s, turn %g: first derivatives (%.1e)", spring[nodes - 1].name,
+             angle, found.first);
+    gsl_test(!(found.second < 1e-7), "%s, turn %g: second derivatives (%.1e)",
+             spring[nodes - 1].name, angle, found.second);
+    gsl_test(!(found.asymmetry < 1e-14), "%s, turn %g: symmetric (%.1e)", spring[nodes - 1].name,
+             angle, found.asymmetry);
+}
+
+/* Both ends move as one rigid body: nothing; then one turns about an axis of the other. */
+static void known(uint64_t *seed)
+{
+    double d[SPRING_MOST], e[SPRING_STRAINS];
+    node_state x[2];
+    nodes_straight(2, 0.31, x);
+    nodes_increments(1, 0.31, 1, (unsigned)random_bits(seed), d);
+    for (int i = 0; i < 3; i++)
+        x[1].u[i] = x[0].u[i] = 0;
+    nodes_turn(x[0].R, d + 3);
+    memcpy(x[1].R, x[0].R, sizeof x[1].R);
+    for (int i = 0; i < 3; i++) {
+        x[1].r[i] = x[0].r[i] + 0.31 * x[0].R[3 * i];
+        x[1].u[i] = x[1].r[i] - (i == 0 ? 0.31 : 0);
+    }
+    spring_strain(2, x, NULL, &(strain_output){.e = e});
+    for (int i = 0; i < SPRING_STRAINS; i++)
+        gsl_test(!(fabs(e[i]) < 4e-16), "rigid motion: no deformation %d (%.1e)", i, e[i]);
+    const double y[3] = {0.7 * x[0].R[1], 0.7 * x[0].R[4], 0.7 * x[0].R[7]};
+    nodes_turn(x[1].R, y);
+    for (int i = 0; i < 3; i++) {
+        x[1].r[i] += 0.02 * x[0].R[3 * i + 2];
+        x[1].u[i] += 0.02 * x[0].R[3 * i + 2];
+    }
+    spring_strain(2, x, NULL, &(strain_output){.e = e});
+    gsl_test_rel(e[2], 0.02, 1e-13, "pulled along its z axis");
+    gsl_test_rel(e[4], 0.7, 1e-14, "turned about its y axis");
+    gsl_test(!(fabs(e[0]) + fabs(e[1]) + fabs(e[3]) + fabs(e[5]) < 1e-15), "and nothing else");
+}
+
+static void spring_tests(void)
+{
+    static const double angle[] = {0, 1e-9, 1e-3, 0.2, 0.6, 0.72, 1.3, 2.4, 2.9};
+    uint64_t seed = 11;
+    for (int nodes = 1; nodes <= 2; nodes++)
+        for (size_t i = 0; i < sizeof angle / sizeof angle[0]; i++)
+            derivatives(nodes, angle[i], &seed);
+    known(&seed);
+}
+
+int main(void)
+{
+    movable_tests();
+    inertia_moments_tests();
+    spring_tests();
     return gsl_test_summary();
 }

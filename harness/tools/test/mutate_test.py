@@ -110,7 +110,7 @@ class Sample(unittest.TestCase):
     def test_checks_are_there(self):
         texts = mutate.tests()
         found = mutate.checks(self.FILES[1], texts)
-        self.assertEqual(found[0], "harness/model/test/division_test")
+        self.assertEqual(found[0], "harness/model/test/initial_test")
         for one in found:
             self.assertTrue(one.startswith("verify:") or f"{one}.c" in texts or
                             one.replace(".", "/") + ".py" in texts, one)
