@@ -2,6 +2,8 @@
  * section; an offset is a rigid arm. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
@@ -184,7 +186,7 @@ static void offset_is_an_arm(const element_type *type)
     }
 }
 
-int main(void)
+static void applied_tests(void)
 {
     static const char *const name[] = {"geometrically_exact:nodes=2", "geometrically_exact:nodes=3",
                                        "beamw_consistent"};
@@ -195,5 +197,200 @@ int main(void)
     }
     for (int i = 0; registry_formulations[i] != NULL; i++)
         offset_is_an_arm(registry_formulations[i]);
+}
+
+/* Elements in lanes: members of two sections by turns have the answers of one element at a time,
+ * and what cannot be evaluated is named. */
+
+enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };
+
+/* Three members in a line, the first and the last of one section, bent by a force at the end. */
+static void set_up(scene *s)
+{
+    const double y[3] = {0, 1, 0}, end = 1;
+    const section_spec spec[2] = {section_spec_rectangle(2e11, 8e10, 0.02, 0.002),
+                                  section_spec_rectangle(2e11, 8e10, 0.03, 0.001)};
+    int node[MEMBERS + 1], of[2];
+    scene_init(s, "line");
+    for (int k = 0; k < 2; k++)
+        of[k] = scene_add_section(s, &spec[k]);
+    for (int k = 0; k <= MEMBERS; k++)
+        node[k] = scene_add_node(s, 0.2 * k, 0, 0);
+    for (int k = 0; k < MEMBERS; k++)
+        scene_add_member(s, node[k], node[k + 1], of[k % 2], y);
+    scene_hold_all(s, node[0]);
+    scene_add_load(s, SCENE_FORCE, node[MEMBERS], 0.1, 0.4, 0.2);
+    scene_add_static(s, 1, &end, 1);
+    for (int k = 0; k < QUANTITIES; k++) {
+        const char name[2] = {(char)('a' + k), 0};
+        scene_add_quantity(s, name, "1", 0, scene_coordinate(node[MEMBERS], k));
+    }
+}
+
+static void solved(const element_type *type, double value[QUANTITIES])
+{
+    scene s;
+    model *m = NULL;
+    solve_result r = {0};
+    fault f = {""};
+    set_up(&s);
+    const model_request request = {&s, type, NULL, ELEMENTS, 0};
+    gsl_test(model_alloc(&request, &m, &f) != STATUS_OK ||
+                 solve_scene(&s, m, NULL, &r, &f) != STATUS_OK,
+             "%s: %s", type->name, f.text);
+    for (int k = 0; k < QUANTITIES; k++)
+        value[k] = r.quantities > k ? r.quantity[k].value : NAN;
+    result_free(&r);
+    model_free(m);
+    scene_free(&s);
+}
+
+static void same_answers(const element_type *type)
+{
+    double together[QUANTITIES], alone[QUANTITIES];
+    element_type one = *type;
+    one.lanes = 0;
+    one.strain_many = NULL;
+    one.stress_many = NULL;
+    one.equations_many = NULL;
+    solved(type, together);
+    solved(&one, alone);
+    gsl_test(memcmp(together, alone, sizeof alone) != 0, "%s: in lanes %.17g, one at a time %.17g",
+             type->name, together[1], alone[1]);
+}
+
+static const element_type *inner;
+static int asked; /* processors without AVX2 evaluate one at a time */
+static const double failing =
+    0.4 + 0.2 * 3 / ELEMENTS; /* [m] where the fourth of the last begins */
+
+/* One element cannot be evaluated. */
+static void fail(int count, const node_state x[], int nodes, status outcome[])
+{
+    for (int k = 0; k < count; k++)
+        if (fabs(x[k * nodes].r[0] - failing) < 1e-9)
+            outcome[k] = STATUS_SINGULAR;
+}
+
+static void failing_equations(int count, const element_data *const data[], const node_state x[],
+                              const double *const e[], const double *const own[],
+                              const double *const s[], equations_output out[], status outcome[])
+{
+    asked++;
+    inner->equations_many(count, data, x, e, own, s, out, outcome);
+    fail(count, x, element_nodes(inner, NULL), outcome);
+}
+
+static void named(const element_type *type)
+{
+    scene s;
+    model *m = NULL;
+    model_state *state = NULL;
+    fault f = {""};
+    element_type wrong = *type;
+    inner = type;
+    wrong.equations_many = failing_equations;
+    set_up(&s);
+    const model_request request = {&s, &wrong, NULL, ELEMENTS, 0};
+    if (model_alloc(&request, &m, &f) == STATUS_OK &&
+        kinematics_state_alloc(m, &state, &f) == STATUS_OK) {
+        const model_size size = model_sizes(m);
+        double *residual = calloc((size_t)(size.free + size.driven) + 1, sizeof *residual);
+        run_state run;
+        model_linearisation lin = {.residual = residual};
+        run_state_begin(&run, m, 1, NULL);
+        equations eq = {.m = m, .run = &run};
+        asked = 0;
+        const status outcome =
+            residual != NULL ? linearise_state(&eq, &run.memory, state, &lin, &f) : STATUS_FAULT;
+        gsl_test(outcome != (asked > 0 ? STATUS_SINGULAR : STATUS_OK),
+                 "%s: an element that cannot be evaluated", type->name);
+        gsl_test(asked > 0 && strstr(f.text, "element 17 of member 2") == NULL, "%s: '%s'",
+                 type->name, f.text);
+        run_state_end(&run);
+        free(residual);
+    } else {
+        gsl_test(1, "%s: %s", type->name, f.text);
+    }
+    kinematics_state_free(state);
+    model_free(m);
+    scene_free(&s);
+}
+
+static void chunk_tests(void)
+{
+    int found = 0;
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *type = registry_formulations[i];
+        if (type->lanes == 0)
+            continue;
+        same_answers(type);
+        if (type->equations_many != NULL) {
+            named(type);
+            found++;
+        }
+    }
+    gsl_test(found == 0, "a formulation with equations in lanes");
+}
+
+/* Reactions at the foot of an arm, of every formulation. */
+
+/* A beam on an arm: what the body at its foot carries is the tip's force, and its moment about the
+ * body. */
+static void foot_of_an_arm(const element_type *type)
+{
+    const double y[3] = {0, 1, 0}, end = 1, P[3] = {0.01, -0.02, 0.03};
+    scene s;
+    model *m = NULL;
+    solve_result r = {0};
+    fault f = {""};
+    section_spec spec = section_spec_rectangle(1e4, 4e3, 0.1, 0.08);
+    scene_init(&s, "arm");
+    const int foot = scene_add_node(&s, 0, 0, 0),
+              arm = scene_add_attached(&s, foot, 0.3, -0.4, 0.2);
+    const int tip = scene_add_node(&s, 1.3, -0.4, 0.2);
+    scene_hold_all(&s, foot);
+    scene_add_member(&s, arm, tip, scene_add_section(&s, &spec), y);
+    scene_add_load(&s, SCENE_FORCE, tip, P[0], P[1], P[2]);
+    scene_add_load(&s, SCENE_FORCE, foot, 5, 6, 7); /* into the ground at once */
+    scene_add_static(&s, 1, &end, 1);
+    for (int k = 0; k < 9; k++) {
+        char name[8];
+        snprintf(name, sizeof name, "q%d", k);
+        scene_add_quantity(&s, name, "1", 0,
+                           k < 6 ? scene_reaction(foot, k) : scene_coordinate(tip, k - 6));
+    }
+    const model_request request = {&s, type, NULL, 2, 0};
+    if (model_alloc(&request, &m, &f) == STATUS_OK &&
+        solve_scene(&s, m, NULL, &r, &f) == STATUS_OK) {
+        const double x[3] = {1.3 + r.quantity[6].value, -0.4 + r.quantity[7].value,
+                             0.2 + r.quantity[8].value};
+        double moment[3];
+        vec3_cross(x, P, moment);
+        for (int i = 0; i < 3; i++) {
+            gsl_test_abs(r.quantity[i].value, -P[i] - 5 - i, 1e-9, "%s: reaction %d at the foot",
+                         type->name, i);
+            gsl_test_abs(r.quantity[3 + i].value, -moment[i], 1e-9,
+                         "%s: reacting moment %d at the foot", type->name, i);
+        }
+    } else {
+        gsl_test(1, "%s: %s", type->name, f.text);
+    }
+    result_free(&r);
+    model_free(m);
+    scene_free(&s);
+}
+
+static void reaction_tests(void)
+{
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        foot_of_an_arm(registry_formulations[i]);
+}
+
+int main(void)
+{
+    applied_tests();
+    chunk_tests();
+    reaction_tests();
     return gsl_test_summary();
 }

@@ -3,14 +3,17 @@
  * does with a true tangent. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/test/ended.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
+#include "harness/tools/kit/cells.h"
 
 enum { MOST = 60, ON_NODE, ON_BODY, ON_ANGLES, PLACES };
 
@@ -216,7 +219,7 @@ static void check(const char *formulation_name, int place, const char *const set
     free(t);
 }
 
-int main(void)
+static void release_tests(void)
 {
     static const char *const formulation_name[] = {"geometrically_exact:nodes=2",
                                                    "geometrically_exact:nodes=3", "beamw"};
@@ -224,5 +227,358 @@ int main(void)
         for (int place = ON_NODE; place < PLACES; place++)
             for (size_t k = 0; k < sizeof sets / sizeof sets[0]; k++)
                 check(formulation_name[i], place, sets[k]);
+}
+
+/* The size of a correction sees every coordinate: translations by the size of the scene, turns
+ * in radians, amplitudes of warping times that size; and the rigid motion that is left loose is
+ * one that the supports allow. */
+
+static const double length = 2;
+
+/* A member along x that warps; what holds its far end. */
+static int warping_member(const element_type *type, int first, int last, scene *s, model **m)
+{
+    const double y[3] = {0, 1, 0}, end = 1;
+    fault f = {""};
+    section_spec spec = section_spec_rectangle(1e4, 4e3, 0.2, 0.05);
+    scene_init(s, "member");
+    const int p = scene_add_node(s, 0, 0, 0), q = scene_add_node(s, length, 0, 0);
+    scene_add_member(s, p, q, scene_add_section(s, &spec), y);
+    if (first <= last)
+        scene_hold(s, q, first, last);
+    scene_add_static(s, 1, &end, 1);
+    const model_request request = {s, type, NULL, 3, 0};
+    const status made = model_alloc(&request, m, &f);
+    gsl_test(made != STATUS_OK, "%s: %s", type->name, f.text);
+    return made == STATUS_OK;
+}
+
+/* Size of a correction of one coordinate alone. */
+static double size_of(model *m, int coordinate, double step)
+{
+    const model_size size = model_sizes(m);
+    const size_t n = (size_t)(size.free + size.driven);
+    double *dx = calloc(n, sizeof *dx), *residual = calloc(n, sizeof *residual), out = NAN;
+    model_state *s;
+    fault f = {""};
+    run_state run;
+    model_linearisation lin = {.residual = residual};
+    run_state_begin(&run, m, 1, NULL);
+    equations eq = {.m = m, .run = &run};
+    if (kinematics_state_alloc(m, &s, &f) == STATUS_OK &&
+        linearise_state(&eq, &run.memory, s, &lin, &f) == STATUS_OK) {
+        dx[coordinate] = step;
+        out = advance_state(&eq, &run.memory, s, dx, 0, NULL);
+    }
+    run_state_end(&run);
+    kinematics_state_free(s);
+    free(dx);
+    free(residual);
+    return out;
+}
+
+static void corrections(const element_type *type)
+{
+    scene s;
+    model *m = NULL;
+    const double step = 1e-5;
+    if (warping_member(type, SCENE_UX, SCENE_RZ, &s, &m)) {
+        int translations = 0, turns = 0, amplitudes = 0;
+        const int n = model_sizes(m).free;
+        for (int k = 0; k < n; k++) {
+            const double size = size_of(m, k, step) / step;
+            const int translation = fabs(size * length - 1) < 1e-9, turn = fabs(size - 1) < 1e-9,
+                      warp = fabs(size - length) < 1e-9;
+            /* what is inside an element counts too */
+            gsl_test(type->inner != NULL ? !(size > 0.4 / length) : translation + turn + warp != 1,
+                     "%s: coordinate %d counts as %g", type->name, k, size);
+            gsl_test(!isnan(size_of(m, k, NAN)), "%s: coordinate %d may be no number", type->name,
+                     k);
+            translations += translation;
+            turns += turn;
+            amplitudes += warp;
+        }
+        gsl_test(type->inner == NULL && turns != translations, "%s: as many turns as translations",
+                 type->name);
+        gsl_test(type->inner == NULL && (type->offers & FEATURE_WARPING) && amplitudes == 0,
+                 "%s: amplitudes of warping count", type->name);
+    }
+    model_free(m);
+    scene_free(&s);
+}
+
+/* Held at the far end in its translations: what is left turns about it. */
+static void loose_about_the_far_end(const element_type *type)
+{
+    scene s;
+    model *m = NULL;
+    const double arm[3] = {length, 0, 0};
+    if (warping_member(type, SCENE_UX, SCENE_UZ, &s, &m)) {
+        int node = -1;
+        double motion[6], there[3];
+        gsl_test(!supports_loose_part(m, &node, motion) || node != 0, "%s: it is loose",
+                 type->name);
+        vec3_cross(motion + 3, arm, there);
+        for (int i = 0; i < 3; i++)
+            gsl_test_abs(motion[i] + there[i], 0, 1e-12, "%s: the held end stays, direction %d",
+                         type->name, i);
+        gsl_test(!(vec3_norm(motion + 3) > 1e-3), "%s: it turns", type->name);
+    }
+    model_free(m);
+    scene_free(&s);
+}
+
+static void advance_tests(void)
+{
+    for (int i = 0; registry_formulations[i] != NULL; i++)
+        corrections(registry_formulations[i]);
+    loose_about_the_far_end(registry_formulations[0]);
+}
+
+/* Condensed members give the same answers as the assembled tangent: every case, and released ends,
+ * with formulations of each family; and beyond what an assembled tangent has digits for. */
+
+static const char *const formulations[] = {"beamw", "sheet_third", "geometrically_exact",
+                                           "collocation"};
+enum { FORMULATIONS = sizeof formulations / sizeof formulations[0], NEVER = 1000000 };
+
+/* A fifth of a motion is solved by the same steps as all of it. */
+static void shorten(const case_type *type, double parameter[])
+{
+    const int time = parameter_index(type->parameters, "time");
+    if (time >= 0)
+        parameter[time] /= 5;
+}
+
+static status test_condensation_solve(const case_type *type, const char *of, int elements,
+                                      int condensed, cell_result *out)
+{
+    cell_request request = cells_of(type, of, elements);
+    fault f = {""};
+    shorten(type, request.parameter);
+    request.solve.condensed = condensed;
+    return cell_run(&request, out, &f);
+}
+
+/* Values of quantities beside those of the same kind of unit, which zeros are measured by. */
+static double scale_of(const cell_result *r, const char *unit)
+{
+    double largest = 0;
+    for (int i = 0; i < r->solve.quantities; i++)
+        if (strcmp(r->scene.quantity[i].unit, unit) == 0 &&
+            r->solve.quantity[i].status == STATUS_OK)
+            largest = fmax(largest, fabs(r->solve.quantity[i].value));
+    return largest;
+}
+
+/* How many values were compared. */
+static int compare(const char *name, const char *of, const cell_result *a, const cell_result *b)
+{
+    int compared = 0;
+    for (int i = 0; i < a->solve.quantities; i++) {
+        const quantity_result *p = &a->solve.quantity[i], *q = &b->solve.quantity[i];
+        const scene_quantity *what = &a->scene.quantity[i];
+        gsl_test(p->status != q->status, "%s, %s, %s: %s", name, of, what->name, q->reason);
+        if (p->status != STATUS_OK || q->status != STATUS_OK)
+            continue;
+        const double apart = fabs(p->value - q->value),
+                     size = fabs(p->value) + 1e-3 * scale_of(a, what->unit);
+        gsl_test(!(apart <= 1e-7 * size), "%s, %s, %s: %.10g assembled, %.10g condensed", name, of,
+                 what->name, p->value, q->value);
+        compared++;
+    }
+    return compared;
+}
+
+static int both_ways(const case_type *type, const char *of, int elements)
+{
+    cell_result assembled, condensed;
+    const status one = test_condensation_solve(type, of, elements, NEVER, &assembled),
+                 other = test_condensation_solve(type, of, elements, 1, &condensed);
+    gsl_test(one != other, "%s, %s: solved both ways", type->name, of);
+    const int compared = one == STATUS_OK && other == STATUS_OK
+                             ? compare(type->name, of, &assembled, &condensed)
+                             : 0;
+    cell_result_free(&assembled);
+    cell_result_free(&condensed);
+    return compared;
+}
+
+static void cases(void)
+{
+    int compared = 0;
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        for (int k = 0; k < FORMULATIONS; k++)
+            compared += both_ways(registry_cases[i], formulations[k], 2);
+    gsl_test(compared < 500, "%d values of cases were compared", compared);
+}
+
+/* Two leaves, joined by a hinge, the second one from a body; the tip slides in its holder. */
+static status hinged(const double value[], scene *s, fault *f)
+{
+    const double y[3] = {0, 1, 0}, end = 1;
+    section_spec spec = section_spec_rectangle(2e11, 8e10, 0.02, 0.001);
+    (void)value;
+    (void)f;
+    scene_init(s, "hinged");
+    const int root = scene_add_node(s, 0, 0, 0), body = scene_add_node(s, 0.1, 0, 0),
+              beside = scene_add_attached(s, body, 0.11, 0.01, 0.005),
+              tip = scene_add_node(s, 0.2, 0.02, 0), leaf = scene_add_section(s, &spec);
+    scene_hold_all(s, root);
+    scene_hold(s, tip, SCENE_UX, SCENE_RX);
+    scene_add_member(s, root, body, leaf, y);
+    const int second = scene_add_member(s, beside, tip, leaf, y);
+    scene_release_end(s, second, 0, SCENE_RZ);
+    scene_release_end(s, second, 1, SCENE_UX);
+    scene_add_load(s, SCENE_FORCE, body, 0.5, 1, 0.3);
+    scene_add_load(s, SCENE_FORCE, beside, 0, 0.4, 0.3);
+    const int path = scene_add_static(s, 1, &end, 3);
+    for (int i = 0; i < 6; i++)
+        scene_add_quantity(s, (const char *[]){"ux", "uy", "uz", "rx", "ry", "rz"}[i],
+                           i < 3 ? "m" : "rad", path, scene_coordinate(body, i));
+    return STATUS_OK;
+}
+
+static void released(void)
+{
+    static const parameter_type none[] = {{0}};
+    const case_type type = {.name = "hinged",
+                            .summary = "a case of the test",
+                            .source = "none",
+                            .parameters = {none},
+                            .build = hinged};
+    int compared = 0;
+    for (int k = 0; k < FORMULATIONS; k++)
+        compared += both_ways(&type, formulations[k], 3);
+    gsl_test(compared < 12, "%d values with released ends were compared", compared);
+}
+
+/* With 4000 elements, condition 1e16 of the assembled tangent, Newton's method converges as with
+ * few. */
+static void many(const case_type *type)
+{
+    cell_result few, more;
+    const status one = test_condensation_solve(type, "beamw_consistent", 128, 0, &few),
+                 other = test_condensation_solve(type, "beamw_consistent", 4000, 0, &more);
+    gsl_test(one != STATUS_OK || other != STATUS_OK, "%s: solved with 4000 elements", type->name);
+    gsl_test(more.counters.iterations > few.counters.iterations + 5,
+             "%s: %ld iterations with 4000 elements, %ld with 128", type->name,
+             more.counters.iterations, few.counters.iterations);
+    for (int i = 0; i < few.solve.quantities && one == STATUS_OK && other == STATUS_OK; i++)
+        gsl_test_rel(more.solve.quantity[i].value, few.solve.quantity[i].value, 2e-5, "%s, %s",
+                     type->name, few.scene.quantity[i].name);
+    cell_result_free(&few);
+    cell_result_free(&more);
+}
+
+static void condensation_tests(void)
+{
+    int found = 0;
+    cases();
+    released();
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        if (strcmp(registry_cases[i]->name, "c_cantilever") == 0) {
+            many(registry_cases[i]);
+            found = 1;
+        }
+    gsl_test(!found, "c_cantilever is there");
+}
+
+/* What an analysis hands over of eigenvalues: all of it, and why there are no more; what one kind
+ * leaves cannot be read from another. */
+
+static void handed_over(status outcome, int rounding, const char *reason, const char *said)
+{
+    double *mu = malloc(sizeof *mu), *mode = malloc(sizeof *mode), *error = malloc(sizeof *error);
+    eigen_side from = {.count = 1,
+                       .mu = mu,
+                       .mode = mode,
+                       .error = error,
+                       .status = outcome,
+                       .rounding = rounding};
+    analysis_outcome o = {.kind = SCENE_BUCKLING};
+    outcome_side *side = &o.left.spectrum.positive;
+    snprintf(from.reason, sizeof from.reason, "%s", reason);
+    outcome_take(&from, side);
+    gsl_test(side->count != 1 || side->value != mu || side->mode != mode || side->error != error ||
+                 side->status != outcome,
+             "'%s': what was found", reason);
+    gsl_test(from.mu != NULL || from.mode != NULL || from.error != NULL,
+             "'%s': it is not freed twice", reason);
+    gsl_test(said == NULL ? side->reason[0] != '\0' : strstr(side->reason, said) == NULL,
+             "'%s', %d lost: says '%s'", reason, rounding, side->reason);
+    outcome_free(&o);
+}
+
+static void read_displacements(const void *o)
+{
+    outcome_displacements(o);
+}
+static void read_spectrum(const void *o)
+{
+    outcome_spectrum_of(o);
+}
+static void read_path(const void *o)
+{
+    outcome_path_of(o);
+}
+static void read_compliance(const void *o)
+{
+    outcome_compliance_of(o);
+}
+static void read_rotation(const void *o)
+{
+    outcome_rotation_of(o);
+}
+static void read_continuation(const void *o)
+{
+    outcome_continuation_of(o);
+}
+static void read_walk(const void *o)
+{
+    analysis_outcome copy = *(const analysis_outcome *)o;
+    outcome_walk(&copy);
+}
+
+static void by_kind(void)
+{
+    enum { KINDS = SCENE_ROTATION + 1 };
+    static const struct {
+        const char *name;
+        void (*read)(const void *);
+        unsigned kinds; /* that leave it */
+    } row[] = {
+        {"displacements", read_displacements, 1 << SCENE_LINEAR},
+        {"spectrum", read_spectrum, 1 << SCENE_BUCKLING | 1 << SCENE_MODAL},
+        {"path", read_path,
+         1 << SCENE_STATIC | 1 << SCENE_COMPLIANCE | 1 << SCENE_CONTINUATION | 1 << SCENE_ROTATION},
+        {"compliance", read_compliance, 1 << SCENE_COMPLIANCE},
+        {"rotation", read_rotation, 1 << SCENE_ROTATION},
+        {"continuation", read_continuation, 1 << SCENE_CONTINUATION},
+        {"walk", read_walk, 1 << SCENE_STATIC | 1 << SCENE_ROTATION},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
+        for (int kind = 0; kind < KINDS; kind++)
+            gsl_test_int(
+                ended_by(row[i].read, &(analysis_outcome){.kind = (scene_analysis_kind)kind}),
+                row[i].kinds >> kind & 1 ? 0 : SIGABRT, "%s of kind %d", row[i].name, kind);
+}
+
+static void outcome_tests(void)
+{
+    by_kind();
+    handed_over(STATUS_OK, 0, "", NULL);
+    handed_over(STATUS_OK, 1, "", "round-off");
+    handed_over(STATUS_OK, 3, "", "round-off");
+    handed_over(STATUS_NOT_CONVERGED, 0, "2 are missing", "2 are missing");
+    handed_over(STATUS_NOT_CONVERGED, 1, "2 are missing", "2 are missing");
+}
+
+int main(void)
+{
+    release_tests();
+    advance_tests();
+    condensation_tests();
+    outcome_tests();
     return gsl_test_summary();
 }
