@@ -1,8 +1,13 @@
 /* Buckling loads and frequencies of a simply supported beam of many elements: how far round-off
  * lets them be computed. */
 #include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "elements/math/pi.h"
+#include "harness/numerics/numerics_impl.h"
 #include "harness/numerics/test/eigen_problems.h"
 
 typedef struct beam {
@@ -201,7 +206,7 @@ static void test_spoilt(double part)
     beam_free(&b);
 }
 
-int main(void)
+static void eigen_beam_tests(void)
 {
     test_spoilt(1e-4);
     test_spoilt(1e-2);
@@ -209,5 +214,367 @@ int main(void)
     test_beam(12, 1e-12);
     test_beam(600, 1e-12);
     test_beam(2000, 3e-9);
+}
+
+/* Candidates for eigenvalues: sorted, counted by the inertia, and completed by what they leave. */
+
+/* What happens when the iteration has found one copy of a repeated eigenvalue: the inertia says so,
+ * and the others come out of what that copy leaves. */
+static void test_missed_copies(void)
+{
+    enum { COPIES = 3, MASSES = 40, N = COPIES * MASSES };
+    strings s;
+    eigen_result work = {0};
+    candidates p;
+    double x[N] = {0}, mu[2], all[COPIES * N] = {0}, *more;
+    int missing = -1, above = -1, found = 0;
+    strings_init(&s, COPIES, MASSES, 0);
+    eigen_problem e = {.K = &s.K,
+                       .A = &s.M,
+                       .sign = 1,
+                       .largest = COPIES,
+                       .K_energy = strings_energy,
+                       .context = &s};
+    gsl_test(factor_alloc(e.K, &e.K_factor, NULL) != STATUS_OK ||
+                 factor_numeric(e.K_factor, e.K, NULL) != STATUS_OK ||
+                 candidates_alloc(&p, &e, 1, NULL) != STATUS_OK,
+             "strings are factorised");
+    for (int c = 0; c < COPIES; c++)
+        for (int i = 0; i < MASSES; i++)
+            all[c * N + i * COPIES + c] = 1e5 * sin((i + 1) * PI / (MASSES + 1));
+    for (int i = 0; i < MASSES; i++) /* the second mode of one string */
+        x[i * COPIES] = sin(2 * (i + 1) * PI / (MASSES + 1));
+    const double first = strings_exact(&s, 0), second = strings_exact(&s, COPIES),
+                 scale = candidates_scale(&p, &work.solutions);
+    gsl_test(!(scale > 0.3 * first && scale < first * (1 + 1e-9)),
+             "the largest eigenvalue is estimated from below (%g of it)", scale / first);
+    candidates_count_above(&p, sqrt(first * second), &above, &work, NULL);
+    gsl_test_int(above, COPIES, "the inertia counts all copies");
+    gsl_test(candidates_add(&p, 1, x, 0, NULL) != STATUS_OK ||
+                 candidates_add(&p, 1, all, 0, NULL) != STATUS_OK,
+             "candidates are taken in");
+    gsl_test_rel(p.mu[0], first, 1e-14, "and sorted");
+    gsl_test_rel(p.mu[1], second, 1e-14, "by size");
+    gsl_test(candidates_count_missing(&p, 1, &missing, &work, NULL) != STATUS_OK || missing != 0,
+             "the largest value is right with one copy");
+    gsl_test_int((int)candidates_count_missing(&p, 2, &missing, &work, NULL), STATUS_OK,
+                 "values that lie above the second one are counted");
+    gsl_test_int(missing, COPIES - 1, "and two are missing");
+    double *products = candidates_products(&p);
+    const lanczos_problem rest = {e.K, e.A, e.K_factor, 1, p.count, p.x, products};
+    gsl_test(lanczos_largest(&rest, 2, &found, mu, &more, &work.solutions, NULL) != STATUS_OK ||
+                 found != 2,
+             "Lanczos goes on where the candidates leave off");
+    gsl_test_rel(mu[0], first, 1e-12, "second copy");
+    gsl_test_rel(mu[1], first, 1e-12, "third copy");
+    gsl_test(candidates_take(&p, 2, more, 0, NULL) != STATUS_OK, "both are taken in");
+    free(products);
+    gsl_test(candidates_count_missing(&p, COPIES + 1, &missing, &work, NULL) != STATUS_OK ||
+                 missing != 0,
+             "now nothing is missing");
+    const double apart = eigen_problems_departure(&s.K, p.count, p.x);
+    gsl_test(!(apart < 1e-12), "candidates are orthonormal within %.1e", apart);
+    gsl_test(candidates_add(&p, 1, all, 0, NULL) != STATUS_OK, "the same vector again");
+    gsl_test_int((int)candidates_count_missing(&p, COPIES + 2, &missing, &work, NULL),
+                 STATUS_NOT_CONVERGED, "counts too many");
+    candidates_free(&p);
+    factor_free(e.K_factor);
+    strings_free(&s);
+}
+
+static void candidates_tests(void)
+{
+    test_missed_copies();
+}
+
+/* Eigenvalues that are lost: of one side only, behind a missing one, in rounding. */
+
+/* x^T A x, not to be had of one sign between two sizes. */
+typedef struct broken {
+    const sparse *A;
+    double sign, least, most;
+} broken;
+
+static double broken_energy(void *context, const double x[])
+{
+    const broken *b = context;
+    const double energy = matrices_energy(b->A, x), size = -b->sign * energy;
+    return size > b->least && size < b->most ? NAN : energy;
+}
+
+/* Values of both signs, of which those of one sign are lost as soon as they are found: the other
+ * side is found all the same, as if it alone had been asked for, and the side that is not says
+ * so. */
+static void test_sides_apart(void)
+{
+    enum { N = 800, WANTED = 4 };
+    strings s;
+    strings_init(&s, 1, N, 0);
+    for (int i = N / 2; i < N; i++)
+        matrices_add(&s.M, i, i, -2.5);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        broken b = {&s.M, sign, 0, INFINITY};
+        eigen_result alone = {0}, r = {0};
+        fault f = {""};
+        eigen_problem p = {.K = &s.K, .A = &s.M, .sign = sign, .largest = WANTED};
+        gsl_test_int((int)eigen_problems_solve(&p, &alone, &f), STATUS_OK, "one side alone: %s",
+                     f.text);
+        p.smallest = WANTED;
+        p.A_energy = broken_energy;
+        p.context = &b;
+        gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED,
+                     "the whole is no success");
+        gsl_test_int((int)r.positive.status, STATUS_OK, "the side that can be found is found: %s",
+                     r.positive.reason);
+        gsl_test_int(r.positive.count, WANTED, "all of it");
+        for (int i = 0; i < r.positive.count && i < alone.positive.count; i++)
+            gsl_test_rel(r.positive.mu[i], alone.positive.mu[i], 1e-14,
+                         "value %d is that of one side alone", i);
+        gsl_test_int((int)r.negative.status, STATUS_NOT_CONVERGED, "the other one is not: %s",
+                     r.negative.reason);
+        gsl_test(r.negative.reason[0] == '\0' || strcmp(r.negative.reason, f.text) != 0,
+                 "and says so: %s", f.text);
+        gsl_test_int(r.negative.count, 0, "and gives none");
+        eigen_free(&r);
+        eigen_free(&alone);
+    }
+    strings_free(&s);
+}
+
+/* One value of a side is lost: those before it are given, and none behind it, for it is missing
+ * among them. */
+static void test_side_in_part(int lost)
+{
+    enum { N = 800, WANTED = 4 };
+    strings s;
+    strings_init(&s, 1, N, 0);
+    for (int i = N / 2; i < N; i++)
+        matrices_add(&s.M, i, i, -2.5);
+    eigen_result all = {0}, r = {0};
+    fault f = {""};
+    eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED};
+    gsl_test_int((int)eigen_problems_solve(&p, &all, &f), STATUS_OK, "both sides: %s", f.text);
+    const double size = -all.negative.mu[lost];
+    broken b = {&s.M, 1, size * (1 - 1e-3), size * (1 + 1e-3)};
+    p.A_energy = broken_energy;
+    p.context = &b;
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_NOT_CONVERGED,
+                 "without value %d: no success", lost);
+    gsl_test_int((int)r.negative.status, STATUS_NOT_CONVERGED, "without value %d: its side", lost);
+    gsl_test_int(r.negative.count, lost, "without value %d: those before it", lost);
+    for (int i = 0; i < r.negative.count; i++)
+        gsl_test_rel(r.negative.mu[i], all.negative.mu[i], 1e-12, "without value %d: value %d",
+                     lost, i);
+    gsl_test_int(r.positive.count, WANTED, "without value %d: the other side", lost);
+    eigen_free(&r);
+    eigen_free(&all);
+    strings_free(&s);
+}
+
+static double much(void *context, const double x[])
+{
+    (void)x;
+    return *(const double *)context;
+}
+
+/* What the caller says of rounding decides what is a value, and how many digits it has. */
+static void test_rounding(int masses)
+{
+    enum { WANTED = 3 };
+    strings s;
+    strings_init(&s, 1, masses, 0);
+    for (int all = 0; all < 2; all++) {
+        double size = all ? 1e9 : 1e-9;
+        eigen_result r = {0};
+        fault f = {""};
+        eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED};
+        p.A_rounding = much;
+        p.context = &size;
+        gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rounding of %g: %s", size,
+                     f.text);
+        gsl_test_int(r.positive.count, all ? 0 : WANTED, "rounding of %g: values that are more",
+                     size);
+        gsl_test(all != (r.positive.rounding > 0), "rounding of %g: the others are counted", size);
+        gsl_test(all && r.factorisations > 0, "rounding of %g: nothing is looked for in it", size);
+        eigen_free(&r);
+    }
+    strings_free(&s);
+}
+
+static void eigen_lost_tests(void)
+{
+    test_sides_apart();
+    for (int lost = 0; lost < 4; lost++)
+        test_side_in_part(lost);
+    test_rounding(40);
+    test_rounding(120);
+}
+
+/* Eigenpairs against closed forms and against LAPACK: both signs, repeated and nearly equal values,
+ * singular and indefinite matrices. */
+
+static void test_strings(int copies, int masses, double spread, int wanted, int iterate,
+                         double allowed)
+{
+    strings s;
+    eigen_result r = {0};
+    fault f = {""};
+    char name[80];
+    snprintf(name, sizeof name, "%d strings of %d, springs %g apart, %d wanted, %s", copies, masses,
+             spread, wanted, iterate ? "sparse" : "as it comes");
+    strings_init(&s, copies, masses, spread);
+    eigen_problem p = {.K = &s.K, .A = &s.M, .sign = 1, .largest = wanted, .iterate = iterate};
+    p.K_energy = strings_energy;
+    p.context = &s;
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "%s: %s", name, f.text);
+    gsl_test_int(r.positive.count, wanted, "%s: all found", name);
+    double worst = 0, residual = 0, error = 0;
+    for (int i = 0; i < r.positive.count; i++) {
+        worst = fmax(worst, fabs(r.positive.mu[i] / strings_exact(&s, i) - 1));
+        residual = fmax(residual, r.positive.residual[i]);
+        error = fmax(error, r.positive.error[i]);
+    }
+    gsl_test(!(worst < allowed), "%s: within %.1e", name, worst);
+    gsl_test(!(residual < 1e-8), "%s: residuals below %.1e", name, residual);
+    gsl_test(!(error < 1e-15), "%s: estimated errors below %.1e", name, error);
+    const double apart = eigen_problems_departure(&s.K, r.positive.count, r.positive.mode);
+    gsl_test(!(apart < 1e-9), "%s: modes orthonormal within %.1e", name, apart);
+    eigen_free(&r);
+    strings_free(&s);
+}
+
+/* The first values of both signs, where all of them were found. */
+static void compare_sides(const eigen_result *sparse_way, const eigen_result *dense_way, int wanted,
+                          double tolerance, const char *what)
+{
+    const int found = sparse_way->positive.count >= wanted && sparse_way->negative.count >= wanted;
+    gsl_test(!found, "%s: all are found", what);
+    if (!found)
+        return;
+    for (int i = 0; i < wanted; i++) {
+        gsl_test_rel(sparse_way->positive.mu[i], dense_way->positive.mu[i], tolerance,
+                     "%s: positive value %d", what, i);
+        gsl_test_rel(sparse_way->negative.mu[i], dense_way->negative.mu[i], tolerance,
+                     "%s: negative value %d", what, i);
+    }
+}
+
+/* Indefinite A: the sparse way against the dense one. */
+static void test_both_signs(void)
+{
+    enum { NODES = 60, SIZE = 3, WANTED = 7 };
+    uint64_t seed = 77;
+    sparse K = matrices_chain(NODES, SIZE), A = matrices_chain(NODES, SIZE);
+    for (int j = 0; j < K.n; j++)
+        for (int k = K.column[j]; k < K.column[j + 1]; k++) {
+            A.value[k] = random_number(&seed);
+            K.value[k] = K.row[k] == j ? 7 : random_number(&seed);
+        }
+    eigen_result sparse_way = {0}, again = {0}, dense_way = {0};
+    fault f = {""};
+    for (int sign = -1; sign <= 1; sign += 2) {
+        eigen_problem p = {
+            .K = &K, .A = &A, .sign = sign, .largest = WANTED, .smallest = WANTED, .iterate = 1};
+        gsl_test_int((int)eigen_problems_solve(&p, &sparse_way, &f), STATUS_OK,
+                     "indefinite, sparse: %s", f.text);
+        gsl_test_int((int)eigen_problems_solve(&p, &again, &f), STATUS_OK, "indefinite, again: %s",
+                     f.text);
+        gsl_test(memcmp(again.positive.mode, sparse_way.positive.mode,
+                        (size_t)K.n * WANTED * sizeof(double)) != 0,
+                 "the same problem gives the same digits");
+        p.largest = p.smallest = K.n;
+        gsl_test_int((int)eigen_problems_solve(&p, &dense_way, &f), STATUS_OK,
+                     "indefinite, dense: %s", f.text);
+        gsl_test_int(dense_way.positive.count + dense_way.negative.count, K.n,
+                     "all eigenvalues have a sign");
+        compare_sides(&sparse_way, &dense_way, WANTED, 1e-13, "indefinite");
+        eigen_free(&sparse_way);
+        eigen_free(&again);
+        eigen_free(&dense_way);
+    }
+    matrices_free(&K);
+    matrices_free(&A);
+}
+
+/* Two strings that only A couples, one with the slope of the other: every value is double and comes
+ * with both signs. */
+static void test_coupled_strings(int masses)
+{
+    enum { WANTED = 3 };
+    strings s;
+    eigen_result sparse_way = {0}, dense_way = {0};
+    fault f = {""};
+    strings_init(&s, 2, masses, 0);
+    sparse_zero(&s.M);
+    for (int i = 1; i < masses; i++) {
+        matrices_add(&s.M, 2 * (i - 1), 2 * i + 1, 1);
+        matrices_add(&s.M, 2 * i, 2 * (i - 1) + 1, -1);
+    }
+    eigen_problem p = {
+        .K = &s.K, .A = &s.M, .sign = 1, .largest = WANTED, .smallest = WANTED, .iterate = 1};
+    gsl_test_int((int)eigen_problems_solve(&p, &sparse_way, &f), STATUS_OK,
+                 "coupled strings of %d, sparse: %s", masses, f.text);
+    p.largest = p.smallest = s.K.n;
+    gsl_test_int((int)eigen_problems_solve(&p, &dense_way, &f), STATUS_OK,
+                 "coupled strings of %d, dense: %s", masses, f.text);
+    compare_sides(&sparse_way, &dense_way, WANTED, 1e-12, "coupled strings");
+    eigen_free(&sparse_way);
+    eigen_free(&dense_way);
+    strings_free(&s);
+}
+
+/* A of rank 3 (two positive, one negative value): what does not exist is not found. */
+static void test_rank(int iterate)
+{
+    enum { MASSES = 150 };
+    strings s;
+    eigen_result r = {0};
+    fault f = {""};
+    strings_init(&s, 1, MASSES, 0);
+    sparse_zero(&s.M);
+    matrices_add(&s.M, 20, 20, 3);
+    matrices_add(&s.M, 70, 70, 5);
+    matrices_add(&s.M, 120, 120, -2);
+    eigen_problem p = {
+        .K = &s.K, .A = &s.M, .sign = 1, .largest = 4, .smallest = 4, .iterate = iterate};
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rank 3: %s", f.text);
+    gsl_test_int(r.positive.count, 2, "rank 3: two positive values exist");
+    gsl_test_int(r.negative.count, 1, "rank 3: one negative value exists");
+    eigen_free(&r);
+    sparse_zero(&s.M);
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_OK, "rank 0: %s", f.text);
+    gsl_test_int(r.positive.count + r.negative.count, 0, "rank 0: no value exists");
+    eigen_free(&r);
+    matrices_add(&s.K, 75, 75, -3);
+    gsl_test_int((int)eigen_problems_solve(&p, &r, &f), STATUS_REFUSED,
+                 "an indefinite stiffness is refused: %s", f.text);
+    eigen_free(&r);
+    strings_free(&s);
+}
+
+static void eigen_tests(void)
+{
+    static const double spreads[] = {0, 1e-12, 1e-9, 1e-7, 1e-4, 0.01};
+    for (size_t i = 0; i < sizeof spreads / sizeof spreads[0]; i++)
+        for (int copies = 1; copies <= 6; copies += copies == 1 ? 1 : 2)
+            for (int wanted = 1; wanted <= 13; wanted += 4)
+                test_strings(copies, 60, spreads[i], wanted, 1,
+                             spreads[i] < 1e-9 ? 1e-13 + copies * spreads[i] : 1e-13);
+    test_strings(6, 12, 0, 13, 0, 1e-13);
+    test_strings(1, 3000, 0, 12, 0, 1e-11);
+    test_strings(3, 1000, 0, 12, 0, 1e-11);
+    test_both_signs();
+    test_coupled_strings(60);
+    test_coupled_strings(61);
+    test_rank(0);
+    test_rank(1);
+}
+
+int main(void)
+{
+    eigen_beam_tests();
+    candidates_tests();
+    eigen_lost_tests();
+    eigen_tests();
     return gsl_test_summary();
 }

@@ -3,9 +3,16 @@
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
+#include <ldl.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/real.h"
+#include "elements/test/random.h"
+#include "harness/numerics/numerics_impl.h"
 #include "harness/numerics/test/matrices.h"
 
 enum { MOST = 60 };
@@ -239,12 +246,356 @@ static void nothing_to_solve(void)
     factor_free(NULL);
 }
 
-int main(void)
+static void linear_tests(void)
 {
     random_matrices(DEFINITE, "definite", 1);
     random_matrices(INDEFINITE, "indefinite", 20);
     random_matrices(UNSYMMETRIC, "unsymmetric", 1);
     condition_of_a_triangle();
     nothing_to_solve();
+}
+
+/* Singular matrices of every kind, and beams that are not held. */
+
+static status outcome_of(const sparse *s, fault *f)
+{
+    matrix_factor *fa;
+    status outcome = factor_alloc(s, &fa, f);
+    if (outcome == STATUS_OK)
+        outcome = factor_numeric(fa, s, f);
+    factor_free(fa);
+    return outcome;
+}
+
+static void small_singular_matrices(void)
+{
+    static const struct {
+        const char *name;
+        double A[9];
+        status expected;
+    } sample[] = {
+        {"a zero row", {1, 0, 0.3, 0, 0, 0, 0.3, 0, 2}, STATUS_SINGULAR},
+        {"two equal rows", {1, 0.7, 0.7, 0.7, 3, 3, 0.7, 3, 3}, STATUS_SINGULAR},
+        {"a number that is not one", {1, 0, 0, 0, NAN, 0.1, 0, 0.1, 2}, STATUS_SINGULAR},
+        {"an infinite number", {1, 0, 0, 0, INFINITY, 0.1, 0, 0.1, 2}, STATUS_SINGULAR},
+        {"the zero matrix", {0, 0, 0, 0, 0, 0, 0, 0, 0}, STATUS_SINGULAR},
+        {"tiny numbers", {1e-200, 0, 3e-201, 0, 1e-200, 0, 3e-201, 0, 2e-200}, STATUS_OK},
+        {"huge numbers", {1e200, 0, 3e199, 0, 1e200, 0, 3e199, 0, 2e200}, STATUS_OK},
+        {"digits to spare", {1, 1, 0, 1, 1 + 1e-12, 0, 0, 0, 1}, STATUS_OK},
+        {"no digits left", {1, 1, 0, 1, 1 + 4e-16, 0, 0, 0, 1}, STATUS_SINGULAR},
+    };
+    for (size_t i = 0; i < sizeof sample / sizeof sample[0]; i++)
+        for (int symmetric = 0; symmetric < 2; symmetric++) {
+            fault f = {""};
+            sparse s = matrices_from_dense(3, symmetric, sample[i].A);
+            gsl_test_int((int)outcome_of(&s, &f), (int)sample[i].expected, "%s (%s): %s",
+                         sample[i].name, symmetric ? "symmetric" : "unsymmetric", f.text);
+            matrices_free(&s);
+        }
+    const double growth[4] = {1e-17, 1, 1, 0};
+    sparse s = matrices_from_dense(2, 1, growth);
+    gsl_test_int((int)outcome_of(&s, NULL), STATUS_SINGULAR,
+                 "a pivot that is small beside its column destroys the digits");
+    matrices_free(&s);
+    s = matrices_from_dense(2, 0, growth);
+    gsl_test_int((int)outcome_of(&s, NULL), STATUS_OK, "and does no harm with row exchanges");
+    matrices_free(&s);
+}
+
+/* A beam of n elements with so many unknowns of its first node held. */
+static status beam_outcome(int n, int held, int unsymmetric)
+{
+    double k[16], g[16], m[16];
+    matrices_beam(1.0 / n, k, g, m);
+    sparse s = matrices_chain(n + 1, 2);
+    matrices_add_elements(&s, n, 2, 0, k);
+    for (int i = 0; i < held; i++)
+        matrices_add(&s, i, i, k[5 * i] * n);
+    if (unsymmetric) {
+        sparse full = matrices_both_triangles(&s);
+        matrices_free(&s);
+        s = full;
+    }
+    const status outcome = outcome_of(&s, NULL);
+    matrices_free(&s);
+    return outcome;
+}
+
+static void beams_that_are_not_held(void)
+{
+    for (int n = 1; n <= 2048; n *= 2)
+        for (int unsymmetric = 0; unsymmetric < 2; unsymmetric++) {
+            const char *kind_name = unsymmetric ? "LU" : "LDL";
+            gsl_test_int((int)beam_outcome(n, 0, unsymmetric), STATUS_SINGULAR,
+                         "%s: free beam of %d elements", kind_name, n);
+            gsl_test_int((int)beam_outcome(n, 1, unsymmetric), STATUS_SINGULAR,
+                         "%s: beam of %d elements that can turn", kind_name, n);
+            gsl_test_int((int)beam_outcome(n, 2, unsymmetric), STATUS_OK,
+                         "%s: cantilever of %d elements", kind_name, n);
+        }
+}
+
+static void singular_matrix_tests(void)
+{
+    small_singular_matrices();
+    beams_that_are_not_held();
+}
+
+/* Threads that share a loop: every index once, whatever their number; thousands of rounds; threads
+ * that sleep are woken. */
+
+enum { TEST_TEAM_MOST = 1000 };
+
+static void add_one(void *context, int first, int end)
+{
+    int *visits = context;
+    for (int i = first; i < end; i++)
+        visits[i]++;
+}
+
+static void every_index_once(int threads)
+{
+    static const int counts[] = {0, 1, 2, 3, 7, 64, TEST_TEAM_MOST};
+    int visits[TEST_TEAM_MOST] = {0}, expected = 0;
+    thread_team *t = NULL;
+    fault f = {""};
+    gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
+    gsl_test((t == NULL) != (threads <= 1), "a team of one is none");
+    for (int round = 0; round < 2000; round++) {
+        const int count = counts[round % 7];
+        memset(visits, 0, sizeof visits);
+        team_run(t, count, add_one, visits);
+        for (int i = 0; i < TEST_TEAM_MOST; i++)
+            expected += visits[i] == (i < count);
+        if (round % 500 == 0)
+            nanosleep(&(struct timespec){.tv_nsec = 2000000},
+                      NULL); /* long enough for the others to fall asleep */
+    }
+    gsl_test_int(expected, 2000 * TEST_TEAM_MOST, "%d threads: every index once in every round",
+                 threads);
+    team_free(t);
+}
+
+static void count_parts(void *context, int first, int end)
+{
+    (void)end;
+    ((int *)context)[first] = 1; /* each part begins at an index of its own */
+}
+
+/* However many are asked for, there are TEAM_MOST at most; as many parts as threads. */
+static void no_more_than_there_is_room_for(int threads)
+{
+    int begins[TEST_TEAM_MOST] = {0}, parts = 0;
+    thread_team *t = NULL;
+    fault f = {""};
+    gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
+    team_run(t, TEST_TEAM_MOST, count_parts, begins);
+    for (int i = 0; i < TEST_TEAM_MOST; i++)
+        parts += begins[i];
+    gsl_test_int(parts, threads < TEAM_MOST ? threads : TEAM_MOST, "%d threads: parts", threads);
+    team_free(t);
+}
+
+enum { PIECES = 500 };
+
+typedef struct relay_log {
+    int held[TEAM_SLOTS], fills[PIECES], wrong, taken, last; /* last: piece that is the last one */
+} relay_log;
+
+static void write_piece(void *context, int piece, int slot)
+{
+    relay_log *log = context;
+    log->fills[piece]++;
+    log->held[slot] = 7 * piece;
+}
+
+static int read_piece(void *context, int piece, int slot)
+{
+    relay_log *log = context;
+    log->wrong += piece != log->taken++ || log->held[slot] != 7 * piece;
+    return piece != log->last;
+}
+
+/* In order, each once, and what was filled is still there; nothing behind the last that is wanted.
+ */
+static void relays(int threads)
+{
+    thread_team *t = NULL;
+    fault f = {""};
+    gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
+    int wrong = 0, taken = 0, expected = 0;
+    for (int round = 0; round < 400; round++) {
+        const int pieces = round % PIECES, last = round % 3 == 0 ? pieces / 2 : PIECES;
+        relay_log log = {.last = last};
+        team_relay(t, pieces, write_piece, read_piece, &log);
+        taken += log.taken;
+        expected += last < pieces ? last + 1 : pieces;
+        wrong += log.wrong;
+        for (int i = 0; i < PIECES; i++) {
+            const int most = i < pieces, least = i < log.taken;
+            wrong += log.fills[i] < least || log.fills[i] > most;
+        }
+    }
+    gsl_test_int(wrong, 0, "%d threads: pieces in order, each once", threads);
+    gsl_test_int(taken, expected, "%d threads: all pieces that are wanted", threads);
+    team_free(t);
+}
+
+static void team_tests(void)
+{
+    no_more_than_there_is_room_for(5);
+    no_more_than_there_is_room_for(TEAM_MOST);
+    no_more_than_there_is_room_for(TEAM_MOST + 1);
+    no_more_than_there_is_room_for(10 * TEAM_MOST);
+    for (int threads = 1; threads <= 4; threads++)
+        every_index_once(threads);
+    for (int threads = 1; threads <= 4; threads++)
+        relays(threads);
+    thread_team *unused = NULL;
+    gsl_test(team_alloc(3, &unused, NULL) != STATUS_OK, "a team that is never used");
+    team_free(unused);
+    team_free(NULL);
+}
+
+/* Rows made side by side and solutions of several right-hand sides have the bits of SuiteSparse's
+ * LDL, with and without AVX2. */
+
+enum {
+    TRIANGULAR_MOST = 90,
+    SIDES = 7,
+    STRIDE = TRIANGULAR_MOST + 3,
+    FILL = TRIANGULAR_MOST * TRIANGULAR_MOST
+};
+
+/* A matrix in the order of elimination, and its factor by LDL. */
+typedef struct triangular_problem {
+    int n, column[TRIANGULAR_MOST + 1], row[FILL], source[FILL];
+    double value[FILL];
+    int parent[TRIANGULAR_MOST], begin[TRIANGULAR_MOST + 1], filled[TRIANGULAR_MOST],
+        mark[TRIANGULAR_MOST], path[TRIANGULAR_MOST], L_row[FILL];
+    double L_value[FILL], D[TRIANGULAR_MOST], y[TRIANGULAR_MOST];
+} triangular_problem;
+
+/* Blocks of `size`, coupled with one at random, and a few entries anywhere. */
+static void fill(int n, int size, uint64_t *state, triangular_problem *p)
+{
+    int linked[TRIANGULAR_MOST], entries = 0;
+    p->n = n;
+    for (int b = 0; b <= n / size; b++)
+        linked[b] = (int)((random_number(state) + 1) / 2 * b);
+    for (int j = 0; j < n; j++) {
+        const int block = j / size;
+        p->column[j] = entries;
+        for (int i = 0; i <= j; i++)
+            if (i / size == block || (size > 2 && i / size == linked[block]) ||
+                random_number(state) > 1 - 4.0 / n) {
+                p->row[entries] = i;
+                p->source[entries] = entries;
+                p->value[entries++] = random_number(state) + (i == j ? 2.5 : 0);
+            }
+    }
+    p->column[n] = entries;
+}
+
+static void factor_by_ldl(triangular_problem *p)
+{
+    ldl_symbolic(p->n, p->column, p->row, p->begin, p->parent, p->filled, p->mark, NULL, NULL);
+    const int rank = ldl_numeric(p->n, p->column, p->row, p->value, p->begin, p->parent, p->filled,
+                                 p->L_row, p->L_value, p->D, p->y, p->path, p->mark, NULL, NULL);
+    gsl_test(rank != p->n, "%d of %d pivots", rank, p->n);
+}
+
+typedef int factors(const triangular_rows *, const double[]);
+typedef void solves(const triangular_factors *, int, int, double[], double[]);
+
+static void hold(const triangular_problem *p, const triangular_groups *g, const int L_row[],
+                 factors *factor, solves *solve, const char *name)
+{
+    static double value[FILL], D[TRIANGULAR_MOST], diagonal[TRIANGULAR_MOST],
+        rest[TRIANGULAR_LANES * STRIDE + 8], work[TRIANGULAR_TOGETHER * TRIANGULAR_MOST],
+        x[SIDES * STRIDE], y[SIDES * STRIDE];
+    int filled[TRIANGULAR_MOST];
+    uint64_t state = 11;
+    const triangular_rows rows = {g->groups,       g->first_of_group,
+                                  g->run_of_group, g->run,
+                                  p->column,       p->row,
+                                  p->source,       p->begin,
+                                  L_row,           filled,
+                                  value,           D,
+                                  diagonal,        rest};
+    const triangular_factors t = {p->n,  p->path, p->begin,   L_row,
+                                  value, D,       g->columns, g->of_columns};
+    const size_t entries = (size_t)p->begin[p->n];
+    for (int again = 0; again < 2; again++) /* its work space is left as it was */
+        gsl_test(!factor(&rows, p->value), "%s: no pivot is zero", name);
+    gsl_test(memcmp(value, p->L_value, entries * sizeof *value) != 0, "%s: L of %d", name, p->n);
+    gsl_test(memcmp(D, p->D, (size_t)p->n * sizeof *D) != 0, "%s: D of %d", name, p->n);
+    for (int sides = 1; sides <= SIDES; sides++) {
+        for (int i = 0; i < SIDES * STRIDE; i++)
+            x[i] = y[i] = random_number(&state);
+        solve(&t, sides, STRIDE, x, work);
+        for (int c = 0; c < sides; c++) {
+            double *one = y + c * STRIDE;
+            ldl_perm(p->n, work, one, (int *)p->path);
+            ldl_lsolve(p->n, work, (int *)p->begin, (int *)p->L_row, (double *)p->L_value);
+            ldl_dsolve(p->n, work, (double *)p->D);
+            ldl_ltsolve(p->n, work, (int *)p->begin, (int *)p->L_row, (double *)p->L_value);
+            ldl_permt(p->n, one, work, (int *)p->path);
+        }
+        gsl_test(memcmp(x, y, sizeof x) != 0, "%s: %d solutions of %d", name, sides, p->n);
+    }
+}
+
+/* All rows are in groups, all columns in runs; rows of blocks are together. */
+static void whole(const triangular_problem *p, const triangular_groups *g, int size)
+{
+    int columns = 0, largest = 0;
+    for (int i = 0; i < g->columns; i++) {
+        gsl_test(g->of_columns[i].first != columns, "run %d begins at %d", i, columns);
+        columns += g->of_columns[i].count;
+    }
+    for (int i = 0; i < g->groups; i++)
+        largest = (int)fmax(largest, g->first_of_group[i + 1] - g->first_of_group[i]);
+    gsl_test(columns != p->n || g->first_of_group[g->groups] != p->n, "all of %d", p->n);
+    gsl_test(largest < (size < TRIANGULAR_LANES ? size : TRIANGULAR_LANES),
+             "%d rows together of blocks of %d", largest, size);
+}
+
+static void blocks(triangular_problem *p, int n, int size, uint64_t *state)
+{
+    static int L_row[FILL];
+    triangular_groups g;
+    fill(n, size, state, p);
+    factor_by_ldl(p);
+    const triangular_pattern of = {n, p->column, p->row, p->parent, p->begin, p->mark, p->path};
+    gsl_test(!triangular_groups_find(&of, L_row, &g), "memory for groups");
+    gsl_test(memcmp(L_row, p->L_row, (size_t)p->begin[n] * sizeof *L_row) != 0, "rows of L");
+    whole(p, &g, size);
+    triangular_groups_place(&g, p->column, p->row);
+    for (int k = 0; k < n; k++) /* an order of unknowns */
+        p->path[k] = n - 1 - k;
+    hold(p, &g, L_row, triangular_rows_factor_plain, triangular_solve_plain, "plain");
+    hold(p, &g, L_row, REAL_CHOSEN(triangular_rows_factor), REAL_CHOSEN(triangular_solve),
+         "as the processor has it");
+    triangular_groups_free(&g);
+}
+
+static void triangular_tests(void)
+{
+    uint64_t state = 5;
+    triangular_problem *p = malloc(sizeof *p);
+    for (int size = 1; p != NULL && size <= 9; size++)
+        for (int n = size; n <= TRIANGULAR_MOST; n += 1 + 2 * size)
+            blocks(p, n, size, &state);
+    gsl_test(p == NULL, "memory");
+    free(p);
+}
+
+int main(void)
+{
+    linear_tests();
+    singular_matrix_tests();
+    team_tests();
+    triangular_tests();
     return gsl_test_summary();
 }
