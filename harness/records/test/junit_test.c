@@ -1,13 +1,18 @@
 /* JUnit: well-formed XML whose header counts the elements below it, for every kind of verdict,
  * expected or not, and any mixture of what else a run can miss. */
+#include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "elements/test/random.h"
-#include "harness/records/records.h"
+#include "elements/test/sections.h"
+#include "harness/records/records_impl.h"
+#include "harness/records/test/folder.h"
 
 enum { DEEPEST = 8, NAME = 32, HEADER = 3 };
 
@@ -248,10 +253,273 @@ static void reader(void)
     gsl_test(t.bad || t.tests != 1 || t.failures != 1 || t.header[0] != 7, "well-formed");
 }
 
-int main(void)
+static void junit_tests(void)
 {
     reader();
     single_verdicts();
     mixtures();
+}
+
+/* Lines of CSV, read back as RFC 4180 says: whatever a text holds, every field is where its name
+ * is. */
+
+enum { MOST_FIELDS = 8, ROOM = 256, LINES = 2 };
+
+/* A record of every kind of value. */
+typedef struct thing {
+    char first[ROOM], last[ROOM];
+    int count;
+    double size;
+} thing;
+
+static const schema_field fields[] = {{"first", "", FIELD_TEXT, "a text", AT(thing, first)},
+                                      {"count", "1", FIELD_INT, "a number", AT(thing, count)},
+                                      {"size", "m", FIELD_DOUBLE, "a length", AT(thing, size)},
+                                      {"last", "", FIELD_TEXT, "another text", AT(thing, last)},
+                                      {NULL}};
+static const record_type type = {.name = "thing", .table = "things", .part = {fields}};
+
+/* The fields of one record from *at on, which moves behind its line. */
+static int read_line(const char **at, char field[MOST_FIELDS][ROOM])
+{
+    int count = 0;
+    for (int more = 1; more && count < MOST_FIELDS; count++) {
+        int used = 0, quoted = **at == '"';
+        *at += quoted;
+        while (**at != '\0' && (quoted || (**at != ',' && **at != '\n'))) {
+            if (quoted && **at == '"' && *++*at != '"')
+                break;
+            if (used + 1 < ROOM)
+                field[count][used++] = **at;
+            ++*at;
+        }
+        field[count][used] = '\0';
+        more = **at == ',';
+        if (**at != '\0')
+            ++*at;
+    }
+    return count;
+}
+
+static void compare(const char *first, const char *last)
+{
+    char *text = NULL, field[MOST_FIELDS][ROOM];
+    size_t length = 0;
+    thing it = {.count = -3, .size = 0.1};
+    const csv_part part = {&type, {.record = &it}};
+    snprintf(it.first, sizeof it.first, "%s", first);
+    snprintf(it.last, sizeof it.last, "%s", last);
+    FILE *to = open_memstream(&text, &length);
+    csv_record_head(to, 1, &part);
+    for (int i = 0; i < LINES; i++)
+        csv_record_line(to, 1, &part);
+    fclose(to);
+    const char *at = text;
+    gsl_test_int(read_line(&at, field), 4, "'%s', '%s': columns", first, last);
+    for (int k = 0; k < 4; k++)
+        gsl_test(strcmp(field[k], fields[k].name) != 0, "column %d is %s", k, field[k]);
+    for (int i = 0; i < LINES; i++) {
+        gsl_test_int(read_line(&at, field), 4, "'%s', '%s': fields", first, last);
+        gsl_test(strcmp(field[0], first) != 0 || strcmp(field[3], last) != 0,
+                 "'%s', '%s': read as '%s', '%s'", first, last, field[0], field[3]);
+        gsl_test(strcmp(field[1], "-3") != 0 || strtod(field[2], NULL) != 0.1,
+                 "'%s', '%s': numbers %s, %s", first, last, field[1], field[2]);
+    }
+    gsl_test(*at != '\0', "'%s', '%s': nothing behind the last line", first, last);
+    free(text);
+}
+
+/* What is no number leaves its field empty. */
+static void no_number(void)
+{
+    static const double none[] = {NAN, INFINITY, -INFINITY};
+    for (int i = 0; i < 3; i++) {
+        char *text = NULL, field[MOST_FIELDS][ROOM];
+        size_t length = 0;
+        thing it = {.size = none[i]};
+        const csv_part part = {&type, {.record = &it}};
+        FILE *to = open_memstream(&text, &length);
+        csv_record_line(to, 1, &part);
+        fclose(to);
+        const char *at = text;
+        gsl_test_int(read_line(&at, field), 4, "%g: fields", none[i]);
+        gsl_test(field[2][0] != '\0', "%g: its field holds '%s'", none[i], field[2]);
+        free(text);
+    }
+}
+
+static void csv_tests(void)
+{
+    static const char *const text[] = {"",           "plain",    "a,b",
+                                       "\"",         "\"\"",     "'newton=\"dense\"'",
+                                       "two\nlines", ",\",\n\"", "\xc3\xa4"};
+    for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
+        for (size_t k = 0; k < sizeof text / sizeof text[0]; k++)
+            compare(text[i], text[k]);
+    no_number();
+}
+
+/* Outlines at both ends of a member whose section changes: walls and corners belong together. */
+
+/* High at one end, wide at the other: corners stay in their quadrants. */
+static void rectangles(void)
+{
+    const section_spec high = section_spec_rectangle(2e11, 8e10, 0.1, 0.2),
+                       wide = section_spec_rectangle(2e11, 8e10, 0.3, 0.1);
+    const section c[2] = {sections_computed(&high), sections_computed(&wide)};
+    outline near, far, half;
+    outline_of(&high, &c[0], &near);
+    outline_of_far_end(&wide, &c[1], &c[0], &far);
+    gsl_test_int(near.walls, far.walls, "walls of a rectangle");
+    outline_between(&near, &far, 0.5, &half);
+    for (int k = 0; k < 4; k++) {
+        const double *a = near.corner[0][k], *b = far.corner[0][k], *h = half.corner[0][k];
+        gsl_test(!(a[0] * b[0] > 0 && a[1] * b[1] > 0), "corner %d stays in its quadrant", k);
+        gsl_test_rel(fabs(a[0]), 0.1, 1e-14, "corner %d, near: y", k);
+        gsl_test_rel(fabs(b[0]), 0.05, 1e-14, "corner %d, far: y", k);
+        gsl_test_rel(fabs(h[0]), 0.075, 1e-14, "corner %d, between: y", k);
+        gsl_test_rel(fabs(h[1]), 0.1, 1e-14, "corner %d, between: z", k);
+    }
+}
+
+/* A rectangle of the same radii of inertia stands for matrices. */
+static void matrices(void)
+{
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_MATRICES;
+    double *C = spec.constants.stiffness;
+    const double EA = 3e7, b = 0.05, h = 0.02;
+    C[0] = C[7] = C[14] = EA;
+    C[21] = 100;
+    C[28] = EA * b * b / 12;
+    C[35] = EA * h * h / 12;
+    const section c = sections_computed(&spec);
+    outline o;
+    outline_of(&spec, &c, &o);
+    gsl_test_int(o.equivalent, 1, "it stands for the section");
+    for (int k = 0; k < 4; k++) {
+        gsl_test_rel(fabs(o.corner[0][k][0]), h / 2, 1e-14, "corner %d of matrices: y", k);
+        gsl_test_rel(fabs(o.corner[0][k][1]), b / 2, 1e-14, "corner %d of matrices: z", k);
+    }
+}
+
+static void outline_tests(void)
+{
+    rectangles();
+    matrices();
+}
+
+/* What a path leads to: links, the same place under many names, and what is no place for an output.
+ */
+
+/* The target of a link is replaced, not the link: near, far, over several links, and where nothing
+ * is yet. */
+static void links(void)
+{
+    const test_folder of = folder_make();
+    const folder_entry target = folder_path(&of, "target"), far = folder_path(&of, "far"),
+                       near = folder_path(&of, "near"), chain = folder_path(&of, "chain"),
+                       new_one = folder_path(&of, "new"), dangling = folder_path(&of, "dangling"),
+                       circle = folder_path(&of, "circle");
+    fault f = {""};
+    gsl_test(folder_write_text(target.text, "before", &f) != STATUS_OK, "a file %s", f.text);
+    gsl_test(symlink(target.text, far.text) | symlink("target", near.text) |
+                 symlink("near", chain.text) | symlink("new", dangling.text) |
+                 symlink("circle", circle.text),
+             "links");
+    const folder_entry link[] = {far, near, chain};
+    for (int i = 0; i < 3; i++) {
+        gsl_test(folder_write_text(link[i].text, link[i].text, &f) != STATUS_OK,
+                 "written through %s %s", link[i].text, f.text);
+        gsl_test(!S_ISLNK(folder_mode_of(link[i].text)) || !S_ISREG(folder_mode_of(target.text)) ||
+                     !folder_holds(target.text, link[i].text),
+                 "it is the link that stays and its target that is new");
+    }
+    gsl_test(folder_write_text(dangling.text, "made", &f) != STATUS_OK ||
+                 !folder_holds(new_one.text, "made"),
+             "where the link leads to");
+    gsl_test(!S_ISLNK(folder_mode_of(dangling.text)), "and it stays a link");
+    gsl_test(folder_write_text(circle.text, "never", &f) != STATUS_FAULT, "links in a circle: %s",
+             f.text);
+    gsl_test_int(folder_entries(of.path), 7, "nothing else is left");
+    folder_remove(&of);
+}
+
+/* What is no place for an output is said before anything is computed, in one line. */
+static void no_places(void)
+{
+    const test_folder of = folder_make();
+    const folder_entry none = folder_path(&of, "none/file"), slash = folder_path(&of, "none/");
+    char longest[PATH_MAX + 100];
+    memset(longest, 'x', sizeof longest - 1);
+    longest[sizeof longest - 1] = '\0';
+    const struct {
+        const char *path;
+        status outcome;
+    } bad[] = {{"", STATUS_REFUSED},       {of.path, STATUS_FAULT}, {none.text, STATUS_FAULT},
+               {slash.text, STATUS_FAULT}, {longest, STATUS_FAULT}, {"/nowhere/x", STATUS_FAULT}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        fault f = {""};
+        file_place where;
+        gsl_test(output_try(bad[i].path, OUTPUT_TEXT, &where, &f) != bad[i].outcome ||
+                     strchr(f.text, '\n') != NULL || f.text[0] == '\0',
+                 "'%.60s': %s", bad[i].path, f.text);
+    }
+    gsl_test_int(folder_entries(of.path), 0, "nothing is left");
+    folder_remove(&of);
+}
+
+/* One place under many names: other words, links, hard links; files that are not there yet. */
+static void same_places(void)
+{
+    const test_folder of = folder_make();
+    const folder_entry a = folder_path(&of, "a"), dotted = folder_path(&of, "./a"),
+                       link = folder_path(&of, "link"), hard = folder_path(&of, "hard"),
+                       b = folder_path(&of, "b"), free_a = folder_path(&of, "free"),
+                       free_dotted = folder_path(&of, ".//free"),
+                       free_link = folder_path(&of, "free_link"),
+                       free_b = folder_path(&of, "freed");
+    const char *const one[] = {a.text, dotted.text, link.text, hard.text};
+    const char *const other[] = {free_a.text, free_dotted.text, free_link.text};
+    fault f = {""};
+    file_place x, y;
+    gsl_test(folder_write_text(a.text, "x", &f) != STATUS_OK ||
+                 folder_write_text(b.text, "x", &f) != STATUS_OK,
+             "two files %s", f.text);
+    gsl_test(symlink(a.text, link.text) != 0 ||
+                 linkat(AT_FDCWD, a.text, AT_FDCWD, hard.text, 0) != 0 ||
+                 symlink("free", free_link.text) != 0,
+             "links");
+    for (int i = 0; i < 4; i++)
+        gsl_test(place_find(a.text, &x, &f) | place_find(one[i], &y, &f) || !place_same(&x, &y),
+                 "the same: %s", one[i]);
+    for (int i = 0; i < 3; i++)
+        gsl_test(place_find(free_a.text, &x, &f) | place_find(other[i], &y, &f) ||
+                     !place_same(&x, &y),
+                 "the same: %s", other[i]);
+    gsl_test(place_find(a.text, &x, &f) | place_find(b.text, &y, &f) || place_same(&x, &y),
+             "two files are two");
+    gsl_test(place_find(free_a.text, &x, &f) | place_find(free_b.text, &y, &f) ||
+                 place_same(&x, &y),
+             "two new ones are two");
+    gsl_test(place_find(a.text, &x, &f) | place_find(free_a.text, &y, &f) || place_same(&x, &y),
+             "one and a new one are two");
+    folder_remove(&of);
+}
+
+static void place_tests(void)
+{
+    links();
+    no_places();
+    same_places();
+}
+
+int main(void)
+{
+    junit_tests();
+    csv_tests();
+    outline_tests();
+    place_tests();
     return gsl_test_summary();
 }
