@@ -1,12 +1,15 @@
 /* The choice of a formulation and of a mesh, where nobody chose. */
-#include "harness/study/study.h"
-
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
+#include "harness/study/study.h"
+#include "harness/study/test/random_cell.h"
+#include "harness/study/test/same_cell.h"
 
 typedef struct preference_chosen {
     status outcome;
@@ -143,7 +146,7 @@ static void no_new_one(void)
     gsl_test(choices == 0, "the accepted one is chosen");
 }
 
-int main(void)
+static void preference_tests(void)
 {
     for (int i = 0; registry_cases[i] != NULL; i++)
         of_case(registry_cases[i]);
@@ -152,5 +155,186 @@ int main(void)
             of_meshes(registry_cases[i]);
     nothing_offers_all();
     no_new_one();
+}
+
+/* A cell's result on its way between processes: everything arrives as it was sent, bit for bit, and
+ * nothing that is cut short is believed. */
+
+static void round_trips(dice *d)
+{
+    enum { CELLS = 200 };
+    cell_result sent[CELLS];
+    FILE *file = tmpfile();
+    int unwritten = 0, unread = 0;
+    difference first = {NULL};
+    if (file != NULL)
+        for (int i = 0; i < CELLS; i++) {
+            sent[i] = random_cell(d);
+            unwritten += serialise_write(file, &sent[i]) != 0;
+        }
+    rewind(file);
+    for (int i = 0; i < CELLS; i++) { /* one behind the other, as a worker sends them */
+        cell_result got;
+        unread += serialise_read(file, &got) != 0;
+        const difference here = compare_cells(&sent[i], &got);
+        if (first.name == NULL)
+            first = here;
+        cell_result_free(&got);
+        cell_result_free(&sent[i]);
+    }
+    gsl_test_int(unwritten, 0, "cells that were not sent");
+    gsl_test_int(unread, 0, "cells that did not arrive");
+    gsl_test(first.name != NULL, "what arrives is what was sent (%s)",
+             first.name != NULL ? first.name : "all");
+    gsl_test_int(fgetc(file), EOF, "and nothing more");
+    fclose(file);
+}
+
+/* The least there is: a cell that failed before it had anything. */
+static void empty_cell(void)
+{
+    const cell_result sent = {.solve = {.status = STATUS_SINGULAR, .reason = "nothing"}};
+    cell_result got;
+    FILE *file = tmpfile();
+    gsl_test(file == NULL || serialise_write(file, &sent) != 0, "sent");
+    rewind(file);
+    gsl_test(serialise_read(file, &got) != 0 || compare_cells(&sent, &got).name != NULL,
+             "an empty cell arrives");
+    cell_result_free(&got);
+    fclose(file);
+}
+
+static int is_empty(const cell_result *c)
+{
+    const solve_result *s = &c->solve;
+    return c->left_out == NULL && s->quantity == NULL && s->step == NULL && s->iteration == NULL &&
+           s->event == NULL && s->matrices == NULL && s->shapes.first == NULL &&
+           s->shapes.state == NULL && s->shapes.point == NULL && s->shapes.node == NULL;
+}
+
+/* Every truncation is noticed and leaves nothing behind, whichever part comes last. */
+static void truncated(dice *d, int pictured)
+{
+    cell_result sent = random_cell(d), got;
+    if (!pictured)
+        shapes_free(&sent.solve.shapes);
+    char *bytes = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&bytes, &size);
+    gsl_test(file == NULL || serialise_write(file, &sent) != 0 || fclose(file) != 0, "written");
+    int accepted = 0, left = 0;
+    for (size_t cut = 0; cut < size; cut++) {
+        file = cut > 0 ? fmemopen(bytes, cut, "rb") : fopen("/dev/null", "rb");
+        accepted += serialise_read(file, &got) == 0;
+        left += !is_empty(&got);
+        fclose(file);
+    }
+    file = fmemopen(bytes, size, "rb");
+    gsl_test(serialise_read(file, &got) != 0, "the whole is read");
+    fclose(file);
+    cell_result_free(&got);
+    cell_result_free(&sent);
+    free(bytes);
+    gsl_test(size < 1000, "%ld bytes", (long)size);
+    gsl_test_int(accepted, 0, "truncated cells that were accepted");
+    gsl_test_int(left, 0, "truncated cells that left something");
+}
+
+static void serialise_tests(void)
+{
+    dice d = {88172645463325252ull};
+    random_cell_complete();
+    round_trips(&d);
+    empty_cell();
+    for (int i = 0; i < 6; i++)
+        truncated(&d, i % 2);
+}
+
+/* Cells with the same answers are solved once, others by themselves: nothing but times differs from
+ * solving all. */
+
+/* All formulations at two points of a case, on meshes of one and two elements. */
+static void run(const case_type *type, const char *const text[2], int share, sweep *s)
+{
+    static const int mesh[] = {1, 2};
+    const sweep_request request = {.jobs = 2, .share = share};
+    formulation all[64];
+    int count = 0;
+    fault f = {""};
+    memset(s, 0, sizeof *s);
+    for (; registry_formulations[count] != NULL; count++)
+        formulation_default(registry_formulations[count], &all[count]);
+    for (int i = 0; i < 2; i++) {
+        double value[CASE_MAX_PARAMETERS] = {0};
+        gsl_test(parameters_parse(type, text[i], value, NULL, &f) != STATUS_OK ||
+                     plan_add(s, type, value, NULL, mesh, 2, &f) != STATUS_OK ||
+                     plan_extend(s, all, count, &f) != STATUS_OK,
+                 "planned %s", f.text);
+    }
+    gsl_test(run_sweep(&request, s, &f) != STATUS_OK, "run %s", f.text);
+}
+
+static double seconds(const cell_result *c)
+{
+    return c->solve.seconds_setup + c->solve.seconds_solve;
+}
+
+/* Cells that took, to the bit, as long as another: so they have its answers. */
+static int shared(const sweep *s)
+{
+    int out = 0;
+    for (int i = 0; i < s->seriess; i++)
+        for (int j = 0; j < i; j++)
+            for (int k = 0; k < s->series[i].meshes; k++)
+                out += s->series[i].missing[0] == '\0' && s->series[j].missing[0] == '\0' &&
+                       seconds(&s->series[i].cell[k]) > 0 &&
+                       seconds(&s->series[i].cell[k]) == seconds(&s->series[j].cell[k]);
+    return out;
+}
+
+static void forget_times(cell_result *c)
+{
+    c->solve.seconds_setup = c->solve.seconds_solve = 0;
+    memset(c->solve.phase, 0, sizeof c->solve.phase);
+}
+
+static void same_answers(const char *name, const char *first, const char *second)
+{
+    const char *const text[2] = {first, second};
+    fault f = {""};
+    sweep once, each;
+    int cells = 0;
+    const case_type *type = case_find(name, &f);
+    run(type, text, 1, &once);
+    run(type, text, 0, &each);
+    gsl_test(shared(&once) == 0, "%s: something is solved once", name);
+    gsl_test_int(shared(&each), 0, "%s: nothing is, unless it was asked for", name);
+    for (int i = 0; i < once.seriess; i++)
+        for (int k = 0; k < once.series[i].meshes && once.series[i].missing[0] == '\0'; k++) {
+            cell_result *a = &once.series[i].cell[k], *b = &each.series[i].cell[k];
+            forget_times(a);
+            forget_times(b);
+            const difference d = compare_cells(a, b);
+            gsl_test(d.name != NULL, "%s, %s, n = %d: %s", name, once.series[i].formulation.key,
+                     once.series[i].mesh[k], d.name);
+            cells++;
+        }
+    gsl_test(cells == 0, "%s: cells", name);
+    sweep_free(&once);
+    sweep_free(&each);
+}
+
+static void share_tests(void)
+{
+    same_answers("sheet_cantilever", "", "shear=0");
+    same_answers("c_cantilever", "", "shear=0");
+    same_answers("rotating_cantilever", "", "omega_star=2");
+}
+
+int main(void)
+{
+    preference_tests();
+    serialise_tests();
+    share_tests();
     return gsl_test_summary();
 }

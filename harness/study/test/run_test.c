@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "elements/test/random.h"
+#include "elements/test/sections.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 
@@ -206,7 +207,7 @@ static void truth_files(void)
     truths_free(&t);
 }
 
-int main(void)
+static void run_tests(void)
 {
     parameters();
     hashes_of_neighbours();
@@ -214,5 +215,207 @@ int main(void)
     meshes();
     random_input();
     truth_files();
+}
+
+/* Below which size changes of a value are round-off: of every kind of quantity, in its unit. */
+
+/* Size 5 m, E = 2e11 Pa, A = 0.02 m^2. */
+static void make(scene *s)
+{
+    const double y[3] = {0, 0, 1};
+    const section_spec spec = section_spec_rectangle(2e11, 8e10, 0.2, 0.1);
+    scene_init(s, "size");
+    scene_add_section(s, &spec);
+    scene_add_node(s, 1, 2, 0.5);
+    scene_add_node(s, 4, 6, 0.5);
+    scene_add_member(s, 0, 1, 0, y);
+}
+
+static void change_tests(void)
+{
+    const double size = 5, young = 2e11, EA = young * 0.02, force = 1e-14 * EA;
+    const struct {
+        const char *name;
+        scene_extract what;
+        double scale;
+    } row[] = {
+        {"displacement", scene_coordinate(1, SCENE_UY), 1e-12 * size},
+        {"rotation", scene_coordinate(1, SCENE_RY), 1e-12},
+        {"relative displacement", scene_relative_to(1, SCENE_UX, 0), 1e-12 * size},
+        {"relative rotation", scene_relative_to(1, SCENE_RZ, 0), 1e-12},
+        {"reaction", scene_reaction(0, SCENE_UZ), force},
+        {"reacting moment", scene_reaction(0, SCENE_RX), force * size},
+        {"N", scene_internal_at(0, 0.5, SCENE_N), force},
+        {"Qz", scene_internal_at(0, 0.5, SCENE_QZ), force},
+        {"Mx", scene_internal_at(0, 0.5, SCENE_MX), force * size},
+        {"bimoment", scene_internal_at(0, 0.5, SCENE_BIMOMENT), force * size * size},
+        {"stress", scene_stress_at(0, 0.5, SCENE_VON_MISES), 1e-14 * young},
+        {"du/dF", scene_compliance_entry(SCENE_UX, SCENE_UY), 1e-12 * size / EA},
+        {"du/dM", scene_compliance_entry(SCENE_UX, SCENE_RY), 1e-12 / EA},
+        {"dr/dF", scene_compliance_entry(SCENE_RX, SCENE_UY), 1e-12 / EA},
+        {"dr/dM", scene_compliance_entry(SCENE_RX, SCENE_RY), 1e-12 / size / EA},
+        {"orientation", scene_orientation_entry(1, 0, 2), 1e-12},
+    };
+    enum { ROWS = sizeof row / sizeof *row };
+    scene s;
+    quantity_result value[ROWS] = {{0}};
+    make(&s);
+    for (int i = 0; i < ROWS; i++) {
+        char unit[8];
+        snprintf(unit, sizeof unit, "%d", i); /* beside none of the same unit */
+        scene_add_quantity(&s, row[i].name, unit, 0, row[i].what)->factor = i % 2 ? -1 : 10;
+    }
+    const solve_result r = {.quantities = ROWS, .quantity = value};
+    for (int i = 0; i < ROWS; i++)
+        gsl_test_rel(change_scale(&s, i, &r), (i % 2 ? 1 : 10) * row[i].scale, 1e-13, "%s",
+                     row[i].name);
+    value[0].value = -3; /* large beside it */
+    gsl_test_rel(change_scale(&s, 0, &r), 3e-9, 1e-13, "beside a value of its unit");
+    s.quantity[0].near_zero = 7;
+    gsl_test_rel(change_scale(&s, 0, &r), 7, 1e-13, "beside what the case says");
+    scene_free(&s);
+}
+
+/* Numbers show what is known of them: values to the second digit of their uncertainty, errors in
+ * percent. */
+
+static void says(const char *text, const char *expected, const char *what)
+{
+    gsl_test(strcmp(text, expected) != 0, "%s: '%s', should be '%s'", what, text, expected);
+}
+
+static void known(double value, double uncertainty, const char *expected)
+{
+    char text[ROUNDING_TEXT];
+    rounding_known(value, uncertainty, text);
+    says(text, expected, "a value and its uncertainty");
+}
+
+static void percent(double error, const char *expected)
+{
+    char text[ROUNDING_TEXT];
+    rounding_percent(error, text);
+    says(text, expected, "an error");
+    gsl_test(strlen(text) > 11, "'%s' is no wider than its column", text);
+}
+
+/* Of any number: what is shown is the value as far as it is known, and no more is shown. */
+static void every_size(void)
+{
+    for (int size = -12; size <= 12; size++)
+        for (int digits = 2; digits <= 9; digits++) {
+            const double value = -1.234567891234 * pow(10, size);
+            const double uncertainty = 5.5 * pow(10, size - digits);
+            char text[ROUNDING_TEXT];
+            rounding_known(value, uncertainty, text);
+            const double apart = fabs(strtod(text, NULL) - value);
+            gsl_test(apart > 0.1 * uncertainty, "%s +- %g is %.15g", text, uncertainty, value);
+            int shown = 0;
+            for (const char *c = text; *c != '\0' && *c != 'e'; c++)
+                shown += *c >= (shown > 0 ? '0' : '1') && *c <= '9';
+            gsl_test(size - digits < 0 && shown > digits + 2, "%s has more than is known", text);
+        }
+}
+
+static void rounding_tests(void)
+{
+    known(692531.6261914, 4.43, "692531.6");
+    known(692531.6261914, 443, "692530");
+    known(12858745.04, 0.31, "12858745.04");
+    known(1.2345678e-8, 3e-12, "1.23457e-8");
+    known(-0.00123456, 1e-6, "-0.0012346");
+    known(99.9996, 0.01, "100.00");
+    known(2.5, 0, "2.5");
+    known(3, INFINITY, "3.000000");
+    known(5, 80, "5");
+    known(0, 1e-9, "0");
+    known(NAN, 1, "-");
+    known(-0.0001234567890123, 0, "-0.00012345678901");
+    known(-0.0001234567890123, 1e-20, "-1.2345678901e-4");
+    percent(-0.027801, "-2.7801 %");
+    percent(2.1e-11, "+2.1e-9 %");
+    percent(-9.99999e-5, "-1.0e-2 %");
+    percent(12.34567, "+1234.6 %");
+    percent(-1e9, "-1.0e11 %");
+    percent(0, "0 %");
+    percent(INFINITY, "-");
+    every_size();
+}
+
+/* The line that says how far a run is: the time left follows the work, not the count; nothing of it
+ * is left. */
+
+/* What a run shows; the caller frees it. */
+static char *shown(double now, int done, double share, int ends)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    progress p = progress_begin(to, "cells", 40, 1000);
+    progress_show(&p, now, done, share, "case, beam, n = 8");
+    if (ends)
+        progress_end(&p);
+    fclose(to);
+    return text;
+}
+
+static void progress_says(double seconds, double share, const char *expected)
+{
+    char *text = shown(1000 + seconds, 10, share, 0);
+    gsl_test(strcmp(text, expected) != 0, "says '%s', should say '%s'", text, expected);
+    free(text);
+}
+
+static void the_end(void)
+{
+    char *text = shown(1010, 10, 0.5, 1);
+    char *last = strrchr(text, '\r');
+    gsl_test(last[1] != '\0', "the cursor stands at the beginning");
+    *last = '\0';
+    last = strrchr(text, '\r') + 1;
+    const size_t blanks = strspn(last, " ");
+    gsl_test(last[blanks] != '\0' || blanks < 20, "%d blanks are written over it", (int)blanks);
+    gsl_test(strchr(text, '\033') != NULL, "no escape sequence");
+    free(text);
+}
+
+static void too_long(void)
+{
+    char *text = NULL, name[200];
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    progress p = progress_begin(to, "cells", 40, 1000);
+    memset(name, 'x', sizeof name);
+    name[sizeof name - 1] = '\0';
+    progress_show(&p, 1001, 1, 0.5, name);
+    fclose(to);
+    gsl_test_int((int)strlen(text), 81, "a line and two returns");
+    free(text);
+}
+
+static void progress_tests(void)
+{
+    progress_says(30, 0.25, "\rcells 10 of 40, 25 %, about 2 min left: case, beam, n = 8\r");
+    progress_says(30, 0.5, "\rcells 10 of 40, 50 %, about 30 s left: case, beam, n = 8\r");
+    progress_says(60, 0.01, "\rcells 10 of 40, 1 %, about 1 h 39 min left: case, beam, n = 8\r");
+    progress_says(0.5, 0.5, "\rcells 10 of 40, 50 %: case, beam, n = 8\r");
+    progress_says(30, 0.001, "\rcells 10 of 40, 0 %: case, beam, n = 8\r");
+    the_end();
+    too_long();
+    progress quiet = progress_begin(NULL, "cells", 40, 0);
+    gsl_test(progress_is_due(&quiet, 1e9), "nothing is due where nothing is said");
+    progress_show(&quiet, 1, 1, 1, "nothing");
+    progress_end(&quiet);
+    progress loud = progress_begin(stderr, "cells", 40, 1000);
+    gsl_test(progress_is_due(&loud, 1000.05), "not every moment");
+    gsl_test(!progress_is_due(&loud, 1001), "but every second");
+}
+
+int main(void)
+{
+    run_tests();
+    change_tests();
+    rounding_tests();
+    progress_tests();
     return gsl_test_summary();
 }

@@ -408,7 +408,7 @@ class Make(Folder):
     def test_tests_by_words_of_their_names(self):
         tests, told = self.chosen("rounding_ truths")
         self.assertEqual([name for name in tests if not re.search("rounding_|truths", name)], [])
-        self.assertIn("harness/study/test/rounding_test", tests)
+        self.assertIn("harness/study/test/run_test", tests)
         self.assertTrue(any("/rounding_test" in line and " -o " in line for line in told))
         self.assertFalse(any("study/test/limit_test" in line for line in told))
         self.assertIn("reference/test/pack_test.py", self.chosen("reference/")[0])
@@ -431,7 +431,7 @@ class Make(Folder):
                               input="\n".join(told), text=True, capture_output=True, check=True,
                               cwd=ROOT)
         entries = {entry["output"]: entry for entry in json.loads(done.stdout)}
-        for name in ("elements/beamw/lanes", "harness/cli/main", "harness/study/test/rounding_test"):
+        for name in ("elements/beamw/lanes", "harness/cli/main", "harness/study/test/run_test"):
             self.assertEqual(entries[f"{self.folder}/{name}.o"]["file"], f"{name}.c")
         sources = {str(path.relative_to(ROOT)) for path in (ROOT / "harness").rglob("*.c")}
         self.assertEqual([path for path in sources - {entry["file"] for entry in entries.values()}
