@@ -1,10 +1,12 @@
 /* The matrix on a screen: no line wider than it, whatever the names; every name and every mark is
  * there; cases that pass share lines where there are many. */
 #include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/terminal/terminal.h"
+#include "harness/terminal/terminal_impl.h"
 
 enum { MOST = 64, NAME = 40 };
 
@@ -168,12 +170,194 @@ static void legend(void)
     free(text);
 }
 
-int main(void)
+static void overview_table_tests(void)
 {
     widths();
     heads();
     new_ones();
     passing();
     legend();
+}
+
+/* What is unexpected is told in full, whatever it is: verdicts, stored values, contradictions,
+ * findings and truths that nothing answers to. */
+
+static const case_type made_up = {.name = "made_up"};
+static char words[][300] = {"load",       "N",       "exact", "book, page 3",
+                            "",           "element", "rule",  "made_up other_case",
+                            "wrong limit"};
+enum { LOAD, NEWTON, EXACT, BOOK, NOTHING, ELEMENT, RULE, CASES, WRONG };
+
+/* One of each. */
+typedef struct unexpected_bench {
+    sweep s;
+    sweep_point p;
+    series one;
+    scene_quantity q;
+    judgement j;
+    verdict v;
+    agreement a;
+    flaw c;
+    truths t;
+    truth row[2];
+    rule known[2];
+} unexpected_bench;
+
+static void unexpected_make(unexpected_bench *b)
+{
+    static char cause[300];
+    memset(cause, 'c', 40);
+    memset(cause + 40, ' ', 1);
+    memset(cause + 41, 'd', 90);
+    memset(b, 0, sizeof *b);
+    b->q = (scene_quantity){.name = "load", .unit = "N"};
+    b->p = (sweep_point){.type = &made_up,
+                         .text = "length=2;width=3",
+                         .scene = {.quantities = 1, .quantity = &b->q}};
+    b->one = (series){.formulation.key = "element:order=3", .meshes = 2, .mesh = {2, 4}};
+    b->s = (sweep){.points = 1, .seriess = 1, .point = &b->p, .series = &b->one};
+    b->row[0] = (truth){.type = &made_up,
+                        .formulation = words[NOTHING],
+                        .quantity = words[LOAD],
+                        .kind = words[EXACT],
+                        .source = words[BOOK],
+                        .value = 3,
+                        .uncertainty = 1e-9,
+                        .met = 1};
+    b->row[1] = b->row[0];
+    b->row[1].met = 0;
+    b->v = (verdict){.kind = VERDICT_WRONG_LIMIT,
+                     .truth = &b->row[0],
+                     .fit = {.limit = 3.3, .limit_uncertainty = 0.012, .order = 2},
+                     .finest = 3.31,
+                     .error = 0.1};
+    b->a = (agreement){.truth = &b->row[0], .value = 3.5};
+    b->c = (flaw){.mesh = 1, .why = "more steps than iterations"};
+    b->known[0] = (rule){.name = words[RULE],
+                         .formulations = words[ELEMENT],
+                         .cases = words[CASES],
+                         .quantities = words[LOAD],
+                         .verdicts = words[WRONG],
+                         .predicted = words[NOTHING],
+                         .cause = cause};
+    b->t = (truths){.rows = 2, .row = b->row, .rules = 1, .rule = b->known};
+    b->j = (judgement){.verdicts = 1, .verdict = &b->v};
+}
+
+/* What is shown; the caller frees it. */
+static char *unexpected_shown(const unexpected_bench *b)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    table_unexpected(to, (screen){0, 0}, &b->s, &b->j, &b->t);
+    fclose(to);
+    return text;
+}
+
+static void holds(const unexpected_bench *b, const char *part)
+{
+    char *text = unexpected_shown(b);
+    gsl_test(strstr(text, part) == NULL, "'%s' stands in: %s", part, text);
+    for (char *rest = text, *line; (line = strsep(&rest, "\n")) != NULL;)
+        gsl_test(paragraph_columns(line) > PARAGRAPH_WIDTH, "%s", line);
+    free(text);
+}
+
+static void unexpected_tests(void)
+{
+    unexpected_bench b;
+    unexpected_make(&b);
+    b.v.matches = 1;
+    char *text = unexpected_shown(&b);
+    gsl_test(text[0] != '\0', "nothing where all is as expected: %s", text);
+    free(text);
+
+    b.v.matches = 0;
+    b.j.unexpected = 1;
+    holds(&b,
+          "\n 1. made_up (length=2;width=3), element:order=3, load [N]\n"
+          "    wrong limit, expected pass\n    converges to a wrong limit: +10 %\n"
+          "    limit 3.300 +- 0.012, off by +10.0000 %; truth 3.0000000000 +- 1.0e-9 (exact, "
+          "book, page 3);\n    finest mesh, n = 4: 3.310\n"
+          "    beamwork converge made_up --set length=2 --set width=3 -f element:order=3 -n 2,4 "
+          "-k load\n");
+
+    b.j.agreements = b.j.disagreements = 1;
+    b.j.agreement = &b.a;
+    holds(&b, "\n 2. made_up (length=2;width=3), element:order=3, load\n"
+              "    n = 2: 3.5 differs from the stored 3 (book, page 3)\n");
+
+    b.j.flaws = 1;
+    b.j.flaw = &b.c;
+    holds(&b, "\n 3. made_up (length=2;width=3), element:order=3, n = 4\n"
+              "    inconsistent run record: more steps than iterations\n");
+
+    b.j.unobserved = 1;
+    b.known[0].missed = 1;
+    holds(&b, "\n 4. finding rule was not observed\n    formulations: element\n"
+              "    cases: made_up other_case\n    quantities: load\n    cause: cccc");
+
+    b.j.unmet = 1;
+    holds(&b, "\n 5. truth of nothing that exists: made_up, load (book, page 3)\n");
+    b.t.strangers = 2;
+    strcpy(b.t.stranger, "gone");
+    holds(&b, "\n 6. truths of 2 unknown cases, the first: gone\n");
+}
+
+/* Where a path is stable, in words: runs of steps, of several analyses. */
+
+enum { STABILITY_MOST = 16 };
+
+/* A letter for each step: o open, d no divergence, s stable, u unstable, h held; paths 0.5, 1, ...
+ */
+static void is(const char *letters, scene_analysis_kind kind, const char *expected)
+{
+    static const char letter[] = "odsugh";
+    step_record step[STABILITY_MOST];
+    scene_analysis analysis[2] = {{.kind = SCENE_LINEAR}, {.kind = kind}};
+    const scene s = {.analyses = 2, .analysis = analysis};
+    const int steps = (int)strlen(letters);
+    char *text = NULL;
+    size_t size = 0;
+    memset(step, 0, sizeof step);
+    for (int i = 0; i < steps; i++) {
+        step[i].analysis = 1;
+        step[i].path = 0.5 * (i + 1);
+        step[i].stability = (step_stability)(strchr(letter, letters[i]) - letter);
+        step[i].negative_pivots = letters[i] == 'u';
+    }
+    const solve_result r = {.steps = steps, .step = step};
+    FILE *to = open_memstream(&text, &size);
+    const int lines = table_stability_paths(to, &s, &r);
+    fclose(to);
+    gsl_test_int(lines, expected[0] != '\0', "%s: lines", letters);
+    gsl_test_str(text, expected, "%s", letters);
+    free(text);
+}
+
+static void stability_tests(void)
+{
+    is("", SCENE_STATIC, "");
+    is("ssss", SCENE_STATIC, "");
+    is("oooo", SCENE_STATIC, "");
+    is("uuu", SCENE_STATIC, "analysis 1: unstable all along (path)\n");
+    is("dd", SCENE_STATIC, "analysis 1: no divergence all along (path)\n");
+    is("ssus", SCENE_STATIC, "analysis 1: stable up to 1, unstable at 1.5, stable from 2 (path)\n");
+    is("suuso", SCENE_CONTINUATION,
+       "analysis 1: stable up to 0.5, unstable 1 to 1.5, stable at 2, not decided by pivots from "
+       "2.5 (load\n  factor)\n");
+    is("hg", SCENE_STATIC,
+       "analysis 1: stable without damping up to 0.5, unstable from 1 (path)\n");
+    is("sususus", SCENE_STATIC,
+       "analysis 1: stable up to 0.5, unstable at 1, stable at 1.5, unstable at 2, stable at 2.5, "
+       "unstable\n  at 3, and so on (path)\n");
+}
+
+int main(void)
+{
+    overview_table_tests();
+    unexpected_tests();
+    stability_tests();
     return gsl_test_summary();
 }
