@@ -4,7 +4,9 @@
  * does not go with it is refused by name. */
 #include <math.h>
 
+#include "harness/analysis/analysis.h"
 #include "harness/formulations/formulations.h"
+#include "harness/model/model.h"
 #include "harness/time/test/moving.h"
 #include "harness/tools/kit/scenes.h"
 
@@ -255,7 +257,7 @@ static void refuse(void)
     check_refused(a.status, a.reason, "lumped at its nodes");
 }
 
-int main(void)
+static void consistent_tests(void)
 {
     const element_type *const type[] = {&element_beamw_consistent, &element_collocation};
     free_flight(type[0]);
@@ -264,5 +266,231 @@ int main(void)
             driven(type[i], released);
     iterations();
     refuse();
+}
+
+/* Energy gained against work done: of loads that come and go, of gravity, of a drive. What is
+ * missing shrinks with the order of the scheme, and for the conserving one there is nothing. */
+
+extern const element_type element_geometrically_exact;
+extern const case_type case_free_flight_space, case_spin_up, case_elbow, case_pendulum;
+
+/* Largest of all stations, by the largest energy. */
+static double drift(const case_type *type, scene_scheme scheme, double step, double end)
+{
+    scene s;
+    answer a;
+    moving_case(type, "", &s);
+    const int motion = moving_add(&s, scheme, step, end);
+    moving_range(&s, "drift", motion, SCENE_DRIFT);
+    moving_range(&s, "energy", motion, SCENE_ENERGY);
+    moving_range(&s, "work", motion, SCENE_WORK);
+    ask_scene(&s, &element_geometrically_exact, NULL, 4, &a);
+    scene_free(&s);
+    const double energy = moving_largest(&a, "energy"), work = moving_largest(&a, "work");
+    gsl_test(!(fabs(work / energy - 1) < 0.01), "%s: all energy is work (%g of %g J)%s", type->name,
+             work, energy, a.reason);
+    return moving_largest(&a, "drift") / energy;
+}
+
+/* radau: of the shortest step; conserving: of the first two. */
+static const struct {
+    const case_type *type;
+    double step, end, conserving;
+} drift_motion[] = {{&case_free_flight_space, 0.05, 6, 1e-13},
+                    {&case_spin_up, 0.05, 4, 1e-13},
+                    {&case_elbow, 0.125, 5, 1e-13},
+                    {&case_pendulum, 0.005, 0.5, 1e-13}};
+
+static void drift_tests(void)
+{
+    for (int i = 0; i < (int)(sizeof drift_motion / sizeof drift_motion[0]); i++) {
+        const double h = drift_motion[i].step, end = drift_motion[i].end;
+        const char *name = drift_motion[i].type->name;
+        const double first = drift(drift_motion[i].type, SCENE_ALPHA, h / 2, end),
+                     second = drift(drift_motion[i].type, SCENE_ALPHA, h / 4, end);
+        gsl_test(!(second < 1e-4 && fabs(first / second - 4) < 0.4),
+                 "%s: drift of alpha of second order (%g, %g)", name, first, second);
+        const double radau = drift(drift_motion[i].type, SCENE_RADAU, h / 2, end),
+                     shorter = drift(drift_motion[i].type, SCENE_RADAU, h / 4, end);
+        gsl_test(!(shorter < 1e-8 && radau / shorter > 5),
+                 "%s: drift of radau of higher order (%g, %g)", name, radau, shorter);
+        for (int k = 0; k < 2; k++) {
+            const double exact = drift(drift_motion[i].type, SCENE_CONSERVING, h / (1 << k), end);
+            gsl_test(!(exact < drift_motion[i].conserving),
+                     "%s: no drift of the conserving scheme (%g)", name, exact);
+        }
+    }
+}
+
+/* Momentum of what flies freely is the integral of the load over time, to round-off, whatever the
+ * integrator: the loads are linear in pieces. (Generalized-alpha averages accelerations over two
+ * steps: while a load rises it is late by a part of h^2, which goes when the load has gone.) What
+ * cases of motion refuse. */
+
+extern const element_type element_geometrically_exact;
+extern const case_type case_free_flight_space, case_free_flight_plane, case_release,
+    case_leaf_guide, case_rigid_body, case_pendulum;
+
+/* Of the force along x: of the triangle, 8 N m s^-1 for 2.5 s and back; of the step, 8 N for as
+ * long. */
+static double impulse_of_triangle(double t)
+{
+    const double rise = fmin(t, 2.5), fall = fmin(fmax(t - 2.5, 0), 2.5);
+    return 4 * rise * rise + 20 * fall - 4 * fall * fall;
+}
+
+static double ramp_of_triangle(double t)
+{
+    return t < 5 ? 8 : 0;
+}
+
+static double impulse_of_step(double t)
+{
+    return 8 * fmin(t, 2.5);
+}
+
+static double no_ramp(double t)
+{
+    (void)t;
+    return 0;
+}
+
+static void momentum(const case_type *type, const char *parameters, double (*impulse)(double),
+                     double (*ramp)(double))
+{
+    static const scene_scheme scheme[] = {SCENE_ALPHA, SCENE_CONSERVING, SCENE_RADAU};
+    static const double end[] = {0.7, 2.5, 3.1, 6};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 4; k++) {
+            scene s;
+            answer a;
+            moving_case(type, parameters, &s);
+            const double h = 0.05;
+            const int motion = moving_add(&s, scheme[i], h, end[k]);
+            for (int j = 0; j < 3; j++)
+                scene_add_quantity(&s, (const char *const[]){"px", "py", "pz"}[j], "kg m/s", motion,
+                                   scene_balance_of(SCENE_PX + j));
+            ask_scene(&s, &element_geometrically_exact, NULL, 4, &a);
+            scene_free(&s);
+            const double late = scheme[i] == SCENE_ALPHA ? h * h / 100 * ramp(end[k]) : 0,
+                         expected = impulse(end[k]), along = answer_of(&a, "px") - expected,
+                         across = hypot(answer_of(&a, "py"), answer_of(&a, "pz"));
+            gsl_test(!(fabs(along) < late + 1e-11 * expected && across < 1e-11 * expected),
+                     "%s %s, scheme %d: momentum at %g s is the impulse %g (%g, %g)%s", type->name,
+                     parameters, scheme[i], end[k], expected, along, across, a.reason);
+        }
+}
+
+static void refused(const case_type *type, const char *parameters, const char *word)
+{
+    double value[CASE_MAX_PARAMETERS];
+    fault f = {""};
+    parameters_default(type, value);
+    const status outcome = parameters_parse(type, parameters, value, NULL, &f);
+    gsl_test(outcome != STATUS_REFUSED || strstr(f.text, word) == NULL, "%s %s: refused (%s)",
+             type->name, parameters, f.text);
+}
+
+static void flight_tests(void)
+{
+    momentum(&case_free_flight_space, "", impulse_of_triangle, ramp_of_triangle);
+    momentum(&case_free_flight_plane, "load=step", impulse_of_step, no_ramp);
+    refused(&case_free_flight_plane, "load=jump", "load");
+    refused(&case_free_flight_plane, "integrator=euler", "integrator");
+    refused(&case_free_flight_space, "stiffening=0.5", "stiffening");
+    refused(&case_pendulum, "step=0", "step");
+    refused(&case_rigid_body, "time=-1", "time");
+    refused(&case_leaf_guide, "amplitude=0", "amplitude");
+    refused(&case_release, "tolerance=1", "tolerance");
+}
+
+/* Members that are stiff in elongation cost no iterations, whatever the formulation: a swing of the
+ * pendulum with EA times 1, 1e3 and 1e6, in long steps, of which none is halved. */
+
+extern const case_type case_pendulum;
+extern const element_type element_collocation;
+
+enum { ELEMENTS = 4 };
+
+typedef struct swing {
+    double iterations; /* of a step; NAN: the formulation is not for it */
+    long steps;
+} swing;
+
+/* Steps of equal length. */
+static swing take(const formulation *with, scene_scheme by, double stiffening, double step,
+                  int steps, int elements)
+{
+    char parameters[64];
+    solve_options options;
+    solve_result result;
+    scene s;
+    model *m;
+    swing out = {NAN, 0};
+    fault f = {""};
+    snprintf(parameters, sizeof parameters, "stiffening=%g", stiffening);
+    moving_case(&case_pendulum, parameters, &s);
+    moving_add(&s, by, step, steps * step);
+    memset(&options, 0, sizeof options);
+    memset(&result, 0, sizeof result);
+    const model_request wanted = {
+        .scene = &s, .type = with->type, .options = with->option, .elements = elements};
+    if (model_alloc(&wanted, &m, &f) == STATUS_OK) {
+        const status outcome = solve_scene(&s, m, &options, &result, &f);
+        gsl_test(outcome != STATUS_OK, "%s, EA x %g: %s", with->type->name, stiffening, f.text);
+        out.steps = result.counters.steps;
+        out.iterations = (double)result.counters.iterations / (double)out.steps;
+    }
+    model_free(m);
+    result_free(&result);
+    scene_free(&s);
+    return out;
+}
+
+static void compare(const element_type *type, scene_scheme by, double step, double more,
+                    double times)
+{
+    formulation with;
+    formulation_default(type, &with);
+    const swing soft = take(&with, by, 1, step, MOVING_STATIONS, ELEMENTS);
+    for (double stiffening = 1e3; isfinite(soft.iterations) && stiffening < 1e7;
+         stiffening *= 1e3) {
+        const swing stiff = take(&with, by, stiffening, step, MOVING_STATIONS, ELEMENTS);
+        gsl_test(stiff.steps != soft.steps, "%s, EA x %g: %ld steps, soft %ld", type->name,
+                 stiffening, stiff.steps, soft.steps);
+        gsl_test(!(stiff.iterations < times * soft.iterations + more),
+                 "%s, EA x %g: %.2f iterations a step, soft %.2f", type->name, stiffening,
+                 stiff.iterations, soft.iterations);
+    }
+}
+
+/* One element, whose forces have no more digits than eps EA leaves, while its moments do. */
+static void one_element(void)
+{
+    const int steps = 60;
+    formulation with;
+    formulation_default(&element_collocation, &with);
+    const swing stiff = take(&with, SCENE_CONSERVING, 1e6, 0.002, steps, 1);
+    gsl_test(stiff.steps != steps, "one element, EA x 1e6: %ld steps", stiff.steps);
+    gsl_test(!(stiff.iterations < 8), "one element, EA x 1e6: %g iterations a step",
+             stiff.iterations);
+}
+
+static void stiff_tests(void)
+{
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        compare(registry_formulations[i], SCENE_ALPHA, 0.005, 1, 1);
+        compare(registry_formulations[i], SCENE_RADAU, 0.02, 1, 1);
+        compare(registry_formulations[i], SCENE_CONSERVING, 0.005, 0, 1.5);
+    }
+    one_element();
+}
+
+int main(void)
+{
+    consistent_tests();
+    drift_tests();
+    flight_tests();
+    stiff_tests();
     return gsl_test_summary();
 }

@@ -4,7 +4,10 @@
 #include <math.h>
 
 #include "elements/math/dense.h"
+#include "elements/test/worst.h"
+#include "harness/model/model.h"
 #include "harness/time/test/flying.h"
+#include "harness/time/test/moving.h"
 #include "harness/tools/kit/scenes.h"
 
 extern const element_type element_collocation;
@@ -187,7 +190,7 @@ static void order(double eta)
              first, second);
 }
 
-int main(void)
+static void estimate_tests(void)
 {
     const scene_alpha trapezoidal = {0, 0}, hht = {.mass = 0, .force = 0.1},
                       strong = scene_alpha_of_radius(0.5);
@@ -201,5 +204,300 @@ int main(void)
     of_second_order(SCENE_ALPHA, "trapezoidal", &trapezoidal, 0.1);
     of_second_order(SCENE_CONSERVING, "conserving", NULL, 0.1);
     explicit_one();
+}
+
+/* Bending turns without inertia where the twist has some: its gyroscopic moment loads them. Rods
+ * that spin obliquely come into balance with it and are integrated from there, with the orders of
+ * the integrators; they are what less and less inertia of the bending turns goes to; and where they
+ * are in balance, another start changes nothing. */
+
+extern const element_type element_geometrically_exact;
+
+#define RODS "harness/time/test/rods.yaml"
+
+enum { PLACES = 3 };
+
+static struct {
+    double rotary, spin;
+    int joint, thrown;
+} how;
+
+/* Oblique to all axes; with a joint another rod at its end, which turns about one axis of its own.
+ * Thrown: from rest, by a force and a moment that come and go. */
+static void build(scene *s, scene_scheme by, double step)
+{
+    scenes_read(s, RODS,
+                "of=oblique;end=1;integrator=%s;step=%.17g;spin=%g;rotary=%g;joint=%s;"
+                "comes_and_goes=%d",
+                scenes_integrator[by], step, how.spin, how.rotary, how.joint ? "hinge" : "stiff",
+                how.thrown);
+}
+
+/* Where B is after 0.8 s. */
+static void fly(scene_scheme by, double step, double place[PLACES])
+{
+    scene s;
+    flying f;
+    build(&s, by, step);
+    status outcome = flying_begin(&s, &element_geometrically_exact, 2, &f);
+    for (int i = 0; i < lround(0.8 / step) && outcome == STATUS_OK; i++)
+        outcome = flying_step(&f, step);
+    gsl_test(outcome != STATUS_OK, "integrator %d, spin %g, rotary %g, step %g s: %s", by, how.spin,
+             how.rotary, step, f.why.text);
+    kinematics_position(f.m, f.now.state, 1, place);
+    flying_end(&f);
+    scene_free(&s);
+}
+
+static double distance(const double a[PLACES], const double b[PLACES])
+{
+    const double apart[PLACES] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return sqrt(dense_dot(PLACES, apart, apart));
+}
+
+static double error_of(scene_scheme by, double step)
+{
+    double exact[PLACES], place[PLACES];
+    fly(SCENE_RADAU, 0.005, exact);
+    fly(by, step, place);
+    return distance(place, exact);
+}
+
+/* The error of time, and that with half the step. */
+static void converge(scene_scheme by, double step, double ratio)
+{
+    const double first = error_of(by, step), second = error_of(by, step / 2);
+    gsl_test(!(fabs(first / second / ratio - 1) < 0.25),
+             "integrator %d, spin %g: errors %g and %g m", by, how.spin, first, second);
+}
+
+static void agree(scene_scheme by, double step, double most)
+{
+    const double error = error_of(by, step);
+    gsl_test(!(error < most), "integrator %d, spin %g, joint: error %g m", by, how.spin, error);
+}
+
+/* Explicit steps, which need inertia, with less and less of it. */
+static void limit(void)
+{
+    double place[3][PLACES], without[PLACES];
+    for (int i = 0; i < 3; i++) {
+        how.rotary = i < 2 ? 0.04 / (1 + i) : 0;
+        fly(i < 2 ? SCENE_EXPLICIT : SCENE_RADAU, i < 2 ? 0.0025 : 0.01, place[i]);
+    }
+    for (int i = 0; i < PLACES; i++)
+        without[i] = 2 * place[1][i] - place[0][i];
+    const double coarse = distance(place[0], place[2]), fine = distance(place[1], place[2]),
+                 rest = distance(without, place[2]);
+    gsl_test(!(fabs(coarse / fine - 2) < 0.1 && rest < 0.04 * coarse),
+             "less inertia of bending turns: %g, %g, then %g m from none", coarse, fine, rest);
+}
+
+/* In the middle of a motion everything is where and as fast as it belongs. */
+static void start_again(void)
+{
+    scene s;
+    flying f;
+    instant before;
+    build(&s, SCENE_RADAU, 0.01);
+    status outcome = flying_begin(&s, &element_geometrically_exact, 2, &f);
+    for (int i = 0; i < 50 && outcome == STATUS_OK; i++)
+        outcome = flying_step(&f, 0.01);
+    if (outcome == STATUS_OK)
+        outcome = instant_alloc(f.m, &before, &f.why);
+    gsl_test(outcome != STATUS_OK, "%s", f.why.text);
+    instant_copy(f.m, &f.now, &before);
+    const scene_motion *motion = scene_motion_of(&s.analysis[0]);
+    outcome = launch_again(&f.c, &f.masses, motion, &f.now, &f.next, &f.why);
+    gsl_test(outcome != STATUS_OK, "%s", f.why.text);
+    double moved = 0, changed = 0, largest = 0, forces[2][100] = {{0}};
+    for (int i = 0; i < model_vertices(f.m); i++) {
+        double p[3], q[3];
+        kinematics_position(f.m, before.state, i, p);
+        kinematics_position(f.m, f.now.state, i, q);
+        moved = fmax(moved, distance(p, q));
+        for (int k = 0; k < 4; k++)
+            moved = fmax(moved, fabs(before.state->q[4 * i + k] - f.now.state->q[4 * i + k]));
+    }
+    inertia_subtract(f.m, &f.masses, f.now.state, f.now.v, before.a, forces[0]);
+    inertia_subtract(f.m, &f.masses, f.now.state, f.now.v, f.now.a, forces[1]);
+    for (int c = 0; c < model_unknowns(f.m); c++) {
+        changed = fmax(changed, fabs(forces[0][c] - forces[1][c]));
+        largest = fmax(largest, fabs(forces[1][c]));
+    }
+    gsl_test(!(moved < 1e-9), "joint %d: started again it moves by %g", how.joint, moved);
+    gsl_test(!(changed < 1e-3 * largest), "joint %d: started again inertia changes by %g of %g N",
+             how.joint, changed, largest);
+    instant_free(&before);
+    flying_end(&f);
+    scene_free(&s);
+}
+
+/* So much spin that bending does not hold the gyroscopic moments. */
+static void refuse(void)
+{
+    scene s;
+    flying f;
+    build(&s, SCENE_ALPHA, 0.01);
+    const status outcome = flying_begin(&s, &element_geometrically_exact, 2, &f);
+    gsl_test(outcome != STATUS_NOT_CONVERGED || strstr(f.why.text, "no balance") == NULL,
+             "without a balance: %s", f.why.text);
+    flying_end(&f);
+    scene_free(&s);
+}
+
+static void motion_massless_tests(void)
+{
+    static const double spins[] = {0.3, 1};
+    for (how.joint = 0; how.joint < 2; how.joint++)
+        for (int i = 0; i < 2; i++) {
+            how.spin = spins[i];
+            if (how.joint) { /* whose modes these steps do not resolve */
+                agree(SCENE_ALPHA, 0.01, 3e-3);
+            } else {
+                converge(SCENE_ALPHA, 0.02, 4);
+                converge(SCENE_CONSERVING, 0.02, 4);
+                converge(SCENE_RADAU, 0.02, 28);
+            }
+            start_again();
+        }
+    how.joint = 0;
+    how.spin = 60;
+    refuse();
+    how.spin = 0;
+    how.thrown = 1;
+    limit();
+}
+
+/* Steps of all integrators: the trapezoidal rule runs back to where it came from, a rigid body that
+ * no torque acts on keeps to its exact motion with the order of the scheme, and kinks of loads are
+ * hit. */
+
+extern const element_type element_geometrically_exact;
+extern const case_type case_free_flight_space;
+
+/* A free rod on its way. */
+static void throw_rod(scene *s, scene_scheme by, const scene_alpha *alpha)
+{
+    moving_case(&case_free_flight_space, "", s);
+    const int motion = moving_add(s, by, 0.05, 1);
+    moving_unload(s);
+    s->analysis[motion].of.motion.alpha = *alpha;
+    s->analysis[motion].of.motion.start = (scene_start){.spin = {0.3, 1, 2}};
+}
+
+static void steps_begin(const scene *s, flying *f)
+{
+    const status outcome = flying_begin(s, &element_geometrically_exact, 3, f);
+    gsl_test(outcome != STATUS_OK, "begins: %s", f->why.text);
+}
+
+static void reverse(void)
+{
+    enum { STEPS = 40 };
+    const scene_alpha trapezoidal = {0, 0};
+    scene s;
+    flying f;
+    double largest = 0;
+    throw_rod(&s, SCENE_ALPHA, &trapezoidal);
+    steps_begin(&s, &f);
+    double *first = flying_all(&f);
+    for (int i = 0; i < 2 * STEPS; i++)
+        gsl_test(flying_step(&f, i < STEPS ? 0.02 : -0.02) != STATUS_OK, "step %d: %s", i,
+                 f.why.text);
+    const size_t n = (size_t)model_unknowns(f.m);
+    double *last = flying_all(&f);
+    for (size_t i = 0; i < n; i++)
+        largest = fmax(largest, fabs(last[i] - first[i]));
+    for (int i = 0; i < 3 * model_vertices(f.m); i++)
+        largest = fmax(largest, fabs(f.now.state->u[i]));
+    gsl_test(!(largest < 1e-10), "the trapezoidal rule runs back (%g)", largest);
+    free(first);
+    free(last);
+    flying_end(&f);
+    scene_free(&s);
+}
+
+/* J = diag(1, 2, 3), w(0) = (0.5, 0.2, 2): Jacobi's elliptic functions, at 10 s. */
+static double turn_body(scene_scheme by, double h)
+{
+    static const double w[3] = {0.069492061156576, 0.5340139075307, 1.9794636602342},
+                        R[6] = {0.1439879275647, -0.9562925632996, 0.2545034579204,
+                                0.9873599189256, 0.1560479392089,  0.02773862231498},
+                        y_axis[3] = {0, 1, 0}, at[1] = {10};
+    scene s;
+    answer a;
+    double largest = 0;
+    scene_init(&s, "body");
+    scene_omit(&s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
+    const section_spec spec = timed_profile(&(timed_section){.EA = 1e-3,
+                                                             .GA = 1e-3,
+                                                             .GJ = 1e-3,
+                                                             .EI = 1e-3,
+                                                             .mass = 1e-11,
+                                                             .polar = 2e-11,
+                                                             .rotary = 1e-11});
+    const int profile = scene_add_section(&s, &spec), body = scene_add_node(&s, 0, 0, 0);
+    /* with a rod that weighs nothing: something must be joined to it */
+    scene_add_member(&s, body, scene_add_node(&s, 1, 0, 0), profile, y_axis);
+    scene_node_at(&s, body)->body = (scene_body){.mass = 1, .inertia = {1, 2, 3}};
+    const int motion = scene_add_motion(&s, SCENE_NONE, 1, at,
+                                        (scene_motion){.scheme = by,
+                                                       .alpha = scene_alpha_of_radius(0.9),
+                                                       .step = h,
+                                                       .start = {.spin = {0.5, 0.2, 2}}});
+    for (int i = 0; i < 9; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "%d", i);
+        scene_add_quantity(&s, name, "1", motion,
+                           i < 3 ? scene_rate(body, SCENE_RX + i)
+                                 : scene_orientation_entry(body, (i - 3) / 3, i % 3));
+    }
+    ask_scene(&s, &element_geometrically_exact, NULL, 1, &a);
+    scene_free(&s);
+    for (int i = 0; i < 9; i++)
+        largest = worst_of(largest, fabs(a.value[i] - (i < 3 ? w[i] : R[i - 3])));
+    return largest;
+}
+
+static void check_body(scene_scheme by, double h, double order, double least)
+{
+    const double first = turn_body(by, h), second = turn_body(by, h / 2);
+    gsl_test(!(second < least && fabs(log2(first / second) - order) < 0.15),
+             "scheme %d: a free body, errors %g, %g, order %g", by, first, second,
+             log2(first / second));
+}
+
+/* The impulse of 50 N s is exact, though no step but those that are cut ends at a kink. */
+static void impulse(scene_scheme by)
+{
+    scene s;
+    answer a;
+    moving_case(&case_free_flight_space, "", &s);
+    const int motion = moving_add(&s, by, 0.07, 6);
+    scene_add_quantity(&s, "px", "1", motion, scene_balance_of(SCENE_PX));
+    scene_add_quantity(&s, "py", "1", motion, scene_balance_of(SCENE_PY));
+    ask_scene(&s, &element_geometrically_exact, NULL, 3, &a);
+    scene_free(&s);
+    gsl_test(!(fabs(answer_of(&a, "px") - 50) < 1e-11 && fabs(answer_of(&a, "py")) < 1e-11),
+             "scheme %d: momentum is the impulse (%.15g, %g) %s", by, answer_of(&a, "px"),
+             answer_of(&a, "py"), a.reason);
+}
+
+static void steps_tests(void)
+{
+    reverse();
+    check_body(SCENE_ALPHA, 0.05, 2, 2.3e-3);
+    check_body(SCENE_CONSERVING, 0.05, 2, 5e-3);
+    check_body(SCENE_RADAU, 0.1, 5, 2e-8);
+    for (int by = 0; by <= SCENE_RADAU; by++)
+        impulse((scene_scheme)by);
+}
+
+int main(void)
+{
+    estimate_tests();
+    motion_massless_tests();
+    steps_tests();
     return gsl_test_summary();
 }

@@ -1,11 +1,11 @@
 /* Forces of inertia of everything that carries mass (off-centre bodies, beams beside their nodes,
  * sequences of angles, released ends, warping) are the change of momenta and of kinetic energy
  * along a motion; kinetic energy is that of all masses one by one. */
-#include "harness/model/model.h"
-#include "harness/time/time_impl.h"
-
 #include "elements/math/rotation.h"
+#include "elements/test/worst.h"
+#include "harness/model/model.h"
 #include "harness/time/test/masses.h"
+#include "harness/time/time_impl.h"
 
 /* Rates of the coordinates as increments in fixed axes. */
 static void in_space(const moving_one *o, const double v[], double out[])
@@ -165,7 +165,7 @@ static void kinetic_energy(const moving_one *o)
     near("kinetic energy", all.kinetic, sum, 1e-13 * sum);
 }
 
-int main(void)
+static void inertia_tests(void)
 {
     static const element_type *const type[] = {&element_collocation, &element_geometrically_exact,
                                                &element_beamw_consistent};
@@ -178,5 +178,305 @@ int main(void)
         kinetic_energy(&o);
         end(&o);
     }
+}
+
+/* What runs between two instants comes to both of them: places, shifts, angles, warping, rates and
+ * accelerations, of bodies, sequences of angles and released ends, turned by half a radian. */
+
+static void rates_of(const moving_one *o, uint64_t seed, instant *at)
+{
+    some(o->all, 1, &seed, at->v);
+    some(o->all, 3, &seed, at->a);
+}
+
+static double apart(size_t count, const double a[], const double b[])
+{
+    double largest = 0;
+    for (size_t i = 0; i < count; i++)
+        largest = worst_of(largest, fabs(a[i] - b[i]));
+    return largest;
+}
+
+/* Ends that turn freely have no rates inside a step. */
+static double rates_apart(const model *m, const double a[], const double b[])
+{
+    double largest = 0;
+    for (int i = 0; i < model_vertices(m); i++)
+        for (int k = 0; k < 6; k++) {
+            const int c = model_vertex(m, i)->coordinate[k];
+            const int ball = i >= model_first_release(m) && forms_of(m, i) == FORM_BODY;
+            if (c != NONE && (model_vertex(m, i)->body == i ||
+                              (i >= model_first_release(m) && !(ball && k > 2))))
+                largest = worst_of(largest, fabs(a[c] - b[c]));
+        }
+    for (int i = 0; i < model_warps(m); i++)
+        largest = worst_of(largest, fabs(a[model_warp(m, i)] - b[model_warp(m, i)]));
+    return largest;
+}
+
+static double places_apart(const model *m, const model_state *a, const model_state *b)
+{
+    const size_t n = (size_t)model_vertices(m);
+    double largest = apart(3 * n, a->u, b->u);
+    largest = worst_of(largest, apart(3 * n, a->angle, b->angle));
+    largest = worst_of(largest, apart(3 * (size_t)model_releases(m), a->shift, b->shift));
+    largest = worst_of(largest, apart((size_t)model_warps(m), a->warp, b->warp));
+    for (size_t i = 0; i < n; i++) {
+        double sum = 0;
+        for (int k = 0; k < 4; k++)
+            sum += a->q[4 * i + (size_t)k] * b->q[4 * i + (size_t)k];
+        largest = worst_of(largest, sqrt(fmax(0, 1 - sum * sum)) < 2e-8 ? 0 : 1);
+    }
+    return largest;
+}
+
+static void run(const moving_one *o, between_degree degree)
+{
+    const double h = 0.3;
+    instant from, to, at;
+    step_between inside;
+    run_state loaded;
+    fault f = {""};
+    uint64_t seed = 31;
+    double inc[MOST];
+    run_state_begin(&loaded, o->m, 1, NULL);
+    const equations eq = {.m = o->m, .run = &loaded};
+    gsl_test(instant_alloc(o->m, &from, &f) != STATUS_OK ||
+                 instant_alloc(o->m, &to, &f) != STATUS_OK ||
+                 instant_alloc(o->m, &at, &f) != STATUS_OK ||
+                 between_alloc(&eq, &inside, &f) != STATUS_OK,
+             "%s", f.text);
+    kinematics_state_copy(o->m, o->now, from.state);
+    some(o->all, 0.4, &seed, inc);
+    kinematics_state_copy(o->m, o->now, to.state);
+    increment_apply(o->m, o->now, inc, 0, to.state);
+    from.time = 1;
+    to.time = 1 + h;
+    rates_of(o, 5, &from);
+    rates_of(o, 6, &to);
+    between_take(&inside, degree, &from, &to);
+    for (int k = 0; k < 2; k++) {
+        const instant *expected = k ? &to : &from;
+        between_at(&inside, expected->time, &at);
+        const double places = places_apart(o->m, at.state, expected->state),
+                     rates = rates_apart(o->m, at.v, expected->v),
+                     second = rates_apart(o->m, at.a, expected->a);
+        gsl_test(!(places < 1e-13), "%s: places at end %d (%g)", model_type(o->m)->name, k, places);
+        gsl_test(!(rates < 1e-12), "%s: rates at end %d (%g)", model_type(o->m)->name, k, rates);
+        gsl_test(!(second < 1e-10), "%s: accelerations at end %d (%g)", model_type(o->m)->name, k,
+                 second);
+    }
+    between_at(&inside, 1 + h / 2, &at);
+    gsl_test(!(places_apart(o->m, at.state, from.state) > 0.01), "%s: half of the way",
+             model_type(o->m)->name);
+    between_free(&inside);
+    run_state_end(&loaded);
+    instant_free(&from);
+    instant_free(&to);
+    instant_free(&at);
+}
+
+static void between_tests(void)
+{
+    static const element_type *const type[] = {&element_collocation, &element_beamw_consistent};
+    moving_one o;
+    for (int i = 0; i < 4; i++) {
+        begin(&o, type[i % 2], i / 2);
+        run(&o, BETWEEN_CUBIC);
+        run(&o, BETWEEN_QUINTIC);
+        end(&o);
+    }
+}
+
+/* The tangent of forces of inertia is their derivative, in the exponential chart, with rates that
+ * follow the increments of a step of finite turns. */
+
+/* Rates follow the increments. */
+static const double b = 7, g = 3;
+
+static void force_at(const moving_one *o, const double inc[], const double from[], double out[])
+{
+    fault f = {""};
+    model_state *s;
+    double v[MOST], a[MOST];
+    gsl_test(kinematics_state_alloc(o->m, &s, &f) != STATUS_OK, "%s", f.text);
+    for (int c = 0; c < o->all; c++) {
+        v[c] = o->v[c] + g * (inc[c] - from[c]);
+        a[c] = o->a[c] + b * (inc[c] - from[c]);
+    }
+    increment_apply(o->m, o->rest, inc, 0, s);
+    memset(out, 0, (size_t)o->all * sizeof *out);
+    inertia_subtract(o->m, &o->masses, s, v, a, out);
+    kinematics_state_free(s);
+}
+
+/* Moments in the exponential chart: half of their product with the increment comes on top. */
+static void add_chart(const moving_one *o, const double out[], int column, double slope[])
+{
+    for (int i = 0; i < model_first_release(o->m); i++) {
+        const int *at = model_vertex(o->m, i)->coordinate + SCENE_RX;
+        if (model_vertex(o->m, i)->body != i)
+            continue;
+        for (int k = 0; k < 3; k++) {
+            if (at[k] != column)
+                continue;
+            const int j = (k + 1) % 3, l = (k + 2) % 3;
+            slope[at[j]] += out[at[l]] / 2; /* (M x e_k)/2 */
+            slope[at[l]] -= out[at[j]] / 2;
+        }
+    }
+}
+
+static double entry(const sparse *S, int row, int column)
+{
+    for (int p = S->column[column]; p < S->column[column + 1]; p++)
+        if (S->row[p] == row)
+            return S->value[p];
+    return 0;
+}
+
+static void tangent(const moving_one *o)
+{
+    const double small = 1e-5;
+    const inertia_relation with = {b, g, o->inc};
+    const sparse *pattern;
+    sparse S;
+    fault f = {""};
+    double largest = 0, here[MOST];
+    run_state run;
+    run_state_begin(&run, o->m, 1, NULL);
+    const equations eq = {.m = o->m, .run = &run};
+    gsl_test(assemble_pattern_in_time(o->m, run.patterns, &pattern, &f) != STATUS_OK ||
+                 sparse_alloc_like(pattern, &S, &f) != STATUS_OK,
+             "%s", f.text);
+    inertia_add_tangent(&eq, &o->masses, o->now, o->v, o->a, &with, &S);
+    force_at(o, o->inc, o->inc, here);
+    for (int c = 0; c < model_unknowns(o->m); c++) {
+        double side[2][MOST], slope[MOST];
+        for (int k = 0; k < 2; k++) {
+            double dx[MOST] = {0}, inc[MOST];
+            dx[c] = k ? small : -small;
+            memcpy(inc, o->inc, sizeof inc);
+            increment_add(o->m, o->now, dx, inc);
+            force_at(o, inc, o->inc, side[k]);
+        }
+        for (int r = 0; r < model_unknowns(o->m); r++)
+            slope[r] = (side[1][r] - side[0][r]) / (2 * small);
+        add_chart(o, here, c, slope);
+        for (int r = 0; r < model_unknowns(o->m); r++)
+            largest = worst_of(largest, fabs(entry(&S, r, c) + slope[r]));
+    }
+    gsl_test(!(largest < 1e-8), "the tangent is the derivative (%g)", largest);
+    sparse_free_values(&S);
+    run_state_end(&run);
+}
+
+static void tangent_tests(void)
+{
+    static const element_type *const type[] = {&element_collocation, &element_geometrically_exact,
+                                               &element_beamw_consistent};
+    moving_one o;
+    for (int i = 0; i < 3; i++) {
+        begin(&o, type[i], 0);
+        tangent(&o);
+        end(&o);
+    }
+}
+
+/* A rotation that is driven by its vector along any path: increments lead to it, rates and their
+ * derivatives are those of the frame, from any state. */
+
+static void build_driven(scene *s)
+{
+    static const double y[3] = {0, 1, 0};
+    static const char *const way[] = {"0.3 + sin(2*t)", "0.5*t^2 - 0.2", "cos(3*t)"};
+    const section_spec spec = heavy();
+    scene_init(s, "driven");
+    const int profile = scene_add_section(s, &spec), A = scene_add_node(s, 0, 0, 0),
+              B = scene_add_node(s, 1, 0.1, 0.2);
+    scene_add_member(s, A, B, profile, y);
+    scene_node_at(s, A)->rotation = SCENE_ROTATION_VECTOR;
+    for (int k = 0; k < 3; k++) {
+        const int d = scene_add_moving_driver(s, (const char *const[]){"a", "b", "c"}[k]);
+        scene_drive_piece(s, d, 0, way[k]);
+        scene_drive(s, A, SCENE_RX + k, d);
+    }
+    const int lift = scene_add_moving_driver(s, "lift");
+    scene_drive_piece(s, lift, 0, "t^3 + t");
+    scene_drive(s, A, SCENE_UZ, lift);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
+}
+
+/* From a state to a time. */
+static void go(const equations *eq, const model_state *from, double time, model_state *to,
+               frame_rates *r)
+{
+    const model *m = eq->m;
+    double inc[MOST] = {0}, v[MOST] = {0}, a[MOST] = {0};
+    drive_at(eq, from, time, inc, v, a);
+    increment_apply(m, from, inc, time, to);
+    forms_rates(m, to, 0, v, a, r);
+}
+
+/* What is driven at a time, from a state. */
+static void check(const equations *eq, const model_state *from, double t, model_state *to)
+{
+    const double dt = 1e-4;
+    frame_rates at, before, after;
+    double q[2][4], turn[3], expected[4];
+    go(eq, from, t - dt, to, &before);
+    memcpy(q[0], to->q, sizeof q[0]);
+    go(eq, from, t + dt, to, &after);
+    memcpy(q[1], to->q, sizeof q[1]);
+    go(eq, from, t, to, &at);
+    rotation_exp((const double[]){0.3 + sin(2 * t), 0.5 * t * t - 0.2, cos(3 * t)}, expected);
+    rotation_between(expected, to->q, turn);
+    gsl_test(!(vec3_norm(turn) < 1e-13), "turned otherwise by %g rad", vec3_norm(turn));
+    gsl_test(!(fabs(to->u[2] - t * t * t - t) < 1e-13), "lifted by %g m", to->u[2]);
+    gsl_test(!(fabs(at.v[2] - 3 * t * t - 1) < 1e-12), "lifted at %g m/s", at.v[2]);
+    gsl_test(!(fabs(at.a[2] - 6 * t) < 1e-12), "lifted with %g m/s^2", at.a[2]);
+    rotation_between(q[0], q[1], turn);
+    for (int k = 0; k < 3; k++) {
+        const double w = turn[k] / (2 * dt), wd = (after.w[k] - before.w[k]) / (2 * dt);
+        gsl_test(!(fabs(w - at.w[k]) < 1e-6), "angular velocity %.9g, not %.9g", at.w[k], w);
+        gsl_test(!(fabs(wd - at.wd[k]) < 1e-6), "its derivative %.9g, not %.9g", at.wd[k], wd);
+    }
+}
+
+static void drive_tests(void)
+{
+    scene s;
+    model *m;
+    run_state run;
+    model_state *now = NULL, *to = NULL;
+    formulation chosen;
+    frame_rates at;
+    fault f = {""};
+    build_driven(&s);
+    formulation_default(&element_collocation, &chosen);
+    const model_request request = {
+        .scene = &s, .type = &element_collocation, .options = chosen.option, .elements = 1};
+    gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s", f.text);
+    gsl_test(run_state_begin(&run, m, 1, &f) != STATUS_OK, "%s", f.text);
+    const equations eq = {.m = m, .loading = {.in_time = 1}, .run = &run};
+    gsl_test(kinematics_state_alloc(m, &now, &f) != STATUS_OK ||
+                 kinematics_state_alloc(m, &to, &f) != STATUS_OK,
+             "%s", f.text);
+    go(&eq, kinematics_rest(m), 0.4, now, &at);
+    check(&eq, kinematics_rest(m), 0.7, to);
+    check(&eq, now, 0.7, to);
+    kinematics_state_free(now);
+    kinematics_state_free(to);
+    run_state_end(&run);
+    model_free(m);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    inertia_tests();
+    between_tests();
+    tangent_tests();
+    drive_tests();
     return gsl_test_summary();
 }
