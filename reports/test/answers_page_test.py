@@ -161,7 +161,7 @@ class Names(unittest.TestCase):
     def test_defects_have_words(self):
         self.assertEqual(answers_page.defect_of([verdict("u", "pass")]), "")
         self.assertEqual(answers_page.defect_of([verdict("u", "pass"), verdict("v", "biased")]),
-                         "with a limit of its own")
+                         "with a different limit")
 
 
 if __name__ == "__main__":

@@ -101,7 +101,7 @@ class Pages(ProgramTest):
                       "not converged", "limit of the meshes of all: 80",
                       "20 points, chiefly where width ≥ 9 m; nothing is judged there",
                       "80 points worse than 1 %", "A limit is where the meshes", "angle from 0.7 rad to 0.9 rad",
-                      "20 of 100 points have nothing to measure by"):
+                      "20 of 100 points have no reference value"):
             self.assertIn(words, said)
         worst = said[said.index("Worst points"):said.index("What errors are against")]
         self.assertLess(worst.index("not converged"), worst.index("25 %"))
