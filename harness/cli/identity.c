@@ -1,0 +1,174 @@
+#include "harness/cli/cli_impl.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static void name_build(char *out, size_t size)
+{
+    char hash[DIGEST_TEXT];
+    const environment e = environment_now(1);
+    digest program = digest_begin();
+    const int known = digest_add_file(&program, "/proc/self/exe") == 0;
+    digest_text(&program, hash);
+    snprintf(out, size, "%.12s of %.40s, commit %.40s", known ? hash : "unknown", e.version,
+             e.commit);
+}
+
+/* All words with blanks between them; a longer text ends in its digest. */
+static void name_request(const json_t *words, char out[IDENTITY_TEXT])
+{
+    enum { KEPT = IDENTITY_TEXT - 2 * DIGEST_TEXT };
+    char hash[DIGEST_TEXT];
+    size_t index, at = 0;
+    const json_t *word;
+    digest all = digest_begin();
+    out[0] = '\0';
+    json_array_foreach(words, index, word)
+    {
+        const char *text = json_string_value(word);
+        digest_add_text(&all, text);
+        if (at < KEPT)
+            at +=
+                (size_t)snprintf(out + at, IDENTITY_TEXT - at, "%s%s", index > 0 ? " " : "", text);
+    }
+    digest_text(&all, hash);
+    if (at >= KEPT)
+        snprintf(out + KEPT, IDENTITY_TEXT - KEPT, " ... %s", hash);
+}
+
+/* How files are named: as they were, by paths that hold in any folder, by what stands behind their
+ * folders. */
+typedef enum path_form { PATHS_GIVEN, PATHS_ABSOLUTE, PATHS_LEAVES } path_form;
+
+static void add_path(json_t *to, const char *path, path_form form)
+{
+    char whole[PATH_MAX];
+    const char *slash = strrchr(path, '/');
+    if (form == PATHS_ABSOLUTE && realpath(path, whole) != NULL)
+        path = whole;
+    else if (form == PATHS_LEAVES && slash != NULL && slash[1] != '\0')
+        path = slash + 1;
+    json_array_append_new(to, json_string(path));
+}
+
+/* Files have paths, commands have none. */
+static void add_given(json_t *to, const given_option *g, path_form form)
+{
+    char text[160];
+    const char *value = g->value;
+    const int optional = verb_optional(g->option) && value != NULL,
+              file = (g->option->traits & OPTION_INPUT) != 0 && strncmp(value, "exec:", 5) != 0;
+    snprintf(text, sizeof text, "--%s%s%s", g->option->name, optional ? "=" : "",
+             optional ? value : "");
+    json_array_append_new(to, json_string(text));
+    if (value != NULL && !optional)
+        add_path(to, value, file ? form : PATHS_GIVEN);
+}
+
+/* All that answers depend on, in the order of the verb's options however they were given; not where
+ * results go, how they look, nor how many processes work. */
+static json_t *words_of(const command_line *l, path_form form)
+{
+    json_t *to = json_array();
+    const verb_option *o;
+    for (int i = 0; i < l->arguments; i++)
+        json_array_append_new(to, json_string(l->argument[i]));
+    for (int i = 0; (o = verb_option_at(l->verb, i, NULL)) != NULL; i++)
+        for (int k = 0; (o->traits & (OPTION_ASIDE | OPTION_OUTPUT)) == 0 && k < l->givens; k++)
+            if (l->given[k].option == o) {
+                add_given(to, &l->given[k], form);
+                if (o->argument == NULL)
+                    break; /* a switch is on, however often it is given */
+            }
+    return to;
+}
+
+static status add_file(const void *context, const char *path, fault *f)
+{
+    return digest_add_file(*(digest *const *)context, path) == 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
+}
+
+/* Truths are those of built-in cases. */
+static status add_files(digest *plan, const command_line *l, fault *f)
+{
+    const truths_options usual = {.packed = NULL};
+    const int built_in = given_value(l, "scene") == NULL || given_value(l, "built-in") != NULL;
+    const given_option *g;
+    if (built_in && given_value(l, "truths") == NULL)
+        TRY(add_file(&plan, own_tables_packed(&usual), f));
+    for (int i = 0; (g = given_next(l, OPTION_INPUT, &i)) != NULL;)
+        if ((g->option->traits & OPTION_VERDICT) == 0)
+            TRY(files_named(g->value, add_file, &plan, f));
+    return STATUS_OK;
+}
+
+static char *write_origin(const command_line *l)
+{
+    json_t *out = json_pack("{s:s,s:o?,s:o?}", "verb", l->verb->name, "arguments",
+                            words_of(l, PATHS_ABSOLUTE), "as_given", words_of(l, PATHS_GIVEN));
+    char *text = out != NULL ? json_dumps(out, JSON_COMPACT) : NULL;
+    json_decref(out);
+    return text;
+}
+
+status identity_make(const command_line *l, identity_texts *out, digest *plan, fault *f)
+{
+    json_t *words = words_of(l, PATHS_LEAVES);
+    *plan = digest_begin();
+    name_build(out->build, sizeof out->build);
+    name_request(words, out->request);
+    json_decref(words);
+    out->origin = write_origin(l);
+    if (out->origin == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory, or the command line is no UTF-8");
+    return add_files(plan, l, f);
+}
+
+static void add_count(digest *plan, int count)
+{
+    digest_add_number(plan, count);
+}
+
+void identity_add_sweep(digest *plan, const sweep *s)
+{
+    add_count(plan, s->points);
+    for (int i = 0; i < s->points; i++) {
+        const sweep_point *p = &s->point[i];
+        digest_add_text(plan, p->type->name);
+        digest_add_text(plan, p->text);
+        for (int k = 0; k < parameters_count(p->type); k++)
+            digest_add_number(plan, p->parameter[k]);
+        add_count(plan, p->steps);
+        add_count(plan, p->scene.quantities);
+        for (int k = 0; k < p->scene.quantities; k++)
+            digest_add_text(plan, p->scene.quantity[k].name);
+    }
+    add_count(plan, s->seriess);
+    for (int i = 0; i < s->seriess; i++) {
+        const series *one = &s->series[i];
+        add_count(plan, one->point);
+        digest_add_text(plan, one->formulation.key);
+        digest_add_text(plan, one->missing);
+        for (int k = 0; k < one->meshes; k++)
+            add_count(plan, one->mesh[k]);
+    }
+}
+
+void identity_set(identity_texts *texts, const digest *plan, shard_work *w)
+{
+    digest_text(plan, texts->plan);
+    w->build = texts->build;
+    w->request = texts->request;
+    w->plan = texts->plan;
+    w->origin = texts->origin;
+}
+
+void identity_free(identity_texts *texts)
+{
+    free(texts->origin);
+    texts->origin = NULL;
+}
