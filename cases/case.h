@@ -22,9 +22,10 @@ typedef struct case_type {
     const char *file; /* of a scene file; NULL: built in */
 } case_type;
 
-/* Last part of the parameters of every built-in case: does it leave out what its source does, or
- * nothing? The second one where mass of members is part of what is asked: where does that lie?
- * Points have the names that they had without these, but where they say something else. */
+/* Last part of the parameters of every built-in case: `omit` chooses between the physics that the
+ * source omits and none. case_mass_omit also chooses the mass of members, where the quantities
+ * depend on it. Names of points are those without these parameters, except where a value differs
+ * from its default. */
 extern const parameter_type case_omit[], case_mass_omit[];
 int case_is_omit(const parameter_type *);
 int case_is_mass(const parameter_type *);

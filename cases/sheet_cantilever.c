@@ -36,7 +36,7 @@ static void add_curve(scene *s, const char *name, int analysis, int component, d
     scene_set_curve(q, "tip_deflection", "m", deflection, 0);
 }
 
-/* N's closed-form solution beside the elements, where it speaks of them. */
+/* N's closed-form solution next to the elements, where it applies to them. */
 static void add_predictions(const double value[], scene *s)
 {
     section c;

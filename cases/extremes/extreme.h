@@ -18,7 +18,7 @@ typedef struct extreme_quantity {
     double power;     /* EXTREME_SAME: the value divided by x^power is the same at every x */
 } extreme_quantity;
 
-/* What x does besides setting parameters. */
+/* Effect of x besides setting parameters. */
 typedef enum extreme_knob {
     EXTREME_PARAMETERS, /* nothing */
     EXTREME_ELEMENTS,   /* x is the number of elements per member */

@@ -1,4 +1,5 @@
-/* The extremes: what is driven where, and what its answer is compared with. SI.
+/* The extremes: base case and settings of each, and the value that its results are compared with.
+ * SI.
  *
  * Order of the fields: name, group | summary | base case, its parameters | settings | quantities |
  * x, its unit, what it does | elements, count and values of x | judge, the x to compare with,

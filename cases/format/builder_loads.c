@@ -53,7 +53,7 @@ static scene_load at_centre(const scene_load *what)
     return out;
 }
 
-/* Gravity on each member that has a density and each body that has a mass; a mistake is told
+/* Gravity on each member that has a density and each body that has a mass; a mistake is reported
  * once. */
 static void weigh_all(const fields *f, scene_load *what)
 {

@@ -65,7 +65,7 @@ static void check_taper(const fields *f, const document_node *n, const int profi
     for (int k = 0; k < 2; k++)
         if (profile[k] < 0 || profile[k] >= s->sections ||
             scene_constants(s, profile[k], &c[k], NULL) != STATUS_OK)
-            return; /* it is told already */
+            return; /* already reported */
     if (profile[0] != profile[1] &&
         section_taper_check(&s->section[profile[0]], &s->section[profile[1]], ends, &why) !=
             STATUS_OK)
@@ -296,7 +296,7 @@ static int put_name(const fields *f, const document_node *n, int place, int leng
     }
     if (name == NULL || name->word != NULL || name->constants != NULL)
         return tell_unknown(f, n, place, length);
-    if (isnan(name->number)) /* its own mistake is told already */
+    if (isnan(name->number)) /* its own mistake is already reported */
         return 0;
     snprintf(number, sizeof number, name->number < 0 ? "(%.17g)" : "%.17g", name->number);
     return put(to, number, strlen(number), place);

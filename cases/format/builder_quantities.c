@@ -401,7 +401,7 @@ static const named_unit *find_unit(const named_unit list[], const char *text, si
     return NULL;
 }
 
-/* One word of the three; 0: it is told. */
+/* One of the three words of a unit; returns 0 after a mistake, which is reported. */
 static int units_read_unit(const document_node *n, const char *word, size_t length,
                            unit_system *out, double *stress, mistakes *m)
 {

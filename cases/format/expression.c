@@ -137,7 +137,7 @@ static double constant(parser *p, int length)
     else if (index < 0)
         FAIL(p, behind, "a section has no constant '%.*s'; it has %s", rest < 40 ? rest : 40,
              p->text + behind, section_names_all);
-    else if (isnan(known->constants[index])) /* its own mistake is told already */
+    else if (isnan(known->constants[index])) /* its own mistake is already reported */
         p->failed = 1;
     return known != NULL && index >= 0 ? known->constants[index] : 0;
 }
@@ -164,7 +164,7 @@ static double named(parser *p)
         FAIL(p, from, "%s is a function; write %s(...)", name, name);
     else if (here(p) == '(' || known == NULL)
         tell_unknown(p, name, from);
-    else if (isnan(known->number)) /* its own mistake is told already */
+    else if (isnan(known->number)) /* its own mistake is already reported */
         p->failed = 1;
     else if (known->word != NULL)
         FAIL(p, from, "'%s' is a choice of words ('%.40s'), not a number", name, known->word);

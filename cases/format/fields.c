@@ -197,7 +197,7 @@ int fields_entry_of(const fields *f, const document_node *n, scene_list list)
     const int found = find_entry(f, text, list, !port);
     if (found >= 0)
         return found;
-    if (!substitute_is_left(text) && !f->b->list[list].incomplete) /* else it is told already */
+    if (!substitute_is_left(text) && !f->b->list[list].incomplete) /* else it is already reported */
         document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
                          mistakes_remedy(choice_nearest(text, entry_at, &those),
                                          "; add it, or correct the name", remedy));

@@ -27,7 +27,7 @@ const char *arena_copy(arena *a, const char *text, size_t length);
 void *arena_grow(arena *a, void *list, int count, size_t size);
 void arena_free(arena *a);
 
-/* What is wrong with a scene file: each with its place, all at once. */
+/* Mistakes in a scene file: each with its position, all reported at once. */
 
 enum { MISTAKES_MOST = 20 };
 
@@ -62,11 +62,11 @@ void mistakes_print(const mistakes *m, FILE *to);
  * of memory. */
 status mistakes_json(const mistakes *m, FILE *to, fault *f);
 
-/* A YAML document as a tree of maps, lists and texts, each with its place in the file.
+/* A YAML document as a tree of maps, lists and texts, each with its position in the file.
  *
- * Every scalar is text until somebody asks for a number or a word: there are no implicit types.
- * Anchors, aliases, tags, merge keys, several documents, duplicate keys and what is too deep or too
- * large are refused. */
+ * Every scalar is text until a number or a word is requested: there are no implicit types. Anchors,
+ * aliases, tags, merge keys, several documents, duplicate keys, and documents that are too deep or
+ * too large are refused. */
 
 enum { DOCUMENT_BYTES = 1 << 20, DOCUMENT_DEPTH = 16, DOCUMENT_ENTRIES = 10000 };
 
@@ -97,23 +97,23 @@ void document_mistake(mistakes *m, const document_node *n, int offset, const cha
 
 /* The keys of scene files as a list to read. */
 
-/* What stands before the list: two paragraphs. */
+/* Text before the list: two paragraphs. */
 extern const char *const key_list_head[2];
 
 /* A key at its depth below the root (0), its form ("NAME: {...}") and what it is. */
 typedef void key_list_take(void *context, int depth, const char *name, const char *form,
                            const char *text);
-/* Those that every entry may have (loops), and all others, each behind that which it belongs to.
- * Keys that are not carried yet are left out. */
+/* Keys that every entry may have (loops), and all other keys, each after the key that it belongs
+ * to. Keys that are not carried yet are omitted. */
 void key_list_loops(key_list_take *take, void *context);
 void key_list_all(key_list_take *take, void *context);
 
 /* Writes a text behind `at` columns of a line, further lines indented, and the end of the line. */
 typedef void key_list_say(FILE *to, int at, int indent, const char *text);
-/* Of each key: name, form, unit, summary, and its words. */
+/* Name, form, unit, summary and words of each key. */
 void key_list_write(FILE *to, key_list_say *say);
 
-/* Lines of other programs' files as text, fields, numbers. Nothing is believed of them. */
+/* Lines of other programs' files as text, fields, numbers. Every line is checked. */
 
 /* Opens a file to read text; a byte order mark at its beginning, as some editors put it, is no text
  * and skipped. NULL and errno. */
@@ -132,7 +132,7 @@ int line_words(char *line, char *word[], int most);
 /* A finite number and nothing else; an exponent may be marked D. */
 int line_number(const char *text, double *value);
 
-/* What a quantity of a scene is, in words made from the scene's own data. */
+/* Description of a quantity of a scene, in words made from the scene's own data. */
 
 enum { MEANING_ROOM = 512 };
 
@@ -146,7 +146,7 @@ void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size);
 
 typedef struct scene_file scene_file;
 
-/* What a file says of a quantity at a point of its parameters. */
+/* Reference value that a file gives for a quantity at a point of its parameters. */
 typedef struct scene_truth {
     const double *parameter;       /* [CASE_MAX_PARAMETERS] */
     double value, uncertainty, at; /* at: an abscissa of a curve; NAN: it is a number */

@@ -14,7 +14,7 @@
 /* The name added last; those before it stay visible. NULL: no name is known. */
 typedef struct scope {
     const char *name;
-    double number;           /* NAN: its expression has a mistake, which is told */
+    double number;           /* NAN: its expression has a mistake, which is reported */
     const char *word;        /* of a choice; NULL: a number */
     const char *choices;     /* "a|b|c" of a parameter; NULL: not known */
     const double *constants; /* of a section, whose name ends in a point; NULL: it is none */
@@ -27,7 +27,7 @@ const scope *scope_word(const scope *names, const char *name, const char *word, 
 /* A word of a parameter that has these. */
 const scope *scope_choice(const scope *names, const char *name, const char *word,
                           const char *choices, arena *a);
-/* With the constants of a section: see format_impl.h. */
+/* Adds the constants of a section: see format_impl.h. */
 const scope *scope_constants(const scope *names, const char *name, const double value[], arena *a);
 /* The entry of a name of that length, or NULL. */
 const scope *scope_find(const scope *names, const char *name, size_t length);
@@ -68,8 +68,8 @@ typedef struct unrolled {
 
 enum { UNROLL_MOST = 10000 };
 
-/* Entries in the file's order, the first loop of an entry outermost: their count. What is wrong
- * with a loop is a mistake, and the entry is left out. */
+/* Number of entries in the file's order; the first loop of an entry is the outermost. An error in a
+ * loop is reported as a mistake, and its entry is omitted. */
 int unroll_entries(const document_node *collection, const scope *names, arena *a, mistakes *m,
                    unrolled **out);
 /* NAME: EXPR, in order, each known to those after it. */
@@ -78,7 +78,7 @@ const scope *unroll_let(const document_node *let, const scope *names, arena *a, 
 /* Parts and their instances: sub-assemblies described once in axes of their own, and placed in the
  * scene. */
 
-/* Where an instance stands. */
+/* Position and orientation of an instance. */
 typedef struct placement {
     const char *name;             /* of the instance: its entries are NAME.ENTRY */
     double origin[3];             /* [m] */
@@ -88,7 +88,7 @@ typedef struct placement {
 } placement;
 
 enum { PLACEMENT_LISTS = 4 };
-/* Of a part: "nodes", "members", "springs", "loads". */
+/* Lists of a part: "nodes", "members", "springs", "loads". */
 extern const char *const placement_list[PLACEMENT_LISTS];
 
 /* Adds the entries of all instances of the scene behind list[k] of count[k], in the order of
@@ -115,15 +115,16 @@ typedef struct unit_system {
     char name_of_stress[16];
 } unit_system;
 
-/* What "mm, N, MPa" or [mm, N, MPa] says; NULL: SI. A mistake: units that do not fit each other. */
+/* Reads "mm, N, MPa" or [mm, N, MPa]; n NULL: SI. A mistake: units that are not consistent with
+ * each other. */
 void units_read(const document_node *n, mistakes *m, unit_system *out);
 /* A unit of SI in those of the system: "N m" becomes "N mm"; seconds and angles stay. */
 void units_translate(const unit_system *, const char *unit, size_t size, char out[]);
 
-/* What a scene is built with from a checked tree, and values of its maps by their keys.
+/* Builds a scene from a checked tree, and reads values of its maps by their keys.
  *
- * The tree has the form that format_impl.h says: what is asked for here is a number, a word, a list
- * where one must be. What has no meaning is a mistake, and some value is returned. */
+ * The tree has the form that format_impl.h describes: a requested value is a number, a word, or a
+ * list where one is required. A value without meaning is a mistake, and some value is returned. */
 
 typedef struct builder {
     arena *arena;
@@ -135,7 +136,7 @@ typedef struct builder {
     struct {
         unrolled *entry;
         int count;
-        int incomplete;  /* 1: entries were left out after mistakes */
+        int incomplete;  /* 1: entries were omitted after mistakes */
     } list[SCENE_LISTS]; /* in the order of the scene's indices */
     const char **shared; /* names of warping coordinates that members share */
     int shares;
@@ -173,7 +174,7 @@ unsigned fields_words(const fields *f, const char *key, const char *choices);
 /* Index of the entry that is named; SCENE_NONE where there is none. */
 int fields_entry(const fields *f, const char *key, scene_list list);
 int fields_entry_of(const fields *f, const document_node *name, scene_list list);
-/* Is there an entry of that name? Nothing is told. */
+/* 1: there is an entry of that name. Reports nothing. */
 int fields_names(const fields *f, const char *key, scene_list list);
 /* "ux|uy|uz|rx|ry|rz" */
 extern const char fields_components[];
@@ -189,7 +190,7 @@ void builder_motions(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
-/* What the table does not say of a motion in time. */
+/* Settings of a transient analysis that the table does not cover. */
 void builder_in_time(const fields *f, scene_motion *how);
 /* Adds a piece to the function of time of an entry of the scene. */
 typedef void builder_piece(scene *, int index, double until, const char *text);
@@ -198,7 +199,7 @@ typedef void builder_piece(scene *, int index, double until, const char *text);
 void builder_function(const fields *f, int index, builder_piece *add, int spline);
 /* Is there one? */
 int builder_has_function(const fields *f);
-/* Tells that the analysis of a quantity does not have it, and which kinds of analysis do. */
+/* Reports that the analysis of a quantity does not have it, and which kinds of analysis do. */
 void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q);
 /* `path` and as many `values` as it has stations: their number; 0 after a mistake or where there
  * are none. */
@@ -211,7 +212,7 @@ void builder_defaults(builder *b);
 /* 1, and points and walls, where the section is one of them. */
 int build_shapes_read(const fields *f, section_spec *spec);
 
-/* What hangs on the values of names: whether an entry is there, and which value it is. */
+/* Entries and values that depend on the values of names. */
 
 /* {NAME: VALUE, NAME: [VALUE, ...], ...}: has each name one of its values? 0 after a mistake. NULL:
  * 1. */
@@ -223,7 +224,8 @@ const document_node *choose_value(const document_node *n, const scope *names, mi
 /* Numbers as expressions: + - * / ^, parentheses, functions, names.
  *
  * ^ binds strongest and to the right (-2^2 = -4, 2^3^2 = 512), then signs, then * and /, then + and
- * -. Values are SI; results must be finite. What is wrong is told at its character. */
+ * -. Values are SI; results must be finite. Mistakes are reported with the position of their
+ * character. */
 
 /* 1 and the value, or 0 after a mistake. */
 int expression_number(const document_node *n, const scope *names, mistakes *m, double *out);
@@ -234,7 +236,7 @@ int expression_part(const document_node *n, int from, int length, const scope *n
 int expression_vector(const document_node *n, int count, const scope *names, mistakes *m,
                       double out[]);
 
-/* What may stand in a scene file: tables of keys, used to check, to describe and to tell what was
+/* Tables of the keys of scene files. They check and describe a file, and suggest the key that was
  * meant. */
 
 extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], keys_parameter[],
@@ -250,7 +252,7 @@ int keys_check(const document_node *root, mistakes *m);
 
 /* Parts of the words of a quantity, for the files that put them together. */
 
-/* Of which states of which analysis: ", at the end of the static path". */
+/* Writes which states of which analysis: ", at the end of the static path". */
 void meaning_state(FILE *to, const scene *s, const scene_quantity *q);
 
 /* A scene file as the build writes it into the program (harness/tools/pack_case.c): read and
@@ -258,8 +260,8 @@ void meaning_state(FILE *to, const scene *s, const scene_quantity *q);
 
 typedef struct document_packed {
     int kind, line, column, inset; /* as document_node has them */
-    /* Of a text: where it begins in all texts. Of a list: its first entry, which the others follow;
-     * of a map: its first key, which the other keys follow, and then its entries. */
+    /* Text: where it begins in all texts. List: its first entry, which the others follow. Map: its
+     * first key, which the other keys follow, and then its entries. */
     int first;
     int count;
 } document_packed;
@@ -283,7 +285,7 @@ int range_values(const document_node *n, const scope *names, arena *a, mistakes 
 /* Is the text a range? */
 int range_is(const document_node *n);
 
-/* What a scene file consists of, for the files that read it. */
+/* Parts of a scene file, for the files that read it. */
 
 struct scene_file {
     arena arena; /* of the document and of all texts */
@@ -304,7 +306,8 @@ void scene_file_truths_check(const scene_file *file, const scene *s, const doubl
 
 /* Constants of sections as names of expressions: SECTION.A. */
 
-/* The scope with the constants of one section more; c NULL: it has a mistake, which is told. */
+/* The scope with the constants of one more section; c NULL: the section has a mistake, which is
+ * reported. */
 const scope *section_names_add(const scope *names, const char *section_name, const section *c,
                                arena *a);
 /* Index of a constant's name among those of every section, or -1. */
@@ -321,7 +324,7 @@ const document_node *substitute_node(const document_node *n, const scope *names,
                                      mistakes *m);
 /* A text for people: numbers of any kind, with six digits. */
 const char *substitute_said(const document_node *n, const scope *names, arena *a, mistakes *m);
-/* 1: a loop name is left in this text: it could not be replaced, which was told. */
+/* 1: a loop name remains in this text: it could not be replaced, which was reported. */
 int substitute_is_left(const char *text);
 
 /* Parts of a scene file, for the files that write it. */
@@ -333,14 +336,14 @@ typedef struct writer {
     int begun;      /* 1: a key stands in the map already */
 } writer;
 
-/* What functions of its own write of an entry: its key, and all behind it. */
+/* Functions that write an entry in a form of their own: its key, and all after it. */
 typedef struct write_own {
     const char *key; /* NULL ends a list */
     void (*write)(writer *, const void *entry);
 } write_own;
 
-/* A map with the keys of an entry that are not as if they were left out. own, also of the maps
- * below it: NULL: none. */
+/* A map with the keys of an entry whose values are not the default. own: also for the maps below
+ * it; NULL: none. */
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
 /* "key: ", behind ", " where it is not the first of its map. */
 void write_values_key(writer *w, const char *key);
@@ -361,8 +364,8 @@ int write_values_any(int count, const double value[]);
 void write_values_if(writer *w, const char *key, double value, double otherwise);
 /* In double quotes. */
 void write_values_quoted(writer *w, const char *text);
-/* What an entry is called in the file: as in the scene where no other is called so and a file can
- * say it, else by its number. */
+/* Name of an entry in the file: as in the scene where it is unique and a file can express it, else
+ * its number. */
 void write_values_name(writer *w, scene_list list, int index);
 void write_values_motion(writer *w, int index);
 /* `before` and the name of an entry. */

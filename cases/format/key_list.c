@@ -42,7 +42,7 @@ static const char *form_of(const entry_field *k, char text[32])
     return "...";
 }
 
-/* "summary [unit] (word, word); left out: 0", or "... *". */
+/* "summary [unit] (word, word); default: 0", or "... *". */
 static void describe(const entry_field *k, char text[DESCRIPTION])
 {
     int used =

@@ -54,7 +54,7 @@ static const char *line_of(const scene_file *file, const char *key)
     return n != NULL ? n->text : "";
 }
 
-/* Built with memory of its own; mistakes are told in m. */
+/* Builds the scene in memory of its own; mistakes are reported in m. */
 static void build_at(const scene_file *file, const double value[], build_ends ends, scene *s,
                      mistakes *m)
 {
@@ -383,7 +383,7 @@ status scene_file_truths(const scene_file *file, const double value[], scene_tru
     return outcome;
 }
 
-/* At the defaults, and at every other point that a truth speaks of. */
+/* At the defaults, and at every other point that has a reference value. */
 static status give_everywhere(const scene_file *file, arena *a, scene_truth_taker *take, void *to,
                               fault *f)
 {

@@ -196,8 +196,8 @@ static void list_entries(builder *b)
             check_name(b, (scene_list)i, k);
 }
 
-/* What earlier versions had in its place: what it does not list is left out, but for warping, which
- * every section had that has any. */
+/* Key of earlier versions, replaced by `omit`: physics that it does not list is omitted, except
+ * warping, which every section that warps had. */
 static void read_needs(const fields *f)
 {
     static const char choices[] =
@@ -216,7 +216,7 @@ static void read_needs(const fields *f)
                                                   : SCENE_SHEAR_OWN;
 }
 
-/* Of a word of 'omit': yes, or the values that names have where it is left out. */
+/* A word of 'omit': yes, or the values of names for which it is omitted. */
 static int is_omitted(const fields *f, const document_node *n)
 {
     if (n->kind == DOCUMENT_MAP)
@@ -297,7 +297,7 @@ static void read_meshes(builder *b)
     scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }
 
-/* Where the entry stands that a refusal speaks of ("node tip: ..."), and what it says of it. */
+/* Location of the entry that a refusal names ("node tip: ..."), and its text. */
 static void tell_refusal(const builder *b, const char *text)
 {
     static const char *const word[SCENE_LISTS] = {"section ", "node ", "member ",   "spring ",

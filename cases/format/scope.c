@@ -130,7 +130,7 @@ int substitute_is_left(const char *text)
     return 0;
 }
 
-/* The text of a name, said: for people; 0: a mistake was told. */
+/* The text of a name, said: as text to read; 0: a mistake was reported. */
 static int value_text(const document_node *n, int at, size_t length, int said, const scope *names,
                       mistakes *m, char out[64])
 {

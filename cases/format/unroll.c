@@ -110,8 +110,8 @@ int unroll_entries(const document_node *collection, const scope *names, arena *a
     return u.count;
 }
 
-/* NAME: EXPR, or a choice among such and words. After a mistake a name is known all the same: it is
- * not told again wherever it is used. */
+/* NAME: EXPR, or a choice among such and words. After a mistake the name is known all the same: the
+ * mistake is not reported again wherever it is used. */
 static const scope *add_let(const document_node *key, const document_node *said, const scope *names,
                             arena *a, mistakes *m)
 {

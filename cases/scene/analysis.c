@@ -139,7 +139,7 @@ int scene_spreads(const scene_analysis *a)
     return a->kind == SCENE_MOTION && scene_motion_of(a)->mass == SCENE_CONSISTENT;
 }
 
-/* The first of the motions that go on from each other. */
+/* The first motion of a chain in which each continues the one before. */
 static int first_motion(const scene *s, int analysis)
 {
     const int before = s->analysis[analysis].follows;

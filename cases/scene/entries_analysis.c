@@ -1,4 +1,4 @@
-/* What is asked of a structure: analyses and quantities. */
+/* Analyses and quantities of a scene. */
 #include "cases/scene/scene.h"
 
 static const entry_field nothing[] = {{.name = NULL}};

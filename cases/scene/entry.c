@@ -19,7 +19,7 @@ static int whole_of(const entry_field *k, const void *entry)
     return value;
 }
 
-/* How many numbers it has, and where the first is; 0: it is no number. */
+/* Number of values, and where the first is; 0: the value is not numeric. */
 static int numbers_of(const entry_field *k, const void *entry, const double **out)
 {
     const scene_path *path = place_of(k, entry);

@@ -49,7 +49,8 @@ int scene_add_section(scene *s, const section_spec *spec)
     return i;
 }
 
-/* Bit by bit: NANs are equal to themselves, and what padding tells apart is only computed again. */
+/* Bit by bit: NaNs are equal to themselves; scenes that differ in padding alone are only computed
+ * again. */
 static int same_bits(const void *a, const void *b, size_t size)
 {
     return memcmp(a, b, size) == 0;
@@ -304,7 +305,7 @@ int scene_has_body(const scene_node *n)
     return has;
 }
 
-/* What is wrong with it is told where it is computed. */
+/* Its mistakes are reported where it is computed. */
 static int is_massive(const scene *s, int index)
 {
     section c;

@@ -1,4 +1,5 @@
-/* scene/: a scene: what a structure is, what loads and drives it, what is asked. */
+/* scene/: a scene: the structure, its loads and prescribed coordinates, its analyses and
+ * quantities. */
 #ifndef BEAMWORK_CASES_SCENE_SCENE_H
 #define BEAMWORK_CASES_SCENE_SCENE_H
 
@@ -9,9 +10,10 @@
 #include "elements/section/section.h"
 #include "elements/shared/status.h"
 
-/* What is analysed: a kind, and what that kind alone needs.  Every scene_add_* returns the index of
- * the new analysis, or -1 when memory ran out.  What a kind has is read through its function below,
- * which ends the program when the analysis is of another kind: nothing else names the union. */
+/* Analyses: a kind, and the data that this kind alone needs.  Every scene_add_* returns the index
+ * of the new analysis, or -1 when memory ran out.  What a kind has is read through its function
+ * below, which ends the program when the analysis is of another kind: nothing else names the union.
+ */
 
 typedef struct scene scene;
 
@@ -30,7 +32,7 @@ typedef enum scene_analysis_kind {
     SCENE_MOTION        /* in time: the path parameter is the time [s] */
 } scene_analysis_kind;
 
-/* What a reaction's moment does while its node turns (harness/newton/newton.h). */
+/* Behaviour of a reaction's moment while its node turns (harness/newton/newton.h). */
 typedef enum scene_moments {
     SCENE_MOMENTS_SPATIAL,
     SCENE_MOMENTS_SEMITANGENTIAL,
@@ -39,8 +41,8 @@ typedef enum scene_moments {
 #define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
 const char *scene_moments_name(scene_moments);
 
-/* Where to stop: of the path parameter, ascending; of a continuation: of its control coordinate
- * [m], as met. */
+/* Output points: path parameters, ascending; of a continuation values of its control coordinate
+ * [m], in the order in which they are met. */
 typedef struct scene_path {
     int stations;
     double *value; /* [stations] */
@@ -99,21 +101,21 @@ typedef enum scene_scheme {
 
 /* How the mass of members lies. */
 typedef enum scene_mass {
-    SCENE_MASS_USUAL, /* consistent where the formulation and all integrators of the motions that
-                         go on from each other have it so, and the scene does not lump it */
+    SCENE_MASS_USUAL, /* consistent where the formulation and all integrators of the chain of
+                         motions support it, and the scene does not lump it */
     SCENE_LUMPED,     /* at the nodes, with all formulations alike */
     SCENE_CONSISTENT  /* along the elements, as a formulation has it that offers that */
 } scene_mass;
 
 #define SCENE_MASS_CHOICES "lumped|consistent"
 
-/* Of generalized-alpha: alpha_m, alpha_f by rho, the spectral radius of what is not resolved; or as
- * given. */
+/* Parameters of generalized-alpha: alpha_m, alpha_f from rho, the spectral radius at infinite
+ * frequency; or as given. */
 typedef struct scene_alpha {
     double mass, force; /* alpha_m, alpha_f */
 } scene_alpha;
 
-/* Velocities at the begin: that of a rigid body that turns about a point. */
+/* Initial velocities: those of a rigid body that turns about a point. */
 typedef struct scene_start {
     double velocity[3], spin[3], centre[3]; /* [m/s], [rad/s], [m] */
 } scene_start;
@@ -164,13 +166,13 @@ const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);
 const scene_motion *scene_motion_of(const scene_analysis *a);
-/* Is it a motion that is told to spread its mass along the elements? */
+/* 1: a motion for which the scene requests consistent mass. */
 int scene_spreads(const scene_analysis *a);
 /* Is it a motion whose elements are to do that where they can? */
 int scene_may_spread(const scene *s, int analysis);
 /* NULL: the kind has none. */
 const scene_path *scene_path_of(const scene_analysis *a);
-/* What a motion starts from, and the motions before it that it goes on from: a static path, a
+/* The state that a motion starts from, before the motions that it continues: a static path, a
  * continuation, a rotation; SCENE_NONE: the undeformed state. */
 int scene_origin_of(const scene *s, int analysis);
 const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);
@@ -224,12 +226,12 @@ void function_at(const scene_function *, double t, double out[3]);
 /* Is it finite from 0 to `end`, with so many of its derivatives (0 to 2), at both ends of all
  * pieces and at 63 instants between? 0: not at *time. */
 int function_finite(const scene_function *, double end, int derivatives, double *time);
-/* Do value and velocity go on from piece to piece before `end`? 0: not at *time, the value
- * (*derivative 0) or the velocity (1). */
+/* 1: value and velocity are continuous from piece to piece before `end`. 0: at *time the value
+ * (*derivative 0) or the velocity (1) is not. */
 int function_smooth(const scene_function *, double end, double *time, int *derivative);
 
-/* What is wanted of an analysis: a name, how it is judged, and what is extracted, one struct for
- * each kind.  What a kind has is read through its function below, which ends the program when the
+/* Quantities of an analysis: a name, how it is judged, and what is extracted, one struct for each
+ * kind. What a kind has is read through its function below, which ends the program when the
  * quantity is of another kind: nothing else names the union. */
 
 typedef enum scene_quantity_kind {
@@ -284,7 +286,7 @@ typedef enum scene_direction { SCENE_RISING, SCENE_FALLING, SCENE_EITHER } scene
 #define SCENE_DIRECTION_CHOICES "rising|falling|either"
 #define SCENE_TAKE_CHOICES      "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean"
 
-/* What of a motion a value is taken of. */
+/* Feature of a motion from which a value is taken. */
 typedef struct scene_passing {
     double level; /* as extracted, in SI units */
     scene_direction direction;
@@ -331,7 +333,7 @@ typedef struct scene_internal {
     int before;   /* of what jumps there: 1 on the side of p, 0 on that of q */
 } scene_internal;
 
-/* Of all points of a section (elements/section/stress.h) [Pa]. */
+/* Measures over all points of a section (elements/section/stress.h) [Pa]. */
 typedef enum scene_stress_measure {
     SCENE_VON_MISES,
     SCENE_NORMAL_MAX, /* along the fibres, tension positive */
@@ -346,14 +348,14 @@ typedef struct scene_stress {
     int before;   /* as of scene_internal */
 } scene_stress;
 
-/* Of a whole motion. */
+/* Quantities of a whole motion. */
 typedef enum scene_balance {
     SCENE_KINETIC,    /* [J] */
     SCENE_STRAIN,     /* stored in members and springs [J] */
     SCENE_ENERGY,     /* both */
-    SCENE_WORK,       /* of loads and of what is driven, since the begin */
-    SCENE_DISSIPATED, /* by damping, since the begin */
-    SCENE_DRIFT,      /* energy and what was dissipated, less energy of the begin and work */
+    SCENE_WORK,       /* of loads and prescribed coordinates, since t = 0 */
+    SCENE_DISSIPATED, /* by damping, since t = 0 */
+    SCENE_DRIFT,      /* energy-balance error: energy + dissipated - initial energy - work */
     SCENE_PX,         /* momentum [kg m/s] */
     SCENE_PY,
     SCENE_PZ,
@@ -364,8 +366,8 @@ typedef enum scene_balance {
 } scene_balance;
 #define SCENE_BALANCE_CHOICES "kinetic|strain|energy|work|dissipated|drift|px|py|pz|lx|ly|lz"
 
-/* Of a node as seen from another that carries it along: how its place has moved in the axes of
- * that, and its turn against it. */
+/* Displacement of a node relative to another that carries it along: change of its position in the
+ * axes of that node, and its rotation against it. */
 typedef struct scene_relative {
     int node, component, from;
 } scene_relative;
@@ -400,7 +402,7 @@ typedef struct scene_point {
     scene_ordinate ordinate; /* what of it: load factor, or control coordinate [m] */
 } scene_point;
 
-/* What is extracted; made by the functions of the kinds. */
+/* The extracted value; made by the functions of the kinds. */
 typedef struct scene_extract {
     scene_quantity_kind kind;
     union {
@@ -424,14 +426,14 @@ scene_extract scene_compliance_entry(int row, int column);
 scene_extract scene_stiffness_entry(int component);
 scene_extract scene_critical_factor(int sign, int order);
 scene_extract scene_growth(void);
-/* Of any number of half-waves. */
+/* scene_frequency: any number of half-waves. */
 scene_extract scene_frequency(int order, scene_family family);
 scene_extract scene_frequency_of(int order, scene_family family, int half_waves);
 scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
 scene_extract scene_driver_value(int driver);
 scene_extract scene_rate(int node, int component);
-/* Of its rotation matrix: 0 .. 2. */
+/* Entry of the rotation matrix: row and column 0 .. 2. */
 scene_extract scene_orientation_entry(int node, int row, int column);
 scene_extract scene_balance_of(scene_balance what);
 scene_extract scene_relative_to(int node, int component, int from);
@@ -443,7 +445,7 @@ scene_extract scene_stress_along(int member, scene_stress_measure measure);
 scene_extract scene_stress_at(int member, double place, scene_stress_measure measure);
 /* A resultant or a stress at a place, on the side of p of what jumps there (before) or of q. */
 scene_extract scene_beside(scene_extract what, int before);
-/* What scene files call it. */
+/* Words of scene files. */
 #define SCENE_STRESS_CHOICES    "von_mises|normal_max|normal_min"
 #define SCENE_RESULTANT_CHOICES "N|Qy|Qz|Mx|My|Mz|bimoment|Mx_saint_venant|Mx_warping|Mx_wagner"
 
@@ -456,7 +458,7 @@ typedef struct scene_abscissa {
                               offset */
 } scene_abscissa;
 
-/* Of an analytic model with an error of its own: shown, never judged. */
+/* Value of an analytic model with an error of its own: shown, never judged. */
 typedef struct scene_prediction {
     double value;       /* [unit of the quantity] */
     const char *source; /* NULL: there is none */
@@ -491,7 +493,7 @@ void scene_set_curve_over(scene_quantity *q, const char *quantity, const char *u
 int scene_abscissa_of(const scene *s, const scene_quantity *q);
 /* At one value of the path parameter or the control coordinate. */
 void scene_set_at(scene_quantity *q, double at);
-/* Of a motion, of its whole time: SCENE_MAX_TIME to SCENE_MEAN, SCENE_MAX, SCENE_MIN. */
+/* Statistic over the whole time of a motion: SCENE_MAX_TIME to SCENE_MEAN, SCENE_MAX, SCENE_MIN. */
 void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
 /* Is it read between the stations of a motion? */
 int scene_is_passed(const scene_quantity *q, scene_analysis_kind);
@@ -513,7 +515,7 @@ int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
 int scene_reads(const scene *s, int analysis);
 /* Takes away the quantities whose names the other scene does not have. */
 void scene_keep_quantities(scene *s, const scene *of);
-/* Of a response to a force or a moment, SCENE_UX to SCENE_RZ both. */
+/* Unit of a response to a force or a moment, SCENE_UX to SCENE_RZ both. */
 const char *scene_compliance_unit(int row, int column);
 /* Can it be extracted from an analysis of this kind? */
 int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
@@ -525,8 +527,8 @@ int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
  * Every scene_* function that adds something returns its index in its list, or
  * -1 when memory ran out (scene_valid then says so once, at the end). */
 
-/* Of a limit, relative: what engineers ask of a model. A limit of its own within it is seen all the
- * same, by its uncertainty. */
+/* Relative tolerance of a limit: what engineers require of a model. A different limit within it is
+ * still detected, by its uncertainty. */
 #define SCENE_TOLERANCE 1e-3
 
 /* Most numbers of elements that a scene or a command gives. */
@@ -535,8 +537,8 @@ enum { SCENE_MESHES = 24 };
 /* Components of a node: three translations, three rotations (fixed axes). */
 enum { SCENE_UX, SCENE_UY, SCENE_UZ, SCENE_RX, SCENE_RY, SCENE_RZ };
 
-/* What an end of a member does with its warping coordinate. A value >= 0 is a name: ends with the
- * same value share it. */
+/* Warping coordinate at an end of a member. A value >= 0 is a name: ends with the same value share
+ * it. */
 enum { SCENE_WARP_FREE = -1, SCENE_WARP_FIXED = -2 };
 
 /* How one coordinate moves. A value >= 0 is a driver's index. */
@@ -587,11 +589,11 @@ typedef struct scene_node {
     char name[SCENE_NAME]; /* "": none, as of every entry; cases/scene/scene.h */
 } scene_node;
 
-/* What an end of a member does not pass on to its node, in the member's axes there (y as in
- * scene_member): turns, in their order, and shifts.  The end is at r + R_end s, R_end = R exp(a_1
- * t_1) exp(a_2 t_2) with the node's r, R: of two turns the axis of the first stays with the node,
- * that of the second with the member (a universal joint), shifts are along the turned end.  Three
- * turns are those of a ball. */
+/* Releases of an end of a member: components that are not transmitted to its node, in the member's
+ * axes there (y as in scene_member): rotations, in their order, and translations.  The end is at r
+ * + R_end s, R_end = R exp(a_1 t_1) exp(a_2 t_2) with the node's r, R: of two rotations the axis of
+ * the first stays with the node, that of the second with the member (a universal joint),
+ * translations are along the rotated end. Three rotations are those of a ball joint. */
 enum { SCENE_RELEASED = 5 };
 typedef struct scene_release {
     int count;                     /* 0: joined */
@@ -675,7 +677,7 @@ typedef struct scene_load {
     char name[SCENE_NAME];
 } scene_load;
 
-/* What a section is called and came to, and of which description. */
+/* Name and computed constants of a section, and the description that they were computed from. */
 typedef struct scene_computed {
     int known;
     section_spec of;
@@ -719,7 +721,7 @@ struct scene {
     int meshes; /* default -n values of verify and converge */
     int mesh[SCENE_MESHES];
     int out_of_memory;
-    /* What is pointed to when memory ran out, so that a case can write without asking. */
+    /* Target of pointers after memory ran out, so that a case can write without checks. */
     union {
         scene_node node;
         scene_member member;
@@ -740,8 +742,8 @@ int scene_add_member(scene *s, int p, int q, int profile,
 /* Does its section change along it?  Does that of any member? */
 int scene_member_tapers(const scene_member *m);
 int scene_tapers(const scene *s);
-/* The end of a member (0 at p, 1 at q) keeps this component to itself, behind those that it has
- * been told; more than SCENE_RELEASED are refused by scene_validate. */
+/* The end of a member (0 at p, 1 at q) does not transmit this component. It is added to those of
+ * earlier calls; more than SCENE_RELEASED are refused by scene_validate. */
 void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],
@@ -814,8 +816,8 @@ void scene_meshes(scene *s, int count, const int mesh[]);
 /* first, twice that, and so on up to last. */
 void scene_meshes_doubled(scene *s, int first, int last);
 
-/* What section i comes to; computed once, and again when its description has changed.  Not for two
- * threads at once. */
+/* Constants of section i; computed once, and again when its description has changed. Not
+ * thread-safe. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
 /* Indices in range, members of positive length, supports that do not contradict, drivers that are
@@ -825,11 +827,11 @@ status scene_validate(const scene *s, fault *f);
 /* Values along the path of a static analysis: on a line from station to station, before the first
  * and behind the last as there. */
 
-/* What the load is times at a path parameter; without stations the parameter itself. */
+/* Factor of the load at a path parameter; without stations the parameter itself. */
 double along_path_factor(const scene_load *, double path);
 /* Derivative of that by the path parameter; at a station: of what follows. */
 double along_path_rate(const scene_load *, double path);
-/* Of a known driver [m or rad]. */
+/* Value of a known driver [m or rad]. */
 double along_path_value(const scene_driver *, double path);
 /* For messages, and empty where loads change however far the path goes: "; nothing changes outside
  * path 0 to 1 ...". */
@@ -858,7 +860,7 @@ typedef struct scene_edit {
 /* REFUSED: a member that the change is not defined for. */
 status scene_edit_apply(scene *s, const scene_edit *edit, fault *f);
 
-/* What entries of a scene are called: as the user named them, or by their number. */
+/* Names of entries of a scene: as the user named them, or by their number. */
 
 typedef enum scene_list {
     SCENE_SECTIONS,
@@ -890,8 +892,8 @@ scene_words scene_name(const scene *s, scene_list list, int index);
 /* For messages: "node tip", without a name "node 3". */
 scene_words scene_called(const scene *s, scene_list list, int index);
 
-/* What entries of a scene consist of: a line for each key, with what a file calls it, where its
- * value is, its unit and its range.  From these lines a file is read, checked, described and
+/* Tables of the keys of entries of a scene: a line for each key, with what a file calls it, where
+ * its value is, its unit and its range.  From these lines a file is read, checked, described and
  * written, other units are taken, members are reversed, and scenes are compared. */
 
 typedef enum entry_kind {
@@ -911,7 +913,8 @@ typedef enum entry_kind {
     ENTRY_MAP,       /* a map with the keys `below`, whose values are in the same struct */
     ENTRY_ENTRIES,   /* names, each with such a map */
     ENTRY_LIST,      /* a list of such maps */
-    ENTRY_NAMES,     /* names of one's own, each with one value as `below` (its first key) says */
+    ENTRY_NAMES,     /* user-defined names, each with one value as described by `below` (its
+                        first key) */
     ENTRY_LATER      /* has a meaning, but is not carried yet */
 } entry_kind;
 
@@ -939,20 +942,20 @@ typedef struct entry_field {
     /* of a number: gives the power of length and of force by which it is scaled; others: for the
      * reader */
     const char *unit, *summary;
-    /* Where it is left out, of every key but those that must be there: what may be written instead,
-     * in the words of the file, or what happens. */
+    /* Default of every optional key: the value in the words of the file, or what happens without
+     * the key. */
     const char *usual, *left_out;
-    /* Where its value is in the struct of the entry: ENTRY_IN. size 0: nowhere, functions of its
-     * own read and write it. Of a map: of the int that says which of a group stands there. */
+    /* Where its value is in the struct of the entry: ENTRY_IN. size 0: none; special functions read
+     * and write it. For a map: place of the int that chooses the member of a group. */
     size_t at, size;
     int first, falls;   /* value of the first word, or of the map; by how much the next is lower */
-    double otherwise;   /* a number that is left out, where `usual` does not say it; NAN: none */
+    double otherwise;   /* numeric default, where `usual` does not give it; NAN: none */
     double least, most; /* range of a number; both 0: any */
     const char *range;  /* in words; NULL: by these two */
     scene_list of;      /* NAME: in which list */
     size_t zeros;       /* of the unsigned in which the bit `zero` says that a zero is given */
     unsigned zero;      /* 0: there is no such bit */
-    int always;         /* 1: written also where it could be left out */
+    int always;         /* 1: written also where it is the default */
     entry_turns turns;
     const struct quantity_type *type; /* of a map: what says its summary, keys and value */
     const char *mirrors; /* "++-": signs of its numbers when the ends of its member are exchanged */
@@ -968,18 +971,18 @@ extern const entry_field entry_section[], entry_node[], entry_member[], entry_sp
 /* The key of the vector of a load: "force", with its unit. */
 const entry_field *entry_of_load(scene_load_kind);
 
-/* Of a map: its keys; of all: what it is. */
+/* Keys of a map; summary of any key. */
 const entry_field *entry_below(const entry_field *);
 const char *entry_summary(const entry_field *);
-/* What a number is where the file does not say. */
+/* Default of a numeric key. */
 double entry_usual(const entry_field *);
-/* Of a word: the int of that index, its index, and the int that it stands for. */
+/* For a word: the int of that index, its index, and the int that it stands for. */
 int entry_value(const entry_field *, int index);
 int entry_index(const entry_field *, int value);
 int entry_word(const entry_field *, const char *word);
-/* Is the value as if the key were left out? */
+/* 1: the value is the default. */
 int entry_is_usual(const entry_field *, const void *entry);
-/* Of a map in a group: is it the one that stands there? Of others: 1. */
+/* For a map in a group: 1: it is the one that is given. For others: 1. */
 int entry_stands(const entry_field *, const void *entry);
 /* "at least 0" */
 const char *entry_range(const entry_field *, char text[FAULT_TEXT]);
@@ -1048,8 +1051,8 @@ const expression_function *functions_find(const char *name, int length);
 /* The i-th name, or NULL behind the last. */
 const char *functions_name(int i);
 
-/* What of a scene has part in which analysis: the one place that says it, by which analyses are
- * refused, `beamwork explain inputs` is printed, and a test walks all cells. */
+/* Which entries of a scene affect which analysis: the only place that determines it, by which
+ * analyses are refused, `beamwork explain inputs` is printed, and a test walks all cells. */
 
 /* As which an analysis counts: eigenvalues and compliances about a loaded state are others than
  * those about the undeformed one. */
@@ -1144,7 +1147,7 @@ const char *scene_shear_word(scene_shear theory);
  * (harness/analysis) where it is more than a reading of nodes.  One file each in cases/quantities:
  * the build finds it. */
 
-/* What a kind reads of where nodes are and how they move, in one state of a structure. */
+/* Values that a kind reads: positions and motions of nodes in one state of a structure. */
 typedef struct quantity_state {
     /* displacement [m] or rotation-vector component [rad]; NAN: it has lost its direction */
     double (*component)(const struct quantity_state *, int node, int component);
@@ -1157,7 +1160,7 @@ typedef struct quantity_state {
     double (*driver)(const struct quantity_state *, int driver);
 } quantity_state;
 
-/* What is met between the stations of a motion. */
+/* Events that are evaluated between the stations of a motion. */
 typedef enum quantity_passing {
     QUANTITY_AT_STATIONS,
     QUANTITY_EXTREMES, /* the largest and the least value */
@@ -1250,17 +1253,17 @@ void scene_change_force(scene *s, double y);
  * without dimensions nothing is said. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT]);
 
-/* What an end of a member does with its warping where nobody says it. */
+/* Warping at an end of a member, where the scene does not specify it. */
 
-/* An end of a member of which nobody has said anything yet. */
+/* Warping of an end of a member that has not been specified yet. */
 enum { SCENE_WARP_BY_SUPPORT = -3 };
 
-/* Gives every end that is SCENE_WARP_BY_SUPPORT what its support does.  Held: all six components of
- * its node are held or driven, or the node is part of a rigid body, or one that
- * members or springs are joined to at other nodes too.
- * Free: a turn is released there, or the node is a fork, is free or has only a mass.  Where
- * exactly two members meet at such a node and run on in one line with one section in the same axes,
- * nothing releases and nobody says anything, they share it: a node does not cut a beam. */
+/* Sets the warping of every end that is SCENE_WARP_BY_SUPPORT. Fixed: all six components of its
+ * node are fixed or prescribed, or the node is part of a rigid body, or one that members or springs
+ * are joined to at other nodes too. Free: a rotation is released there, or the node is a fork, is
+ * free or has only a mass. Where exactly two members meet at such a node and continue in one line
+ * with one section in the same axes, without releases and without specified warping, they share it:
+ * a node does not cut a beam. */
 void scene_warping_by_supports(scene *s);
 
 #endif

@@ -47,7 +47,7 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
     return STATUS_OK;
 }
 
-/* What goes on from a motion has its clock and its rates. */
+/* An analysis that continues a motion has its clock and its rates. */
 static status check_resumed(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_path *before = scene_path_of(&s->analysis[a->follows]);

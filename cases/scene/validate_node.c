@@ -225,8 +225,8 @@ static status check_node(const scene *s, int i, fault *f)
     return check_turns(s, i, f);
 }
 
-/* Its axes at the begin: x along the chord. Of a member in the plane it is the same along it which
- * of y and z are across. */
+/* Its axes at t = 0: x along the chord. For a member in the plane, the same one of y and z
+ * is across the plane at every point. */
 static void axes_of(const scene *s, int member, double R[9])
 {
     const scene_member *m = &s->member[member];
@@ -335,7 +335,7 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* What is held there has no stiffness, compliance or growth to tell. */
+/* A fixed coordinate has no stiffness, compliance or growth to report. */
 static status check_quantity(const scene *s, int i, fault *f)
 {
     const scene_quantity *q = &s->quantity[i];

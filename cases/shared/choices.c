@@ -1,5 +1,5 @@
-/* What all built-in cases leave to their user: the physics that is left out, what its source leaves
- * out or nothing; and, where there is mass, how that of members lies. */
+/* Parameters that all built-in cases share: the omitted physics (that which the source omits, or
+ * none) and, where there is mass, the mass of members. */
 #include "cases/shared/shared.h"
 
 #include <math.h>

@@ -125,7 +125,7 @@ typedef struct sheet_prediction {
 sheet_prediction sheet_prediction_of(const section *c, double length, double deflection,
                                      int tip_warps, int shear, scene_moments moments);
 
-/* What cases of motion in time have in common. */
+/* Common parts of the cases with transient analyses. */
 
 /* The first parameters of every such case, in this order. */
 enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETERS };
@@ -145,11 +145,11 @@ enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETE
         NULL,                                                                                      \
         "of the error of time, relative to the largest motion; 0: all steps are alike"}
 
-/* A motion that ends when it is looked at; follows: SCENE_NONE, or a static path; start: velocities
- * at its begin. */
+/* A motion that ends when it is observed; follows: SCENE_NONE, or a static path; start: initial
+ * velocities. */
 int timed_add(scene *s, const double value[], int follows, scene_start start);
-/* Where a node is: those of its coordinates x, y, z that have a name. size: what their errors are
- * measured by where they are smaller [m]. */
+/* Position of a node: those of its coordinates x, y, z that have a name. size: reference length of
+ * their errors where they are smaller [m]. */
 void timed_places(scene *s, int motion, int node, double size, const char *const name[3]);
 
 /* A driver that goes from 0 to `end` [m or rad] in that time [s] and stays: 10 s^3 - 15 s^4 + 6
