@@ -132,7 +132,7 @@ static void geometric(const element_data *data, const double sigma[], double G[]
 {
     double own[OUTER][OUTER * OUTER];
     memset(G, 0, OUTER * OUTER * sizeof *G);
-    if (!data->prestressed) /* nobody said that it would be asked for */
+    if (!data->prestressed) /* prestress was not requested at preparation */
         exact_prestress_derivatives(&data->stages, own);
     for (int k = 0; k < OUTER; k++) {
         const double *Q = data->prestressed ? data->prestress[k] : own[k];

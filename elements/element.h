@@ -35,7 +35,7 @@ enum {
     ELEMENT_MAX_OPTIONS = 6
 };
 
-/* What a type is restricted to. */
+/* Restrictions of a type. */
 enum element_limit {
     LIMIT_DOUBLY_SYMMETRIC = 1 << 0, /* shear centre at the centroid, D diagonal */
     LIMIT_ORDER_DEPENDENT = 1 << 1,  /* exchanging p and q changes the answer (by a discretisation
@@ -57,14 +57,15 @@ enum element_limit {
                                    beyond pi/4 its torque falls, and another state has the same */
 };
 
-/* What a type offers in one direction only. `list` and `solve` show it; a scene in which it matters
- * is not run. */
+/* Features that a type supports in one direction only. `list` and `solve` show it; a scene in which
+ * it matters is not run. */
 enum element_lack {
     LACKS_SHEAR_Y = 1 << 0 /* rigid in shear along y, though FEATURE_SHEAR is offered */
 };
 
-/* What a type leaves to differences of what it gives (harness/formulations): of sixth order in the
- * rotation chart, exact to about ten digits, and slow. Results say so; such times rank nothing. */
+/* Derivatives that the harness computes by differences (harness/formulations) for a type that does
+ * not give them: of sixth order in the rotation chart, exact to about ten digits, and slow. Results
+ * report it; such times are not ranked. */
 enum element_left {
     LEAVES_J = 1 << 0,      /* strain gives e only */
     LEAVES_H = 1 << 1,      /* strain gives no H */
@@ -81,7 +82,7 @@ enum shear_theory {
     SHEAR_OWN = 1 << 2       /* neither: element_type.own_theory names it */
 };
 
-/* What an order of convergence depends on. */
+/* Kinds of results that an order of convergence depends on. */
 typedef enum element_analysis {
     ELEMENT_STATICS,   /* equilibrium, linear or not, and what follows from its tangent (compliance,
                           critical points of a path) */
@@ -101,7 +102,7 @@ typedef struct element_order {
     int least, highest; /* of a smooth solution; of any quantity */
 } element_order;
 
-/* What an element is made for. */
+/* Input of the preparation of an element. */
 typedef struct element_request {
     const section *section;          /* its constants */
     double length;                   /* l0 [m] */
@@ -137,7 +138,7 @@ typedef struct element_constants {
     element_order order[ELEMENT_ANALYSES]; /* highest 0: least 2, highest 4 */
 } element_constants;
 
-/* What is optional is NULL or 0 where it is left out, and then means what stands behind it. */
+/* Optional members may be NULL or 0; the end of their comment says what that means. */
 typedef struct element_type {
     /* Required. */
     unsigned abi; /* ELEMENT_ABI; of files outside elements/ */
@@ -155,7 +156,7 @@ typedef struct element_type {
     status (*prepare)(const element_request *, element_data *, fault *);
 
     /* Required: these two, or `force` in their place. */
-    /* Of the states of its nodes: e with its derivatives. */
+    /* Strains e of its nodes' states, with their derivatives. */
     void (*strain)(const element_data *, const node_state x[], strain_output *);
     /* NOT_CONVERGED or SINGULAR when the state is outside what the formulation can evaluate. */
     status (*stress)(const element_data *, const double e[], const double inner[], stress_output *);
@@ -169,7 +170,7 @@ typedef struct element_type {
     unsigned leaves;         /* element_left: nothing is left to differences */
     unsigned limits;         /* element_limit: none */
     unsigned lacks;          /* element_lack: nothing */
-    const char *lacks_by;    /* the equations that leave it out */
+    const char *lacks_by;    /* the equations that omit it */
     unsigned shear_theories; /* shear_theory: none, rigid in shear */
     const char *own_theory;  /* of SHEAR_OWN, one line: what it is and where it is derived */
     element_order (*order)(element_analysis, const double options[]); /* least 2, highest 4 */
@@ -177,7 +178,7 @@ typedef struct element_type {
     /* Optional: -f name:key=value. */
     const parameter_type *options[PARAMETER_PARTS]; /* none */
     /* [options] element_feature: verify judges every choice of an option where a quantity depends
-     * on one of these, 0: its default alone. Left out: the defaults alone. */
+     * on one of these, 0: its default alone. NULL: the defaults alone. */
     const unsigned *judged;
 
     /* Optional: sizes, which may depend on the options (stages, nodes). */
@@ -198,8 +199,8 @@ typedef struct element_type {
     /* G[strains x strains] = derivative of C at e = 0 in the direction of the prestress sigma: sum
      * sigma_i Q_i: zero. */
     void (*geometric)(const element_data *, const double sigma[], double G[]);
-    /* frame NULL: the frame is at rest. Left out: the mass of the displacement field that is
-     * exact without loads (field/field_mass.h), of three nodes lumped. */
+    /* frame NULL: the frame is at rest. Default (NULL): the mass of the displacement field that is
+     * exact without loads (field/field_mass.h), lumped for three nodes. */
     status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,
                       inertia_output *);
 
@@ -233,16 +234,16 @@ typedef struct element_type {
      * (rate and what stands below it). 0: they have the mass lumped at the nodes. Of a type without
      * `inertia`: 1. */
     int spreads;
-    /* With LIMIT_TENSION: length of the element over the largest one that the axial force of its
+    /* For LIMIT_TENSION: length of the element over the largest one that the axial force of its
      * stresses allows; 0: any. */
     double (*tension)(const element_data *, const double sigma[]);
     /* A formulation kept as it was printed: the equation and what is wrong in it, one line. It is
      * never ranked, chosen or counted in an agreement. NULL: none. */
     const char *misprint;
     /* Optional: forces along elements of two nodes that keep their direction, inside the element's
-     * own equilibrium, of count elements: x[count x nodes], outcome[count]. Left out, and for loads
-     * that follow, moments, and in scenes with a motion: their work on one field of displacements
-     * between nodes, for all types alike. */
+     * own equilibrium, of count elements: x[count x nodes], outcome[count]. Default (NULL), and for
+     * follower loads, moments, and in scenes with a motion: their work on one field of
+     * displacements between nodes, for all types alike. */
     void (*along)(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[]);
     /* Optional: 1: with these options `inertia` of two nodes at rest is that of the displacement
@@ -260,8 +261,8 @@ static inline element_order element_order_in(const element_type *t, element_anal
         return t->order(a, options);
     return t->constants && t->constants->order[a].highest > 0 ? t->constants->order[a] : usual;
 }
-/* Of motions in time: masses along elements have four in slender bending and two with shear,
- * stretch and twist, lumped at two nodes two. */
+/* Order in transient analyses: masses along elements have four in slender bending and two with
+ * shear, stretch and twist, lumped at two nodes two. */
 static inline element_order element_order_of_motion(void)
 {
     return (element_order){2, 4};

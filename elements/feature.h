@@ -25,7 +25,7 @@ enum element_feature {
     FEATURE_END = 1 << 14
 };
 
-/* What a bit is called. */
+/* Name and summary of a feature bit. */
 typedef struct feature_row {
     unsigned bit;        /* element_feature */
     const char *name;    /* without a comma */
@@ -64,7 +64,7 @@ static inline const char *feature_name(unsigned bit)
     return feature_row_of(bit)->name;
 }
 
-/* What it is, in one line. */
+/* Summary in one line. */
 static inline const char *feature_summary(unsigned bit)
 {
     return feature_row_of(bit)->summary;

@@ -1,9 +1,9 @@
-/* What the calls of an element fill (element.h): n nodes, 7n coordinates; matrices are row-major,
- * what is NULL is not wanted. */
+/* Outputs of the functions of an element (element.h): n nodes, 7n coordinates; matrices are
+ * row-major; an output that is NULL is not computed. */
 #ifndef BEAMWORK_ELEMENT_OUTPUT_H
 #define BEAMWORK_ELEMENT_OUTPUT_H
 
-/* What `strain` fills. */
+/* Outputs of `strain`. */
 typedef struct strain_output {
     double *e;       /* [strains] [m] */
     double *J;       /* [strains x 7 nodes] de/dx */
@@ -11,7 +11,7 @@ typedef struct strain_output {
     double *H;       /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2, overwritten */
 } strain_output;
 
-/* What `stress` fills. */
+/* Outputs of `stress`. */
 typedef struct stress_output {
     double *energy;   /* [1] [J] */
     double *sigma;    /* [strains] [N]; with inner unknowns: after eliminating their residual */
@@ -20,7 +20,7 @@ typedef struct stress_output {
     double *memory; /* [memory] filled by stress, read by update: the eliminated inner equations */
 } stress_output;
 
-/* What `inertia` fills. */
+/* Outputs of `inertia`. */
 typedef struct inertia_output {
     double *M; /* [7n x 7n] mass matrix: translations [kg]; with `rate` that of motions in time */
     /* In a rotating frame; zero without one. */
@@ -34,11 +34,11 @@ typedef struct inertia_output {
     double
         *taken; /* [7n] M x'' + h(x, x'): forces that the motion takes; from the kinetic energy */
     double *C;  /* [7n x 7n] d taken/dx' */
-    double *K;  /* [7n x 7n] d taken/dx at fixed x' and x'', in the exponential chart; what is left
-                   out of it costs iterations only */
+    double *K;  /* [7n x 7n] d taken/dx at fixed x' and x'', in the exponential chart; omitted
+                   terms cost iterations only */
 } inertia_output;
 
-/* Of the whole element, for types without strains and stresses of their own. */
+/* Outputs of a type without strains and stresses of its own: those of the whole element. */
 typedef struct force_output {
     double *energy; /* [1] [J] */
     double
@@ -51,7 +51,7 @@ typedef struct force_output {
 /* Points of a load along an element, coordinates of its nodes. */
 enum { ELEMENT_ALONG_POINTS = 8, ELEMENT_ALONG_COORDINATES = 14 };
 
-/* What `along` takes and fills: a force per length along an element of two nodes that keeps its
+/* Input and outputs of `along`: a force per length along an element of two nodes that keeps its
  * direction. All forces of a state are
  *   J^T sigma + turn^T (moment + mixed^T (D(x) - e)) - ends
  * where the frame that the strains belong to turns by turn dx in its own axes. */
@@ -75,7 +75,7 @@ typedef struct along_output {
     double second[9];                           /* [3 x 3] its second one [N m]; linear: zero */
 } along_output;
 
-/* What `equations_many` fills: the mixed equations of an element, condensed (N section 4). */
+/* Outputs of `equations_many`: the mixed equations of an element, condensed (N section 4). */
 typedef struct equations_output {
     double *J;               /* [strains x 7 nodes] de/dx */
     double *C;               /* [strains x strains] dsigma/de [N/m] */

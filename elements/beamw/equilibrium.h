@@ -50,7 +50,7 @@ static inline real_truth beamw_equilibrium_settle(const beamw_condensed *d, beam
 {
     enum { Z = BEAMW_INTERNAL_Z };
     const double close_enough =
-        1e-7; /* of the size of z: what is left is of the size of its square */
+        1e-7; /* relative to z: the remainder is of the order of its square */
     real_truth left = real_true(), good = real_true();
     for (int count = 0; count < BEAMW_EQUILIBRIUM_MOST && real_any(left); count++) {
         real change = real_of(0), size = real_of(0), dz[3], dq[3];

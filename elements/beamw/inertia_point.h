@@ -46,7 +46,7 @@ void beamw_inertia_values_at(const beamw_inertia_state *, const beamw_spread *, 
 /* dy/dx but for what turns with the nodes. */
 void beamw_inertia_gradient(const beamw_inertia_state *, const beamw_inertia_values *,
                             const beamw_inertia_vector *, double T[3 * N]);
-/* Where it is in the frame; and the vectors fixed to the nodes, with their weights. */
+/* Position in the frame; and the vectors fixed to the nodes, with their weights. */
 void beamw_inertia_place(const beamw_inertia_state *, const beamw_inertia_values *,
                          const beamw_inertia_vector *, double r[3], double fixed[2][3]);
 #endif

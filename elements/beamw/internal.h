@@ -122,14 +122,14 @@ static inline void beamw_internal_move(const beamw_condensed *d, const real dz[3
     beamw_internal_add_half(d, quadratic, s);
 }
 
-/* What z does to the columns of e, once it is known. */
+/* Effect of z on the columns of e, once z is known. */
 static inline void beamw_internal_finish(const beamw_condensed *d, beamw_internal *s)
 {
     for (int t = d->mixed; t < d->own; t++)
         s->D[d->term[t].to] += d->term[t].c * s->y[d->term[t].j];
 }
 
-/* What the rows of D are dual to. */
+/* Quantities that the rows of D are dual to. */
 static inline void beamw_internal_weights(const beamw_condensed *d, const beamw_internal *s,
                                           real w[BEAMW_CONDENSED_ROWS])
 {

@@ -13,7 +13,7 @@ typedef void beamw_lanes_stresses(int count, const element_data *const data[],
 beamw_lanes_strains beamw_lanes_modes_plain, beamw_lanes_modes_avx2;
 beamw_lanes_strains beamw_lanes_helicoidal_plain, beamw_lanes_helicoidal_avx2;
 beamw_lanes_stresses beamw_lanes_modified_plain, beamw_lanes_modified_avx2;
-/* Of beamw_prepare_consistent, following or not. */
+/* Stresses of beamw_prepare_consistent, following or not. */
 beamw_lanes_stresses beamw_lanes_consistent_plain, beamw_lanes_consistent_avx2;
 
 #endif

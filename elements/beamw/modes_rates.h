@@ -1,4 +1,4 @@
-/* What gradients of the deformation modes (modes.h) do while the nodes move. */
+/* Time derivatives of the gradients of the deformation modes (modes.h) as the nodes move. */
 #ifndef BEAMWORK_BEAMW_MODES_RATES_H
 #define BEAMWORK_BEAMW_MODES_RATES_H
 

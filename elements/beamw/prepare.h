@@ -1,5 +1,4 @@
-/* What the BEAMW variants have in common when an element is prepared: a stiffness, modified modes
- * and a mass are chosen. */
+/* Common preparation of the BEAMW variants: a stiffness, modified modes and a mass are chosen. */
 #ifndef BEAMWORK_BEAMW_PREPARE_H
 #define BEAMWORK_BEAMW_PREPARE_H
 
@@ -33,7 +32,7 @@ status beamw_prepare_consistent(const element_request *request, beamw_consistent
 
 /* The option of beamw_prepare_variant, and those that beamw_prepare_consistent has beside it. */
 extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
-/* Of all of them. */
+/* Common to all of them. */
 int beamw_prepare_mass_of_field(const double options[]);
 element_order beamw_prepare_order(element_analysis, const double options[]);
 /* element_type.judged of both. */

@@ -11,7 +11,7 @@ typedef struct beamw_quadratic_term {
     short entry;        /* of a matrix of second derivatives */
 } beamw_quadratic_term;
 
-/* Of row `row` of `rows`, with n variables. */
+/* Term of row `row` of `rows`, with n variables. */
 static inline beamw_quadratic_term beamw_quadratic_of(double c, int rows, int n, int row, int i,
                                                       int j, int entry)
 {

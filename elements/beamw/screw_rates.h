@@ -12,7 +12,7 @@
 enum { SCREW_COORDINATES = 2 * NODE_COORDINATES };
 enum { SCREW_RP = 0, SCREW_TP = 3, SCREW_AP = 6, SCREW_RQ = 7, SCREW_TQ = 10, SCREW_AQ = 13 };
 
-/* What works on the rates: f . dU/dt + t . dpsi/dt = g . v + mean . s + difference . delta. */
+/* Work conjugates of the rates: f . dU/dt + t . dpsi/dt = g . v + mean . s + difference . delta. */
 typedef struct screw_work {
     real g[3], t[3], m[3]; /* dual to D, to psi; m = D x g = -mean */
     real p[3];             /* V^-1 t */
@@ -30,7 +30,7 @@ static inline void beamw_screw_rates_complete(const screw *w, screw_work *k)
         k->difference[i] = k->p[i] + w->f[SCREW_TAU] / 2 * side[i];
 }
 
-/* Of forces f and moments. */
+/* Work of forces f and moments. */
 static inline void beamw_screw_rates_work(const screw *w, const real f[3], const real moment[3],
                                           screw_work *k)
 {

@@ -11,7 +11,7 @@ enum {
     BEAMW_FIELD_MODES = 8 /* of J Eq. 7 */
 };
 
-/* Of a kind of element. */
+/* Data of a kind of element. */
 typedef struct beamw_spread {
     double l0;                                                  /* [m] */
     lumped_mass lumped;                                         /* inertia of half the element */

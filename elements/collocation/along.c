@@ -240,7 +240,7 @@ void exact_along_finish(const exact_stages *s, const exact_along *a, const exact
         second_of(at, M, out->H);
 }
 
-/* What is left without the unknowns; 0, or a failing pivot. */
+/* Eliminates the unknowns; 0, or a failing pivot. */
 static int eliminate(int stages, exact_collocated *w)
 {
     exact_blocks_eliminate(stages, stages + 4, stages + 1, w->A, w->V, w->d);

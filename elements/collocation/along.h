@@ -1,16 +1,17 @@
-/* A dead force per length q(x) inside the equilibrium of a collocation element (ours).  Between its
- * nodes the force is F + g(x), with F that of the middle,
+/* A dead force per length q(x) inside the equilibrium of a collocation element (derived here).
+ * Between its nodes the force is F + g(x), with F that of the middle,
  *   g(x) = l0 (int_x^1 q - 1/2 int_0^1 q),
  * which takes the place of F in N of stages.h, while halves of int q stay at the nodes: the whole
- * is the potential with - int q . r.  F is in the axes G half way between the ends, and so is what
- * g adds to it, xi = G^T g: a turn psi of G in its own axes changes it by xi x psi.  The potential
- * depends on G through xi alone, and is linear in it but for what the points make of it. */
+ * is the potential with - int q . r.  F is in the axes G half way between the ends, and
+ * so is the contribution of g, xi = G^T g: a turn psi of G in its own axes changes it by xi x psi.
+ * The potential depends on G through xi alone, and is linear in it except for the effect of the
+ * points. */
 #ifndef BEAMWORK_EXACT_ALONG_H
 #define BEAMWORK_EXACT_ALONG_H
 
 #include "elements/collocation/stages.h"
 
-/* Of a kind of element; of q at the points of element.h. */
+/* Data of a kind of element; q at the points of element.h. */
 typedef struct exact_along {
     double at[EXACT_STAGES_MAX][ELEMENT_ALONG_POINTS]; /* g at the stages [m] */
     double missed[ELEMENT_ALONG_POINTS][3]; /* of the work on the undeformed line, what the stages'
@@ -28,8 +29,8 @@ typedef struct exact_along_frame {
 void exact_along_prepare(const element_request *, const exact_stages *, exact_along *);
 void exact_along_frame_of(const exact_stages *, const exact_along *, const node_state x[],
                           const double force[], exact_along_frame *);
-/* What is left when the stages are evaluated: ends, turn, H, and the part of the undeformed line in
- * moment. moved[stages][3]: derivative of the energy by xi. */
+/* Computes the terms that need the evaluated stages: ends, rotation, H, and the part of the
+ * undeformed line in moment. moved[stages][3]: derivative of the energy by xi. */
 void exact_along_finish(const exact_stages *, const exact_along *, const exact_along_frame *,
                         double moved[][3], along_output *);
 /* Linear in the force, of the undeformed element. */

@@ -1,7 +1,7 @@
 /* Symmetric matrices in blocks of 3 x 3, of which those on and above the diagonal are stored, and
  * the elimination of their first rows: K = L D L^T without exchange of rows.  In lanes (real.h).
- * Exact enough where those rows are positive definite but for a negative definite end, whatever
- * their condition; exact_blocks_definite tells. */
+ * Exact enough where those rows are positive definite except for a negative definite end, whatever
+ * their condition; exact_blocks_definite tests it. */
 #ifndef BEAMWORK_EXACT_BLOCKS_H
 #define BEAMWORK_EXACT_BLOCKS_H
 
@@ -31,9 +31,9 @@ static inline void exact_blocks_pivot(real a[9], real d[3], real inverse[3])
     a[5] = l12;
 }
 
-/* Eliminates `rows` block rows of a matrix of n, A [n (n + 1)/2][9]. Of the result V the rows
- * eliminated have L^T and D^-1 L^-1 A, the others what is left of A. Block column `late` is zero
- * above row rows - 1 (n: there is none). D: d [3 rows]. */
+/* Eliminates `rows` block rows of a matrix of n, A [n (n + 1)/2][9]. In the result V the eliminated
+ * rows have L^T and D^-1 L^-1 A, the others the remainder (Schur complement) of A. Block column
+ * `late` is zero above row rows - 1 (n: there is none). D: d [3 rows]. */
 static inline __attribute__((always_inline)) void
 exact_blocks_eliminate(int rows, int n, int late, real A[][9], real V[][9], real d[])
 {

@@ -14,7 +14,7 @@ typedef struct exact_collocated {
         X[4][EXACT_STAGES_MAX][9];
 } exact_collocated;
 
-/* Of loads along the element (along.h): what they add to F at the points, its derivative by three
+/* Loads along the element (along.h): their contribution to F at the points, its derivative by three
  * parameters, and the derivative of the energy by it, which is filled. */
 typedef struct exact_collocated_load {
     real force[EXACT_STAGES_MAX][3], column[EXACT_STAGES_MAX][9], moved[EXACT_STAGES_MAX][3];
@@ -97,7 +97,8 @@ static inline int exact_collocated_exchange(int stages, int columns, int lane, e
     return 0;
 }
 
-/* Of the strains i and j, 8: of 1, 9 to 11: of the turn of loads along, after elimination. */
+/* Entry of the strains i and j after elimination; 8: the constant 1, 9 to 11: the rotation of loads
+ * along the element. */
 static inline double exact_collocated_entry(int stages, exact_collocated *w, int i, int j, int lane)
 {
     int row, column;
@@ -144,7 +145,7 @@ static inline void exact_collocated_write(int stages, const exact_stages *s, exa
         }
 }
 
-/* With `stages` points. */
+/* Evaluates with `stages` points. */
 static inline __attribute__((always_inline)) void
 exact_collocated_run(int stages, const exact_stages *s, int run, const double *const e[],
                      const double *const inner[], stress_output out[], status outcome[])
@@ -175,7 +176,7 @@ exact_collocated_run(int stages, const exact_stages *s, int run, const double *c
     }
 }
 
-/* Of `run` elements of one kind, at most LANES; as element_type.stress_many. */
+/* Evaluates `run` elements of one kind, at most LANES; as element_type.stress_many. */
 static inline void exact_collocated_stress(const exact_stages *s, int run, const double *const e[],
                                            const double *const inner[], stress_output out[],
                                            status outcome[])

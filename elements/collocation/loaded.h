@@ -36,7 +36,7 @@ static inline void exact_loaded_write(int stages, const exact_stages *s, const e
     exact_along_finish(s, a, at, moved, out);
 }
 
-/* With `stages` points. */
+/* Evaluates with `stages` points. */
 static inline __attribute__((always_inline)) void
 exact_loaded_run(int stages, const exact_stages *s, const exact_along *a, int run,
                  const node_state x[], along_output out[], status outcome[])
@@ -79,7 +79,7 @@ exact_loaded_run(int stages, const exact_stages *s, const exact_along *a, int ru
     }
 }
 
-/* Of `run` elements of one kind, at most LANES; as element_type.along. */
+/* Evaluates `run` elements of one kind, at most LANES; as element_type.along. */
 static inline void exact_loaded_along(const exact_stages *s, const exact_along *a, int run,
                                       const node_state x[], along_output out[], status outcome[])
 {

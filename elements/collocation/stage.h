@@ -31,7 +31,7 @@ typedef struct exact_stage_terms {
     real xx[9], xs[9], ss[9], xF[9], sF[9], FF[9]; /* s: x' */
 } exact_stage_terms;
 
-/* Of x, x' and F. */
+/* Fills the terms of x, x' and F. */
 static inline void exact_stage_of(const real force[3], const double rest_kappa[3], exact_stage *p)
 {
     exact_milenkovic_forms(vec3_dot(p->x, p->x), &p->orientation, &p->curvature);

@@ -1,4 +1,5 @@
-/* One element of a geometrically exact beam with warping, solved by Gauss collocation (ours).
+/* One element of a geometrically exact beam with warping, solved by Gauss collocation (derived
+ * here).
  *
  * In the axes half way between its ends the element has the strains e of strain.h (two nodes): v,
  * the vector from p to q, and 2 X, 8 tan(angle/8) about the axis of the rotation from p to q; and
@@ -27,8 +28,8 @@ enum {
     EXACT_STAGES_ALL = EXACT_STAGES_UNKNOWNS + EXACT_STAGES_OUTER
 };
 
-/* What the element_data of collocation begin with.  Of the variables x of the inner nodes, then 2
- * X: a node at an end has half of it. */
+/* Head of the element_data of collocation elements. Variables: x of the inner nodes, then 2 X, of
+ * which each end node has half. */
 typedef struct exact_stages {
     int stages, unknowns; /* unknowns: F (3), x of the inner nodes */
     beam_constants c;

@@ -1,4 +1,4 @@
-/* What the Gauss points of a collocation element add up to: the Hessian of its energy, bordered by
+/* Sums over the Gauss points of a collocation element: the Hessian of its energy, bordered by
  * the gradient, in blocks of 3 x 3 (blocks.h).  In lanes (real.h).
  *
  * Blocks: x of the inner nodes (stages - 1), F, then the strains 2 X, v, and last (a_p, a_q, 1):

@@ -28,7 +28,7 @@ typedef struct field_rows {
     double functional[FIELD_FUNCTIONALS][FIELD_MODES];
 } field_rows;
 
-/* Of a kind of element. */
+/* Data of a kind of element. */
 typedef struct displacement_field {
     int nodes;
     double l0, ys, zs; /* [m] */
@@ -55,7 +55,7 @@ enum { FIELD_MOST_POINTS = BEAMW_TWIST_MAX_POINTS };
 int field_points(const displacement_field *, double from, double to, double x[FIELD_MOST_POINTS],
                  double weight[FIELD_MOST_POINTS]);
 
-/* What acts at one point. */
+/* Loads at one point. */
 typedef struct field_load {
     double force[3], moment[3]; /* [N, N m] in fixed axes; follower: in those of the section */
     double arm[3]; /* from the line to where the force acts, in the axes of the section [m] */

@@ -14,8 +14,8 @@ typedef struct field_mass {
     lumped_mass lumped;  /* three nodes: of the whole element */
 } field_mass;
 
-/* Of frequencies without stress, of two nodes and a stiffness that is exact without loads; slender
- * bending has the highest. */
+/* Order of frequencies without prestress, for two nodes and a stiffness that is exact without
+ * loads; slender bending has the highest. */
 #define FIELD_MASS_ORDER ((element_order){4, 8})
 
 /* nodes: of an element. */
@@ -25,7 +25,7 @@ status field_mass_inertia(const field_mass *, const node_state x[], const elemen
 
 enum { FIELD_INNER = 2 * NODE_COORDINATES };
 
-/* What the mass inside of a straight element of two nodes does that moves as the field does not: a
+/* Effect of the mass of a straight element of two nodes that does not move as the field does: a
  * motion v of the nodes [14, in the axes of the element] of the eigenvalue lambda = omega^2 obeys
  *   v . K v = lambda v . M v + lambda^2 v . B v + O(lambda^3),   B = M_bu^T K_bb^-1 M_bu,
  * b the displacements between fixed ends: B is the flexibility of the fixed element under the

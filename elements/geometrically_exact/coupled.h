@@ -1,5 +1,5 @@
-/* Sections by their matrices (elements/section/matrices.h) in the elements of this room: energy 1/2
- * (gamma, kappa) . C (gamma, kappa) per length and nothing beside it. */
+/* Sections by their matrices (elements/section/matrices.h) in the elements of this folder: energy
+ * 1/2 (gamma, kappa) . C (gamma, kappa) per length and no other terms. */
 #ifndef BEAMWORK_EXACT_COUPLED_H
 #define BEAMWORK_EXACT_COUPLED_H
 

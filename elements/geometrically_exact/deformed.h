@@ -10,13 +10,13 @@
 
 enum { EXACT_DEFORMED_PAIRS = ELEMENT_MAX_NODES * (ELEMENT_MAX_NODES + 1) / 2 };
 
-/* What the nodes' states say, once per evaluation. */
+/* Values derived from the nodes' states, once per evaluation. */
 typedef struct exact_deformed_nodes {
     real q[ELEMENT_MAX_NODES][4];
     real r[ELEMENT_MAX_NODES][3], u[ELEMENT_MAX_NODES][3]; /* per l0 */
 } exact_deformed_nodes;
 
-/* Of all points. */
+/* Values of all points. */
 typedef struct exact_deformed {
     real e[EXACT_STRAIN_MAX_POINTS][6];
     /* J by its blocks: of v with r, l0 times those of v and of the measured kappa with theta */
@@ -213,7 +213,7 @@ static inline void exact_deformed_write_second(int nodes, exact_deformed *d, int
         }
 }
 
-/* With `nodes` nodes. */
+/* Evaluates with `nodes` nodes. */
 static inline __attribute__((always_inline)) void exact_deformed_run(int nodes,
                                                                      const exact_strain_line *line,
                                                                      int run, const node_state x[],
@@ -244,7 +244,8 @@ static inline __attribute__((always_inline)) void exact_deformed_run(int nodes,
     }
 }
 
-/* Of `run` elements of one kind, at most LANES, x [run x nodes]; as element_type.strain_many. */
+/* Evaluates `run` elements of one kind, at most LANES, x [run x nodes]; as
+ * element_type.strain_many. */
 static inline void exact_deformed_strain(const exact_strain_line *line, int run,
                                          const node_state x[], strain_output out[])
 {

@@ -1,5 +1,5 @@
-/* What the energy of an element with strains at Gauss points depends on, and the elimination of
- * what the nodes do not show (stiffness.h says why).  Dimensionless (beam_constants.h). */
+/* Variables of the energy of an element with strains at Gauss points, and the elimination of the
+ * fields that the nodes do not show (reasons in stiffness.h).  Dimensionless (beam_constants.h). */
 #ifndef BEAMWORK_EXACT_FIELDS_H
 #define BEAMWORK_EXACT_FIELDS_H
 

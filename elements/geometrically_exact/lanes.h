@@ -11,7 +11,7 @@ typedef void exact_lanes_stresses(int count, const element_data *const data[],
                                   const double *const e[], const double *const inner[],
                                   stress_output out[], status outcome[]);
 
-/* Of data that begin with exact_gauss. */
+/* For data that begin with exact_gauss. */
 exact_lanes_strains exact_lanes_gauss_strain_plain, exact_lanes_gauss_strain_avx2;
 exact_lanes_stresses exact_lanes_gauss_stress_plain, exact_lanes_gauss_stress_avx2;
 

@@ -12,8 +12,8 @@ typedef enum exact_measure_kind {
     EXACT_MEASURE_EIGHTH   /* 8 tan(angle/8) */
 } exact_measure_kind;
 
-/* Of the angle: what 4 y must be multiplied by, y = tan(angle/4), and its first and second
- * derivative with respect to t = y^2. */
+/* Factor m of 4 y that gives the angle, y = tan(angle/4), and its first and second derivative with
+ * respect to t = y^2. */
 void exact_measure_angle(double t, double m[3]);
 
 /* The same of the kind wanted, of x of the first kind. */

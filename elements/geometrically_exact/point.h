@@ -1,7 +1,7 @@
 /* Geometry at one point of a line whose section turns: quaternions of the nodes are interpolated as
- * vectors of R^4, Q = sum N_k q_k, and normalised.  Turning all q_k turns Q with them, so that what
- * is measured in the section's axes is objective (ours).  No function of an angle is needed, and
- * every derivative is rational in Q.
+ * vectors of R^4, Q = sum N_k q_k, and normalised.  Turning all q_k turns Q with them, so that
+ * strains in the section's axes are objective (derived here).  No function of an angle is needed,
+ * and every derivative is rational in Q.
  *
  *   kappa = 2 Im(Q^-1 Q'),  v = R(Q)^T y.
  *
@@ -26,7 +26,7 @@ typedef struct exact_point {
     real v[3];     /* y in the section's axes */
 } exact_point;
 
-/* What the rotation of one node does there. */
+/* Effect of the rotation of one node at the point. */
 typedef struct exact_point_turn {
     real c[4];             /* u^-1 q */
     real a[12];            /* [4 x 3] */
@@ -117,7 +117,7 @@ static inline void exact_point_first(const exact_point *p, const real q[4], doub
     exact_point_add_cross(p->v, turned, real_of(2 * N), t->v);
 }
 
-/* Of n . kappa + f . v: what exact_point_add_second takes from all nodes. */
+/* Second derivatives of n . kappa + f . v, as exact_point_add_second needs them of all nodes. */
 static inline void exact_point_second(const exact_point *p, const real n[3], const real f[3],
                                       exact_point_turn *t)
 {
@@ -167,8 +167,8 @@ static inline void exact_point_add_second(const real n[3], const double N[], con
                             left[9 + i] * W[9 + j];
 }
 
-/* What turning a node adds to its own second derivative along the diagonal: q'' = -1/4 |theta|^2 q.
- */
+/* Contribution of turning a node to its own second derivative along the diagonal: q'' = -1/4
+ * |theta|^2 q. */
 static inline real exact_point_curved(const exact_point *p, const real n[3], const real f[3],
                                       double N, double dN, const exact_point_turn *t)
 {

@@ -9,7 +9,7 @@
  * everywhere and nothing is penalised;
  *   - of the bending moment what is above the polynomial through the points: with two nodes its
  * linear part (MacNeal's residual bending flexibility: the linear element is exact for end loads,
- * also when it is rigid in shear); with three nodes the quadratic part (ours), and only for
+ * also when it is rigid in shear); with three nodes the quadratic part (derived here), and only for
  * sections that are rigid in shear, which would leave no shear flexibility at all.  It measures Q
  * against the slope of M in section axes, which differ by kappa x M: with three nodes and no shear
  *     flexibility the order is four in a plane and two in space. */
@@ -42,7 +42,7 @@ typedef struct exact_stiffness {
     double coupling[EXACT_STRAIN_MAX_POINTS][EXACT_STRAIN_MAX_POINTS]; /* r_g . S r_h */
 } exact_stiffness;
 
-/* Of elements with strains at Gauss points: what their element_data begin with. */
+/* Head of the element_data of elements with strains at Gauss points. */
 typedef struct exact_gauss {
     exact_strain_line line;
     exact_stiffness stiffness;

@@ -149,7 +149,7 @@ static inline void exact_stressed_write(const exact_stiffness *k, const exact_st
     }
 }
 
-/* Of `run` elements of one kind, at most LANES; as element_type.stress_many. */
+/* Evaluates `run` elements of one kind, at most LANES; as element_type.stress_many. */
 static inline void exact_stressed_stress(const exact_stiffness *k, int run, const double *const e[],
                                          stress_output out[], status outcome[])
 {

@@ -3,8 +3,8 @@
  * on the polynomials that the points stand for, the twist rate is P kappa + a - P a, and without
  * warping shear P kappa = P a.  Given kappa at the points the best a is a polynomial plus the two
  * boundary layers exp(-lambda x), exp(-lambda (1 - x)), lambda^2 = GJ/EIw, so that long elements
- * need no mesh for their ends (ours).  Everything is linear and eliminated once.  Dimensionless
- * (beam_constants.h). */
+ * need no mesh for their ends (derived here).  Everything is linear and eliminated once.
+ * Dimensionless (beam_constants.h). */
 #ifndef BEAMWORK_EXACT_WARPING_H
 #define BEAMWORK_EXACT_WARPING_H
 

@@ -31,7 +31,8 @@ static inline __attribute__((always_inline)) void add_block(int count, int width
         out[j] = sum[j];
 }
 
-/* Of what is left of a row: those that elements have first. */
+/* Width of the next block where `left` columns remain: the largest compiled width that fits. Those
+ * are the widths that elements have. */
 static inline __attribute__((always_inline)) int width_of(int left)
 {
     static const int widths[] = {14, 8, 7, 3};

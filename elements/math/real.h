@@ -47,7 +47,7 @@ static inline real real_sqrt(real a)
 {
     return sqrt(a);
 }
-/* What holds in each lane; one element: 0 or 1. */
+/* Truth values of the lanes; with one element: 0 or 1. */
 typedef int real_truth;
 static inline real_truth real_true(void)
 {

@@ -12,7 +12,7 @@
 
 #include "elements/section/section.h"
 
-/* Of matrices that were measured or printed, in parts of the diagonal. */
+/* Largest asymmetry of matrices that were measured or printed, in parts of the diagonal. */
 #define SECTION_MATRICES_SYMMETRIC 1e-6
 
 /* Fills a zeroed section.  REFUSED: C not symmetric or not positive definite; M not that of a

@@ -56,7 +56,7 @@ typedef enum section_zero {
     SECTION_ZERO_WAGNER_TORQUE = 1 << 4
 } section_zero;
 
-/* What a scene says of a section; section_compute turns it into constants. */
+/* Section of a scene file; section_compute turns it into constants. */
 typedef struct section_spec {
     section_kind kind;
     unsigned zeros;                       /* SECTION_ZERO_... */

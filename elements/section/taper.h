@@ -1,9 +1,9 @@
 /* Sections that change along a member: from one description to another of the same form, linearly
  * in its numbers.
  *
- * Every place is taken as that of a prismatic member with the section there, its centroid on the
- * member's line: what the taper itself adds to the shear stresses is left out, as usual in the
- * theory of beams. */
+ * Every cross-section is that of a prismatic member with the section there, its centroid on the
+ * member's line: the shear stresses due to the taper itself are omitted, as usual in beam
+ * theory. */
 #ifndef BEAMWORK_SECTION_TAPER_H
 #define BEAMWORK_SECTION_TAPER_H
 

@@ -236,7 +236,7 @@ status section_walls(const section_spec *s, section *out, fault *f)
     walls_lines lines;
     TRY(walls_lines_of(s, &lines, out, f));
     const double *y = lines.y, *z = lines.z, *omega = lines.omega;
-    /* Walls that meet in one point do not warp along their mid-lines: what is left of Iw is
+    /* Walls that meet in one point do not warp along their mid-lines: the remaining Iw is
      * rounding. */
     const int warps = out->Iw > 1e-24 * out->Ip * out->Ip / out->A;
     if (!warps)

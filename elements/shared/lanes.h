@@ -74,7 +74,8 @@ typedef void lanes_strain(const element_data *, const node_real x[], strain_real
 typedef real_truth lanes_stress(const element_data *, const real e[], const real inner[],
                                 stress_real *);
 
-/* Where lanes of a run write to: the arrays `of` its outputs; to `unused` what has no element. */
+/* Output pointers of the lanes of a run: the arrays `of` its outputs; lanes without an element
+ * write to `unused`. */
 #define LANES_TARGETS(to, run, of, unused)                                                         \
     double *to[LANES];                                                                             \
     for (int lane = 0; lane < LANES; lane++)                                                       \

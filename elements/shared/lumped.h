@@ -20,8 +20,9 @@ typedef struct lumped_mass {
                   first is the centre of mass [m], the others are of length 1 or root 2 */
 } lumped_mass;
 
-/* Of `length` [m] of beam.  A section by its matrices has all that they say.  Of others, without
- * FEATURE_ROTARY_INERTIA only translations and the polar moment of the twist count. */
+/* Lumped mass of `length` [m] of beam. A section by its matrices has all that they give. For
+ * others, without FEATURE_ROTARY_INERTIA only translations and the polar moment of the twist
+ * count. */
 lumped_mass lumped_of(const section *c, unsigned features, double length);
 
 /* Adds `share` of it at a node whose coordinates begin at `at` of n; moving_complete ends it. */

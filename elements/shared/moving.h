@@ -14,7 +14,7 @@ typedef struct moving_vector {
     const double *T; /* [3 x columns] dy/dx, row-major */
 } moving_vector;
 
-/* Zeroes what is wanted; n coordinates. */
+/* Zeroes the requested outputs; n coordinates. */
 void moving_clear(int n, inertia_output *out);
 /* Adds a mass, but for the second derivatives of y, which are the caller's: moving_stiffness -=
  * F . d2y/dx2 with F[3] the centrifugal force, else zero. Of M, N and G
@@ -23,7 +23,7 @@ void moving_add(const moving_vector *v, const element_rotating_frame *frame, int
                 inertia_output *out, double F[3]);
 /* Lower halves from the upper ones; once, behind everything that is added. */
 void moving_complete(int n, inertia_output *out);
-/* Where second derivatives of y count; NULL: they are not wanted. */
+/* Matrix to which second derivatives of y are added; NULL: not requested. */
 static inline double *moving_stiffness(const element_rotating_frame *frame,
                                        const inertia_output *out)
 {

@@ -1,4 +1,4 @@
-/* What a user may choose: parameters of a case (--set NAME=VALUE) and options of a formulation
+/* Parameters for the user: those of a case (--set NAME=VALUE) and options of a formulation
  * (-f name:NAME=VALUE) are entries of such tables, in the order of their values. */
 #ifndef BEAMWORK_PARAMETER_H
 #define BEAMWORK_PARAMETER_H

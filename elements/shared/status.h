@@ -20,7 +20,7 @@ typedef enum status {
 
 enum { FAULT_TEXT = 320 };
 
-/* What is wrong, for a user. */
+/* Description of an error, for a user. */
 typedef struct fault {
     char text[FAULT_TEXT]; /* one line, no newline, '\0'-terminated */
 } fault;

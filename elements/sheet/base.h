@@ -1,4 +1,4 @@
-/* What every sheet-flexure formulation begins with: generalized strains, linear stiffness, Wagner
+/* Common base of the sheet-flexure formulations: generalized strains, linear stiffness, Wagner
  * torque and mass. */
 #ifndef BEAMWORK_SHEET_BASE_H
 #define BEAMWORK_SHEET_BASE_H
@@ -9,8 +9,8 @@
 #include "elements/sheet/wagner.h"
 
 typedef enum sheet_base_shear {
-    SHEET_BASE_PRINTED,   /* N Eq. 37: shear is left out of the strains */
-    SHEET_BASE_CONSISTENT /* the same integrals of the whole linear solution, ours */
+    SHEET_BASE_PRINTED,   /* N Eq. 37: shear is omitted from the strains */
+    SHEET_BASE_CONSISTENT /* the same integrals of the whole linear solution (derived here) */
 } sheet_base_shear;
 
 typedef struct sheet_base_data {
@@ -20,7 +20,7 @@ typedef struct sheet_base_data {
     sheet_wagner_term wagner;
 } sheet_base_data;
 
-/* What every one of them offers and is limited to. */
+/* Features and restrictions that are common to all of them. */
 enum {
     SHEET_BASE_OFFERS = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE |
                         FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA |

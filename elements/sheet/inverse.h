@@ -23,7 +23,7 @@ typedef struct sheet_inverse_data {
     double bending; /* L^2/EIz [1/N] */
     double scale[SHEET_STRAINS];
     double X[SHEET_INVERSE_CURVED][SHEET_STRAINS * SHEET_STRAINS];
-    /* Of the potential with N Eq. 52 where the element is free of stress: it is less these. */
+    /* Potential and stress of N Eq. 52 in the stress-free element; they are subtracted. */
     double rest_energy, rest_stress[SHEET_STRAINS]; /* [J], [N] */
 } sheet_inverse_data;
 

@@ -27,8 +27,8 @@ typedef struct sheet_strains_table {
 } sheet_strains_table;
 
 /* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, where
- * shear is left out; the section's own: consistent with shear, ours.  Features: warping, trapeze.
- */
+ * shear is omitted; the section's own: consistent with shear (derived here). Features: warping,
+ * trapeze. */
 status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
                              sheet_strains_table *out, fault *f);
 

@@ -57,7 +57,8 @@ void sheet_third_equations_many(int count, const element_data *const data[], con
     REAL_CHOSEN(sheet_lanes_third_equations)(count, data, x, e, inner, s, out, outcome);
 }
 
-/* What is left of N Eq. 52 in the arc. */
+/* Sets the remainder of N Eq. 52 in the undeformed arc: energy and stresses at e = 0. REFUSED: its
+ * initial curvature is too large. */
 static status set_rest(const element_request *request, sheet_inverse_data *out, fault *f)
 {
     const double none[N] = {0};
