@@ -136,14 +136,13 @@ void cells_keep(sweep *s, const char keep[])
     s->partial = s->unfinished > 0;
 }
 
-/* About, on the reference machine; little work is cut finer, so that there is some for everybody.
- */
+/* About, on the reference machine; little work is cut finer, so that every process has some. */
 static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32;
 
 /* The sweep cut into batches. An item is a series that is run. */
 typedef struct cut {
     const sweep_request *request;
-    truths *t; /* of the doubts that noise is measured for */
+    truths *t; /* reference values: where their uncertainty requires it, scatter is measured */
     sweep *s;
     int items;
     int *begin;   /* [items + 1] series that the item begins with; the last: of all */
@@ -172,7 +171,8 @@ static status compute(void *context, int batch, FILE *to, digest *content, fault
     int range[2];
     series_of(c, batch, range);
     sweep part = *c->s;
-    sweep_request alone = *c->request; /* in a process of its own, which nobody asks to end */
+    sweep_request alone = *c->request; /* in a separate process that does not listen for an
+                                          interrupt */
     alone.jobs = alone.together = 1;
     alone.interruptible = 0;
     alone.progress = NULL;

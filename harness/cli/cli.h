@@ -33,11 +33,12 @@ enum {
     OPTION_VERDICT = 64 /* verdicts depend on it, cells do not */
 };
 
-/* What it reads: a switch int, 1; a number int; else const char *; what repeats text_list. */
+/* Member that an option reads: a switch int, 1; a number int; else const char *; an option that may
+ * be repeated text_list. */
 struct verb_option {
     const char *name;
     char letter;                 /* 0: none */
-    const char *argument, *help; /* argument NULL: a switch; "[N]": may be left out */
+    const char *argument, *help; /* argument NULL: a switch; "[N]": optional */
     size_t member;               /* of the group, or of the verb's request */
     unsigned traits;
     long least, most;    /* of a whole number, or so many values; 0: text, COMMAND_MOST_WORDS */
@@ -49,7 +50,7 @@ typedef struct experiment_type experiment_type; /* harness/experiments/experimen
 
 typedef struct given_option {
     const verb_option *option;
-    const char *value; /* NULL: of a switch, or left out */
+    const char *value; /* NULL: of a switch, or not given */
 } given_option;
 
 /* A command line as it was given, in its order. */
@@ -93,25 +94,25 @@ struct verb {
 /* The i-th option of a verb, in the order of its help; NULL behind the last. at: where its group is
  * in the request; NULL: not wanted. */
 const verb_option *verb_option_at(const verb *, int i, size_t *at);
-/* Of a word: "--name=VALUE", by its whole name or the beginning of one only; "-xyVALUE", the first
- * letter that takes a value, else the last. *value: NULL: not in this word. NULL: the letter at
- * *value is no option, or *begun options begin so. */
+/* Parses a word: "--name=VALUE", by its whole name or a unique beginning of it; "-xyVALUE": the
+ * first letter that takes a value, else the last. *value: NULL: not in this word. Returns NULL: the
+ * letter at *value is no option, or *begun options begin so. */
 const verb_option *verb_word(const verb *, const char *word, const char **value, int *begun);
 /* By its letter, also by one of former versions; NULL: none. */
 int verb_is_letter(const verb_option *, char letter);
 const verb_option *verb_letter(const verb *, char letter, size_t *at);
 /* help, usage: at the end of each verb. */
 extern const verb_option verb_help[];
-/* May its value be left out? */
+/* 1: its value is optional. */
 int verb_optional(const verb_option *);
-/* Of the verb, by its name; NULL: none. */
+/* Finds the verb of that name; NULL: none. */
 const verb *verb_find(const verb *const *verbs, const char *name);
 /* So many arguments at most. */
 int verb_most_arguments(const char *arguments);
 
 /* The last value that was given, "" of a switch; NULL: it was not. */
 const char *given_value(const command_line *, const char *name);
-/* The i-th option given that has one of the traits, from *i on, which goes on; NULL: no more. */
+/* The next option given, from *i on, that has one of the traits; advances *i. NULL: none left. */
 const given_option *given_next(const command_line *, unsigned traits, int *i);
 
 /* Values of an option that may be given again. */
@@ -120,7 +121,8 @@ typedef struct text_list {
     const char *text[COMMAND_MOST_WORDS];
 } text_list;
 
-/* Reads a value, NULL of a switch or where it is left out, which is the largest number then. */
+/* Reads a value. value NULL (a switch, or an optional value that is not given): the largest
+ * number. */
 status option_take(const verb_option *, void *member, const char *value, fault *f);
 option_reader option_error; /* double, of one error: "1%" or "0.01" */
 /* Errors, "1%,0.1%" or "0.01": relative, between 0 and 1, into level[most]; *count: how many. */
@@ -168,7 +170,8 @@ const char *own_tables_packed(const truths_options *);
  * are. */
 status own_tables_truths(const truths_options *, const case_type *const run[],
                          const case_type *only, truths *t, fault *f);
-/* Adds the rules of tables; where there is such a table, new formulations gate. */
+/* Adds the rules of tables; where there is such a table, new formulations count towards the exit
+ * status. */
 status own_tables_findings(const text_list *tables, const case_type *const run[], truths *t,
                            fault *f);
 
@@ -178,7 +181,7 @@ typedef struct case_options {
     text_list set;                         /* NAME=VALUE */
     double parameter[CASE_MAX_PARAMETERS]; /* ... from case_input_find on */
     scene_file *scene;                     /* what was read from scene_path */
-    int refusal;                           /* exit code where there is no case */
+    int refusal;                           /* exit code without a case */
     command_line *line;
 } case_options;
 extern const option_group options_case;  /* --scene, --set */
@@ -207,7 +210,7 @@ typedef struct scenes_options {
     text_list scene; /* files, folders */
     int built_in;    /* 1: the built-in cases beside them */
     truths_options truths;
-    text_list findings; /* tables beside the ledger */
+    text_list findings; /* tables added to the list of known deviations */
 } scenes_options;
 
 typedef struct scenes {
@@ -221,13 +224,13 @@ typedef struct scenes {
  * ends in NULL. Not EXIT_AS_EXPECTED: an exit code, after messages; no two are of one name. */
 int scenes_read(const command_line *, const scenes_options *, scenes *out);
 void scenes_free(scenes *);
-/* The built-in truths where those cases are wanted, the ledger, the truths of each file, and the
- * tables of your own project. */
+/* The built-in reference values where those cases are requested, the list of known deviations, the
+ * reference values of each file, and the tables of your own project. */
 status scenes_truths(const scenes *, const scenes_options *, truths *t, fault *f);
 
-/* For one minor version: one line where ends of members hold their warping because of their
- * supports, were free before, and the answers of this formulation depend on it, as far as two
- * elements for each member tell. Of built-in cases: none. */
+/* For one minor version: prints a line where the supports of members fix their warping at ends that
+ * were free before, and the results of this formulation depend on it, as shown by a mesh of two
+ * elements for each member. Built-in cases: none. */
 void supports_told(const scene_file *, const double parameter[], const formulation *,
                    const scene *);
 
@@ -248,8 +251,7 @@ void command_parse(const verb *, const verb *const *verbs, int count, char **arg
 /* Reads, answers; the exit code. arguments[0]: the verb. */
 int command_run(const verb *, const verb *const *verbs, int count, char **arguments);
 
-/* What a verb says of itself: usage, what it does, options, examples, within PARAGRAPH_WIDTH
- * columns. */
+/* Help page of a verb: usage, description, options, examples, within PARAGRAPH_WIDTH columns. */
 void help_write(FILE *to, const verb *v);
 
 /* The files of a command line, looked at before the work begins. */
@@ -271,7 +273,7 @@ status files_named(const char *input, file_visit *visit, const void *context, fa
 int message_finish(int code);
 /* One line on stderr; the exit code that belongs to a status. */
 int message_fail(status s, const char *text);
-/* The line, and the end of the program: what was asked for makes no sense. */
+/* Prints the line and ends the program: invalid input. */
 _Noreturn void message_refuse(const char *text);
 /* EXIT_AS_EXPECTED, or message_fail with what is wrong. */
 int message_exit(status s, const fault *f);
@@ -281,10 +283,10 @@ int message_exit(status s, const fault *f);
  * the program ends with one line that names it. From now on; seconds: 0 for no limit. Does nothing
  * for formulations of the program's own. */
 void guard_formulation(const formulation *chosen, int seconds);
-/* Once, before any file is opened. Standard streams that are closed are put onto /dev/null, which
- * refuses what is written: no file is taken for one of them. Signals that end the program (SIGTERM,
- * SIGHUP, SIGINT) and crashes first delete unfinished output files; a crash, or an exit() of a
- * library or an element, is told in one line. */
+/* Called once, before any file is opened. Standard streams that are closed are opened on /dev/null,
+ * which refuses writing: no file is mistaken for one of them. Signals that end the program
+ * (SIGTERM, SIGHUP, SIGINT) and crashes first delete unfinished output files; a crash, or an exit()
+ * of a library or an element, is reported in one line. */
 void ending_begin(void);
 
 /* The verbs of the command line. */
@@ -328,9 +330,9 @@ typedef struct offer {
     const char *begun;
 } offer;
 
-/* A line "WORD<tab>SUMMARY" where the text begins as what was begun: the whole word, the text
- * behind `before`. What ends in '=' or ':' goes on; ":files" and ":folders" are for the shell to
- * do. */
+/* Prints a line "WORD<tab>SUMMARY" if the text begins with `begun`; WORD is `before` and the text.
+ * A WORD that ends in '=' or ':' may be continued; ":files" and ":folders" are completed by the
+ * shell. */
 void offer_text(const offer *o, const char *text, const char *summary);
 
 /* The words behind the verb up to the cursor; the last one, which may be empty, is begun. */
@@ -366,9 +368,9 @@ typedef struct defaults {
     const truths_options *truths;
 } defaults;
 
-/* Fills what is missing of -f and -n for one cell of the case at its parameters. note: a line for
- * each choice and why; "" where both were given. why: solution_choice_free in any case; NULL: not
- * wanted. REFUSED: no formulation offers what the case needs, or --error is none. */
+/* Fills missing -f and -n for one cell of the case at its parameters. note: a line for each choice
+ * and its reason; "" where both were given. why: solution_choice_free in any case; may be NULL.
+ * REFUSED: no formulation supports what the case needs, or --error is not a valid number. */
 status defaults_fill(const defaults *, char note[DEFAULTS_NOTE], solution_choice *why, fault *f);
 /* The same of -f alone. */
 status defaults_formulation(const defaults *, char note[DEFAULTS_NOTE], fault *f);

@@ -15,7 +15,7 @@
 
 /* 1: its cells are run here. */
 int cells_runs(const sweep *s, int series);
-/* What a series' cells cost, in evaluations of an element. */
+/* Cost of a series' cells, in evaluations of an element. */
 double cells_expense(const sweep *s, int series);
 /* Its cells, the noise of its finest mesh and its times, as far as they were measured. */
 status cells_write(FILE *to, const sweep *s, int series, digest *content, fault *f);
@@ -58,7 +58,7 @@ typedef struct contestant {
     double count[SCHEMA_MOST_FIELDS];
 } contestant;
 
-/* What stands for a missing -f or -n. */
+/* Defaults for a missing -f or -n. */
 defaults contestant_defaults(bench_options *r, const case_type *type);
 /* A cell of the scene, which it keeps a pointer to. */
 void contestant_here(contestant *, const bench_options *r, const scene *s,
@@ -81,7 +81,7 @@ typedef struct manual_row {
     const char *name, *text;
 } manual_row;
 
-/* What the program says of itself. Rows end with a name of NULL. */
+/* Program's text in the manual. Rows end with a name of NULL. */
 typedef struct manual_program {
     const char *summary, *question; /* one line each */
     const verb *const *verbs;       /* all, and NULL */
@@ -89,7 +89,7 @@ typedef struct manual_program {
     const char *of_compare; /* exit status of the verb that is as diff */
 } manual_program;
 
-/* What a result file consists of. */
+/* Structure of a result file. */
 typedef struct results_record {
     char place[64]; /* before the name of its table */
     const record_type *type;
@@ -148,7 +148,7 @@ typedef struct shard_options {
     int jobs;
     const char *shard, *into; /* K/N of the work, into which folder */
     text_list from;           /* folders with batches, taken instead of computing */
-    int partial;              /* 1: what is missing is left out */
+    int partial;              /* 1: missing cells are omitted */
     int quiet;
 } shard_options;
 extern const option_group options_shards; /* all but jobs and quiet */
@@ -157,7 +157,7 @@ extern const option_group options_shards; /* all but jobs and quiet */
 status spread_asked(const shard_options *, int *asked, fault *f);
 /* Computes the shard and says what became of it, or takes the batches. */
 status spread_work(const shard_options *, const shard_work *w, spread_end *out, fault *f);
-/* What a result was made with: here, or where the batches were computed. */
+/* Environment of a result: of this machine, or of that which computed the batches. */
 environment spread_environment(const spread_end *, int threads);
 void spread_free(spread_end *);
 
@@ -180,9 +180,9 @@ void identity_free(identity_texts *);
 
 /* `verify` as a shard, or from batches: as the command line asks. */
 
-/* Computes a shard of a planned sweep, or takes the cells of --from: what is missing of --partial
- * is taken out and counted as unfinished. A batch is consecutive series, with the cells that
- * measure their noise. */
+/* Computes a shard of a planned sweep, or takes the cells of --from: with --partial, missing cells
+ * are removed and counted as unfinished. A batch is consecutive series, with the cells that measure
+ * their scatter. */
 status verification_work_run(const shard_options *, const sweep_request *, truths *, sweep *,
                              spread_end *, fault *);
 

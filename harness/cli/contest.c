@@ -91,7 +91,7 @@ static void show_meeting(const duel *d, double level, const bout *m)
     paragraph_write(stdout, at, 4, line);
 }
 
-/* What more elements do not mend. */
+/* Deviations that more elements do not reduce. */
 static void show_defects(const duel *d)
 {
     for (int i = 0; i < 2; i++)

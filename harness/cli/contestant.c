@@ -50,7 +50,7 @@ static status lap_here(contestant *c, double *seconds, fault *f)
             return outcome;
     }
     const double end = start + (1 + c->plant) * (clock_processor_seconds() - start);
-    do /* planted work */
+    do /* injected work */
         *seconds = clock_processor_seconds() - start;
     while (start + *seconds < end);
     return STATUS_OK;
@@ -103,7 +103,7 @@ static status lap(void *what, double *seconds, fault *f)
     return c->program != NULL ? lap_elsewhere(c, seconds, f) : lap_here(c, seconds, f);
 }
 
-/* Enough repeats for a lap that the clock can tell. */
+/* Chooses the number of repeats so that one lap is long enough for the clock. */
 static status set_repeats(contestant *a, contestant *b, fault *f)
 {
     double first = 0, second = 0;
@@ -227,7 +227,7 @@ void contestant_unranked(const contestant *a, const contestant *b)
     }
 }
 
-/* What a contestant in this process leaves out of the scene, in words; "": nothing. */
+/* Physics of the scene that a formulation run in this process omits, in words; "": none. */
 static void lacking(const contestant *c, char words[OMIT_WORDS])
 {
     words[0] = '\0';

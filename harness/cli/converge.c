@@ -15,7 +15,7 @@ typedef struct converge_request {
     int jobs, verbose;
 } converge_request;
 
-/* As far as the first formulation tells that is run. */
+/* Reports what changed at the supports, for the first formulation that runs. */
 static void tell_supports(const converge_request *r, const sweep *s)
 {
     int i = 0;

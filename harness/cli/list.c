@@ -281,7 +281,7 @@ static int list_case(const case_type *type)
     return message_exit(outcome, &f);
 }
 
-/* The ledger, where there is one. */
+/* The list of known deviations, if there is one. */
 static void read_ledger(const list_request *r, truths *ledger)
 {
     memset(ledger, 0, sizeof *ledger);
@@ -323,7 +323,7 @@ static status write_json(const list_subject *what, const truths *ledger, fault *
     return list_json_all(stdout, what->cases, what->formulations, f);
 }
 
-/* The file of the ledger also says which formulations gate. */
+/* The file of known deviations also lists which formulations count towards the exit status. */
 static int show_json(const list_request *r, const list_subject *what)
 {
     truths ledger;

@@ -46,7 +46,7 @@ int main(int count, char **arguments)
     /* it closes nothing of its own accord: what we open we close, and where memory was short its
      * own end crashes or fills the screen */
     H5dont_atexit();
-    /* a file that may not grow is an error of writing, told in one line */
+    /* a file that reached its size limit is a write error, reported in one line */
     signal(SIGXFSZ, SIG_IGN);
     return message_finish(run(count, arguments));
 }

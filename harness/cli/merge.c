@@ -117,7 +117,7 @@ static int answer(const command_line *l, void *request)
     return code;
 }
 
-/* Read by nobody here: each is passed on. */
+/* Not used by this program: each is passed on. */
 typedef struct merge_request {
     const char *output, *format;
     report_options reports;

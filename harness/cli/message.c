@@ -81,7 +81,7 @@ static void crashed(int number)
     end_by(number);
 }
 
-/* exit() with a status that none of ours is. */
+/* Handles exit() with a status that beamwork does not use. */
 static void ended(int code, void *unused)
 {
     (void)unused;
@@ -93,7 +93,8 @@ static void ended(int code, void *unused)
     _exit(EXIT_FAULT);
 }
 
-/* Where nobody else has: a sanitizer, or who ignores it. */
+/* Sets the handler only where the default one is in place: a sanitizer, or a parent that ignores
+ * the signal, has set its own. */
 static void attend(int number, void (*handler)(int))
 {
     struct sigaction action, before;
@@ -287,7 +288,7 @@ static status check_options(const verb *v, const verb *const *verbs, int count,
     return STATUS_OK;
 }
 
-/* As argp's own, but an output that cannot be written is told. */
+/* The same as argp's own, but an output that cannot be written is reported. */
 static void show_usage(const struct argp_state *state)
 {
     argp_state_help(state, stdout, ARGP_HELP_USAGE & ~(unsigned)ARGP_HELP_EXIT_ERR);

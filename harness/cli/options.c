@@ -11,7 +11,7 @@
 #include "harness/numerics/numerics.h"
 #include "harness/records/records.h"
 
-/* Letters of version 0.1, which are read until the next one and told with their names. */
+/* Letters of version 0.1; they are read until the next version and reported with their names. */
 static const struct {
     char letter;
     const char *name;

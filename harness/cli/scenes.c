@@ -47,7 +47,7 @@ static int is_same(const scene *s, const cell_result *a, const cell_result *b)
     return 1;
 }
 
-/* Do the answers of the two scenes differ? 1 too where that cannot be told. */
+/* 1: the results of the two scenes differ, or that cannot be determined. */
 static int differs(const scene *now, const scene *before, const formulation *chosen)
 {
     cell_result held = {.size = {0}}, freed = {.size = {0}};
@@ -94,7 +94,7 @@ static status add_path(const void *context, const char *path, fault *f)
     return STATUS_OK;
 }
 
-/* Results tell cases apart by their names. */
+/* Names of cases are unique, since results identify cases by name. */
 static status check_name(const case_type *one, const case_type *const *others, const char *path,
                          fault *f)
 {
@@ -137,7 +137,7 @@ int scenes_read(const command_line *l, const scenes_options *r, scenes *out)
     int code = EXIT_AS_EXPECTED;
     for (int i = 0; i < out->count; i++) {
         const int one = add_type(l, i, &types, out);
-        code = one != EXIT_AS_EXPECTED ? one : code; /* mistakes of all files are told */
+        code = one != EXIT_AS_EXPECTED ? one : code; /* mistakes of all files are reported */
     }
     return code;
 }

@@ -21,10 +21,11 @@ typedef struct solve_request {
     int shapes;                 /* states of a path whose shapes are stored; 0: none */
     const char *follow;         /* NAME=A..B/N: modes over a parameter */
     const char *matrices;       /* folder for the matrices of all states */
-    const char *ends, *restart; /* files: where motions stop is kept, and where they go on from */
+    const char *ends, *restart; /* files: where the final state of motions is stored, and where
+                                   motions continue from */
 } solve_request;
 
-/* One solution from what is asked for to what is known of it. */
+/* One solution, from the request to the result. */
 typedef struct solve_work {
     solution_request what;
     solution_choice why;
@@ -42,7 +43,7 @@ static void work_free(solve_work *w)
     solution_choice_free(&w->why);
 }
 
-/* What is asked for, without -f and -n. */
+/* The request without -f and -n. */
 static defaults defaults_of(solve_request *r, const case_type *type)
 {
     return (defaults){.wanted = {.type = type,
@@ -174,7 +175,7 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
     return written;
 }
 
-/* A motion goes on with the formulation and the elements that it began with. */
+/* A motion continues with the formulation and the elements of its first part. */
 static status take_restart(solve_request *r, restart *from, fault *f)
 {
     TRY(restart_read(r->restart, from, f));
@@ -248,8 +249,8 @@ static status write_all(const solve_request *r, const solve_work *w, fault *f)
     return write_matrices(r, &w->s, f);
 }
 
-/* What has no value does not take the others with it, and is told all the same. That a mesh has no
- * such mode, or a path no such point, is an answer. */
+/* Reports a quantity without a value; the other quantities are still computed. That a mesh has no
+ * such mode, or a path no such point, is a result. */
 static int tell_missing(status solved, const cell_result *cell, const fault *f)
 {
     const int refused = cell_values(cell) > 0 && solved == STATUS_REFUSED;

@@ -22,7 +22,7 @@ typedef struct sweep_options {
     double error;       /* 0: not given */
     text_list vary;     /* NAME=A..B/N ...: what it is over */
     const char *design; /* of its points; NULL: a grid */
-    int points, seed;   /* of a design that is no grid */
+    int points, seed;   /* of a design that is not a grid */
     int derive;         /* 1: truths are solved for where none is stored */
     int verbose;
 } sweep_options;
@@ -158,7 +158,8 @@ static status hold_batches(const char *folder, fault *f)
     return STATUS_OK;
 }
 
-/* Where batches are kept until all are there: beside the output, or where nobody looks. */
+/* Folder in which batches are kept until all are complete: next to the output, or a temporary
+ * one. */
 static status place_batches(const sweep_options *r, sweeping *s, fault *f)
 {
     if (r->output != NULL) {

@@ -75,7 +75,7 @@ static status print_derived(const case_type *type, const double parameter[], fau
     return outcome;
 }
 
-/* All parameters of the scene: a line without them would speak of any values. */
+/* All parameters of the scene: a line without them would apply to any values. */
 static void print_point(const case_type *type, const double parameter[])
 {
     const parameter_type *p;

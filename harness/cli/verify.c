@@ -13,7 +13,7 @@ typedef struct verify_request {
     report_options reports;
     shard_options shards;
     const char *select, *output;
-    text_list beside;   /* stored imports: contestants of a run */
+    text_list beside;   /* stored imports: compared programs of a run */
     int gate;           /* 1: their verdicts count */
     int exit_zero;      /* 1: verdicts do not change the exit status */
     double tolerance;   /* in the place of those of the cases */
@@ -81,7 +81,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     return r->exit_zero ? EXIT_AS_EXPECTED : code;
 }
 
-/* Other programs as contestants; those of no point of this run are told. */
+/* Adds other programs to the comparison; programs for no point of this run are reported. */
 static status add_beside(const char *path, int gates, sweep *s, fault *f)
 {
     import_left left;
@@ -184,7 +184,8 @@ static status run(const verify_request *r, const scenes *own, trial *v, fault *f
         return STATUS_OK;
     show(r, &v->sweep, &v->judgement, &v->truths, &v->overview, clock_wall_seconds() - begun);
     const environment e = spread_environment(&v->end, r->shards.jobs);
-    TRY(verification_files_close(&v->files, &v->overview, &e, f)); /* also where nobody reads */
+    TRY(verification_files_close(&v->files, &v->overview, &e, f)); /* also where no output was
+                                                                      requested */
     return output_flush(f);
 }
 
