@@ -205,7 +205,7 @@ static int axis_of(const section_spec *spec, int wall)
     return y > z ? 0 : 1;
 }
 
-/* How far the wall goes on beyond its point: half the thickness of walls at right angles there. */
+/* Extension of the wall beyond its point: half the thickness of the walls at right angles there. */
 static double extension(const section_spec *spec, int wall, int point)
 {
     double most = 0;

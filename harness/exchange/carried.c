@@ -173,7 +173,7 @@ status carried_check(const scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* What is asked of a scene, as far as a deck of solids answers it. */
+/* Refuses a quantity of the scene that a deck of solids cannot evaluate. */
 
 static status refuse(const scene_quantity *q, const char *why, fault *f)
 {

@@ -346,7 +346,7 @@ void body_write_held(const body_numbers *b, const scene *s, int node, unsigned r
     write_boundary(b, s, NULL, node, released, to);
 }
 
-/* Sorted, each once; what is not on the way from path 0 to the last station is left out. */
+/* Sorted, each once; values that are not between path 0 and the last station are omitted. */
 static void insert(path_points *p, double value, double last)
 {
     int at = p->count;

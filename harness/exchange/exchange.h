@@ -8,10 +8,10 @@
 #include "cases/scene/scene.h"
 #include "harness/study/study.h"
 
-/* Axes of another program: theirs = ours, a signed permutation. */
+/* Axes of another program relative to beamwork's: a signed permutation. */
 
 typedef struct axes {
-    int ours[3]; /* 0..2: which of ours is their x, y, z */
+    int ours[3]; /* 0..2: which axis of beamwork is its x, y, z */
     int sign[3]; /* 1 or -1 */
 } axes;
 
@@ -38,11 +38,11 @@ typedef struct deck_request {
 status deck_check(const deck_request *, fault *f);
 status deck_write(const deck_request *, FILE *to, fault *f);
 
-/* What is being imported: series of values, each of a program, a case and a parameter point. */
+/* Import: series of values, each of a program, a case and a parameter point. */
 
 enum { IMPORT_SCENES = 32, IMPORT_ROWS = 200000, IMPORT_TEXT = 512 };
 
-/* Points and series of all files, and the scene files that they speak of. */
+/* Points and series of all files, and the scene files that they name. */
 typedef struct import_set {
     sweep sweep;
     int scenes;
@@ -80,19 +80,19 @@ void import_block_add(import_block *b, const imported_row *row);
 status import_block_close(import_block *b, fault *f);
 
 /* Results of another program as tidy CSV with a declared header, into a sweep as one more
- * contestant:
+ * compared program:
  *
  *   # beamwork-import: 1
- *   # program: MBDyn 1.7.3, 3-node                # as legends show it
- *   # case: sheet_cantilever; warping=0           # case, or scene file beside this one; parameters
- *   # model: beam                                 # or solid, plate, ...: then an error of the
- * model # convention: spatial                         # of moments, where a quantity depends on it
- *   # axes: x=x y=y z=z                           # theirs = ours: a signed permutation
+ *   # program: MBDyn 1.7.3, 3-node        # name in legends
+ *   # case: sheet_cantilever; warping=0   # case or scene file next to this one; parameters
+ *   # model: beam                         # or solid, plate, ...: then its error is of the model
+ *   # convention: spatial                 # of moments, where a quantity depends on it
+ *   # axes: x=x y=y z=z                   # program = beamwork: a signed permutation
  *   quantity, unit, elements, unknowns, seconds, x, value, uncertainty
  *   C_xx, mm/N, 4, 48, 3.3e-3, , 3.9706e-4,
  *
  * Columns stand in any order; quantity, unit, elements and value are needed, x [SI] for a curve.
- * Further header lines behind rows begin another series and keep what they do not say. */
+ * Header lines after rows begin another series; keys that are not repeated remain valid. */
 
 /* All mistakes of the file go to m, by line; what it says to `into`. FAULT: it cannot be read. */
 status import_file_read(const char *path, import_set *into, mistakes *m, fault *f);
@@ -115,17 +115,17 @@ status import_file_read(const char *path, import_set *into, mistakes *m, fault *
 status import_map_read(const char *map, const char *const file[], int files, import_set *into,
                        mistakes *m, fault *f);
 
-/* Imported values that `beamwork import` stored, read back as contestants of a run. */
+/* Imported values that `beamwork import` stored, read back as compared programs of a run. */
 
-/* What of a file the run has no point for. */
+/* Series of a file for which the run has no point. */
 typedef struct import_left {
     int series, all; /* those left, and all that the file has */
     char first[256]; /* case/parameters/program of the first; empty: none */
 } import_left;
 
-/* Adds a series for every program at points that have series; gates: their verdicts count.
- * FAULT: missing, damaged, foreign; REFUSED: nothing imported is in it, or what is beside
- * the run already. */
+/* Adds a series for every program at points that have series. A nonzero flag lets their verdicts
+ * affect the exit status. FAULT: missing, damaged, foreign; REFUSED: it has no imported values, or
+ * they are in the run already. */
 status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f);
 
 #endif

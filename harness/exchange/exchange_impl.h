@@ -14,7 +14,7 @@
 /* The cross-section of a solid: a lattice of rectangles in the section's own y, z, some of which
  * are filled.
  *
- * A straight wall is a strip along its centre line. Where walls meet at right angles each goes on
+ * A straight wall is a strip along its centre line. Where walls meet at right angles each extends
  * by half the thickness of the other: an L has its whole corner, and the area is that of the walls.
  * Where a wall ends on the side of another (I, T), the walls count the half of its end that lies
  * inside the other twice; the solid has it once. */
@@ -36,7 +36,7 @@ double face_graded(int k, int n);
 /* section: what the spec comes to. REFUSED: tubes, constants, also given ones, walls that are
  * oblique to y and z. */
 status face_of(const section_spec *spec, const section *constants, face *out, fault *f);
-/* Of what is filled [m^2]. */
+/* Area that is filled [m^2]. */
 double face_area(const face *);
 
 /* A member as a structured mesh of C3D20R: bricks with 20 nodes and reduced integration. */
@@ -53,8 +53,8 @@ typedef struct brick {
     face face;                     /* of every place along it */
 } brick;
 
-/* Numbers begin where told. along: elements along the member; across it those of its face. REFUSED:
- * a section without a face. */
+/* Numbers begin at first_node and first_element. along: elements along the member; across it those
+ * of its face. REFUSED: a section without a face. */
 status brick_init(brick *out, const scene *s, int member, int along, int first_node,
                   int first_element, fault *f);
 /* First numbers behind it. */
@@ -80,7 +80,7 @@ int body_direction(int component);
 void body_write_nodes(const body_numbers *, const scene *s, FILE *to);
 /* Sets of faces, the bodies, and the set BODIES of all their nodes. bricks: [members]. */
 void body_write(const body_numbers *, const scene *s, const brick bricks[], FILE *to);
-/* Where all prescribed coordinates are at `path`, below *BOUNDARY. */
+/* Writes the prescribed coordinates at `path`, below *BOUNDARY. */
 void body_write_state(const body_numbers *, const scene *s, double path, FILE *to);
 /* The same of a small motion: they stay. released: components of `node` (bit i) that are free. */
 void body_write_held(const body_numbers *, const scene *s, int node, unsigned released, FILE *to);
@@ -96,7 +96,8 @@ void body_write_held(const body_numbers *, const scene *s, int node, unsigned re
  * with one unit load about its last state. FAULT: out of memory. */
 status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f);
 
-/* What a deck of solids carries of a scene: everything else is refused, never left out. */
+/* Quantities and loads of a scene that a deck of solids supports: everything else is refused, never
+ * omitted. */
 
 /* The one static analysis, or SCENE_NONE. */
 int carried_static(const scene *s);
@@ -133,7 +134,7 @@ double map_keys_number(mistakes *m, const document_node *map, const char *key, d
 /* A whole number, zero or above. */
 int map_keys_count(mistakes *m, const document_node *map, const char *key, int otherwise);
 
-/* Where a deck stops on a static path: its stations, what quantities ask for, and the corners of
+/* Points of a deck on a static path: its stations, those that quantities need, and the corners of
  * drivers and load factors, so that each step is straight. */
 
 typedef struct path_points {

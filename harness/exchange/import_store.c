@@ -64,7 +64,7 @@ static int point_of(const sweep *s, const char *of, const char *parameters)
     return -1;
 }
 
-/* Has the point a contestant of that name? */
+/* 1: the point already has a compared program of that name. */
 static int is_there(const sweep *s, int place, const char *name)
 {
     for (int i = 0; i < s->seriess; i++)
