@@ -89,8 +89,8 @@ static double shear_of(const formulation *chosen, const section *c, int plane)
     return rigid ? 0 : c->F[4 * plane] / c->shear_modulus;
 }
 
-/* REFUSED: one element does not take forces and moments at its end as the exact beam does, which no
- * rule for loads along it can mend. */
+/* REFUSED: for one element, forces and moments at its end do not give the solution of the exact
+ * beam; no rule for loads along it can correct that. */
 static status measure(const formulation *chosen, softness *out, fault *f)
 {
     double C[SIX * SIX];

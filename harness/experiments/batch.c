@@ -126,8 +126,8 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     return outcome;
 }
 
-/* Its writer is gone: nobody holds it. One that is empty may not be held yet, unless its writer is
- * known to be gone or it is old. */
+/* 1: its writer has ended, so that it is not locked. An empty one may not be locked yet, unless its
+ * writer is known to have ended or it is old. */
 static int is_orphan(const char *path, int gone_for_sure)
 {
     enum { OLD = 60 }; /* [s] */

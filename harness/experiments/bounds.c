@@ -14,7 +14,7 @@
 
 enum { GUARD = 64, M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 
-/* A number that is none, and that nobody computes. */
+/* A signalling NaN that no computation produces. */
 static const uint64_t mark = 0x7ff4beadfacade01ULL;
 
 /* An output of `size` entries between guards. */
@@ -305,7 +305,7 @@ static void other_element(const specimen *s, const call_account *before, const n
     specimen_free(&other);
 }
 
-/* 0: it cannot be made again, and that is told. */
+/* 0: it cannot be prepared again, which is reported. */
 static int in_its_place(const specimen *s, const call_account *before, const node_state x[],
                         claim *one)
 {

@@ -156,8 +156,8 @@ void checks_motion(const formulation *chosen, claims *out)
                         "declares LIMIT_ORDER_DEPENDENT");
 }
 
-/* States that are no numbers, as an iteration that diverges has them: they are told by a status or
- * by values that are no numbers, and never swallowed. */
+/* States with NaN or Inf, as in an iteration that diverges: they are reported by a status or by
+ * values that are NaN, and never passed over. */
 
 enum { UNSOUND_M = SPECIMEN_STRAINS };
 

@@ -140,7 +140,7 @@ static status store_found(const experiment_type *e, const void *found, const cha
     return store_write(path, e->name, c.sweep, c.judged, c.made, f);
 }
 
-/* The files first: nobody may read the table. */
+/* The files first: the table may have no reader. */
 static status leave(const experiment_type *e, const experiment_output *to, const void *found,
                     fault *f)
 {

@@ -22,8 +22,8 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Two contestants in alternation: is one slower, or does the noise not allow an answer? Drifts of
- * the machine meet both. */
+/* Two formulations or programs in alternation: is one slower, or does the scatter not allow an
+ * answer? A drift of the machine affects both alike. */
 
 typedef enum against_outcome { AGAINST_UNDECIDED, AGAINST_FASTER, AGAINST_SLOWER } against_outcome;
 
@@ -38,16 +38,16 @@ typedef struct contest_clock {
 } contest_clock;
 
 const char *against_name(against_outcome);
-/* Of given seconds of `pairs` laps each: tests give them, no clock is asked. */
+/* Compares given seconds of `pairs` laps each: tests supply them, no clock is used. */
 contest_clock against_judge(int pairs, const double a[], const double b[]);
 
-/* One lap of a contestant takes *seconds. */
+/* One lap of one of the two takes *seconds. */
 typedef status against_lap(void *contestant, double *seconds, fault *f);
 /* As many pairs as fit into `budget` [s], at least 51: their number is fixed before the first one
  * counts. */
 status against_run(against_lap *lap, void *a, void *b, double budget, contest_clock *out, fault *f);
 
-/* What varies: a parameter of a case, and its values. */
+/* Varied parameter: a parameter of a case, and its values. */
 
 typedef enum axis_kind { AXIS_LINEAR, AXIS_LOG, AXIS_LIST, AXIS_WORDS } axis_kind;
 
@@ -70,7 +70,7 @@ status axis_read(const case_type *type, const char *text, sweep_axis *out, fault
 void axis_free(sweep_axis *);
 /* Value i of `count`. */
 double axis_value(const sweep_axis *, int i);
-/* Where a share of the way is, 0 <= share < 1: of a list the value that the share falls on. */
+/* Value at a share of the axis, 0 <= share < 1: of a list the value that the share falls on. */
 double axis_at(const sweep_axis *, double share);
 /* "linear", "log", "list", "words". */
 const char *axis_kind_name(axis_kind);
@@ -88,8 +88,8 @@ machine node_here(void);
 /* 1: the same kind: processor and BLAS; hosts may differ. */
 int node_same_kind(const machine *, const machine *);
 
-/* Work that can be cut into batches: what a verb gives to this room, which knows nothing of cells.
- */
+/* Work that can be cut into batches: what a verb gives to this folder, which does not depend on
+ * cells. */
 
 /* All of it depends on the request and the build alone: two processes that never met say the same.
  */
@@ -151,7 +151,7 @@ void batch_label_free(batch_label *);
 /* Does it belong to the work? REFUSED: no; what differs, with its path. */
 status batch_belongs(const batch_label *, const shard_work *, const char *path, fault *f);
 
-/* What is measured of a formulation, whatever it claims: errors over meshes and thicknesses,
+/* Measurements of a formulation, independent of its claims: errors over meshes and thicknesses,
  * orders. Plain data of one size: it can lie in memory that processes share. */
 
 enum { MEASURE_POINTS = 12, MEASURES_MOST = 16, MEASURE_NAME = 64, MEASURE_WORDS = 200 };
@@ -207,7 +207,7 @@ typedef struct experiment_type {
     /* Adds the records of that type of what was found. */
     void (*gather)(const void *found, const record_type *type, subjects *out);
     void (*print)(FILE *to, const void *found); /* for people */
-    /* Of one that leaves cells: these, and all its forms. */
+    /* Experiments with cells: the cells, and all output forms. */
     experiment_cells (*cells)(const void *found);
     status (*write)(FILE *to, const char *format, const void *found, fault *f);
 } experiment_type;
@@ -253,7 +253,7 @@ typedef struct bench {
 extern const experiment_type experiment_bench;
 void bench_free(bench *);
 
-/* What was claimed of a formulation, how far it departs from what holds, and what to mend. Plain
+/* A claim about a formulation: how far it departs from what must hold, and what to correct. Plain
  * data of one size: it can lie in memory that processes share. */
 
 enum { CLAIM_NAME = 64, CLAIM_SENTENCE = 400, CLAIMS_MOST = 48 };
@@ -273,7 +273,7 @@ typedef struct claim {
     char sentence[CLAIM_SENTENCE]; /* of the worst departure that is not allowed */
 } claim;
 
-/* Of one family of checks. */
+/* Claims of one family of checks. */
 typedef struct claims {
     int count;
     claim claim[CLAIMS_MOST];
@@ -291,7 +291,7 @@ void claims_departs(claim *one, double departure, const char *format, ...)
 /* One more question: the sentence says what is wrong where it does not hold. */
 void claims_asks(claim *one, int holds, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* What comes now. */
+/* Names the next check. */
 void claims_doing(claims *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* How far apart two numbers are of their size; two that are equal are not, also where both are 0.
  */
@@ -364,7 +364,7 @@ void specimen_state(const specimen *s, double size, unsigned seed, node_state x[
 void specimen_carry(const specimen *s, const double turn[3], const node_state x[],
                     node_state out[]);
 
-/* Where differences are taken. */
+/* Point at which differences are taken. */
 typedef struct specimen_place {
     const specimen *s;
     const node_state *x;
@@ -395,7 +395,7 @@ checks_run checks_motion;      /* rigid motion, order of the nodes, units */
 checks_run checks_stateless;   /* the same call gives the same, whatever went before */
 checks_run checks_many;        /* many at once give what each gives alone */
 checks_run checks_bounds;      /* outputs are filled, and nothing beside them is touched */
-checks_run checks_unsound;     /* what is no number is told, and not swallowed */
+checks_run checks_unsound;     /* NaN and Inf are reported, not passed over */
 checks_run checks_mass;        /* mass matrix: symmetric, positive, of the beam's mass */
 checks_run checks_rotating;    /* what a rotating frame does */
 checks_run checks_along;       /* loads along one element */
@@ -409,7 +409,7 @@ typedef struct checks_family {
 enum { CHECKS_FAMILIES = 14 };
 extern const checks_family checks_families[CHECKS_FAMILIES];
 
-/* What is measured of every formulation, in groups. */
+/* Measurements of every formulation, in groups. */
 
 typedef void measured_run(const formulation *chosen, claims *, measures *out);
 
@@ -425,9 +425,9 @@ measured_run measured_states;  /* of a cantilever, whose exact solution is known
 measured_run measured_locking; /* over thickness by length */
 measured_run measured_orders;  /* over the number of elements */
 
-/* The certificate of a formulation: the contract that it must keep, and what is measured of it.
- * Each part is found in a process of its own, so that one that crashes, does not come back or
- * spoils its memory is a named result, and the others go on. */
+/* The certificate of a formulation: the interface requirements that it must satisfy, and its
+ * measurements. Each part is found in a process of its own, so that one that crashes, does not
+ * return or corrupts its memory is a named result, and the others continue. */
 
 enum { CERTIFICATE_PARTS = CHECKS_FAMILIES + MEASURED_GROUPS };
 
@@ -455,7 +455,7 @@ status certificate_find(const certificate_request *, certificate **out, fault *f
 void certificate_free(certificate *all, int count);
 
 const char *certificate_part_name(int part);
-/* What holds, in a line. */
+/* Statement of a part, in a line. */
 const char *certificate_part_words(int part);
 /* Claims of that outcome, and numbers that were compared, of all parts. */
 int certificate_counted(const certificate *, claim_outcome);
@@ -467,7 +467,7 @@ const claim *certificate_broken(const certificate *);
 
 /* Records of certificates. */
 
-/* What experiment_element_test finds. */
+/* Result of experiment_element_test. */
 typedef struct certificates {
     certificate *all;          /* [count] */
     int count, verbose, quiet; /* as certificate_text */
@@ -500,15 +500,17 @@ typedef struct convergence {
 extern const experiment_type experiment_converge;
 void convergence_free(convergence *);
 
-/* Work cut into batches, and the batches dealt to shards. Both depend on the costs alone. */
+/* Work cut into batches, and the assignment of batches to shards. Both depend on the costs
+ * alone. */
 
-/* Consecutive items of at most `most` together; one that is dearer stands alone. first[items + 1]:
- * of each batch, and behind the last one `items`. Returns the number of batches. */
+/* Consecutive items of at most `most` together; one that is more expensive stands alone.
+ * first[items + 1]: of each batch, and after the last one `items`. Returns the number of
+ * batches. */
 int deal_cut(int items, const double cost[], double most, int first[]);
-/* shard[batches]: to which of 0..shards-1 each goes. The dearest first, each to the shard with the
- * least so far. 0, or -1: out of memory. */
+/* shard[batches]: the shard 0..shards-1 of each batch. The most expensive batch is assigned first,
+ * each to the shard with the least so far. 0, or -1: out of memory. */
 int deal_out(int batches, const double cost[], int shards, int shard[]);
-/* order[batches]: the dearest first; of two that cost the same, the first. */
+/* order[batches]: the most expensive first; of two that cost the same, the first. */
 void deal_order(int batches, const double cost[], int order[]);
 
 /* Which points of the parameters: a grid over all axes, or points that fill their box. */
@@ -517,7 +519,7 @@ typedef enum design_kind { DESIGN_GRID, DESIGN_SOBOL, DESIGN_HALTON, DESIGN_RAND
 /* Words of --design, in that order. */
 #define DESIGN_CHOICES "grid|sobol|halton|random"
 
-/* Where a sequence is after so many of its points. */
+/* State of a sequence after so many of its points. */
 typedef struct design_mark {
     gsl_qrng *quasi;
     gsl_rng *random; /* the other one is NULL */
@@ -536,9 +538,10 @@ typedef struct design {
 /* Least stride; most marks, of some kilobytes each. */
 enum { DESIGN_STRIDE = 16384, DESIGN_MARKS = 1024, DESIGN_MOST_POINTS = 1000000000 };
 
-/* points: of what is no grid. Grids: the last axis changes first. The first point of Sobol's and
- * Halton's sequences is the one behind the origin, as GSL has them. REFUSED: too many points, an
- * axis without parts in a grid, with parts in what is none, more axes than the sequence has. */
+/* points: for designs other than grids. Grids: the last axis changes first. The first point of
+ * Sobol's and Halton's sequences is the one after the origin, as in GSL. REFUSED: too many points,
+ * a grid with an axis without parts, another design with an axis with parts, more axes than the
+ * sequence has. */
 status design_make(design_kind kind, int axes, const sweep_axis list[], long points,
                    unsigned long seed, design *out, fault *f);
 void design_free(design *);
@@ -547,7 +550,8 @@ void design_free(design *);
 status design_points(const design *, long first, long count, double out[], fault *f);
 const char *design_name(design_kind);
 
-/* What came of a formulation at an extreme, and what is expected although it is no value. */
+/* Outcome of a formulation at an extreme, and the outcomes that are expected although they are not
+ * accurate. */
 
 enum { OUTCOME_NEIGHBOURS = 2 };
 
@@ -564,7 +568,8 @@ typedef enum outcome_kind {
     OUTCOME_KINDS
 } outcome_kind;
 
-/* What is expected although it is neither a value nor coarse (reference/extreme_findings.csv). */
+/* Expected outcomes that are neither accurate nor under-resolved
+ * (reference/extreme_findings.csv). */
 typedef struct extreme_finding {
     char *extreme, *formulation, *quantity, *outcome, *proof; /* the first three may hold * and ? */
     double from, to;                                          /* of x, inclusive */
@@ -589,7 +594,8 @@ int outcome_is_good(outcome_kind kind); /* a value, or coarse */
 
 /* Every formulation at every extreme: the cells, what came of them, and the counts. */
 
-/* Of one formulation; a cell is an extreme at one value of x, and as bad as its worst quantity. */
+/* Counts of one formulation; a cell is an extreme at one value of x, and as bad as its worst
+ * quantity. */
 typedef struct extreme_count {
     const char *formulation; /* its key */
     int tried, survived, coarse, named, wrong, faults;
@@ -597,7 +603,8 @@ typedef struct extreme_count {
 
 typedef struct extreme_sweep {
     int formulations, outcomes, findings, unexpected, unobserved;
-    int is_new; /* outcomes of new formulations that would need a finding: they do not gate */
+    int is_new; /* outcomes of new formulations that would need a known deviation: they do not
+                   affect the exit status */
     formulation *formulation;
     truths truths; /* exact values */
     sweep first, neighbours;
@@ -674,7 +681,7 @@ typedef struct pace_method {
 #define PACE_METHODS                                                                               \
     "alpha, alpha:rho=R, hht, hht:alpha=A, trapezoidal, conserving, radau, explicit"
 
-/* What is taken where none is named. */
+/* Default method. */
 extern const char pace_method_all[];
 /* One of PACE_METHODS, R in [0, 1], A in [0, 1/3]. REFUSED: the culprit. */
 status pace_method_read(const char *text, int length, pace_method *out, fault *f);
@@ -685,7 +692,7 @@ status pace_method_read_list(const char *text, int most, pace_method list[], int
  *
  * Errors are of time alone: against a reference on the same mesh. */
 
-/* What becomes of a motion on which nothing acts, whose energy and momenta stay. */
+/* Classification of a motion without loads, whose energy and momenta must be conserved. */
 typedef enum pace_fate {
     PACE_UNJUDGED, /* something acts on it */
     PACE_GROWS,    /* its energy, by more than pace_growth */
@@ -698,7 +705,7 @@ typedef enum pace_fate {
 /* Tolerances of the reference and of its checks, radau on the same mesh. */
 enum { PACE_CHECKS = 2 };
 extern const double pace_reference[1 + PACE_CHECKS];
-/* Of E/E0 - 1; of energy and momenta in parts of their size. */
+/* Limits of E/E0 - 1, and of energy and momenta in parts of their size. */
 extern const double pace_growth, pace_energy, pace_momentum;
 
 /* One motion: an integrator with a step or a tolerance. */
@@ -792,7 +799,7 @@ status pace_verdict_plan(const char *path, pace *, pace_verdicts *, fault *);
 void pace_verdict_reach(const pace *, pace_verdicts *);
 void pace_verdict_free(pace_verdicts *);
 
-/* Integrators side by side on motions in time: what is asked for, and what is found. */
+/* Integrators side by side on transient analyses: request and result. */
 
 typedef struct motion_request {
     const char *expected;  /* table of verdicts, in the place of all that describes motions */
@@ -817,9 +824,10 @@ typedef struct motions {
 extern const experiment_type experiment_motion;
 void motions_free(motions *);
 
-/* What points of a sweep came to, as columns: the form in which a batch is handed on and stored. */
+/* Columns of the results at points of a sweep: the form in which a batch is passed on and
+ * stored. */
 
-/* What an error is against. */
+/* Kind of reference of an error. */
 typedef enum rows_reference {
     ROWS_STORED,   /* a stored truth at that very point */
     ROWS_DERIVED,  /* a truth that a deriving program solved for there */
@@ -829,7 +837,7 @@ typedef enum rows_reference {
     ROWS_REFERENCES
 } rows_reference;
 
-/* Of a cell; before them the words of `status`. */
+/* Status of a cell; smaller values are the words of `status`. */
 enum {
     ROWS_NOT_OFFERED = STATUS_NO_VALUE + 1,
     ROWS_NO_SCENE,
@@ -880,7 +888,7 @@ const char *rows_status_name(int status);
 
 enum { RANGES_FORMULATIONS = 64, RANGES_QUANTITIES = 64 };
 
-/* What is asked for. */
+/* Request of a parameter study. */
 typedef struct ranges_request {
     const case_type *type;
     const scene_file *file; /* that the case is read from; NULL: a built-in one */
@@ -888,7 +896,7 @@ typedef struct ranges_request {
     int varies;
     const char *const *vary; /* [varies] as --vary says them */
     design_kind design;
-    long points; /* of what is no grid */
+    long points; /* of designs other than grids */
     unsigned long seed;
     int formulations;
     const formulation *formulation; /* 0: every one that runs */
@@ -950,29 +958,31 @@ typedef struct shard_outcome {
     int before;      /* that were there */
     int done;        /* that were computed now */
     int lost;        /* whose process ended before they were done */
-    int interrupted; /* 1: somebody asked to end */
+    int interrupted; /* 1: the run was interrupted */
     double seconds;  /* that those computed now took, each in its process */
 } shard_outcome;
 
 /* "2/4" -> 1, 4. REFUSED: anything else. */
 status shard_parse(const char *text, int *index, int *count, fault *f);
-/* Computes what is not there yet, the dearest batches first. A batch whose process ends without an
- * answer is lost alone: it is done when the shard is started again. REFUSED: the folder has batches
- * of another work. FAULT: disk, memory, or the batch itself: all ends, what is done stays. */
+/* Computes the batches that are missing, the most expensive first. A batch whose process ends
+ * without an answer is lost alone: it is computed when the shard is started again. REFUSED: the
+ * folder has batches of another work. FAULT: disk, memory, or the batch itself: all ends, completed
+ * batches are kept. */
 status shard_run(const shard_work *w, const shard_request *request, shard_outcome *out, fault *f);
 
-/* What there is, as JSON: `beamwork list --format json`, and the same of the library. */
+/* Lists as JSON: `beamwork list --format json`, and the same of the library. */
 
-/* Of all cases, and of all formulations with the physics that they can offer: 1: wanted. */
+/* Lists all cases, and all formulations with the physics that they can support: 1: requested. */
 status list_json_all(FILE *to, int cases, int formulations, fault *f);
-/* Of a case at values of its parameters: these, its quantities there, and who runs it. */
+/* Lists a case at values of its parameters: these, its quantities there, and the formulations that
+ * run it. */
 status list_json_case(FILE *to, const case_type *type, const double value[], fault *f);
-/* Of a formulation: what it declares, its options, the rules of the ledger that speak of it (rules
+/* Lists a formulation: what it declares, its options, the known deviations that apply to it (rules
  * NULL: null), and the cases it runs on. */
 status list_json_formulation(FILE *to, const formulation *chosen, const rule *rules, int count,
                              fault *f);
 
-/* What may be asked about: everything, all cases, all formulations, or one of them. */
+/* Subjects of a list: everything, all cases, all formulations, or one of them. */
 
 typedef struct list_subject {
     int cases, formulations; /* 1: all of them */
@@ -1004,15 +1014,15 @@ typedef struct stock {
     stock_kind *kind;
 } stock;
 
-/* Looks at the batches that are wanted (NULL: all), bytes and all; of one that is in two folders
- * the first is taken. damaged: each is told in a line on `tell` (NULL: not) and counts as missing.
- * REFUSED: a batch of another build, request or plan, a file that only is called like one, two
- * batches that differ. FAULT: a folder that cannot be read. stock_free frees it, also after a
- * failure. */
+/* Reads and checks the requested batches (wanted NULL: all), every byte; of one that is in two
+ * folders the first is taken. damaged: each is reported in one line, if a stream is given, and
+ * counts as missing. REFUSED: a batch of another build, request or plan, a file that is only named
+ * like one, two batches that differ. FAULT: a folder that cannot be read. stock_free frees it, also
+ * after a failure. */
 status stock_take(const shard_work *w, const char *const folder[], int folders, const char *wanted,
                   FILE *tell, stock *out, fault *f);
 void stock_free(stock *);
-/* Where a batch that is there is. */
+/* Path of a batch that is there. */
 status stock_path(const stock *, int batch, char out[PATH_MAX], fault *f);
 /* "3 of 149 batches are missing: 3, 7-12 (shards 2/4, 3/4)"; nothing where none is. */
 void stock_missing(const stock *, const shard_work *, char *out, size_t size);
@@ -1035,7 +1045,7 @@ enum { MESHES_FINEST = 10000000 };
  * MESHES_FINEST, or too many. */
 status meshes_parse(const char *list, int most, int mesh[], int *count, fault *f);
 
-/* What a sweep comes to, counted while its points pass by: in how many a formulation is within the
+/* Summary of a sweep, counted while its points pass by: in how many a formulation is within the
  * tolerance, with how many elements, where not, and its worst points. */
 
 enum { TALLY_WORST = 3, TALLY_COLUMNS = 10, TALLY_ROWS = 12, TALLY_SCENE = 64 };
@@ -1049,8 +1059,9 @@ typedef struct tally_worst {
     char scene[TALLY_SCENE]; /* name of its scene file; empty: not kept */
 } tally_worst;
 
-/* Of a formulation and a quantity, or of all quantities together: a point where one of them is open
- * is asked only where another is never within; else nobody knows. */
+/* Counts of a formulation for one quantity, or for all quantities together. For all together, a
+ * point where one quantity is open is counted in `asked` only where another is never within; else
+ * its result is not known. */
 typedef struct tally_series {
     long asked;                     /* points with a reference */
     long proven;                    /* of them measured by a truth */
@@ -1092,7 +1103,7 @@ status tally_add(tally *, long first, const rows *, fault *f);
 /* quantity: index, or the number of quantities: all together. */
 const tally_series *tally_of(const tally *, int formulation, int quantity);
 const tally_place *tally_at(const tally *, int formulation, int quantity, int line, int column);
-/* Where a column (0) or a line (1) of the map begins: value of its axis. */
+/* Lower bound of a column (0) or a line (1) of the map: value of its axis. */
 double tally_edge(const tally *, int axis_index, int place);
 
 /* A sweep as a group of a file of results, written batch by batch: never more than a batch of it is
@@ -1128,7 +1139,7 @@ typedef struct ranges_work {
     ranges_file *file; /* ... and stored; NULL: nowhere */
     FILE *csv;         /* where they are written as text; NULL: nowhere */
     int csv_begun;     /* 1: its head is there */
-    digest content;    /* of all values that were taken, times left out */
+    digest content;    /* of all values that were taken, without times */
 } ranges_work;
 
 /* FAULT: memory. ranges_work_free frees it. */
@@ -1167,14 +1178,14 @@ status ranges_collect_end(ranges_collect *, status taken, fault *f);
  * nothing else is in it. */
 status ranges_collect_remove(const stock *, const char *folder, fault *f);
 
-/* What batches of one sweep have in common beside the command line. */
+/* Properties that batches of one sweep share in addition to the command line. */
 
 /* Points, formulations, meshes, quantities, and how it is cut. */
 void ranges_identity_add(const parameter_ranges *r, digest *plan);
 
 /* A sweep on a terminal. */
 
-/* What is swept: points, cells, and the axes. */
+/* Head of the table: swept points, cells, and the axes. */
 void ranges_table_head(FILE *to, const parameter_ranges *r);
 /* Within PARAGRAPH_WIDTH: what errors are against; the share of points within the tolerance with
  * each mesh, for each quantity and formulation; where there are one or two axes the least elements
@@ -1182,7 +1193,7 @@ void ranges_table_head(FILE *to, const parameter_ranges *r);
  * and a command that shows one. folder: of their scenes; "": none were kept. */
 void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault *f);
 
-/* What of a verification is worse than in a former run. */
+/* Results of a verification that are worse than in a former run. */
 
 /* Adds to the judgement every mesh whose error is larger than in the former run (by more than 2 %
  * and RESULTS_FLOOR), that has no value or no success any more, what the former run has and this
@@ -1192,8 +1203,8 @@ void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault
 status regressions_find(const stored_results *former, const char *name, const sweep *, judgement *,
                         fault *);
 
-/* One cell of a case: asked for, chosen where nobody said, and solved. Command line and library
- * both ask through it. */
+/* One cell of a case: requested, chosen by default, and solved. Command line and library both use
+ * it. */
 
 typedef struct solution_request {
     const case_type *type;
@@ -1205,12 +1216,13 @@ typedef struct solution_request {
     int keep_all, steps, shapes, threads;
     int keep_ends; /* 1: of motions */
     int restarts;
-    const outcome_end *restart; /* [restarts] that motions go on from; none where nothing is */
+    const outcome_end *restart; /* [restarts] states that motions continue from; none without
+                                   such motions */
     int systems;                /* 1: the matrices of small motions about all states are kept */
     double error; /* change of values from mesh to mesh that counts as none, relative; 0: default */
 } solution_request;
 
-/* What was chosen, and why: one line each; "" where it was given. */
+/* Choices and their reasons: one line each; "" where it was given. */
 typedef struct solution_choice {
     char formulation[FAULT_TEXT], elements[FAULT_TEXT];
     double *change; /* of each quantity, from the mesh before; NULL: elements were given */
@@ -1218,9 +1230,9 @@ typedef struct solution_choice {
 } solution_choice;
 void solution_choice_free(solution_choice *);
 
-/* Fills the formulation (harness/study/study.h), and the elements where they are wanted; rules
- * NULL: the ledger is not known. REFUSED: no formulation offers what the case needs.
- * solution_choice_free in any case. */
+/* Fills the formulation (harness/study/study.h), and the elements if requested; rules NULL: no list
+ * of known deviations. REFUSED: no formulation supports what the case needs. solution_choice_free
+ * in any case. */
 status solution_choose(solution_request *, const rule *rules, int count, int elements,
                        solution_choice *why, fault *f);
 /* One point, series and mesh, not yet run, with the quantities that are selected; sweep_free frees
@@ -1231,8 +1243,8 @@ status solution_plan(const solution_request *, sweep *, fault *);
  * for. */
 status solution_run(const solution_request *, const solution_choice *, sweep *, fault *);
 
-/* Where motions in time stopped, in a file: another run goes on from there, bit for bit where its
- * steps stay. */
+/* Final states of motions in a file: another run continues from there, bit-for-bit identical where
+ * its steps are unchanged. */
 
 typedef struct restart {
     char formulation[FORMULATION_KEY]; /* with its options */
@@ -1249,8 +1261,8 @@ status restart_write(const char *path, const solution_request *, const sweep *, 
 /* FAULT: missing, damaged or foreign. restart_free frees it, also after a failure. */
 status restart_read(const char *path, restart *, fault *);
 void restart_free(restart *);
-/* The scene is to go on from there: its stations are those behind. REFUSED: another scene, but for
- * stations and quantities; another formulation or mesh; none of them comes behind. */
+/* Prepares the scene to continue from there: its stations are those after it. REFUSED: another
+ * scene, except for stations and quantities; another formulation or mesh; no station after it. */
 status restart_begin(const restart *, solution_request *, scene *, fault *);
 
 /* Which formulations run which cases, and what stands against it. */
@@ -1261,7 +1273,7 @@ typedef struct runs_on {
     const char *name; /* of the case, or of the formulation */
     int runs;
     int other;                 /* 1: as another model (harness/study/study.h) */
-    char words[RUNS_ON_WORDS]; /* what is missing; where it runs: what it leaves out */
+    char words[RUNS_ON_WORDS]; /* missing features; where it runs: physics that it omits */
 } runs_on;
 
 void runs_on_scene(const scene *s, const element_type *type, runs_on *out);
@@ -1280,9 +1292,9 @@ void rounds_run(const cell_request *request, double floor, rounds_reading *out);
 void dense_reference_round(const cell_request *own, const cell_result *cell, double floor,
                            dense_reference *out);
 
-/* floor: least [s] a round spends on a cell. Of several points the defaults are measured in full:
- * there the parts of an iteration too, and what is left out, on the middle mesh of each
- * formulation; elsewhere rounds are short and long cells keep the time of their one run. Cells that
+/* floor: least [s] a round spends on a cell. With several points the defaults are measured in full:
+ * also the parts of an iteration and, on the middle mesh of each formulation, the run without
+ * elimination; elsewhere rounds are short and long cells keep the time of their one run. Cells that
  * crashed are not run again. dense: the published algorithm is timed too. to: of the progress, or
  * NULL. */
 status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f);
@@ -1297,7 +1309,7 @@ void rounds_single_thread(char **arguments);
  * comes.
  */
 
-/* Who takes what is judged while the rest is run. */
+/* Receiver of results that are judged while the rest is run. */
 typedef struct verification_reader {
     void *context;
     /* A case, once, when all its series have been judged, in the order of the last of them; of an

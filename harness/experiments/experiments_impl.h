@@ -46,19 +46,18 @@ int beam_point(const beam_request *, double at, double exact, element_measure *o
 void certificate_text(FILE *to, screen look, const certificate *all, int count, int verbose,
                       int quiet);
 
-/* Of a feature that is offered something depends. */
+/* Checks that results depend on each supported feature. */
 
 /* Each feature of the section that it offers changes what some element of it says, against the
  * same element without that feature; with warping, the amplitudes do. */
 void effects_check(const formulation *chosen, claims *c);
 
-/* What a sweep of extremes is expected to show (reference/extreme_findings.csv), and what it counts
- * to. */
+/* Expected outcomes of a sweep of extremes (reference/extreme_findings.csv), and its counts. */
 
 /* The findings of the packed truths at `path`. */
 status extreme_expect_read(const char *path, extreme_sweep *out, fault *f);
 /* Sets finding and as_expected of every outcome, and the counts. whole: 1 when nothing was selected
- * away, so that a finding that nobody observed is a failure. */
+ * away, so that a known deviation that was not observed is a failure. */
 void extreme_expect(extreme_sweep *s, int whole);
 
 /* Is the number of an outcome a value, coarse, or wrong? */
@@ -103,7 +102,7 @@ typedef struct labour {
     machine here;
 } labour;
 
-/* What is said of one batch, in one piece that fits into a pipe. */
+/* Message about one batch, in one piece that fits into a pipe. */
 typedef struct labour_notice {
     int batch;
     status status;
@@ -125,11 +124,12 @@ double pace_alone_from(const scene *s);
  * places in parts of the size of the structure, and of the angle between two sections [rad]. NAN: a
  * station is missing. */
 double pace_distance(const cell_result *, const cell_result *other, int analysis);
-/* Of a quantity of the scene, relative to the other value or near_zero; NAN: one is missing. */
+/* Distance for a quantity of the scene, relative to the other value or near_zero; NAN: one is
+ * missing. */
 double pace_distance_of(const scene_quantity *, const quantity_result *,
                         const quantity_result *other);
 
-/* What a motion makes of energy and momenta. */
+/* Evaluates energy and momenta of a motion. */
 
 /* Drifts, E/E0 and the fate of a run that is done. */
 void pace_drift(const pace *, pace_run *);
@@ -143,7 +143,7 @@ status pace_judge(pace *, const sweep_request *, fault *);
 
 typedef enum pace_order_kind {
     PACE_ORDER_PASS,
-    PACE_ORDER_LOW,       /* surely below the nominal one */
+    PACE_ORDER_LOW,       /* significantly below the nominal one */
     PACE_ORDER_UNDECIDED, /* fewer than three errors above the floor, or orders that differ */
     PACE_ORDER_KINDS
 } pace_order_kind;
@@ -175,7 +175,7 @@ const char *pace_order_name(pace_order_kind);
 
 /* Which motions are run. */
 
-/* What is run of one structure. */
+/* Runs of one structure. */
 typedef struct pace_plan_request {
     const case_type *type;
     const double *parameter;
@@ -193,7 +193,8 @@ status pace_plan_usual(pace_plan_request *, fault *);
 /* A group behind those that there are. REFUSED: no motion, or nothing to run. */
 status pace_plan_add(pace *, const pace_plan_request *, fault *);
 
-/* What an error costs: which integrator, with which step or tolerance, reaches it soonest. */
+/* Cost of an error: which integrator, with which step or tolerance, reaches it at the lowest
+ * cost. */
 
 enum { PACE_LEVELS = 3 };
 extern const double pace_levels[PACE_LEVELS];
@@ -230,9 +231,9 @@ void ranges_csv_head(FILE *to, const parameter_ranges *r);
 /* Points from `first` on. FAULT: out of memory. */
 status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *, fault *f);
 
-/* What stands once in the group of a sweep. */
+/* Data that a sweep's group stores once. */
 
-/* What was asked for, before any point. */
+/* The request, before any point. */
 void ranges_file_request(record_file *, hid_t at, const parameter_ranges *, const char *plan);
 /* The worst points, behind all of them. */
 void ranges_file_worst(record_file *, hid_t at, const parameter_ranges *, const tally *);
@@ -255,7 +256,7 @@ status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f);
 
 enum { RANGES_TABLE_NAME = 24, RANGES_TABLE_COLUMN = 7, RANGES_TABLE_LINE = 1024 };
 
-/* Of a quantity, or of all together: index, or their number. */
+/* Name of a quantity, or of all together: index, or their number. */
 static inline const char *ranges_table_name(const parameter_ranges *r, int q)
 {
     return q < r->quantities ? r->quantity[q].name : "all quantities";
@@ -266,25 +267,26 @@ void ranges_table_known(FILE *to, const tally *t);
 /* ranges_request.c: the least elements over one or two axes; every: of each quantity, too. */
 void ranges_table_map(FILE *to, const tally *t, int every);
 
-/* What the values of one point are measured by: a truth that is stored there, one that a deriving
- * program solves for, or the limit that the meshes of all formulations of the same physics go to.
+/* Reference of the values at one point: a stored reference value, one that a deriving program
+ * solves for, or the limit of the meshes of all formulations of the same physics.
  *
- * Of limits the one with the least uncertainty U counts; its doubt is U and what another one is off
- * beyond its own uncertainty, where that is more.  A doubt of more than half of the tolerance is
- * none to measure by: a truth is passed over, limits are disputed, or where U alone is more, not
- * known. */
+ * Of limits the one with the least uncertainty U counts; its uncertainty is U, or the difference
+ * from another limit beyond that one's uncertainty if that is larger. An uncertainty of more than
+ * half of the tolerance is too large to judge by: a reference value is passed over, limits are
+ * disputed, or, where U alone is larger, not known. */
 
 typedef struct point_reference {
     rows_reference kind;
-    double value, doubt; /* doubt: relative */
+    double value, doubt; /* value and its relative uncertainty */
 } point_reference;
 
-/* Of a series of the sweep and a quantity of its scene; stored, derived: truths of this point.
- * NULL: none. */
+/* Reference of a series of the sweep and a quantity of its scene; stored, derived: reference values
+ * of this point. NULL: none. */
 point_reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
                              const truths *derived, double tolerance);
 
-/* What of a scene a motion that goes on depends on: all but its stations and quantities. */
+/* The part of a scene that a continued motion depends on: all except its stations and
+ * quantities. */
 
 /* As text of a scene file, which the caller frees. REFUSED: no file can say it. */
 status restart_text(const scene *, char **out, fault *);
@@ -295,12 +297,12 @@ status restart_text_check(const char *former, const scene *, fault *);
  * that it takes, each choice of each option, straight and curved. */
 
 typedef void specimens_check(const specimen *s, claims *c);
-/* What is refused with a reason is passed over, but the usual one: that it can be made is a claim
- * ("prepare"). */
+/* Calls check for every test element; one that is refused with a reason is passed over, except the
+ * usual one: that it can be made is a claim ("prepare"). */
 void specimens_each(const formulation *chosen, claims *c, specimens_check *check);
 
-/* What there is at some points of a sweep, before anything is solved: quantities, meshes,
- * formulations that run, and what a point costs. */
+/* Preview of points of a sweep, before anything is solved: quantities, meshes, formulations that
+ * run, and the cost of a point. */
 
 /* Fills formulations, meshes, quantities, left_out and point_cost from the scenes of the first, the
  * last and some points between. REFUSED: no scene can be built at any of them, no formulation runs,
@@ -310,7 +312,7 @@ status survey(parameter_ranges *r, fault *f);
 /* The worst points of a sweep kept as scene files. */
 
 /* Writes them into a new folder, "point_12.yaml", each point once, and notes the names in the
- * tally; a scene that no file can say is left out. FAULT: disk or memory; nothing is left. */
+ * tally; a scene that a file cannot express is omitted. FAULT: disk or memory; no file remains. */
 status worst_write(const char *folder, tally *t, fault *f);
 
 #endif

@@ -99,7 +99,7 @@ typedef struct state {
     beam_analysis analysis;
     scene_load_kind load;
     int direction, component;
-    const char *doubt; /* what is wrong of a linear one that no mesh mends */
+    const char *doubt; /* error of a linear one that more elements do not reduce */
 } state;
 
 static const state states[] = {

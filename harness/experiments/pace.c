@@ -33,7 +33,7 @@ const cell_result *pace_cell_of(const pace *p, int index)
     return &p->sweep.series[index].cell[0];
 }
 
-/* Steps of the motion of a run, with its begin. */
+/* Steps of the motion of a run, with its initial state. */
 typedef struct track {
     int count;
     const motion_record *record;
@@ -391,7 +391,7 @@ static void print_standing(FILE *to, const pace *p, const pace_group *g)
     }
 }
 
-/* Who reaches an error soonest: the first three. */
+/* The three integrators that reach an error at the lowest cost. */
 static void print_level(FILE *to, const pace *p, int group, double level)
 {
     const char *name[PACE_METHODS_MOST];

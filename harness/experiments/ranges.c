@@ -104,7 +104,7 @@ static int quantity_of(const scene *s, const char *name)
     return -1;
 }
 
-/* What nobody asked for is not computed. */
+/* Quantities that were not requested are not computed. */
 static void drop_quantities(const parameter_ranges *r, scene *s)
 {
     int kept = 0;

@@ -328,14 +328,14 @@ status restart_text(const scene *s, char **out, fault *f)
                      "leave --ends and --restart out");
 }
 
-/* Length of the line without the spaces it begins with, which are left out of it. */
+/* Length of the line without its leading spaces, which are skipped. */
 static int line_of(const char **text)
 {
     *text += strspn(*text, " ");
     return (int)strcspn(*text, "\n");
 }
 
-/* What is told of two lines begins before they part. */
+/* Length of the common text before a difference, and of the text that is reported of each line. */
 enum { BEFORE = 30, TOLD = 70 };
 static int told(int length)
 {

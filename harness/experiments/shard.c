@@ -84,7 +84,7 @@ static void tell_lost(const crew *c, int batch, int how)
                 WIFSIGNALED(how) ? words : "ended before it was done");
 }
 
-/* What was left half-written of a batch is taken away; -1: of none. */
+/* Deletes the half-written files of a batch; -1: of none. */
 static void clean(const crew *c, int batch, int gone)
 {
     char stem[BATCH_STEM], name[BATCH_NAME];
@@ -182,7 +182,7 @@ static status make_folder(const char *into, fault *f)
                      strerror(errno));
 }
 
-/* What the shard still has to do goes to list, the dearest first; mine[batches]. */
+/* Lists the batches of the shard that are not done, the most expensive first; mine[batches]. */
 static status make_list(crew *c, char mine[], fault *f)
 {
     const shard_work *w = c->todo.w;

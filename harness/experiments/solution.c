@@ -24,7 +24,7 @@ void solution_choice_free(solution_choice *why)
     why->change = NULL;
 }
 
-/* What was preferred becomes what is asked for. */
+/* Copies the preference into the request. */
 static void take(solution_request *r, preference *p, solution_choice *why)
 {
     r->formulation = p->chosen;

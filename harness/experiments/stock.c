@@ -159,7 +159,7 @@ void stock_free(stock *s)
     *s = (stock){.batches = 0};
 }
 
-/* The ranges of what is missing; a long list ends in dots. */
+/* The ranges of missing batches; a long list ends in dots. */
 static void write_ranges(FILE *to, const stock *s)
 {
     enum { MOST = 20 };

@@ -85,7 +85,8 @@ static status check_words(const survey_wanted *w, const sweep_point *p, fault *f
                      word, near);
 }
 
-/* Formulations that are named run, or are refused; of all those that do not run are left out. */
+/* Formulations that are named run, or are refused; without names, those that cannot run are
+ * omitted. */
 static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f)
 {
     int kept = 0, told = 0;

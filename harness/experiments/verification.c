@@ -68,7 +68,7 @@ static status whole(void *context, const sweep *s, int series_index, fault *f)
 
 enum { MOST_OWN = 64 };
 
-/* Formulations that somebody named or loaded, each once. */
+/* Formulations that were named or loaded, each once. */
 static int find_own(const sweep *s, formulation out[MOST_OWN])
 {
     int count = 0;
