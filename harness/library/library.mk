@@ -1,5 +1,5 @@
 # The C library: a shared one whose only symbols are the functions of beamwork.h, and a static one
-# whose other symbols are local, so that they clash with nobody's.
+# whose other symbols are local, so that they clash with those of no other code.
 SHARED := $(BUILD)/libbeamwork.so.0
 STATIC := $(BUILD)/static/libbeamwork.a
 LIBRARY_DOORS := $(patsubst %.c,$(BUILD)/%.o,$(sort $(wildcard harness/library/*.c)))

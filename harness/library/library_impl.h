@@ -14,9 +14,9 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* What every function of the library begins and ends with. */
+/* Begin and end of every function of the library. */
 
-/* What the host has set, and where the reason of a failure goes. */
+/* Settings of the host, and where the reason of a failure goes. */
 typedef struct call {
     fault fault;
     char *text; /* malloced: in the place of the fault's line; NULL: none */
@@ -25,8 +25,8 @@ typedef struct call {
     fenv_t arithmetic;
 } call;
 
-/* Numbers are read, written and rounded as in a program of our own until call_end: C's locale,
- * rounding to nearest, no traps; errors of GSL are ours to look at. */
+/* Until call_end, numbers are read, written and rounded as in a program with C's locale, rounding
+ * to nearest and no traps; errors of GSL are handled by the library. */
 void call_begin(call *, char **why);
 /* Gives back what the host has set, and *why. */
 bw_status call_end(call *, status outcome);
@@ -39,7 +39,7 @@ enum { CONTESTANTS_MOST = 64 };
  * "all". */
 status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
                          int *named, fault *f);
-int contestants_jobs(void); /* processes where nobody said how many */
+int contestants_jobs(void); /* default number of processes */
 /* TIME_LIMIT: who may end the run did so before all cells were done. */
 status contestants_finished(const sweep *, fault *);
 
@@ -47,7 +47,7 @@ status contestants_finished(const sweep *, fault *);
 
 /* Their place from now on; NULL: where they usually are. Reads them to see. */
 status known_place(const char *path, fault *f);
-/* Those of a case with the ledger; type NULL: the ledger alone. */
+/* Reference values of a case with the known deviations; type NULL: the known deviations alone. */
 status known_read(const case_type *type, truths *out, fault *f);
 /* Those of all cases. */
 status known_read_all(truths *out, fault *f);
@@ -58,7 +58,7 @@ void known_hold(void);
 void known_let_go(void);
 /* known_read of who holds it. */
 status known_read_held(const case_type *type, truths *out, fault *f);
-/* Around all else that calls HDF5; what the host wants told of its errors is given back. */
+/* Around all other calls of HDF5; restores the host's handling of its errors. */
 void known_lock(void);
 void known_unlock(void);
 
@@ -83,7 +83,7 @@ typedef struct call_option {
  * key, a value of another kind or out of range. */
 status options_read(const char *json, const call_option table[], json_t **kept, fault *f);
 
-/* What a bw_scene and its results stand on; it lives as long as any of them. */
+/* Common base of a bw_scene and its results; it lives as long as any of them. */
 
 typedef struct source source;
 
@@ -100,11 +100,11 @@ void source_release(source *); /* NULL: nothing */
 const case_type *source_case(const source *);
 const scene_file *source_file(const source *); /* NULL: a built-in case */
 
-/* What is known of a case, of a scene file the ledger alone; read when it is first asked for.
- * NULL after FAULT. Several threads may ask. */
+/* Reference values of a case; of a scene file the known deviations alone. Read on the first
+ * request. NULL after FAULT. Several threads may call it. */
 status source_known(source *, const truths **out, fault *f);
 
-/* What a bw_result is. */
+/* Contents of a bw_result. */
 
 enum { RESULT_COLUMNS = 32 };
 

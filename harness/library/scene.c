@@ -254,7 +254,7 @@ status contestants_finished(const sweep *s, fault *f)
                                           s->unfinished);
 }
 
-/* What is asked, and what answers it; converge frees it. */
+/* Request and its answer; converge frees it. */
 typedef struct study {
     const bw_scene *scene;
     double level;
@@ -331,7 +331,7 @@ bw_status bw_converge(const bw_scene *from, const char *formulations, const char
 
 enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };
 
-/* What is asked, and what answers it; verify frees it. */
+/* Request and its answer; verify frees it. */
 typedef struct verify_trial {
     const bw_scene *scene;
     const char *results;

@@ -268,7 +268,7 @@ static pthread_mutex_t hdf5 = PTHREAD_MUTEX_INITIALIZER;
 static struct {
     H5E_auto2_t print;
     void *context;
-} host;                      /* what it wants told of HDF5's errors */
+} host;                      /* the host's handler of HDF5's errors */
 static char place[PATH_MAX]; /* "": where they usually are */
 
 void known_hold(void)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # The Debian packages in FOLDER: lintian finds no error and no warning, and what is in them works from an empty tree:
-# the program with its truths, an element and a program of somebody else, Python, manual, completion.
+# the program with its reference values, an element and a program of a third party, Python, manual, completion.
 # usage: deb_check.sh FOLDER
 set -eu
 folder=$(cd "$1" && pwd)
