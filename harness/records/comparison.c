@@ -191,7 +191,7 @@ void comparison_cells(const listing *l, const result_cell *a, const result_cell 
     if (l->before->swept)
         comparison_lines_cost(l, a->cost, b->cost);
     else if (!results_part_differ(l->before, l->after,
-                                  l->name)) /* work is that of what is asked for */
+                                  l->name)) /* work is that of the requested quantities */
         comparison_lines_work(l, a->work, b->work, 1);
     compare_values(l, a, b);
 }

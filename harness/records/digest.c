@@ -148,7 +148,7 @@ static void add_float(walk *w, const char *at, size_t size)
 
 static void add_value(walk *w, hid_t type, const char *at);
 
-/* Members in their order; times are left out. */
+/* Members in their order; times are omitted. */
 static void add_compound(walk *w, hid_t type, const char *at)
 {
     const int members = H5Tget_nmembers(type);

@@ -97,7 +97,7 @@ static void get_model(const subject *s, field_value *out)
     schema_set_text(out, s->series->imported != NULL ? s->series->imported->model : "beam");
 }
 
-/* NAN: nothing is left out, or nobody knows. */
+/* NAN: no physics is omitted, or the change is not known. */
 static void get_model_change(const subject *s, field_value *out)
 {
     schema_set_number(out, s->series->without.what != 0 ? s->series->without.change : NAN);

@@ -280,7 +280,7 @@ static int has_reference(const reach_question *q, int quantity)
     return known;
 }
 
-/* What is asked: all quantities but curves, or those with a reference; the others are named.
+/* Requested quantities: all except curves, or those with a reference value; the others are named.
  * Returns how many have one. */
 static int write_asked(FILE *to, const reach_question *q)
 {
@@ -310,7 +310,7 @@ static int write_asked(FILE *to, const reach_question *q)
     return known;
 }
 
-/* Is it the difference from a solid, a plate or a shell, that somebody computed? */
+/* 1: its model error is the difference from a solid, plate or shell that was computed. */
 static int is_of_another_model(const verdict *v)
 {
     const truth *other = v->model_truth;
@@ -337,7 +337,7 @@ static void write_model_error(FILE *to, const reach_question *q, const reached l
             q->s->point[q->point].scene.quantity[most->quantity].name);
 }
 
-/* Where no formulation runs there is no number: why. Returns 0 where one runs. */
+/* Writes why no formulation runs. Returns 0 where one runs. */
 static int write_nothing_runs(FILE *to, const sweep *s)
 {
     const char *before = "nothing was run: ";

@@ -16,9 +16,9 @@
 #include "harness/newton/newton.h"
 #include "harness/study/study.h"
 
-/* What is assumed of the sections of a scene of one's own: what their numbers do not say is zero,
- * and what no formulation has of them. One list, from which text, CSV, JSON, HDF5 and the report
- * say it. */
+/* Assumptions on the sections of a user's scene: properties that their numbers do not give
+ * are zero; physics of them that no formulation models is omitted. One list for text, CSV, JSON,
+ * HDF5 and the report. */
 
 typedef enum assumption_kind {
     ASSUMPTION_NOT_KNOWN,
@@ -40,7 +40,7 @@ int assumptions_at(const sweep_point *p, int index, assumption *out);
 /* All of them, "kind: text", with semicolons between; what finds no room is counted. */
 void assumptions_words(const sweep_point *p, size_t size, char out[]);
 
-/* What a stored run found: errors and work, cell by cell, and in one line for each series of
+/* Results of a stored run: errors and work, cell by cell, and in one line for each series of
  * meshes. Read back from results.h5, or from the short table of its series that can be committed.
  */
 
@@ -104,11 +104,12 @@ typedef struct result_series {
     result_limit *limit;         /* [limits] of a default point, in the order of its quantities */
 } result_series;
 
-/* What a run says it was asked for: what lies outside was left out, not lost. NULL: all. */
+/* The selection of a run: series outside it were not requested; they are not missing. NULL: all. */
 typedef struct results_part {
     char *select;               /* expression of harness/formulations/formulations.h */
     char *cases, *formulations; /* a line each */
-    char *fresh;                /* formulations that do not gate yet, a line each; NULL: none */
+    char *fresh;                /* formulations that do not affect the exit status yet, a line
+                                   each; NULL: none */
 } results_part;
 
 typedef struct stored_results {
@@ -121,8 +122,8 @@ typedef struct stored_results {
     result_series *series; /* ascending by name */
 } stored_results;
 
-/* HDF5 or table, told apart by the first bytes. FAULT: missing, truncated, foreign or damaged, or
- * a sweep. */
+/* HDF5 or table, distinguished by the first bytes. FAULT: missing, truncated, foreign or damaged,
+ * or a sweep. */
 status results_read(const char *path, stored_results *out, fault *f);
 /* The same of an experiment: "verify", "bench", or "sweep", which has no series; NULL: the first of
  * these that is there. */
@@ -167,7 +168,7 @@ typedef struct comparison_limits {
     double
         work; /* relative change of a count of one mesh; of a series: of the mean of its meshes */
 } comparison_limits;
-/* Where nothing else is said. */
+/* Default limits. */
 extern const comparison_limits comparison_limits_default;
 
 typedef enum comparison_kind {
@@ -188,18 +189,18 @@ typedef struct comparison {
     int count[COMPARISON_KINDS];   /* lines of each kind */
     double work[2][RESULTS_WORKS]; /* sums over the pairs: old | new */
     double cost[2];                /* of counted work [s], of sweeps */
-    /* series that are in one only, old | new, and are no change: outside what the other run was
-     * asked for; of formulations that do not gate yet */
+    /* series in one of the two only (old | new) that are no change: outside the selection of the
+     * other run; of formulations that do not affect the exit status yet */
     int outside[2], fresh[2];
-    int partial; /* series of which some quantities were left out of one: neither their errors nor
-                    their work are compared */
+    int partial; /* series of which one run omits some quantities: neither their errors nor their
+                    work are compared */
 } comparison;
 
 /* "error=0.01,floor=1e-8,work=0.02", any of them. REFUSED names the culprit. */
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f);
-/* Writes one line for each difference. What lies outside the selection of one of the two is
- * counted, not written, and so are series of new formulations in one of them. Names that `select`
- * (of study.h; NULL: all) does not hold for are left out. */
+/* Writes one line for each difference. Series outside the selection of one of the two are counted,
+ * not written, and so are series of new formulations in one of them. Names that do not match
+ * `select` (of study.h; NULL: all) are omitted. */
 void comparison_run(FILE *to, const stored_results *before, const stored_results *after,
                     const comparison_limits *limits, const char *select, comparison *out);
 int comparison_differs(const comparison *c);
@@ -208,7 +209,7 @@ int comparison_differs(const comparison *c);
 
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);
-/* Of a benchmark: a row for every cell and judged quantity. */
+/* Table of a benchmark: a row for every cell and judged quantity. */
 void csv_timing(FILE *to, const sweep *s, const judgement *j);
 
 /* One schema for all records: a table of fields for each kind of record, from which HDF5, JSON, CSV
@@ -216,11 +217,11 @@ void csv_timing(FILE *to, const sweep *s, const judgement *j);
 
 enum { SCHEMA_VERSION = 3, SCHEMA_OLDEST = 2, SCHEMA_MOST_FIELDS = 96, FIELD_ROOM = 2048 };
 #define SCHEMA_NAME "beamwork-results"
-/* Of a number that is in the unit which the record's own field `unit` names. */
+/* Unit of a number that is in the unit which the record's own field `unit` names. */
 #define OWN_UNIT "unit"
 
-/* Of a field that says where the record belongs. KEY_AROUND: only where nothing around the record
- * says so (CSV, lists of JSON). */
+/* Role of a field that identifies the subject of the record. KEY_AROUND: only where nothing around
+ * the record identifies it (CSV, lists of JSON). */
 enum { KEY = 1, KEY_AROUND = 2 };
 
 typedef enum field_kind {
@@ -247,7 +248,7 @@ typedef struct subject {
     const void *owner;                /* what the record is part of */
 } subject;
 
-/* What surrounds a record: offsets may refer to it. */
+/* Surroundings of a record: offsets may refer to it. */
 typedef enum field_base {
     BASE_RECORD,
     BASE_SUBJECT,
@@ -288,7 +289,7 @@ struct schema_field {
     int key;                  /* KEY, KEY_AROUND, or 0: it is what was found */
 };
 
-/* What stands in a member of the record. */
+/* Value of a member of the record. */
 #define AT(type, member) .offset = offsetof(type, member)
 /* In a member of what surrounds it; the same, the address of a text. */
 #define OF(place, type, member)      .base = BASE_##place, .offset = offsetof(type, member)
@@ -319,10 +320,10 @@ const char *schema_kind_name(field_kind kind);
 void schema_set_text(field_value *out, const char *text);
 void schema_set_number(field_value *out, double number);
 
-/* Records as lines of CSV: full precision, empty where there is no number. */
+/* Records as lines of CSV: full precision, empty where there is no value. */
 
-/* A line is made of several records of one subject each; of fields of the same name the first
- * stands. Matrices are left out. */
+/* A line is made of several records of one subject each; of fields of the same name the first is
+ * written. Matrices are omitted. */
 typedef struct csv_part {
     const record_type *type;
     subject s;
@@ -349,12 +350,12 @@ void digest_add(digest *, const void *data, size_t size);
 void digest_add_text(digest *, const char *text); /* with its end: "ab", "c" is not "a", "bc" */
 /* Numbers that are equal are the same: -0 as 0, every NaN as one. */
 void digest_add_number(digest *, double value);
-/* The digits; the digest itself may go on. */
+/* The digits; the digest may be continued. */
 void digest_text(const digest *, char out[DIGEST_TEXT]);
 /* All bytes of a file. 0, or -1: it cannot be read. */
 int digest_add_file(digest *, const char *path);
 
-/* Where a record belongs: the first fields of the tables of fields_*.c, and what these share. */
+/* Identity of a record: the first fields of the tables of fields_*.c, and what these share. */
 
 extern const schema_field keys_of_point[];     /* case, parameter point */
 extern const schema_field keys_of_series[];    /* its parameters, formulation */
@@ -366,13 +367,13 @@ enum { STATUSES = STATUS_NO_VALUE + 1 };
 const char *fields_keys_word_of_status(int status);
 const char *fields_keys_word_of_moments(int convention);
 
-/* Of the quantity that s->index counts. */
+/* The quantity that s->index counts. */
 const scene_quantity *fields_keys_quantity(const subject *s);
 const cell_result *fields_keys_cell(const subject *s);
-/* What the scene leaves out, in words. */
+/* Physics that the scene omits, in words. */
 void fields_keys_omitted(const subject *s, field_value *out);
 
-/* What is assumed of its sections, in words. */
+/* Assumptions on its sections, in words. */
 void fields_keys_assumed(const subject *s, field_value *out);
 
 /* Modes followed over a parameter, for programs. */
@@ -407,7 +408,7 @@ void gather_mesh(const gathering *g, const record_type *type, int series_index, 
                  subjects *out);
 /* One of each formulation that was run here, in the order of the series. */
 void gather_declarations(const gathering *g, subjects *out);
-/* What is assumed of its sections. */
+/* Assumptions on its sections. */
 void gather_assumptions(const sweep_point *p, subjects *out);
 subject gather_cell(const gathering *g, int series_index, int mesh);
 subject gather_verdict(const gathering *g, const verdict *v);
@@ -423,7 +424,7 @@ void gather_free(subjects *list);
 /* Writes and frees root; FAULT when it is NULL (out of memory) or cannot be written. */
 status json_finish(json_t *root, FILE *to, fault *f);
 
-/* What the scene of a point leaves out ("omitted"), and what is assumed of its sections
+/* Adds the physics that the scene of a point omits ("omitted"), and the assumptions on its sections
  * ("assumptions"). */
 void json_add_physics(json_t *root, const sweep_point *p);
 /* Solution of one cell of a one-point sweep; t may be NULL. */
@@ -464,7 +465,7 @@ json_t *json_record_type(const record_type *type); /* what a record consists of 
 
 void junit_write(FILE *to, const sweep *s, const judgement *j);
 
-/* Where a path leads to: what is there, and whether two paths are one place. */
+/* Target of a path: its kind, and whether two paths lead to the same file. */
 
 typedef enum place_kind {
     PLACE_FREE,   /* nothing is there, its folder is */
@@ -515,15 +516,14 @@ status output_close(output *out, fault *f);
 status output_finish(output *out, status written, fault *f);
 /* Standard output has gone where it goes, or FAULT. */
 status output_flush(fault *f);
-/* An output that cannot be written is noticed before anything is computed: REFUSED what is no name
- * or takes no such form, FAULT what cannot be written. *where: the place, for comparison with
- * others. */
+/* Checks an output before anything is computed: REFUSED an invalid name or one that cannot take the
+ * form, FAULT a file that cannot be written. *where: its location, for comparison with others. */
 status output_try(const char *path, output_form form, file_place *where, fault *f);
 /* Deletes the files and folders of this process that were written beside their places and are not
  * complete; a signal handler may call it. */
 void output_abandon(void);
-/* What `make` makes of a name beside `path` that nobody can guess (-1 and errno: nothing). It is
- * not complete until it is forgotten. */
+/* Calls `make` with an unpredictable name next to `path` and returns its result (-1 and errno: it
+ * failed). The file counts as incomplete until output_forget. */
 int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX]);
 void output_forget(const char *temporary);
 /* A file, or a folder with all that is in it. */
@@ -585,8 +585,7 @@ void record_texts(record_file *r, hid_t at, const char *name, int count, const c
  * group of such a file is made of it when others write there. */
 #define KEPT_SWEEP_MARK "beamwork_sweep"
 
-/* Where an experiment writes: its group; name NULL: the root. The caller closes it with
- * H5Gclose. */
+/* Group of an experiment's output; name NULL: the root. The caller closes it with H5Gclose. */
 hid_t kept_group(record_file *r, const char *name);
 /* As record_close, with all that the file at `path` holds of other experiments than `name`. On
  * FAULT the file is as it was. */
@@ -620,7 +619,7 @@ status output_folder_file(const output_folder *, const char *name,
 /* Renames it where all was written, and else takes away what there is. */
 status output_folder_finish(output_folder *, status written, fault *f);
 
-/* What a table of convergence comes to: which formulation, with how many elements. */
+/* Result of a table of convergence: which formulation, with how many elements. */
 
 #define REACH_LINE_LEVEL 0.01 /* where none is asked for */
 
@@ -655,8 +654,9 @@ typedef struct results_hash {
     long values;            /* numbers and texts that it is of */
 } results_hash;
 
-/* Every dataset in the order of names, by rows: results.h5, and any other file of ours. Left out:
- * tables `timings`, what is called `seconds...`, attributes. FAULT: not a file of ours. */
+/* Every dataset in the order of names, by rows: results.h5, and any other file of beamwork.
+ * Omitted: tables `timings`, datasets named `seconds...`, attributes. FAULT: not a file of
+ * beamwork. */
 status results_hash_of(const char *path, results_hash *out, fault *f);
 
 /* results.h5: everything a sweep found, for the reports. Below /cases/CASE a table for each kind of
@@ -676,8 +676,8 @@ typedef struct store {
 status store_open(const char *experiment, const sweep *s, const judgement *j, store *out, fault *f);
 /* A case, all of whose series have been judged. */
 void store_case(store *, const case_type *);
-/* With the cases that are not there yet, and what is said of the run. Written beside and renamed:
- * FAULT leaves nothing behind. path NULL: nothing is written. */
+/* Adds the cases that are not there yet, and the description of the run. Written next to the file
+ * and renamed: FAULT leaves no file behind. path NULL: nothing is written. */
 status store_close(store *, const char *path, const environment *e, fault *f);
 
 /* Written beside and renamed: FAULT leaves nothing behind. */
@@ -698,7 +698,7 @@ void store_environment(record_file *r, hid_t at, const environment *e);
 status system_folder_write(const char *path, const char *title, const scene *,
                            const system_matrices *, fault *);
 
-/* Reading columns of a table of HDF5 into rows of one's own. Nothing is believed of the file. */
+/* Reading columns of a table of HDF5 into rows of the caller. Everything in the file is checked. */
 
 /* Into a member of the row: INT, LONG, DOUBLE, FLAG (a signed char), or a text of at most room - 1
  * bytes (an ENUM is stored as its word). */

@@ -12,7 +12,7 @@
 
 /* How a difference becomes a line. */
 
-/* Where the lines go, what they are counted in, and what they speak of. */
+/* Destination of the lines, their counts, and their subject. */
 typedef struct listing {
     FILE *to;
     const comparison_limits *limits;
@@ -31,7 +31,7 @@ void comparison_lines_status(const listing *l, const char *before, const char *a
 void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
                            const long after[RESULTS_WORKS], int meshes);
 
-/* Of counted work, where both are known. */
+/* Line of counted work, where both are known. */
 void comparison_lines_cost(const listing *l, double before, double after);
 
 void comparison_cells(const listing *l, const result_cell *a, const result_cell *b);
@@ -45,7 +45,7 @@ void comparison_sweeps(const listing *l, const char *select);
 /* comment: one line, or NULL. */
 void matrix_market_write(FILE *to, const triplets *, const char *comment);
 
-/* What a section looks like, for pictures: straight walls in the principal axes. */
+/* Outline of a section, for pictures: straight walls in the principal axes. */
 
 typedef struct outline {
     int walls;
@@ -58,8 +58,8 @@ typedef struct outline {
 
 /* c: what the spec comes to. */
 void outline_of(const section_spec *spec, const section *c, outline *out);
-/* Of the far end of a member whose section changes along it, wall by wall and corner by corner as
- * that of its near end, `near`; between them corners are on straight lines. */
+/* Outline of the far end of a member whose section changes along it, wall by wall and corner by
+ * corner as that of its near end, `near`; between them corners are on straight lines. */
 void outline_of_far_end(const section_spec *spec, const section *c, const section *near,
                         outline *out);
 void outline_between(const outline *near, const outline *far, double x, outline *out);
@@ -69,7 +69,7 @@ void outline_between(const outline *near, const outline *far, double x, outline 
 /* Adds its cells. at: the group of the case, whose name is given. */
 status results_case_read(const char *path, hid_t at, const char *name, stored_results *out,
                          fault *f);
-/* What of a file, and where, is not as it was written. */
+/* Reports which part of a file is damaged. */
 status results_case_damaged(const char *path, const char *where, const char *what, fault *f);
 
 /* A sweep, read back. */

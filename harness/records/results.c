@@ -183,7 +183,7 @@ void results_table_write(FILE *to, const stored_results *r)
     }
 }
 
-/* Reading the short table of a run. Nothing is believed: a file may be foreign, cut short or
+/* Reading the short table of a run. Everything is checked: a file may be foreign, cut short or
  * damaged. */
 
 enum {

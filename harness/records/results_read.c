@@ -1,4 +1,4 @@
-/* Stored runs, told apart by their first bytes. */
+/* Stored runs, distinguished by their first bytes. */
 #include "harness/records/records_impl.h"
 
 #include <errno.h>
@@ -88,7 +88,7 @@ status results_read(const char *path, stored_results *out, fault *f)
                      path);
 }
 
-/* The tables of one case of results.h5 as cells. Nothing is believed of them. */
+/* The tables of one case of results.h5 as cells. All of their contents are checked. */
 
 enum { NAME = 200 };
 
@@ -329,7 +329,7 @@ status results_case_read(const char *path, hid_t at, const char *name, stored_re
     return outcome;
 }
 
-/* Reading results.h5 back. Nothing is believed: a file may be foreign, cut short or damaged. */
+/* Reading results.h5 back. Everything is checked: a file may be foreign, cut short or damaged. */
 
 enum { HDF5_NAME = 200 };
 
@@ -388,7 +388,7 @@ typedef struct declared_row {
     signed char is_new;
 } declared_row;
 
-/* Keys of formulations that do not gate; files that declare none have none. */
+/* Keys of formulations that do not affect the exit status; files that declare none have none. */
 static status read_fresh(const char *path, hid_t file, results_part *out, fault *f)
 {
     static const table_column columns[] = {

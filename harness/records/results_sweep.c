@@ -1,4 +1,4 @@
-/* A sweep as cells, each named by its point. Nothing is believed of it. */
+/* A sweep as cells, each named by its point. All of its contents are checked. */
 #include "harness/records/records_impl.h"
 
 #include <math.h>

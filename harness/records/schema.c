@@ -307,7 +307,7 @@ int results_part_wants(const stored_results *r, const stored_results *other,
         return 0;
     if (p->formulations != NULL && !results_part_has(p->formulations, key))
         return 0;
-    /* options that nobody runs who does not ask for them */
+    /* options that run only on request */
     if (strchr(key, ':') != NULL && results_part_has(other->part.formulations, key) &&
         !has_formulation(r, key))
         return 0;

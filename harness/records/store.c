@@ -188,7 +188,7 @@ static const char *given_at(const sweep *s, int i)
     return i < s->givens ? s->given[i].key : NULL;
 }
 
-/* What a run was asked for: what lies outside was left out, not lost. */
+/* The selection of a run: series outside it were not requested; they are not missing. */
 static void put_selection(record_file *r, hid_t at, const sweep *s)
 {
     if (s->cases == NULL)
