@@ -124,11 +124,11 @@ void cell_result_free(cell_result *r)
 
 const double omission_most = 1e-4;
 const double omission_safety = 2;
-/* [s] of a solution, about: who waits longer is told that nobody knows. */
+/* [s] of a solution, about: where it would take longer, the change is reported as unknown. */
 static const double longest = 20;
 /* [s] of a solution, about, that is always made. */
 static const double brief = 0.2;
-/* Beyond so many times omission_most, there is no doubt. */
+/* A change beyond so many times omission_most is significant without further checks. */
 static const double surely = 100;
 /* Of the largest value in the same unit: what counts as zero beside it. */
 static const double nothing = 1e-9;
@@ -309,8 +309,8 @@ static int agree(double coarse, double fine)
     return fmax(coarse, fine) <= noise || (coarse <= apart * fine && fine <= apart * coarse);
 }
 
-/* Each mesh has twice the elements of the one before; the larger of two that agree counts. What is
- * surely seen is not looked at any closer than a short while allows. */
+/* Each mesh has twice the elements of the one before; the larger of two that agree counts. A change
+ * that is clearly significant is refined only as far as a short run time allows. */
 static void estimate(const scene *s, const element_type *type, omission *out)
 {
     enum { FINEST = 32 };

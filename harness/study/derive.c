@@ -28,7 +28,7 @@ typedef struct script {
     FILE *says, *complains;
 } script;
 
-/* What is asked of a program of reference/derive. */
+/* Request to a program of reference/derive. */
 typedef struct derive_question {
     const char *path;
     const char *case_name, *parameters; /* NULL: none */

@@ -103,7 +103,7 @@ static const double dear_share = 0.01;
 
 /* A series that is run. */
 typedef struct expense {
-    double all; /* 0: not dear */
+    double all; /* 0: not expensive */
     int series;
 } expense;
 

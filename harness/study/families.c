@@ -145,7 +145,7 @@ static int is_near(const families_known_limit *one, const mean *m)
     return fabs(one->value - m->value) <= one->uncertainty + m->uncertainty;
 }
 
-/* Takes out who is furthest off beyond its uncertainty, until nobody is: in[count]. */
+/* Removes the limit that is furthest off beyond its uncertainty, until none is: in[count]. */
 static mean settle(const families_known_limit *all, int count, int in[])
 {
     for (;;) {

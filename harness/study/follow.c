@@ -168,7 +168,7 @@ static int unfinished_step(const solve_result *r, double promised)
     return -1;
 }
 
-/* Nothing but Newton's iterations, none of them in vain: then each is one evaluation of every
+/* 1: nothing but Newton's iterations without rejected steps: then each is one evaluation of every
  * element and one factorisation. */
 static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
 {
@@ -187,7 +187,7 @@ static long most_reused(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* The steps of a motion go on with the factors of their first iterations. */
+/* The steps of a motion reuse the factors of their first iterations. */
 static long most_stale(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)

@@ -214,7 +214,7 @@ status follow_solve(follow_walk *w, double value, const follow_shapes *before, f
 enum { MOST_REFINEMENTS = 30 };
 static const double equal = 1e-9;       /* frequencies, in parts of themselves */
 static const double exact = 1e-12;      /* of a crossing's place, in parts of the step */
-static const double close_enough = 0.1; /* gap of a veering that is told */
+static const double close_enough = 0.1; /* gap of a veering that is reported */
 
 /* f_i - f_j at a value, the modes matched with those of sample k; *mean of both [Hz]. */
 static status difference_at(follow_walk *w, int k, double value, const int mode[2],

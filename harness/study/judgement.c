@@ -1,4 +1,4 @@
-/* All verdicts of a sweep, what was expected of them, and what the gate says. */
+/* All verdicts of a sweep, which of them were expected, and the exit status. */
 #include "harness/study/study_impl.h"
 
 #include <fnmatch.h>
@@ -15,7 +15,7 @@ static int is_beyond(const rule *r, const verdict *v)
            fabs(v->departure) > r->largest_error;
 }
 
-/* What is not a pass is expected where exactly one rule of the ledger speaks of it. */
+/* A verdict that is not a pass is expected where exactly one known deviation applies to it. */
 static void expect(const sweep *s, truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -25,7 +25,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
         p->type,  p->parameter,         features_needed(&p->scene), one->formulation.key,
         quantity, verdict_name(v->kind)};
     v->matches = v->kind == v->expected;
-    if (one->imported != NULL) /* the ledger speaks of formulations */
+    if (one->imported != NULL) /* known deviations apply to formulations only */
         return;
     for (int i = 0; i < t->rules && !v->matches; i++) {
         rule *r = &t->rule[i];
@@ -67,7 +67,8 @@ static status check_cells(const sweep *s, int index, judgement *out, fault *f)
     return STATUS_OK;
 }
 
-/* Truths that speak of this quantity, the ones ranked lower and of other models included. */
+/* Marks the reference values of this quantity, including lower-ranked ones and those of other
+ * models. */
 static void mark_met(truths *t, const sweep_point *p, const formulation *chosen,
                      const char *quantity, int judged)
 {
@@ -305,7 +306,7 @@ static int formulations_are_run(const sweep *s, const char *word)
     return all && found;
 }
 
-/* All points and quantities of them: a selection speaks of cases alone. */
+/* All points and quantities of them: the word selects cases alone. */
 static int cases_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;

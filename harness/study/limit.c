@@ -11,10 +11,11 @@ static const double least_seen_order = 0.5; /* accepted as seen ... */
 /* ... and assumed of what remains */
 static const double remaining_order = 1;
 static const double settled_part = 1e-4;
-/* least part of the extrapolation that is doubted where noise was not measured */
+/* least part of the extrapolation that counts as uncertainty where scatter was not measured */
 static const double doubted_step = 0.02;
 static const double sure = 1.25, unsure = 3;
-static const double end_factor = 4; /* noises that a value without extrapolation is doubted by */
+static const double end_factor = 4; /* multiple of the scatter that is the uncertainty of a value
+                                       without extrapolation */
 
 /* The thinned sequence, coarsest mesh first, and what is derived from it. */
 typedef struct meshes {
@@ -127,8 +128,8 @@ static double own_limit(const meshes *m, int first)
     return richardson_limit(m->n + first, m->f + first, m->order[first]);
 }
 
-/* By how much the limit has changed with the last mesh, and the factor of its doubt; the last three
- * meshes begin at k > 0. */
+/* Change of the limit with the last mesh, and the factor of its uncertainty; the last three meshes
+ * begin at k > 0. */
 static double change_of_limit(const limit_sequence *s, const meshes *m, int k, double *factor)
 {
     const double R = refinement(m, 0), value = own_limit(m, k);

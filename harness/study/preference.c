@@ -32,7 +32,7 @@ static int count_omits(const scene *s, const element_type *type)
     return count;
 }
 
-/* The least order of what is asked. */
+/* The least order of the requested quantities. */
 static int order_of(const scene *s, const element_type *type)
 {
     double options[ELEMENT_MAX_OPTIONS] = {0};

@@ -55,7 +55,8 @@ static int has_option(const char *key, const char *option, size_t length)
     return 0;
 }
 
-/* Options of the row that the formulation has, plus one; 0: the row speaks of another one. */
+/* Number of options of the row that the formulation has, plus one; 0: the row is for another
+ * one. */
 static int match(const char *row, const char *key)
 {
     const size_t name = strcspn(row, ":");
@@ -71,8 +72,7 @@ static int match(const char *row, const char *key)
     return options;
 }
 
-/* What the rows call the formulation: of those that speak of it the one with most options; or "*".
- */
+/* Name of the formulation in the rows: that with most options among those that match it; or "*". */
 static const char *row_name(const price_row *rows, const char *key)
 {
     const char *best = "*";

@@ -152,7 +152,7 @@ int rules_is_observed(const rule *r)
     return r->observed > 0 && r->foretold == all;
 }
 
-/* Does some case that the rule speaks of have the term's parameter, with such values? */
+/* 1: some case that the rule applies to has the term's parameter, with such values. */
 static int term_means_something(const rule *r, const rules_term *t, const case_type *const cases[])
 {
     int found = t->feature != 0;

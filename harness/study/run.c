@@ -38,7 +38,7 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
     return STATUS_OK;
 }
 
-/* Waits for the workers and for whoever asks to end. 1: somebody did. */
+/* Waits for the workers and for a request to end. 1: the run is to end. */
 static int wait_for_any(const workload *w, int jobs, const worker workers[], int asked,
                         struct pollfd ends[])
 {
@@ -56,7 +56,7 @@ static int wait_for_any(const workload *w, int jobs, const worker workers[], int
 /* The processes that run, and who may ask them to end. */
 typedef struct cell_crew {
     int jobs, running, interrupted;
-    int asked; /* descriptor that can be read once somebody asks to end; -1: nobody can */
+    int asked; /* descriptor that becomes readable on a request to end; -1: none */
     worker workers[WORKERS_MOST];
 } cell_crew;
 
@@ -129,7 +129,7 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-/* Tells of what is left to be told of. */
+/* Passes all remaining series to the follower. */
 static status tell_all(workload *w, fault *f)
 {
     while (workload_can_tell(w))
@@ -174,7 +174,7 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f)
 }
 
 enum { COLUMNS = 79, LINE = 400 };
-/* [s] between two lines, and before any time left is told */
+/* [s] between two lines, and before the first estimate of the time left */
 static const double interval = 0.2, first_word = 1;
 static const double least_share = 0.01; /* that a guess may rest on */
 

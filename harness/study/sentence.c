@@ -18,8 +18,9 @@ static void passed(const verdict *v, char *text, size_t size)
                  digits);
 }
 
-/* The doubt about a limit, in percent of the truth; in the quantity's unit where the truth is zero
- * or too small to measure by: its error is then told of what counts as near zero. */
+/* Uncertainty of a limit, in percent of the reference value; in the quantity's unit where that is
+ * zero or too small to measure by: its error is then relative to the value that counts as near
+ * zero. */
 static void doubt_of(const verdict *v, char text[2 * ROUNDING_TEXT])
 {
     const double size = fabs(v->truth->value), apart = fabs(v->fit.limit - v->truth->value);
@@ -158,7 +159,7 @@ static void failures(const judgement *j, char *text, size_t size)
                "reference values refer to nothing that exists");
 }
 
-/* Verdicts that are no pass and were expected, by a limit that was derived or by a rule alone. */
+/* Expected verdicts other than pass: by a derived limit, or by a rule alone. */
 typedef struct known_value {
     int derived[2]; /* within the tolerance, beyond it */
     int by_rule;
@@ -179,7 +180,8 @@ static known_value count_known(const judgement *j)
     return out;
 }
 
-/* Verdicts of formulations that do not gate, and how many of them would need a finding. */
+/* Verdicts of formulations that do not affect the exit status, and how many of them would need a
+ * known deviation. */
 static void new_ones(const judgement *j, char *text, size_t size)
 {
     if (j->proposed == 0)
@@ -196,7 +198,7 @@ static void new_ones(const judgement *j, char *text, size_t size)
                  j->proposed == 1 ? "is" : "are", j->proposed == 1 ? "it" : "them");
 }
 
-/* What is no pass and was expected, for somebody who did not expect it. */
+/* Explains the expected verdicts other than pass. */
 static void expected_findings(const judgement *j, char *text, size_t size)
 {
     const known_value k = count_known(j);

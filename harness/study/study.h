@@ -34,8 +34,7 @@
 
 enum { LIMIT_MESHES = 32 };
 
-/* What a sequence looks like: for the reader; a verdict rests on the value and its uncertainty
- * alone. */
+/* Kind of a sequence, for the reader; a verdict rests on the value and its uncertainty alone. */
 typedef enum limit_kind {
     LIMIT_NONE,            /* no value at all */
     LIMIT_NOISE_DOMINATED, /* the last two changes are noise */
@@ -49,7 +48,7 @@ typedef enum limit_kind {
 typedef struct limit_sequence {
     int count;           /* at most LIMIT_MESHES */
     const int *n;        /* [count] numbers of elements, in any order */
-    const double *value; /* [count] where not finite: left out */
+    const double *value; /* [count] non-finite values are omitted */
     double noise;        /* relative, measured; NAN: not measured */
     /* the least and the highest that formulation and quantity can show */
     double nominal_order, highest_order;
@@ -88,7 +87,7 @@ typedef struct cell_request {
     int keep_all;
     unsigned omit; /* physics that the model leaves out: model_request */
     int threads;   /* of the loop over elements; 0, 1: one */
-    /* Is the same thing solved already? Asked once the model is made; NULL: nobody is asked. */
+    /* 1: the same thing is solved already. Called once the model is made; may be NULL. */
     int (*is_known)(void *context, const model *);
     void *context;
 } cell_request;
@@ -114,7 +113,7 @@ status cell_run(const cell_request *, cell_result *, fault *);
 int cell_values(const cell_result *);
 void cell_result_free(cell_result *);
 
-/* What another program found of a case: read from a file (harness/exchange), never run here. */
+/* Results of another program for a case: read from a file (harness/exchange), never run here. */
 
 enum { IMPORTED_UNIT = 48, IMPORTED_FILE = 256, IMPORTED_WORD = 48 };
 
@@ -147,8 +146,8 @@ typedef struct imported {
 int imported_same_model(const imported *);
 void imported_free(imported *); /* may be NULL */
 
-/* What a formulation leaves out of the physics of a scene, and what that changes: nothing that is
- * asked for, or it solves another model. */
+/* Physics of a scene that a formulation omits, and the change due to that: none in the requested
+ * quantities, or it solves another model. */
 
 typedef struct omission {
     unsigned what;          /* FEATURE_* and OMIT_* bits (model.h); 0: nothing */
@@ -166,10 +165,10 @@ extern const double omission_most;
  * and without it, bounds what it changes. */
 extern const double omission_safety;
 
-/* What the type leaves out of a scene. Where no formulation of the program has all of it, or the
- * one that has finds no values, the bound is unknown, and the model another one. */
+/* Fills the physics of a scene that the type omits. Where no formulation of the program has all of
+ * it, or the one that has finds no values, the bound is unknown, and the model another one. */
 void omission_of(const scene *, const element_type *, omission *out);
-/* What leaving that out changes on one mesh, of the asked value that it changes most; NAN: not all
+/* Change due to the omission on one mesh, of the requested value that it changes most; NAN: not all
  * have a value there, or no formulation has all of the scene. */
 double omission_on_mesh(const scene *, unsigned what, int elements);
 /* "without shear: changes no asked value by more than 2e-06", "another model: shear is not modelled
@@ -177,8 +176,8 @@ double omission_on_mesh(const scene *, unsigned what, int elements);
 enum { OMISSION_TEXT = OMIT_WORDS + SCENE_NAME + FAULT_TEXT + 80 };
 void omission_words(const omission *, char text[OMISSION_TEXT]);
 
-/* The ledger (reference/findings.csv): what is expected although it is not a pass, one rule for
- * each cause. */
+/* The list of known deviations (reference/findings.csv): verdicts that are expected although they
+ * are not a pass, one rule for each cause. */
 
 /* Lists are words separated by blanks, with * and ? for anything; one of them must fit. */
 typedef struct rule {
@@ -193,13 +192,13 @@ typedef struct rule {
     /* relative, of the limit from the derived one, or from the truth where none was derived; beyond
      * it the rule does not explain */
     double largest_error;
-    char *from;        /* of a table of one's own: "file:line"; NULL: of the ledger */
+    char *from;        /* of a user's table: "file:line"; NULL: of the list of known deviations */
     int missed;        /* by the judge: 1: the run should have shown it and did not */
     int observed;      /* by the judge: verdicts it explains */
     unsigned foretold; /* by the judge: bits of the predictions that were met */
 } rule;
 
-/* What a rule may speak of. */
+/* Attributes that a rule applies to. */
 typedef struct rule_subject {
     const case_type *type;
     const double *parameter;
@@ -246,7 +245,7 @@ typedef struct truth {
     int on_curve; /* 1: a point of a curve, at its abscissa `at` */
     double at;
     double value, uncertainty;
-    /* by the judge: a quantity it speaks of exists; not every formulation skips it */
+    /* set by the judge: its quantity exists; not every formulation skips it */
     int met, judged;
 } truth;
 
@@ -256,17 +255,17 @@ typedef struct truths {
     /* of study_impl.h: the first row of each case and quantity, the next one of the same */
     int indexed, places; /* rows that it knows: the first ones */
     int *first, *next;   /* [places], [indexed] */
-    rule *rule;          /* the ledger */
+    rule *rule;          /* known deviations */
     int strangers;       /* cases of the file that the program does not have */
     char stranger[64];
 } truths;
 
 /* FAULT for a missing, truncated or foreign file and for a stale row (its case's defaults have
- * changed since). Formulations that gate are made known (formulations_accept). */
+ * changed since). Formulations that affect the exit status are made known (formulations_accept). */
 status truths_read(const char *path, truths *out, fault *f);
 /* The same of one case (NULL: of all). */
 status truths_read_case(const char *path, const case_type *type, truths *out, fault *f);
-/* The ledger and the formulations that gate, alone. */
+/* The known deviations and the formulations that affect the exit status, alone. */
 status truths_read_rules(const char *path, truths *out, fault *f);
 /* Adds the exact values at the extremes, which no verification runs. On failure the truths read
  * before stay. */
@@ -312,7 +311,7 @@ typedef struct series {
 } series;
 
 typedef struct sweep {
-    /* of the request: what it leaves out is not judged either; NULL: nothing is left out */
+    /* of the request: unselected quantities are not judged either; NULL: all are selected */
     const char *select;
     /* of the request, as they live there: its cases (NULL: it was planned by hand), and its
      * formulations where it is restricted to some */
@@ -327,22 +326,22 @@ typedef struct sweep {
     int doublings;    /* of the request */
     int threads;      /* of the loop over elements in every cell; 0, 1: one */
     int unfinished;   /* cells that an interrupted run left; series that need them are gone */
-    int partial;      /* 1: nobody interrupted it, they are of batches that are missing */
+    int partial;      /* 1: they belong to batches that are not there; no interruption */
     int points, seriess;
     sweep_point *point;
     series *series;
 } sweep;
 
-/* Who follows a run while it goes on: both are asked in the process that runs it, between two
- * results. */
+/* Follows a run while it continues: both functions are called in the process that runs it, between
+ * two results. */
 typedef struct sweep_follower {
     void *context;
     /* 1: the finest mesh of this series, whose cells are all done, is run again for its noise
      * (study.h). NULL: none is. */
     int (*doubts)(void *context, const sweep *, int series_index);
-    /* Told of every series once, in their order, when it and all before it are done and their noise
-     * is measured; what it fails with ends the run. An interrupted run takes out the series that
-     * are not done: their places are those of the next ones. NULL: nobody is told. */
+    /* Called once for every series, in their order, when it and all before it are complete and
+     * their scatter is measured; a failure of it ends the run. An interrupted run removes the
+     * series that are not complete: their places are those of the next ones. May be NULL. */
     status (*whole)(void *context, const sweep *, int series_index, fault *);
 } sweep_follower;
 
@@ -353,8 +352,8 @@ typedef struct sweep_request {
     int share;      /* 1: cells that are known to have the same answers are solved once: they have
               the same times, too */
     int time_limit; /* [s] of one cell, measured by its process and from outside; 0: none */
-    int together;   /* 1: a worker that somebody else kills (SIGKILL) takes this process along: what
-                       it has is not to be taken for an answer. 0: its cell has crashed */
+    int together;   /* 1: a worker killed from outside (SIGKILL) ends this process too: its
+                       results must not be taken for an answer. 0: its cell has crashed */
     int interruptible; /* 1: who asks to end (Ctrl-C) ends the run, and what is finished is kept */
     int stop;          /* likewise once this descriptor can be read; 0: none */
     const case_type *const *cases; /* NULL-terminated; NULL: all that there are */
@@ -363,8 +362,8 @@ typedef struct sweep_request {
     const formulation *formulation;
     int named; /* 1: these were asked for by name: they affect the exit status, also where the
                   project has not accepted them yet */
-    /* relative, in the place of those of the cases: who is within it passes; 0: those of the cases
-     */
+    /* relative tolerance in place of those of the cases: an error within it passes; 0: those of the
+     * cases */
     double tolerance;
     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0:
      * none */
@@ -374,7 +373,7 @@ typedef struct sweep_request {
     const char *things;             /* what the cells are called there; NULL: cells */
 } sweep_request;
 
-/* What a selection is asked about: case/parameters/formulation/quantity. */
+/* Text that a selection matches: case/parameters/formulation/quantity. */
 enum { SWEEP_TEXT = PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT };
 void sweep_text(const sweep_point *, const formulation *, const char *quantity,
                 char text[SWEEP_TEXT]);
@@ -382,21 +381,21 @@ void sweep_text(const sweep_point *, const formulation *, const char *quantity,
 int sweep_selects(const sweep *s, const sweep_point *p, const formulation *chosen,
                   const char *quantity);
 
-/* Do the verdicts of a series count? Those of formulations that are accepted, that somebody named
- * or loaded, and of other programs where that was asked. */
+/* 1: the verdicts of a series affect the exit status. They do for accepted formulations, for those
+ * that were named or loaded, and on request for other programs. */
 int sweep_gates(const sweep *, const series *);
-/* What running one mesh of a series means. */
+/* Request that runs one mesh of a series. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
 int sweep_cells(const sweep *s); /* that are run here */
 void sweep_series_free(series *);
 void sweep_free(sweep *s);
 
-/* What a quantity of a series shows against its truth. */
+/* Result of a quantity of a series against its reference value. */
 
 typedef enum verdict_kind {
     VERDICT_PASS,
-    VERDICT_BIASED,      /* within the tolerance, but surely a limit of its own */
-    VERDICT_WRONG_LIMIT, /* a limit surely beyond the tolerance */
+    VERDICT_BIASED,      /* within the tolerance, but a significantly different limit */
+    VERDICT_WRONG_LIMIT, /* a limit significantly beyond the tolerance */
     /* the same two where the limit is the one derived for the formulation */
     VERDICT_BIASED_AS_PREDICTED,
     VERDICT_WRONG_AS_PREDICTED,
@@ -406,7 +405,7 @@ typedef enum verdict_kind {
     VERDICT_REFUSED,
     VERDICT_SKIP,        /* needs what the formulation does not offer */
     VERDICT_NO_TRUTH,    /* none of its own theory of shear, at least */
-    VERDICT_OTHER_MODEL, /* without physics of the scene that change what is asked for */
+    VERDICT_OTHER_MODEL, /* without physics of the scene that change the requested quantity */
     VERDICT_KINDS
 } verdict_kind;
 
@@ -429,12 +428,12 @@ typedef struct verdict {
     double model_error; /* against the truth of another model */
     /* absolute, uncertainty of the truth and what is not modelled included */
     double tolerance;
-    double unmodelled; /* absolute: bound of what physics that is left out changes */
+    double unmodelled; /* absolute: bound of the change due to omitted physics */
     /* 1: the limit differs from the truth by less than the truth is uncertain */
     int below_digits;
     int matches;       /* 1: verdict as expected */
-    int needs_finding; /* 1: of a formulation that is new or was named: no pass, and no rule of the
-                          ledger says so */
+    int needs_finding; /* 1: of a formulation that is new or was named: not a pass, and without a
+                          known deviation */
     const rule *rule;  /* the one that explains what is not a pass; NULL: none */
     char reason[FAULT_TEXT];
 } verdict;
@@ -445,7 +444,7 @@ enum { VERDICT_DEFECTS = 4 };
 extern const verdict_kind verdict_defects[VERDICT_DEFECTS];
 /* Does the rule explain one of them? */
 int verdict_tells_defect(const rule *);
-/* What the order of a quantity depends on. */
+/* Analysis that the order of a quantity depends on. */
 element_analysis verdict_analysis(const scene *, const scene_quantity *);
 /* Limit of a quantity of a series, without its `left_out` finest meshes. */
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
@@ -453,11 +452,12 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
  * NULL. */
 const truth *verdict_truth(const truths *t, const sweep_point *p, const formulation *chosen,
                            int quantity);
-/* The same, or where there is none what formulations agree on: it informs and never gates. */
+/* The same, or where there is none the agreement of the formulations, which is informative only and
+ * never affects the exit status. */
 const truth *verdict_reference(const truths *t, const sweep_point *p, const formulation *chosen,
                                int quantity);
-/* What the series shows of the quantity, both given in v: kind, fit, errors, and as expected what
- * holds without the ledger. */
+/* Evaluates the series for the quantity, both given in v: kind, fit, errors, and as_expected where
+ * that holds without the known deviations. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
 /* Relative error of a value of a quantity against a truth. */
 double verdict_error(const scene_quantity *q, double value, double truth_value);
@@ -472,7 +472,7 @@ typedef struct agreement {
     int good;
 } agreement;
 
-/* A cell whose record contradicts itself (study_impl.h). */
+/* A cell with an inconsistent run record (study_impl.h). */
 typedef struct flaw {
     int series, mesh;
     char why[FAULT_TEXT];
@@ -492,9 +492,9 @@ typedef struct regression {
 
 enum { COVERAGE_MESHES = 4 };
 
-/* How often the limits of a formulation on a case lie within their uncertainty of an exact truth,
- * without the k finest meshes: the check of the uncertainties themselves. A formulation with limits
- * of its own covers less: that is no fault of the uncertainties. */
+/* How often the limits of a formulation on a case lie within their uncertainty of an exact
+ * reference value, without the k finest meshes: the check of the uncertainties themselves. A
+ * formulation with biased limits covers less: that is no fault of the uncertainties. */
 typedef struct coverage {
     const case_type *of;
     const element_type *type;
@@ -515,14 +515,14 @@ typedef struct judgement {
     regression *regression; /* [regressions] */
     int by_kind[VERDICT_KINDS];
     int unexpected; /* verdicts that differ from the expected one */
-    int is_new;     /* verdicts of new formulations, which do not gate ... */
+    int is_new;     /* verdicts of new formulations, which do not affect the exit status ... */
     int proposed;   /* ... and those among them that would need a finding */
     int disagreements;
     int judged; /* verdicts that compare with a truth */
-    /* rules that no verdict showed, or predictions of theirs: of the ledger (whole runs only), of
-     * one's own (study_impl.h) */
+    /* rules that no verdict showed, or predictions of theirs: of the known deviations (whole runs
+     * only), of the user's tables (study_impl.h) */
     int unobserved;
-    int unmet; /* truths that speak of no case, point or quantity there is (whole runs only) */
+    int unmet; /* reference values that match no case, point or quantity (whole runs only) */
     /* truths that every formulation skips, or of one that is not here (whole runs only) */
     int waiting;
     int unread; /* truths of motions at instants that the run does not read (whole runs only) */
@@ -535,15 +535,15 @@ int judgement_doubts(const sweep *s, const truths *t, int series_index);
  * been run. FAULT when a truth has another unit than its quantity. */
 status judgement_begin(const sweep *s, truths *t, judgement *out, fault *f);
 status judgement_add(const sweep *s, truths *t, int series_index, judgement *out, fault *f);
-/* whole: 1 when nothing was selected away, so that a rule nobody observed and a truth that speaks
- * of nothing are failures. */
+/* whole: 1 when nothing was selected away, so that a rule that was not observed and a reference
+ * value that matches nothing are failures. */
 void judgement_end(const sweep *s, truths *t, int whole, judgement *out);
 /* All three. */
 status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);
 void judgement_free(judgement *j);
 enum { JUDGED_AS_EXPECTED = 0, JUDGED_DIFFERS = 1, JUDGED_NOTHING = 3 };
-/* Exit code: 0 as expected, 1 something that gates differs, 3 nothing was judged. Everything that
- * says how a run ended asks here. */
+/* Exit code: 0 as expected, 1 a verdict that counts is not as expected, 3 nothing was judged. It is
+ * the only place that determines how a run ended. */
 int judgement_exit(const judgement *j);
 /* "pass", "fail", "nothing was judged". */
 const char *judgement_outcome(const judgement *j);
@@ -559,17 +559,17 @@ typedef struct value_change {
                         larger; of a curve, by its largest value; NAN: not known */
 } value_change;
 
-/* Of `now` from `before`, into out, whose of_each the caller has made. What says how wrong a
- * solution is (the drift of a balance of energy) is left out. */
+/* Change of `now` from `before`, into out, whose of_each the caller has allocated. Measures of the
+ * error of a solution (the energy-balance error) are omitted. */
 void change_between(const scene *s, const cell_result *before, const cell_result *now,
                     value_change *out);
 /* Size [unit of the quantity] of which round-off is a small part: strains of 1e-14, turns and parts
  * of the structure's size of 1e-12, parts of 1e-9 of other values in the same unit. */
 double change_scale(const scene *s, int quantity, const solve_result *r);
 
-/* The last line of a file of ours: its length and checksum. What is cut short, damaged or altered
- * is noticed before the HDF5 library reads it, which trusts what it finds (version 1.10 reads
- * beyond its buffers in damaged files). */
+/* The last line of a beamwork file: its length and checksum. A file that is cut short, damaged or
+ * altered is detected before the HDF5 library reads it, which trusts its contents (version 1.10
+ * reads beyond its buffers in damaged files). */
 
 enum { CHECKSUM_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
 
@@ -596,7 +596,8 @@ int child_reap(pid_t process);
  * when the time was over. */
 int child_ended(int how, int late, int seconds, char *words, size_t size);
 
-/* Who of several processes was the first to solve a thing: the others take its answer. */
+/* Duplicate solutions among several processes: the first one solves it, the others take its
+ * answer. */
 
 typedef struct claims claims;
 
@@ -604,11 +605,11 @@ typedef struct claims claims;
  */
 claims *claims_alloc(int count);
 void claims_free(claims *);
-/* The task that was the first to claim this; `task` itself where nobody was. */
+/* The task that was the first to claim this; `task` itself where it is the first. */
 int claims_take(claims *, const identity *, int task);
 
-/* Reading a table that is stored as one HDF5 data set per column. Nothing is believed: every size
- * and type is checked. */
+/* Reading a table that is stored as one HDF5 data set per column. Every size and type is
+ * checked. */
 
 typedef struct table_columns {
     const char *path; /* of the file, for messages */
@@ -649,7 +650,7 @@ int curve_error_finest(const series *, int quantity);
  * -1: none. */
 int curve_error_reference(const sweep *, int quantity);
 
-/* Where data stand that the program reads: truths, programs that derive them. */
+/* Location of the data that the program reads: reference values, programs that derive them. */
 
 /* Beside the program or the shared library, or in the folder above (a clone), or in share/beamwork
  * of the folder that it is installed below, or of the prefix that it was built for; the first of
@@ -669,7 +670,7 @@ typedef struct derived_value {
     double value, uncertainty; /* [unit] */
 } derived_value;
 
-/* Where a program of reference/derive is: in BEAMWORK_REFERENCE, or where data stand. FAULT: too
+/* Location of a program of reference/derive: in BEAMWORK_REFERENCE, or where data are. FAULT: too
  * long a path. */
 status derive_script(const char *name, char out[PATH_MAX], fault *f);
 /* Runs `script CASE PARAMETERS`. REFUSED with its line when no program derives the case or the
@@ -681,8 +682,8 @@ status derive_values(const char *script, const char *case_name, const char *para
 status derive_scene(const char *script, FILE *scene_text, derived_value **out, int *count,
                     fault *f);
 
-/* What a run has to do: cells, and what comes up while they are run. That is finest meshes again,
- * for their noise, and cells that wait for the answers of another which then has none. */
+/* Tasks of a run: cells, and those that arise while they are run. These are finest meshes again,
+ * for their scatter, and cells that wait for the answers of another which then has none. */
 
 enum { WORKERS_MOST = 64 };
 
@@ -696,14 +697,14 @@ typedef struct board {
     atomic_int next;             /* of the tasks that were known from the beginning */
     atomic_int later, taken;     /* tasks that came up; those of them that were taken */
     atomic_int ended;            /* 1: no more come up */
-    sem_t news;                  /* whoever waits is told of what comes up, and of the end */
+    sem_t news;                  /* wakes the waiting process for news and at the end */
     atomic_int at[WORKERS_MOST]; /* -1: nothing */
     /* [s] of a clock that only goes forward: when it was taken */
     _Atomic double since[WORKERS_MOST];
     atomic_int came_up[]; /* task, ~task: to be solved whoever has the same answers */
 } board;
 
-/* What of a series is not done: some of its cells, its noise, nothing. */
+/* Open work of a series: some of its cells, its scatter, nothing. */
 enum series_state { SERIES_CELLS, SERIES_NOISE, SERIES_WHOLE };
 
 typedef struct workload {
@@ -717,7 +718,7 @@ typedef struct workload {
     int due, finished;    /* of those that are to be done */
     int *open;            /* [seriess] tasks of it that are to be done */
     char *state;          /* [seriess] enum series_state */
-    int told;             /* series that the follower was told of */
+    int told;             /* series that were passed to the follower */
     cell_result *again;   /* [all - count] */
     claims *known;        /* of what is solved once; NULL: every cell is solved */
     int *waits, *after; /* [all] first task that waits for the answers of this one; the next such */
@@ -736,7 +737,7 @@ int workload_take(const workload *, int self, int *alone);
 /* In what other words, where it is for the noise; the point's own edit else. */
 scene_edit workload_edit(const workload *, int task);
 
-/* Where the result of a task goes. */
+/* Destination of the result of a task. */
 cell_result *workload_cell(const workload *, int task);
 /* The result is there, or the failure. */
 void workload_done(workload *, int task);
@@ -745,18 +746,18 @@ void workload_same(workload *, int task, int same);
 /* A share of the whole work that is known, by what cells cost: 0 to 1. */
 double workload_share(const workload *);
 
-/* Is there a series that the follower can be told of, in their order? */
+/* 1: the next series, in their order, can be passed to the follower. */
 int workload_can_tell(const workload *);
-/* Tells of that one. */
+/* Passes that series to the follower. */
 status workload_tell(workload *, fault *);
 /* Series that are not whole are taken out: they show nothing. */
 void workload_keep_whole(workload *);
 
-/* What cells cost, before they are solved: prices of what their analyses do, fitted to counted work
- * (`make lab L=expense`, harness/study/expense.csv). The order of work, batches and shards rest on
- * it, no answer does. */
+/* Cost of cells before they are solved: cost coefficients of the steps of their analyses, fitted to
+ * counted work (`make lab L=expense`, harness/study/expense.csv). The order of work, batches and
+ * shards rest on it, no answer does. */
 
-/* What is paid for, each as often as it is due. */
+/* Cost items, each as often as it is due. */
 typedef enum expense_kind {
     EXPENSE_cell, /* once */
     EXPENSE_linear,
@@ -795,18 +796,18 @@ void expense_count(const scene *s, int steps, double times[EXPENSE_KINDS]);
 /* [s], about; elements: of each member. */
 double expense_of_scene(const scene *s, int steps, const element_type *type, int elements);
 double expense_of_cell(const sweep *s, int index, int mesh);
-/* All cells of a sweep, tasks[sweep_cells]: those of dear series first, the dearest of all at the
- * beginning, so that only small ones are left to wait for at the end; then the others in the order
- * of the series, so that one after the other is whole while the rest is run. Of a series the finest
- * mesh first. Dear is what more than a hundredth of the work of one process goes into. 0: done;
- * -1: out of memory. */
+/* All cells of a sweep, tasks[sweep_cells]: those of expensive series first, the most expensive at
+ * the beginning, so that only small ones remain at the end; then the others in the order of the
+ * series, so that series become complete one after the other during the run. Of a series the finest
+ * mesh first. Expensive: more than a hundredth of the work of one process. 0: done; -1: out of
+ * memory. */
 int expense_order(const sweep *s, int jobs, workload_task tasks[]);
 
-/* A reference for structures without a truth: the limit on which formulations of different families
- * agree.  Types of one family share code or theory: that they agree proves little; families that
- * agree can all be wrong together, so that an agreement informs and never gates.  Who is known to
- * have another limit where the scene has a feature (a finding with that feature in its condition),
- * and who is kept with its misprint, does not vote.
+/* Agreement for structures without a reference value: the limit on which formulations of different
+ * families agree.  Types of one family share code or theory: that they agree proves little;
+ * families that agree can all be wrong together, so that an agreement is informative only and never
+ * affects the exit status. A formulation with a known deviation for a feature of the scene (a rule
+ * with that feature in its condition) does not vote, nor does one with `misprint`.
  *
  * Each formulation has a limit L and its uncertainty U (study.h).  Two agree when they have the
  * same theory of shear in stability, where that matters, and |L1 - L2| + U1 + U2 is within
@@ -831,7 +832,7 @@ typedef struct families_limit {
     unsigned theory; /* of shear in stability, enum element_feature; 0: it does not matter */
 } families_limit;
 
-/* Of one point and quantity; for tests too, which see a dispute and how many agree. */
+/* Limit for one point and quantity; for tests too, which see a dispute and how many agree. */
 families_limit families_limit_of(const sweep *s, int point_index, int quantity, const truths *);
 /* Adds a truth of kind agreement for every quantity of a point that has none of its model.
  * files_only: 1: of scene files, not of built-in cases. */
@@ -890,7 +891,7 @@ typedef struct glossary_entry {
     char *also;    /* other names, separated by '|'; "": none */
     char *group;   /* heading; entries of one group stand together */
     char *meaning; /* one to four sentences */
-    char *see;     /* terms to go on with, separated by '|'; "": none */
+    char *see;     /* terms for further reading, separated by '|'; "": none */
 } glossary_entry;
 
 typedef struct glossary {
@@ -926,7 +927,7 @@ static inline void handles_close(int count, const hid_t handle[])
  * workers. */
 
 typedef struct interrupt {
-    int descriptor;  /* can be read once somebody asks; -1: none */
+    int descriptor;  /* can be read once a request arrives; -1: none */
     sigset_t before; /* the mask that interrupt_end restores */
 } interrupt;
 
@@ -938,7 +939,7 @@ void interrupt_end(interrupt *);
 
 /* Two formulations at equal error: with how many elements each is within it. */
 
-/* Of series 0 and 1 of a sweep of one point. */
+/* Meeting of series 0 and 1 of a sweep of one point. */
 typedef struct meeting {
     int mesh[2];     /* index of the least mesh from which on all are within the error; -1: none */
     double error[2]; /* relative, the largest on that mesh; NAN */
@@ -953,7 +954,7 @@ meeting meeting_at(const sweep *s, const truths *t, double level);
 /* Do both reach it? */
 int meeting_holds(const meeting *);
 
-/* A planned sweep of one point, reduced to what a selection speaks of. */
+/* A planned sweep of one point, reduced to its selection. */
 
 /* Before the run: keeps the quantities that the selection (formulations/formulations.h; NULL: all)
  * holds for with some formulation, and the formulations it holds for with some quantity. REFUSED:
@@ -967,9 +968,9 @@ status narrow_scene(scene *, const case_type *, const double parameter[], const 
 /* Noise of the values of the finest mesh: the same cell again in words that change nothing but the
  * rounding of its numbers. */
 
-/* The finest mesh of a series is run so often again: in a unit of length that is no power of two,
- * and with the nodes of members in reverse order; in two units where a formulation answers to the
- * order of nodes. The stations that only curves show are left out. */
+/* Repetitions of the finest mesh of a series: in a unit of length that is not a power of two, and
+ * with the nodes of members in reverse order; in two units where a formulation depends on the order
+ * of nodes. Stations that only curves show are omitted. */
 enum { NOISE_REPETITIONS = 2 };
 
 /* In what other words. */
@@ -1006,7 +1007,8 @@ typedef struct overview_cell {
 typedef struct overview {
     int rows, columns;
     int joined;   /* 1: a column has a formulation with all its options */
-    int accepted; /* columns before those of new formulations, which do not gate */
+    int accepted; /* columns before those of new formulations, which do not affect the exit
+                     status */
     const case_type **row;
     const char **column; /* names, which live as long as the sweep */
     overview_cell *cell; /* [rows*columns] */
@@ -1026,20 +1028,20 @@ int overview_judged(const overview *, int row);
 /* Has a row a line of its own? All have where they are few; else those that pass share lines, so
  * that the rest is one screen. */
 int overview_shown(const overview *, int row);
-/* "ok", "~3", "!#2": told apart without colour. utf8: 1: with signs beyond ASCII. */
+/* "ok", "~3", "!#2": distinguished without colour. utf8: 1: with signs beyond ASCII. */
 void overview_text(const overview_cell *, int utf8, char text[OVERVIEW_TEXT]);
-/* What the mark says, in words. */
+/* Meaning of the mark, in words. */
 const char *overview_words(overview_mark mark);
 
-/* Findings of one's own project: rules beside the ledger, with its columns. */
+/* Known deviations of your own project: rules in addition to the built-in list, with its
+ * columns. */
 
-/* Adds the rules of a file to those of t; run: the cases of the run, NULL behind the last. What is
- * wrong with the file goes to `m`, and those rows are left out. FAULT: it cannot be read. */
+/* Adds the rules of a file to those of t; run: the cases of the run, NULL after the last. Mistakes
+ * of the file go to `m`, and those rows are omitted. FAULT: it cannot be read. */
 status own_findings_read(const char *path, const case_type *const run[], truths *t, mistakes *m,
                          fault *f);
 
-/* A table of one's own project: CSV with declared columns, a record in each line. Nothing is
- * believed of it. */
+/* A user's table: CSV with declared columns, a record in each line. Everything in it is checked. */
 
 enum { OWN_TABLE_COLUMNS = 16 };
 
@@ -1054,17 +1056,18 @@ typedef struct own_table {
     own_table_row *row;
 } own_table;
 
-/* columns: their names in their order, between commas, as the first line must have them. What is
- * wrong with lines goes to `m`, and they are left out; FAULT: the file cannot be read. The caller
- * frees *out in any case. */
+/* columns: their names in their order, between commas, as the first line must have them. Mistakes
+ * in lines go to `m`, and these are omitted; FAULT: the file cannot be read. The caller frees *out
+ * in any case. */
 status own_table_read(const char *path, const char *columns, own_table *out, mistakes *m, fault *f);
 void own_table_free(own_table *);
 
-/* Truths of one's own project beside the packed ones, with the columns of reference/tables. */
+/* Reference values of your own project in addition to the packed ones, with the columns of
+ * reference/tables. */
 
-/* Adds the rows of a file to those of t; run: the cases of the run, NULL behind the last. only: of
- * this case alone, the others are passed over; NULL: of all. What is wrong with the file goes to
- * `m`, and those rows are left out. FAULT: it cannot be read. */
+/* Adds the rows of a file to those of t; run: the cases of the run, NULL after the last. only: of
+ * this case alone, the others are passed over; NULL: of all. Mistakes of the file go to `m`, and
+ * those rows are omitted. FAULT: it cannot be read. */
 status own_truths_read(const char *path, const case_type *const run[], const case_type *only,
                        truths *t, mistakes *m, fault *f);
 
@@ -1084,17 +1087,17 @@ status plan_extend(sweep *s, const formulation those[], int count, fault *f);
 /* Finds again what the series of a point leave out, when its quantities have changed. */
 void plan_omissions(sweep *s, int point_index);
 
-/* What is taken where nobody chose: a formulation that is right for a scene as far as is known
- * without solving it, and a number of elements at which its answers have settled. */
+/* Default formulation and mesh: a formulation that is right for a scene as far as is known without
+ * solving it, and a number of elements at which its answers have converged. */
 
-/* Of those that offer all that the scene needs: with no rule of the ledger that says of a quantity
- * here that its limit is wrong or biased; of the scene's theory of shear; of the fewest such rules
- * elsewhere; of the highest order in what is asked; the first by name. rules NULL: the ledger is
- * not known. REFUSED: none offers what the scene needs. why: one line on the choice. */
+/* Formulation that supports all that the scene needs: without a rule that its limit of a quantity
+ * here is wrong or biased; of the scene's theory of shear; with the fewest such rules elsewhere; of
+ * the highest order in the requested quantities; the first by name. rules NULL: no list of known
+ * deviations. REFUSED: none supports what the scene needs. why: one line on the choice. */
 status preference_formulation(const scene *, const rule_subject *where, const rule *rules,
                               int count, formulation *out, char why[FAULT_TEXT], fault *f);
 
-/* Change from one mesh to the next that counts as none where nobody says, relative. */
+/* Default relative change from one mesh to the next that counts as none. */
 #define PREFERENCE_ERROR 1e-3
 /* Behind the scene's meshes, where values change still, the elements are doubled until that many,
  * or until a mesh may cost so much counted work [s]. */
@@ -1117,23 +1120,23 @@ void preference_free(preference *);
 status preference_elements(const cell_request *, const formulation *chosen, double asked,
                            preference *out, fault *f);
 
-/* Both at once: of the formulations that preference_formulation holds to be as sound as the first
- * one, at most five and two of a family, the first that settles where the cheapest next mesh is
- * always solved before dearer ones, by counted work (study/study.h). request: the cell but for
- * formulation and elements. */
+/* Both at once: of the formulations that preference_formulation ranks equal to the first one, at
+ * most five and two of a family, the first that converges where the next mesh with the lowest cost
+ * is always solved before more expensive ones, by counted work (study/study.h). request: the cell
+ * without formulation and elements. */
 status preference_both(const cell_request *, const rule_subject *where, const rule *rules,
                        int count, double asked, preference *out, fault *f);
 
-/* Cost of a cell: its counted work, each count at a price. Counts are the same in every run and on
- * every machine, and so is what they cost: formulations are ranked by it, not by the noise of
- * times.
+/* Cost of a cell: its counted work, each count with a cost coefficient. Counts are the same in
+ * every run and on every machine, and so is the cost: formulations are ranked by it, not by
+ * measured times with their scatter.
  *
- * Prices are fitted once to measured times (`make lab L=prices`) and kept in
- * harness/study/prices.csv, of which the build makes the table. Where a formulation has no prices
- * of its own, those hold that all formulations have in common ("*"), by the number of its strains.
- */
+ * The coefficients are fitted once to measured times (`make lab L=prices`) and stored in
+ * harness/study/prices.csv, of which the build makes the table. Where a formulation has no
+ * coefficients, those hold that all formulations have in common ("*"), by the number of its
+ * strains. */
 
-/* What is counted; the names are those of the columns of the table `cells`. */
+/* Counted work; the names are those of the columns of the table `cells`. */
 typedef enum price_count {
     PRICE_one, /* a cell */
     PRICE_elements_total,
@@ -1155,22 +1158,22 @@ typedef enum price_count {
 } price_count;
 
 typedef struct price_row {
-    /* "": of all; "*": of those without own prices; a name, with options where they matter */
+    /* "": of all; "*": of those without coefficients; a name, with options where they matter */
     const char *formulation;
     price_count first, second; /* what is paid for is their product */
     double seconds;            /* on the reference machine */
 } price_row;
 
 extern const price_row price_rows[]; /* generated; ends with a row without formulation */
-/* Costs whose ratio is below this one do not tell which is faster: the prices are not known better.
- */
+/* Costs whose ratio is below this one do not show which is faster: the cost coefficients are no
+ * more accurate. */
 extern const double price_noise;
 
 /* [s] on the reference machine, of all rows that hold for the formulation. */
 double price_of(const price_row *rows, const formulation *chosen, const cell_result *cell);
-/* The same by the committed prices. */
+/* The same by the committed coefficients. */
 double price_cost(const formulation *chosen, const cell_result *cell);
-/* 1: it has prices of its own; 0: those of any formulation hold. */
+/* 1: it has cost coefficients; 0: those of any formulation hold. */
 int price_own(const price_row *rows, const formulation *chosen);
 
 /* How far a long run is, in one line of a terminal that is written over and taken away at the end.
@@ -1195,20 +1198,20 @@ void progress_show(progress *, double now, int done, double share, const char *w
 /* The line is as empty as before. */
 void progress_end(progress *);
 
-/* Rules that a new formulation would need in the ledger (reference/findings.csv). */
+/* Known deviations that a new formulation would need (reference/findings.csv). */
 
-/* What stands as its cause until somebody has found it. */
+/* Placeholder of the cause, until it is found. */
 #define PROPOSAL_CAUSE "to be found: why is this not a pass?"
 
-/* CSV with the columns of the ledger, header included: one rule for each formulation, case and
- * verdict, with all its quantities, the largest error seen (a third added), and a cause that is
- * still to be found. Returns the number of rules. */
+/* CSV with the columns of the list of known deviations, header included: one rule for each
+ * formulation, case and verdict, with all its quantities, the largest error seen (a third added),
+ * and a cause that is still to be found. Returns the number of rules. */
 int proposal_write(FILE *to, const sweep *s, const judgement *j);
 
 /* Which mesh, and which formulation, reaches an error. One rule, without clocks: a formulation is
  * within a level from the coarsest mesh on whose error, and that of every finer one, is;
- * formulations stand in the order of their counted work on that mesh, at committed prices
- * (study/study.h). One that is known to be wrong in what is asked stands behind all others. */
+ * formulations are ordered by their counted work on that mesh, with the committed cost coefficients
+ * (study/study.h). One that is known to be wrong in the requested quantity follows all others. */
 
 enum { REACH_LEVELS = 4, REACH_EVERY = -1 };
 extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */
@@ -1235,16 +1238,17 @@ const char *reach_unranked(const element_type *type);
 int reach_mesh(const sweep *s, const verdict *v, double level);
 /* Is the formulation known to be wrong, or not known to be right, by such a verdict? */
 int reach_is_defect(verdict_kind kind);
-/* What is known of a formulation with such a defect that is within a level all the same. */
+/* Description of a formulation with such a defect that is within a level all the same. */
 const char *reach_defect_words(verdict_kind kind);
 /* Formulations that are within the level: those without a defect first, each by cost, then by name.
- * Returns how many; out: room for all series. Other programs, which count nothing, are left out. */
+ * Returns how many; out: room for all series. Other programs, which count no work, are omitted. */
 int reach_ranking(const reach_question *q, reached out[]);
-/* How many of the first ones, none with a defect, differ in cost by less than prices are known: 0
- * where there is none that ranks without a defect, 1 where the first one is the cheapest. */
+/* How many of the first ones, none with a defect, are tied: they differ in cost by less than the
+ * uncertainty of the cost coefficients. 0 where there is none that ranks without a defect, 1 where
+ * the first one has the lowest cost. */
 int reach_ties(const reached list[], int count);
-/* Series of the point that the question speaks of, and how: 1 every quantity has a truth of its
- * theory, 0 some have none, -1 it does not run. */
+/* Whether the question includes the series of the point, and how: 1 every quantity has a reference
+ * value of its theory, 0 some have none, -1 it does not run. */
 int reach_asks(const reach_question *q, int series_index);
 /* Verdicts of every series and quantity of a sweep that was not judged, with what formulations
  * agree on where there is no truth; NULL: out of memory. The caller frees it. */
@@ -1254,7 +1258,7 @@ verdict *reach_verdicts(const sweep *s, const truths *t, int *count);
 
 enum { ROUNDING_TEXT = 32, ROUNDING_MOST = 11 /* digits */ };
 
-/* With that many digits, "-" where it is not finite; without an exponent where that is short:
+/* Rounds to that many digits, "-" where it is not finite; without an exponent where that is short:
  * "0.0031", "3.1e-9". */
 void rounding_digits(double value, int digits, char text[ROUNDING_TEXT]);
 /* A value to the second digit of its uncertainty (same unit; 0: exact; not finite: seven digits).
@@ -1263,8 +1267,8 @@ void rounding_known(double value, double uncertainty, char text[ROUNDING_TEXT]);
 /* A relative error in percent: "-2.7801 %", "+2.1e-9 %". At most 11 characters. */
 void rounding_percent(double error, char text[ROUNDING_TEXT]);
 
-/* Time of a cell that can be believed: the least of enough repetitions, taken in rounds that
- * alternate with the cells it is compared with, and the differences between rounds as its noise. */
+/* Time of a cell: the least of enough repetitions, taken in rounds that alternate with the cells it
+ * is compared with, and the differences between rounds as its scatter. */
 
 /* Two cells whose times come from the same distribution have all rounds of one below all rounds of
  * the other with a probability of 2 (5! 5!)/10! = 0.8 %: then, and only then, they are said to
@@ -1282,7 +1286,7 @@ double rounds_most(const rounds_reading *);  /* [s] of the slowest round */
 /* -1: every round of a is faster than every one of b; 1: slower; 0: undecided. */
 int rounds_compare(const rounds_reading *a, const rounds_reading *b);
 
-/* The published algorithm beside ours: all coordinates, strains and stresses at once, dense
+/* The published algorithm next to beamwork's: all coordinates, strains and stresses at once, dense
  * Gaussian elimination (newton=dense). */
 typedef struct dense_reference {
     int unknowns;         /* of the dense system; 0: not measured */
@@ -1294,10 +1298,10 @@ typedef struct dense_reference {
  * same); INFINITY: not measured. */
 double dense_reference_seconds(const dense_reference *b, long iterations);
 
-/* Repeated runs of a cell, as it is and with nothing left out (--keep-all). */
+/* Repeated runs of a cell, as it is and with all degrees of freedom kept (--keep-all). */
 typedef struct cell_timing {
     rounds_reading as_is, keep_all; /* rounds = 0: not measured */
-    int free_keep_all;              /* unknowns when nothing is left out */
+    int free_keep_all;              /* unknowns when all are kept */
     /* [s] of the solution in one run more, in which the clock is read between the parts of the
      * iterations */
     double phase[PHASES];
@@ -1338,21 +1342,22 @@ int serialise_read(FILE *from, cell_result *cell);
 /* The truth that a quantity is compared with. */
 
 int truth_holds(const truth *row, const case_type *type, const double value[]);
-/* May a verdict rest on it?  Not on an agreement of formulations, nor on a figure that nobody can
- * compute again. */
+/* 1: a verdict may rest on it. 0: an agreement of formulations, or a value that cannot be computed
+ * again. */
 int truth_gates(const truth *row);
 /* Words of truth.kind: the first known one judges; truth_gates says which ones may.  "predicted":
  * the limit that a formulation must have. */
 extern const char truth_kinds[];
-/* The continuum's truth of that model (exact before published, no point of a curve), or NULL.  One
- * of the same model gates. */
+/* The continuum's reference value of that model (exact before published, no point of a curve), or
+ * NULL. Verdicts against one of the same model affect the exit status. */
 const truth *truth_of(const truths *t, const case_type *type, const double value[],
                       const char *quantity, const char *model);
 /* The same among truths that follow one of the theories of shear (words separated by |), or depend
  * on none; NULL: any. */
 const truth *truth_of_theory(const truths *t, const case_type *type, const double value[],
                              const char *quantity, const char *model, const char *theories);
-/* What formulations agree on there (kind agreement), or NULL: it informs and never gates. */
+/* The agreement of the formulations there (kind agreement), or NULL: it is informative only and
+ * never affects the exit status. */
 const truth *truth_agreed(const truths *t, const case_type *type, const double value[],
                           const char *quantity);
 /* The limit that a formulation (its key, or its name whatever the options) must have there, or
@@ -1373,8 +1378,8 @@ typedef struct worker {
 } worker;
 
 status worker_start(const workload *, int self, worker *, fault *);
-/* What worker_receive returns in place of a task. WORKER_NO_MEMORY: this process has none for the
- * results; the worker lives. */
+/* Values that worker_receive returns in place of a task. WORKER_NO_MEMORY: this process has none
+ * for the results; the worker lives. */
 enum { WORKER_ENDED = -1, WORKER_NOTHING = -2, WORKER_NO_MEMORY = -3 };
 /* Takes what there is, and does not wait: results, or whose they are. The last of their tasks, or
  * WORKER_NOTHING: nothing is whole yet. A worker that writes no results is ended. */

@@ -10,7 +10,8 @@
 #include "harness/newton/newton.h"
 #include "harness/study/study.h"
 
-/* Formulations whose verdicts gate (reference/accepted.csv), as they are packed. */
+/* Formulations whose verdicts affect the exit status (reference/accepted.csv), as they are
+ * packed. */
 
 /* Makes those of an open file of truths known (formulations_accept). FAULT: the table is missing or
  * damaged. */
@@ -68,9 +69,9 @@ status follow_events_rest(follow_walk *, fault *);
 /* Rules and truths that a run should have shown and met and did not. */
 
 /* Marks them (rule.missed) and counts them. whole: 1: nothing was selected away, and every rule
- * should have been shown; else only those of one's own (rule.from) whose formulations and cases
- * were all run, with all points and quantities: a selection (-k) covers a case where it holds by
- * the name of the case alone. */
+ * should have been shown; else only those of the user's tables (rule.from) whose formulations and
+ * cases were all run, with all points and quantities: a selection (-k) covers a case where it
+ * matches the name of the case alone. */
 int missed_rules(const sweep *s, truths *t, int whole);
 
 /* Counts the truths that a whole run has not judged by: unmet, waiting and unread. What is unread
@@ -78,7 +79,7 @@ int missed_rules(const sweep *s, truths *t, int whole);
  * structures that its quantities are known at, `make lab L=motions` at all. */
 void missed_truths(const sweep *s, truths *t, judgement *out);
 
-/* Names that the tables of a project speak of. */
+/* Names in the tables of a project. */
 
 /* The case of this name: among those of the run (ends with NULL), or built in; NULL: none. */
 const case_type *own_names_case(const case_type *const run[], const char *name);
@@ -102,7 +103,7 @@ double richardson_limit(const double n[3], const double f[3], double p);
 /* Change of the extrapolated limit per change of the values: root of the sum of squares. */
 double richardson_amplification(const double n[3], const double f[3], double p);
 
-/* What the cell says of its own work, judged without any truth: a record that contradicts itself
+/* Consistency of a cell's run record, checked without any reference value: an inconsistent record
  * is a fault of the program. */
 
 /* 1: the counters, the steps and the corrections of a cell agree with each other and with what
@@ -112,15 +113,14 @@ int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char
 
 /* Rows of truths by their case and quantity: thousands are asked about for every verdict. */
 
-/* Of all rows that there are; truths_read makes it. Rows added later are found too, and more
- * slowly until it is made again. FAULT: out of memory; what was found before still is. */
+/* Index of all rows that there are; truths_read makes it. Rows added later are found too, and more
+ * slowly until it is made again. FAULT: out of memory; earlier entries are still found. */
 status truth_index_make(truths *t, fault *f);
 void truth_index_free(truths *t);
 
-/* The first row that speaks of the quantity of the case, in the order of the rows; t->rows: none.
- */
+/* The first row for the quantity of the case, in the order of the rows; t->rows: none. */
 int truth_index_first(const truths *t, const case_type *type, const char *quantity);
-/* The next one behind row i that speaks of the same. */
+/* The next one after row i for the same quantity. */
 int truth_index_next(const truths *t, int i);
 
 /* Rows of a table of truths, each checked. */
@@ -131,9 +131,9 @@ const char *truth_rows_wrong(const truth *row);
  * defaults by now; what was read stays for truths_free. */
 status truth_rows_read(const table_columns *table, const case_type *type, truth row[]);
 
-/* The packed file itself: undamaged, ours, and of this version. */
+/* The packed file itself: undamaged, written by beamwork, and of this version. */
 
-/* FAULT when it is damaged or not ours; *file below 0: nothing is open. */
+/* FAULT when it is damaged or not a beamwork file; *file below 0: nothing is open. */
 status truths_file_open(const char *path, hid_t *file, fault *f);
 
 #endif

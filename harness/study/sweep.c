@@ -226,7 +226,7 @@ void plan_omissions(sweep *s, int point_index)
             find_omission(s, i);
 }
 
-/* Room for the formulations of a point; what does not fit is left out. */
+/* Room for the formulations of a point; the others are omitted. */
 enum { MOST_FORMULATIONS = 64 };
 typedef struct chosen_cells {
     int count;
@@ -251,7 +251,7 @@ static void choose_options(const element_type *type, chosen_cells *out)
     }
 }
 
-/* Options that a discrete truth of the point speaks of. */
+/* Options for which there is a discrete reference value at the point. */
 static void choose_stored(const truths *t, const sweep_point *p, chosen_cells *out)
 {
     for (int i = 0; i < t->rows && out->count < MOST_FORMULATIONS; i++) {
@@ -291,8 +291,8 @@ static int is_selected(const sweep *s, const sweep_point *p, const formulation *
     return selected;
 }
 
-/* Formulations of one point: those given, or all, and the options that a discrete truth speaks of.
- */
+/* Formulations of one point: those given, or all, and the options for which there is a discrete
+ * reference value. */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
                           select_words *words, char asked[], fault *f)
 {

@@ -1,4 +1,4 @@
-/* Which truths speak of a point, a formulation, a quantity. */
+/* Which reference values apply to a point, a formulation, a quantity. */
 #include "harness/study/study_impl.h"
 
 #include <assert.h>

@@ -165,7 +165,7 @@ void truths_free(truths *t)
     memset(t, 0, sizeof *t);
 }
 
-/* Is it ours, and of this version? */
+/* 1: it is a beamwork file of this version. */
 static status check_schema(hid_t file, const char *path, fault *f)
 {
     char name[64] = "";

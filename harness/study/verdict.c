@@ -122,8 +122,8 @@ static int order_is_low(const scene_quantity *q, const verdict *v)
            v->fit.last_change > v->truth->uncertainty;
 }
 
-/* Is the limit the derived one, within what both are known to?  The same measure as that of a bias:
- * what is surely another limit is not the predicted one. */
+/* 1: the limit is the derived one, within the uncertainty of both. The same measure as that of a
+ * bias: a significantly different limit is not the predicted one. */
 static int is_predicted(const verdict *v)
 {
     if (v->predicted == NULL)

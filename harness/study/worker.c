@@ -116,7 +116,7 @@ static int write_all(int to, const char *bytes, size_t count)
     return 0;
 }
 
-/* 0, or -1: nobody hears it. */
+/* 0, or -1: the pipe has no reader. */
 static int tell(int to, int i, int same, const cell_result *cell)
 {
     heading head = {.task = i, .same = same};

@@ -94,9 +94,8 @@ void workload_end(workload *w)
     free(w->after);
 }
 
-/* Task i, number n of a counter: the worker says that it is at it before
- * it takes it, so that none is lost with a worker that ends in between. 0: somebody else took it.
- */
+/* Task i, number n of a counter: the worker notes that it is at it before it takes it, so that none
+ * is lost with a worker that ends in between. 0: another one took it. */
 static int take(board *b, int self, atomic_int *counter, int n, int i)
 {
     b->since[self] = clock_wall_seconds();
