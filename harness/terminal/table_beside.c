@@ -17,7 +17,7 @@ typedef struct beside_column {
     const series *one;
     const truth *row; /* NULL: none */
     verdict shown;
-    const char *name; /* what is left of it to be written in the header */
+    const char *name; /* the part of it that is not yet written in the header */
     char title[FORMULATION_KEY + 16];
 } beside_column;
 
@@ -28,7 +28,7 @@ typedef struct block {
     beside_column list[COLUMNS];
 } block;
 
-/* How much of a name goes on one line: to the last sign between its words that fits. */
+/* Length of the part of a name on one line: to the last separator of its words that fits. */
 static int piece_of(const char *name)
 {
     const int length = (int)strlen(name);
@@ -140,7 +140,7 @@ static void write_meshes(FILE *to, const block *b)
     }
 }
 
-/* What a limit shows that is no pass, in words. */
+/* Explanations of the limits that are not a pass, in words. */
 static void write_sentences(FILE *to, const block *b)
 {
     for (int i = 0; i < b->count; i++) {

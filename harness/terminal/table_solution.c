@@ -153,7 +153,7 @@ static void corrections(FILE *to, int column, const solve_result *r, const step_
     paragraph_end(&words, column, column);
 }
 
-/* Steps of motions are told in short. */
+/* Steps to report; those of motions are in a short form. */
 static int steps_told(const solve_result *r)
 {
     int steps = r->steps;
@@ -238,7 +238,7 @@ void table_path_events(FILE *to, const solve_result *r)
 
 enum { MOTION_INDENT = 2 };
 
-/* Records [first, end) of one motion, the begin first. */
+/* Records [first, end) of one motion, the initial state first. */
 typedef struct motion_extent {
     const motion_record *record;
     int first, end;
@@ -347,7 +347,7 @@ static void damping_line(FILE *to, const motion_extent *e)
                       when, lost, 100 * part, of);
 }
 
-/* How far a vector moves from what it is at the begin. */
+/* Largest change of a vector from its initial value. */
 static double change_of(const motion_extent *e, int of)
 {
     const double *begin = e->record[e->first].at.balance + of;

@@ -70,7 +70,7 @@ static void print_heading(FILE *to, int number, const char *format, ...)
     va_end(arguments);
 }
 
-/* "case (parameters), formulation" and what else is told. */
+/* Prints "case (parameters), formulation" and further properties. */
 static void print_subject(FILE *to, int number, const sweep_point *p, const series *one,
                           const char *more)
 {

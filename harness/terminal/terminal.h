@@ -32,10 +32,10 @@ void paragraph_end(paragraph *, int at, int indent);
 /* The same of a command, whose lines but the last end in " \", as a shell reads it. */
 void paragraph_end_command(paragraph *, int at, int indent);
 
-/* What a terminal can show: colour, signs beyond ASCII. */
+/* Capabilities of a terminal: colour, signs beyond ASCII. */
 
 typedef struct screen {
-    int colour; /* 1: a terminal that knows colours, and nobody asked for none (NO_COLOR) */
+    int colour; /* 1: a terminal that supports colours, without NO_COLOR */
     int utf8;   /* 1: the locale has signs beyond ASCII */
 } screen;
 
@@ -45,7 +45,7 @@ screen screen_of(FILE *to);
 /* The text in that ink; never an escape sequence where there is no colour. */
 void screen_put(FILE *to, screen, screen_ink, const char *text);
 
-/* What the tables on a terminal are written with. */
+/* Helpers of the tables on a terminal. */
 
 /* A relative error in percent, in 12 columns with a blank before it; a dash where there is none. */
 void table_percent(FILE *to, double error);
@@ -68,8 +68,8 @@ void table_series(FILE *to, const sweep *s, int index);
 
 /* Formulations side by side: a table for each quantity, a column for each formulation. */
 
-/* Of the one point of a sweep: rows are meshes, then limit, its uncertainty and order; below what
- * is not a pass, in words. Errors where a formulation has something to be measured by, else values.
+/* Table of the one point of a sweep: rows are meshes, then limit, its uncertainty and order; below
+ * it the verdicts that are not a pass, in words. Errors where there is a reference, else values.
  * Within 100 columns: several blocks where more formulations ran than fit; last what did not run.
  */
 void table_beside(FILE *to, const sweep *s, const truths *t);
@@ -88,7 +88,7 @@ void table_follow(FILE *to, const char *parameter, const follow_curves *);
 /* In lines of at most PARAGRAPH_WIDTH. Where there are many cases, those that pass share lines. */
 void table_overview(FILE *to, screen, const overview *);
 
-/* What a whole run comes to, for people. */
+/* Summary of a whole run, as text. */
 
 /* Behind the long table: published values that limits contradict, cells without a solution, how
  * often limits hold what they promise. */
@@ -108,7 +108,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t);
  * first quantity only. */
 void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh);
 
-/* What a run shows that nobody expected: together, in full, with commands that show it again. */
+/* Unexpected outcomes of a run: together, in full, with commands that show them again. */
 
 /* Nothing where all is as expected. */
 /* Formulations that break the contract of the interface: before all else. */

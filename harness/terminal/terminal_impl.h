@@ -11,8 +11,8 @@
 
 /* The cheapest way to an error, by counted work, with the times of a benchmark. */
 
-/* What is cheapest for the quantities of a point (`every`), or for the first with a truth; 0: none
- * has. list[series]: room. */
+/* Lowest cost for the quantities of a point (`every`), or for the first with a reference value; 0:
+ * none has. list[series]: room. */
 int table_cheapest(FILE *to, const sweep *, const judgement *, int point, int every,
                    reached list[]);
 
@@ -20,13 +20,13 @@ int table_cheapest(FILE *to, const sweep *, const judgement *, int point, int ev
 
 /* Those over one abscissa beside each other; of many points some. */
 void table_curves_values(FILE *to, const scene *s, const solve_result *r);
-/* Of one point: for each curve the largest error of each mesh, then the values of the formulation
- * that the others are compared with. */
+/* Table of one point: for each curve the largest error of each mesh, then the values of the
+ * formulation that the others are compared with. */
 void table_curves_errors(FILE *to, const sweep *s);
 
 /* A motion in time in short: its steps, energies and momenta. */
 
-/* Nothing where nothing moves. Of loads it tells those that jump where the motion begins. */
+/* Nothing where nothing moves. For loads it reports those that jump at the start of the motion. */
 void table_motion(FILE *to, const scene *, const solve_result *);
 
 /* Load steps with their iterations, and matrices of nodes, as text. */
@@ -37,7 +37,7 @@ void table_path_events(FILE *to, const solve_result *r);
 /* At the last station that was reached. */
 void table_path_matrices(FILE *to, const scene *s, const solve_result *r);
 
-/* Where paths are stable, as far as the tangents along them tell. */
+/* Stability of the states of paths, as far as the tangents along them show. */
 
 /* "yes", "no", "held" (by gyroscopic forces), "?" of a step. */
 const char *table_stability_word(step_stability);
