@@ -1,7 +1,7 @@
 """What the page of a case shows of its scene: the drawing, its sections, the same in words."""
 from dataclasses import dataclass
 
-from reports.drawing import describe, draw, scene, sections
+from reports.drawing import describe, draw, scene
 
 
 @dataclass
@@ -19,7 +19,7 @@ def drawing(site, case):
     read = scene.read(case.points[0].scene)
     if read is None:
         return None
-    beside = sections.draw(read)
+    beside = draw.draw_sections(read)
     return Drawing(site.image(draw.draw(read), f"{case.name}_scene", tight=False),
                    site.image(beside, f"{case.name}_sections", tight=False) if beside else None,
                    describe.counts(read), describe.describe(read))

@@ -7,6 +7,28 @@ from matplotlib.collections import PolyCollection
 
 from reports.style import plt
 
+# Numbers with their units, short.
+
+
+def number(value):
+    """Four digits; large ones in groups of three."""
+    if 1e4 <= abs(value) < 1e8:
+        return f"{float(f'{value:.4g}'):,.0f}".replace(",", "\u202f")
+    return f"{value + 0:.4g}"
+
+
+def length(value):
+    """In m, small ones in mm."""
+    return f"{number(value)} m" if abs(value) >= 0.5 or value == 0 else f"{number(1e3 * value)} mm"
+
+
+def vector(values, unit):
+    """The size along an axis, else all three components."""
+    along = [v for v in values if v]
+    said = number(abs(along[0])) if len(along) == 1 else f"({', '.join(map(number, values))})"
+    return f"{said} {unit}"
+
+
 # Greys follow the page into the dark, loads and motions have a colour for each (style.py).
 INK, SOFT, LOAD, MOTION, SPRING = "#141414", "#606060", "#b03a00", "#005a94", "#6a5a00"
 STEEL, BODY, ROD, MASS = "#c9d3de", "#e3dcc8", "#a89f86", "#8c8468"

@@ -2,9 +2,8 @@
 import numpy as np
 
 from reports.drawing import geometry, loads
-from reports.drawing.members import ends_that_warp, spring_words
-from reports.drawing.supports import held_of
-from reports.drawing.words import length, number, vector
+from reports.drawing.canvas import length, number, vector
+from reports.drawing.members import ends_that_warp, held_of, spring_words
 
 CONSTANTS = (("A", "m²"), ("Iy", "m⁴"), ("Iz", "m⁴"), ("It", "m⁴"), ("Iw", "m⁶"))
 MOST = 12  # lines of one kind

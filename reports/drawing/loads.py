@@ -3,9 +3,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from reports.drawing.canvas import LOAD, MOTION
+from reports.drawing.canvas import LOAD, MOTION, number, vector
 from reports.drawing.scene import COMPONENTS
-from reports.drawing.words import number, vector
 
 ARROW, SHORT, RADIUS = 38, 20, 15  # [pt]
 ALONG = 9  # arrows of a load along a member

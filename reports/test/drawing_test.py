@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from harness.tools.kit.program import ROOT, run
-from reports.drawing import describe, draw, geometry, loads, scene, sections, supports, view
+from reports.drawing import describe, draw, geometry, loads, members, scene
 from reports.drawing.canvas import Canvas, boxes_overlap
 from reports.style import plt
 
@@ -57,7 +57,7 @@ class Drawings(unittest.TestCase):
             figure = draw.draw(one)
             marks = [a.get_gid() for a in figure.findobj() if a.get_gid()]
             wanted = [load.name for load in one.loads] + [s.name for s in one.springs]
-            wanted += [f"support_{n.name}" for n in supports.supported(one)]
+            wanted += [f"support_{n.name}" for n in members.supported(one)]
             wanted += ["spin"] if one.spin is not None and one.spin.omega.any() else []
             for mark in wanted:
                 self.assertEqual(marks.count(mark), 1, f"{name}: {mark}")
@@ -95,7 +95,7 @@ class Drawings(unittest.TestCase):
         load = next(each for each in one.loads if each.name == name)
         canvas, line = Arrows(), geometry.line_of(one, one.members[load.on])
         only = replace(one, loads=[load])
-        loads.put_loads(canvas, view.View(*np.eye(3)[:2]), only, {load.on: line}, None)
+        loads.put_loads(canvas, geometry.View(*np.eye(3)[:2]), only, {load.on: line}, None)
         return np.array(canvas.arrows)
 
     def test_labels_keep_clear(self):
@@ -107,7 +107,7 @@ class Drawings(unittest.TestCase):
     def test_sections(self):
         """Every shape has its figure; constants have none."""
         for name, one in self.scenes.items():
-            figure = sections.draw(one)
+            figure = draw.draw_sections(one)
             shapes = [s for s in one.sections.values() if geometry.outline(s)]
             self.assertEqual(figure is not None, bool(shapes), name)
             plt.close(figure)
@@ -149,10 +149,10 @@ analyses: {a: {linear: {}}}
     def test_plane_structures_face_on(self):
         frame = np.array([[0, 0, 0], [0, 0, 3.0], [4, 0, 3]])
         down, out = [np.array([0, 0, -1.0])], [np.array([0, 1.0, 0])]
-        self.assertTrue(view.choose(frame, down, [], True).face_on)
-        self.assertTrue(view.choose(frame, [], out, True).face_on)  # a moment about the normal
-        self.assertFalse(view.choose(frame, out, [], True).face_on)
-        self.assertFalse(view.choose(frame[:2], down, [], True).face_on)  # its section is seen
+        self.assertTrue(geometry.choose_view(frame, down, [], True).face_on)
+        self.assertTrue(geometry.choose_view(frame, [], out, True).face_on)  # a moment about the normal
+        self.assertFalse(geometry.choose_view(frame, out, [], True).face_on)
+        self.assertFalse(geometry.choose_view(frame[:2], down, [], True).face_on)  # its section is seen
 
     def test_far_axes(self):
         """An axis of turning far away would make the structure small: it is told in words."""
