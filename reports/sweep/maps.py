@@ -120,7 +120,7 @@ def title_of(part):
 
 
 class Map:
-    """One map. x, y: lattice.Parts, or names in place of y; table: states [x, y]."""
+    """One map. x, y: gather.Parts, or names in place of y; table: states [x, y]."""
 
     def __init__(self, x, y, wide=WIDE):
         self.x, self.y = x, y

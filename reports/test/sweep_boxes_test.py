@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from reports.sweep import boxes, lattice, stored, words
+from reports.sweep import answers, boxes, gather, stored
 from reports.test.sweeps import ANGLE, SHAPE, WIDTH
 
 
@@ -14,10 +14,10 @@ def lattice_of(*axes):
     for name, unit, kind, values in axes:
         axis = stored.Axis(name, unit, kind, len(values), False,
                            tuple(values) if kind == "words" else ())
-        extent = lattice.Extent(np.zeros(0))
+        extent = gather.Extent(np.zeros(0))
         extent.take(np.arange(len(values), dtype=float) if kind == "words" else values)
-        out.append(lattice.parts_of(axis, extent, lattice.MOST))
-    return lattice.Lattice(tuple((k,) for k in range(len(axes))), tuple(out))
+        out.append(gather.parts_of(axis, extent, gather.MOST))
+    return gather.Lattice(tuple((k,) for k in range(len(axes))), tuple(out))
 
 
 class Boxes(unittest.TestCase):
@@ -27,7 +27,7 @@ class Boxes(unittest.TestCase):
         cells = lattice_of(*axes)
         good = np.array([holds(*at) for at in itertools.product(*map(range, cells.shape))], int)
         box = boxes.largest([cells], [(good, 1 - good)])
-        return box, box and words.where(box)
+        return box, box and answers.where(box)
 
     def test_everywhere(self):
         box, said = self.largest((WIDTH, ANGLE), lambda i, j: 1)
@@ -48,7 +48,7 @@ class Boxes(unittest.TestCase):
     def test_a_corner_with_an_exception(self):
         box, said = self.largest((WIDTH, ANGLE), lambda i, j: i >= 3 and j < 5 and (i, j) != (6, 2))
         self.assertEqual(said, "where width ≥ 4 m and angle ≤ 0.4 rad")
-        self.assertEqual((box.good, box.bad, words.held(box)), (34, 1, "34 of 35 points there"))
+        self.assertEqual((box.good, box.bad, answers.held(box)), (34, 1, "34 of 35 points there"))
 
     def test_too_many_exceptions(self):
         """Two in 35 are more than are allowed."""

@@ -3,7 +3,8 @@ import unittest
 
 import numpy as np
 
-from reports.sweep import cells, maps, words
+from reports import sweep_page
+from reports.sweep import answers, maps
 
 
 class Fields(unittest.TestCase):
@@ -35,13 +36,13 @@ class Fields(unittest.TestCase):
 
     def test_errors(self):
         """A class is not below any error in it, and the next smaller one is."""
-        levels = cells.levels_of(0.003)
+        levels = sweep_page.levels_of(0.003)
         self.assertIn(0.3, levels)
         for error in (1e-9, 0.0123, 0.01, 0.003, 0.0031, 0.5, 0.99):
-            k = int(cells.classes(np.float32(error), np.array(1), levels))
+            k = int(sweep_page.classes(np.float32(error), np.array(1), levels))
             self.assertGreaterEqual(levels[k] * (1 + 1e-6), 100 * error)
             self.assertTrue(k == 0 or levels[k - 1] < 100 * error)
-        self.assertEqual(cells.written(np.array([0, 0, 0, 2, maps.EMPTY, maps.UNKNOWN])), "a3c_?")
+        self.assertEqual(sweep_page.written(np.array([0, 0, 0, 2, maps.EMPTY, maps.UNKNOWN])), "a3c_?")
 
 
 class Told(unittest.TestCase):
@@ -49,7 +50,7 @@ class Told(unittest.TestCase):
     def test_percent(self):
         for share, said in ((0, "0 %"), (0.004, "less than 1 %"), (0.5, "50 %"),
                             (0.9999, "99.9 %"), (1, "100 %")):
-            self.assertEqual(words.percent(share), said)
+            self.assertEqual(answers.percent(share), said)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import numpy as np
 
 from harness.tools.kit.program import ProgramTest
 from reports import data
-from reports.sweep import answers, gather, lattice, stored, words
+from reports.sweep import answers, gather, stored
 from reports.test import sweeps
 from reports.test.sweeps import ANGLE, SHAPE, WIDTH
 
@@ -92,7 +92,7 @@ class Counts(ProgramTest):
         """Grouped by whole values; a bound is one that was tried."""
         axes = (("width", "m", "log", np.geomspace(1, 100, 60)), SHAPE)
         found = self.check(self.made(axes=axes))
-        self.assertEqual(found.shape, (lattice.MOST, 3))
+        self.assertEqual(found.shape, (gather.MOST, 3))
         self.assertTrue(np.isin(found.parts[0].high, axes[0][3]).all())
 
     def test_in_pieces(self):
@@ -142,7 +142,7 @@ class Counts(ProgramTest):
         self.assertTrue((found.worst[~known, 0, -1] == -1).all())
         made, = answers.of_sweep(sweep, found)
         self.assertIsNone(made.first)
-        self.assertEqual(words.unjudged(made.of[-1].whole, made.of[-1].known),
+        self.assertEqual(answers.unjudged(made.of[-1].whole, made.of[-1].known),
                          f"; {100 - off} of all 100 cannot be judged")
         one = made.single["u"][-1].box
         self.assertEqual((one.whole, one.asked), (100, 100))
@@ -157,8 +157,8 @@ class Counts(ProgramTest):
             file["value"][:] = 1
         sweep = stored.read(path)
         made, = answers.of_sweep(sweep, gather.of_sweep(sweep))
-        self.assertEqual(words.where(made.first.box), "wherever that can be judged")
-        self.assertEqual(words.held(made.first.box), "all 50 points; 50 of all 100 cannot be judged")
+        self.assertEqual(answers.where(made.first.box), "wherever that can be judged")
+        self.assertEqual(answers.held(made.first.box), "all 50 points; 50 of all 100 cannot be judged")
 
     def test_a_ratio(self):
         """Of two axes of one unit, where it says more than the axes do; its counts are those of the
@@ -173,7 +173,7 @@ class Counts(ProgramTest):
         found = gather.of_sweep(sweep)
         made, = answers.of_sweep(sweep, found)
         box = made.first.box
-        self.assertRegex(words.where(box), r"^where length/width ≥ [12]\.\d+ and angle ≤ 0\.\d+ r")
+        self.assertRegex(answers.where(box), r"^where length/width ≥ [12]\.\d+ and angle ≤ 0\.\d+ r")
         inside = box.holds(points)
         good = (points[:, 0] >= 2 * points[:, 1]) & (points[:, 2] <= 0.7 * 0.9)
         self.assertEqual((box.good, box.bad), ((inside & good).sum(), (inside & ~good).sum()))
@@ -203,7 +203,7 @@ class Counts(ProgramTest):
         self.assertEqual((made.first.mesh, made.first.box.bad), (1, 1))
         named, = made.first.exceptions
         self.assertEqual(sweep.place(named.at), "width = 10 m, angle = 0.9 rad")
-        self.assertEqual((named.point, words.error(named.error)), (99, "2 %"))
+        self.assertEqual((named.point, answers.error(named.error)), (99, "2 %"))
 
 
 class Refused(ProgramTest):
