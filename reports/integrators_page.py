@@ -1,9 +1,301 @@
 """Integrators: which one, with which step, is soonest within an error of time, and can it be
 believed?  (of `beamwork motion`, and paces.json where there is one)"""
 import functools
+import math
 
-from reports import experiments
-from reports.integrators import answers, figures, map as stability, stored, words
+from markupsafe import escape
+
+from reports import experiments, integrators
+from reports.chart import Chart
+from reports.figures import FONT, Image
+from reports.integrators import ordered
+from reports.motion_page import between
+from reports.profile_figures import Fixed, factors, stairs
+
+# Sentences about integrators.
+
+
+def joined(words):
+    words = list(words)
+    return words[0] if len(words) == 1 else ", ".join(words[:-1]) + " and " + words[-1]
+
+
+def level_words(level):
+    return f"{100 * level:g} %"
+
+
+def soonest(problems, level, noise):
+    """`within 1 % alpha in 2 of 3`, without those that are soonest half as often as the first; of
+    one problem with its step."""
+    count, reached = integrators.wins(problems, level, noise)
+    if not reached:
+        return f"within {level_words(level)} none"
+    if len(problems) == 1:
+        found = integrators.answer(problems[0], level, noise)
+        tied = f" (as soon: {joined(found.ties)})" if found.ties else ""
+        best = found.best
+        return f"within {level_words(level)} {best.scheme} with {best.run.setting}{tied}"
+    most = sorted(count.items(), key=lambda item: -item[1])
+    most = [(scheme, n) for scheme, n in most if 2 * n >= most[0][1]]
+    told = joined(f"{scheme} in {n}" for scheme, n in most)
+    tied = " (ties count for each)" if sum(count.values()) > reached else ""
+    return f"within {level_words(level)} {told} of {reached}{tied}"
+
+
+def trust(problems, noise):
+    """Can the answers be believed?  Of the runs that are soonest."""
+    best = [(p, found.best) for p in problems
+            for found in (integrators.answer(p, level, noise) for level in integrators.LEVELS)
+            if found.best]
+    if not best:
+        return "No run comes within these errors."
+    doubted = [(p, way, integrators.doubt(p, way)) for p, way in best]
+    doubted = [row for row in doubted if row[2]]
+    if doubted:
+        p, way, words = doubted[0]
+        return (f"{len(doubted)} of these {len(best)} answers are to be taken with care, as stands "
+                f"with them: {way.scheme} in {p.name}: {words}.")
+    found = [p.ladder(way.scheme) for p, way in best]
+    passed = sum(one is not None and one.verdict == "pass" for one in found)
+    unread = len(best) - passed
+    told = (f"; of {passed} the order of the scheme is confirmed, of {unread} it cannot be read"
+            if unread else ", and the order of the scheme is confirmed")
+    return (f"These {len(best)} answers are verified: errors are measured on the same mesh "
+            f"against a reference that is closer than they are{told}.")
+
+
+def first(problems, noise):
+    """The first sentences of the page."""
+    told = integrators.judged(problems)
+    if not told:
+        return "No run of these results has an error of time."
+    where = (f"{told[0].name}: lowest cost" if len(told) == 1 else
+             f"Of {len(told)} problems (a case with a formulation) soonest is")
+    levels = "; ".join(soonest(told, level, noise) for level in integrators.LEVELS)
+    return f"{where} {levels}. {trust(told, noise)}"
+
+
+def chosen(ways):
+    """`tolerance 1e-05`, `step 0.01 to 0.02 s`: of most of the ways."""
+    by_tolerance = [w.run.tolerance for w in ways if w.run.tolerance]
+    if 2 * len(by_tolerance) >= len(ways):
+        return f"tolerance {between(by_tolerance, '{:.2g}')}"
+    return f"step {between([w.run.step for w in ways if not w.run.tolerance], '{:.3g}')} s"
+
+
+def keeping(found):
+    """Who comes within the error and keeps energy, at how many times the least cost."""
+    if not found.keeping:
+        return "none of those within it keeps energy to round-off"
+    names = joined(dict.fromkeys(scheme for scheme, _ in found.keeping))
+    ratios = between([ratio for _, ratio in found.keeping], "{:.2g}")
+    return f"keeps energy to round-off: {names}, at {ratios} times the cost"
+
+
+def drift(ways):
+    """Of energy, of runs that are soonest."""
+    known = [w.run.energy for w in ways if w.run.energy == w.run.energy]
+    return f"energy drifts by {between(known, '{:.0e}')}" if known else ""
+
+
+def stability(problems):
+    """One sentence on a map: which schemes grow or stop anywhere."""
+    bad, every = {}, {}
+    for problem in problems:
+        for run in problem.runs:
+            if run.fate and not run.tolerance:
+                every[run.scheme] = True
+            if run.fate in ("grows", "stops") and not run.tolerance:
+                bad.setdefault(run.scheme, set()).add(run.step)
+    good = [s for s in every if s not in bad]
+    told = [f"{s} grows or stops from a step of {min(steps):.3g} s on" for s, steps in bad.items()]
+    if good:
+        told = [f"{joined(good)} stay{'s' if len(good) == 1 else ''} bounded everywhere"] + told
+    text = "; ".join(told)
+    return text[:1].upper() + text[1:] + "."
+
+
+def iterations(rows):
+    """One sentence on how iterations change between the least and the largest stiffness."""
+    change = [found[max(found)] - found[min(found)] for found in rows.values()]
+    if not change:
+        return ""
+    return (f"From the softest to the stiffest a step takes at most {max(0, max(change)):.1f} "
+            f"iterations more, of {len(change)} that were run with both.")
+
+
+def verdicts(rows):
+    """One sentence on what is judged."""
+    off = sum(not row["as_expected"] for row in rows)
+    if not rows:
+        return ""
+    told = f"{len(rows)} verdicts on orders, conservation and large steps: "
+    return told + (f"{off} differ from what is expected." if off else "all as expected.")
+
+
+# Figures of integrators: work-precision diagrams and performance profiles.
+
+SIZE, ONE, PROFILE = (250, 190), (420, 250), (250, 165)
+COLUMNS = 3
+FLOOR = 1e-14  # of what is drawn
+SLOPES = (2, 5)  # orders with a line of their own
+
+
+def slope_lines(panel, runs):
+    """Dotted lines whose slopes are orders, from the upper left run."""
+    costs = [r.cost for r in runs]
+    low, high = min(costs), max(costs)
+    errors = [max(abs(r.error), FLOOR) for r in runs]
+    top, bottom = max(errors), min(errors)
+    for order in SLOPES:
+        if high <= low or top <= bottom:
+            return
+        factor = min(high / low, (top / bottom)**(1 / order))
+        ends = ([low, low * factor], [top, top * factor**-order])
+        panel.plot(*ends, back=True, color="currentColor", linestyle=":", linewidth=1, alpha=0.6)
+        panel.note(ends[0][1], ends[1][1], f"order {order}")
+
+
+def draw_scheme(site, panel, problem, scheme):
+    """Its curve, equal steps and steps by a tolerance apart."""
+    for own in integrators.series(problem, scheme):
+        known = [r for r in own if r.known and r.cost > 0]
+        if not known:
+            continue
+        rows = [(r.setting, abs(r.error), r.cost, r.iterations, r.energy, r.momentum)
+                for r in known]
+        key = scheme + (f"{',' if ':' in scheme else ':'}tolerance" if known[0].tolerance else "")
+        look = site.points(key, ("chosen", "error", "time [s]", "iterations a step",
+                                 "drift of energy", "drift of momenta"), rows)
+        panel.plot([r.cost for r in known], [max(abs(r.error), FLOOR) for r in known], label=key,
+                   **look)
+
+
+def work_precision(site, case, problems):
+    """The Image of a case: a panel for each formulation."""
+    told = [p for p in integrators.judged(problems) if any(r.known and r.cost > 0 for r in p.runs)]
+    if not told:
+        return None
+    columns = min(COLUMNS, len(told))
+    chart = Chart(columns, SIZE if columns > 1 else ONE)
+    for i, problem in enumerate(told):
+        stiff = f", EA × {problem.stiffening:g}" if problem.stiffening != 1 else ""
+        panel = chart.panel(f"{problem.formulation}, n = {problem.elements}{stiff}",
+                            "cost [s]" if i + columns >= len(told) else "",
+                            "" if i % columns else "error of time")
+        slope_lines(panel, [r for r in problem.runs if r.known and r.cost > 0])
+        for scheme in problem.schemes():
+            draw_scheme(site, panel, problem, scheme)
+    return chart.image(site, f"integrators_{case}")
+
+
+def profile(site, problems, level):
+    """The Image of a performance profile, or None when nothing comes within the level."""
+    curves = integrators.profile(problems, level)
+    if not any(math.isfinite(c[-1]) and c[-1] > 0 for c in curves.values()):
+        return None
+    at = integrators.FACTORS
+    chart = Chart(1, PROFILE)
+    panel = chart.panel(xlabel="factor to the least cost of all", ylabel="share of problems")
+    panel.x = factors(at[-1])
+    panel.y = Fixed(False, (0, 1), [(i / 5, f"{20 * i} %") for i in range(6)])
+    for i, (scheme, shares) in enumerate(curves.items()):
+        marked = slice(2 * i, None, 8)
+        rows = [(f"{x:.3g}", f"{100 * share:.0f} %") for x, share in
+                list(zip(at, shares))[marked]]
+        look = site.points(scheme, ("factor", "within the error"), rows)
+        panel.plot(*stairs(at, shares), label=scheme,
+                   **{**look, "marker": None, "gid": f"f|{scheme}"})
+        panel.plot(at[marked], shares[marked], **{**look, "linestyle": "none"})
+    return chart.image(site, f"integrators_profile_{level:g}".replace(".", "_"))
+
+
+# Maps of stability: step across, stiffness down, for each integrator a panel; what happened has a
+# colour and a letter, so that the map can be read without colours.
+
+# fate: letter, colour, colour of the letter, meaning
+LOOK = {
+    "exact": ("E", "#009e73", "#111418", "energy and momenta kept to round-off"),
+    "bounded": ("B", "#8fd3f4", "#111418", "its energy does not grow"),
+    "grows": ("G", "#e69f00", "#111418", "its energy grows by more than 1 %"),
+    "stops": ("S", "currentColor", "var(--paper,#fff)", "a step finds no solution"),
+}
+WIDE, TALL, LEFT, TOP, BELOW, GAP = 46, 26, 84, 26, 46, 22
+MOST = 4  # panels in a row
+
+
+def map_text(x, y, words, more=""):
+    return f'<text x="{x:.1f}" y="{y:.1f}"{more and " "}{more}>{escape(words)}</text>'
+
+
+def short(value):
+    """A power of ten as 1e6."""
+    return (f"{value:g}" if value < 1e4 else f"{value:.0e}").replace("e+0", "e").replace("e+", "e")
+
+
+def field(x, y, fate, words):
+    letter, fill, ink, _ = LOOK[fate]
+    return (f'<g><title>{escape(words)}</title><path fill="{fill}" stroke="var(--paper,#fff)" '
+            f'd="M{x:.1f} {y:.1f}h{WIDE}v{TALL}h-{WIDE}z"/>' +
+            map_text(x + WIDE / 2, y + TALL / 2 + 5, letter, f'fill="{ink}"') + "</g>")
+
+
+def map_panel(scheme, found, steps, stiffenings, left, top):
+    """One integrator."""
+    out = map_text(left + WIDE * len(steps) / 2, top - 9, scheme, 'font-size="12"')
+    for j, stiffening in enumerate(stiffenings):
+        for i, step in enumerate(steps):
+            x, y = left + WIDE * i, top + TALL * j
+            run = found.get((scheme, step, stiffening))
+            if run is None:
+                out += map_text(x + WIDE / 2, y + TALL / 2 + 4, "–", 'fill-opacity=".5"')
+                continue
+            words = f"{scheme}, step {step:g} s, EA × {short(stiffening)}: {run.fate}"
+            out += field(x, y, run.fate, words + (f", {run.reason}" if run.reason else ""))
+    bottom = top + TALL * len(stiffenings)
+    out += "".join(map_text(left + WIDE * (i + 0.5), bottom + 15, f"{step:.3g}")
+                   for i, step in enumerate(steps))
+    return out + map_text(left + WIDE * len(steps) / 2, bottom + 31, "step [s]", 'font-size="11.5"')
+
+
+def fates(problems):
+    """{(scheme, step, stiffening): run}: what was run with equal steps and became something."""
+    return {(r.scheme, r.step, p.stiffening): r for p in problems for r in p.runs
+            if r.fate and not r.tolerance}
+
+
+def draw_map(problems, legend=True):
+    """The Image of a structure's map. problems: its stiffenings; legend: letters are explained
+    below it."""
+    found = fates(problems)
+    schemes = ordered({s for s, _, _ in found})
+    steps, stiffenings = sorted({h for _, h, _ in found}), sorted({x for _, _, x in found})
+    columns = max(1, min(MOST, len(schemes), 900 // (WIDE * len(steps) + GAP)))
+    step = (WIDE * len(steps) + GAP, TALL * len(stiffenings) + TOP + BELOW)
+    rows = -(-len(schemes) // columns)
+    out = ""
+    for k, scheme in enumerate(schemes):
+        left, top = LEFT + step[0] * (k % columns), TOP + step[1] * (k // columns)
+        out += map_panel(scheme, found, steps, stiffenings, left, top)
+        if k % columns == 0:
+            out += "".join(map_text(left - 8, top + TALL * (j + 0.5) + 4, f"EA × {short(s)}",
+                                    'text-anchor="end"') for j, s in enumerate(stiffenings))
+    height = step[1] * rows + 6
+    there = list(LOOK) if legend else []
+    for k, fate in enumerate(there):
+        letter, fill, ink, meaning = LOOK[fate]
+        y = height + 20 * k
+        out += (f'<path fill="{fill}" d="M{LEFT} {y}h18v15h-18z"/>' +
+                map_text(LEFT + 9, y + 12, letter, f'fill="{ink}"') +
+                map_text(LEFT + 26, y + 12, f"{fate}: {meaning}", 'text-anchor="start"'))
+    height += 20 * len(there) + 4
+    width = LEFT + max(step[0] * columns, 320 if there else 0)
+    name = "".join(c if c.isalnum() else "_" for c in f"map_{problems[0].name}")
+    return Image(f"{name}.svg",
+                 f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
+                 f'fill="currentColor" font-size="11" text-anchor="middle" '
+                 f'font-family="{FONT}">{out}</svg>')
+
 
 NAVIGATION = [("integrators.html", "integrators")]
 
@@ -19,30 +311,30 @@ def noise_of(site):
 
 def rows_of(problems, noise):
     """[(problem, {level: Answer})] of a table who is cheapest."""
-    return [(p, {level: answers.answer(p, level, noise) for level in answers.LEVELS})
+    return [(p, {level: integrators.answer(p, level, noise) for level in integrators.LEVELS})
             for p in problems]
 
 
 def cases_of(problems, noise):
     """[(case, parameters, {level: Summary}, rows)]: all formulations of a case together, and each."""
     return [(case, parameters,
-             {level: answers.summary(own, level, noise) for level in answers.LEVELS},
-             rows_of(own, noise)) for (case, parameters), own in answers.by_case(problems).items()]
+             {level: integrators.summary(own, level, noise) for level in integrators.LEVELS},
+             rows_of(own, noise)) for (case, parameters), own in integrators.by_case(problems).items()]
 
 
 def maps_of(problems):
     """[(name, Image, sentence)]: a map for each structure of which large steps were run, the
     largest first, letters explained below it."""
-    found = [own for own in answers.structures(problems).values() if stability.fates(own) and
-             any(p.reference == stored.NONE_WANTED for p in own)]
-    found.sort(key=lambda own: -len(stability.fates(own)))
-    return [(min(own, key=lambda p: p.stiffening).name, stability.draw(own, own is found[0]),
-             words.stability(own)) for own in found]
+    found = [own for own in integrators.structures(problems).values() if fates(own) and
+             any(p.reference == integrators.NONE_WANTED for p in own)]
+    found.sort(key=lambda own: -len(fates(own)))
+    return [(min(own, key=lambda p: p.stiffening).name, draw_map(own, own is found[0]),
+             stability(own)) for own in found]
 
 
 def unmeasured(problems):
     """Those of which errors were wanted and cannot be told."""
-    return [p for p in problems if p.reference and p.reference != stored.NONE_WANTED]
+    return [p for p in problems if p.reference and p.reference != integrators.NONE_WANTED]
 
 
 def failures_of(problems):
@@ -58,39 +350,40 @@ def failures_of(problems):
 
 def diagrams_of(site, problems):
     """[(case, parameters, Image)]"""
-    found = [(case, parameters, figures.work_precision(site, f"{case}_{i}", own))
-             for i, ((case, parameters), own) in enumerate(answers.by_case(problems).items())]
+    found = [(case, parameters, work_precision(site, f"{case}_{i}", own))
+             for i, ((case, parameters), own) in enumerate(integrators.by_case(problems).items())]
     return [one for one in found if one[2]]
 
 
 def write(site):
-    record, noise = stored.read(site.results), noise_of(site)
-    told = answers.judged(record.compared)
-    profiles = ((level, figures.profile(site, told, level)) for level in answers.LEVELS)
-    counted, stiffenings = answers.iterations(record.every)
+    record, noise = integrators.read(site.results), noise_of(site)
+    told = integrators.judged(record.compared)
+    profiles = ((level, profile(site, told, level)) for level in integrators.LEVELS)
+    counted, stiffenings = integrators.iterations(record.every)
     site.write("integrators.html",
                "integrators.html",
                record=record.about, about=site.about,
-               first=words.first(record.compared, noise),
-               words=words, doubt=answers.doubt,
-               tolerances=answers.LEVELS,
+               first=first(record.compared, noise),
+               words={"chosen": chosen, "drift": drift, "keeping": keeping},
+               doubt=integrators.doubt,
+               tolerances=integrators.LEVELS,
                cases=cases_of(told, noise),
                problems=len(told),
                noise=noise,
                diagrams=diagrams_of(site, told),
                maps=maps_of(record.problems),
                profiles=[(level, image) for level, image in profiles if image],
-               within={level: answers.counted(told, level) for level in answers.LEVELS},
+               within={level: integrators.counted(told, level) for level in integrators.LEVELS},
                checks=record.checks,
                left_out=record.left_out,
-               iterations=counted, counted=words.iterations(counted),
-               stiffenings=[(s, stability.short(s)) for s in stiffenings],
-               orders=answers.orders(told),
+               iterations=counted, counted=iterations(counted),
+               stiffenings=[(s, short(s)) for s in stiffenings],
+               orders=integrators.orders(told),
                ladders=[(p, one) for p in told for one in p.ladders
                         if one.verdict == "low order"],
-               verdicts=record.verdicts, judged=words.verdicts(record.verdicts),
+               verdicts=record.verdicts, judged=verdicts(record.verdicts),
                unmeasured=unmeasured(record.every),
-               failures=failures_of(answers.judged(record.every)))
+               failures=failures_of(integrators.judged(record.every)))
 
 
 def tasks(site):

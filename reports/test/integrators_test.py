@@ -4,21 +4,20 @@ import re
 import unittest
 
 from harness.tools.kit.program import ProgramTest, drawn
-from reports import integrators_page
+from reports import integrators, integrators_page
 from reports.data import Unreadable
-from reports.integrators import answers, map as stability, stored, words
 from reports.test import motions
 from reports.test.browser_test import CHROMIUM, chromium, console
 
 
 def problems(found=None):
-    return stored.problems_of(found or motions.record())
+    return integrators.problems_of(found or motions.record())
 
 
 class Answers(unittest.TestCase):
 
     def setUp(self):
-        self.every = answers.judged(problems())
+        self.every = integrators.judged(problems())
         self.one = self.every[0]
 
     def test_judged(self):
@@ -29,8 +28,8 @@ class Answers(unittest.TestCase):
 
     def test_best(self):
         """Errors are C step^p and costs c/step: what is least can be said."""
-        for level in answers.LEVELS:
-            found = answers.answer(self.one, level)
+        for level in integrators.LEVELS:
+            found = integrators.answer(self.one, level)
             costs = {}
             for scheme, (order, error) in motions.CONSTANTS.items():
                 within = [h for h in motions.STEPS if error * h**order <= level]
@@ -40,60 +39,60 @@ class Answers(unittest.TestCase):
             self.assertLessEqual(found.best.run.error, level)
 
     def test_ties(self):
-        found = answers.answer(self.one, 1e-2, noise=1.4)
+        found = integrators.answer(self.one, 1e-2, noise=1.4)
         self.assertEqual((found.best.scheme, found.ties), ("radau", ("alpha",)))
-        self.assertEqual(answers.answer(self.one, 1e-2, noise=1.01).ties, ())
+        self.assertEqual(integrators.answer(self.one, 1e-2, noise=1.01).ties, ())
 
     def test_series(self):
         """From coarse to fine, those with a tolerance apart."""
         rows = [motions.run("radau", 0.1, tolerance=x) for x in (1e-6, 1e-3)]
-        self.one.runs += [stored.run_of(r) for r in rows]
-        equal, by_tolerance = answers.series(self.one, "radau")
+        self.one.runs += [integrators.run_of(r) for r in rows]
+        equal, by_tolerance = integrators.series(self.one, "radau")
         self.assertEqual([r.step for r in equal], [0.2] + motions.STEPS)
         self.assertEqual([r.tolerance for r in by_tolerance], [1e-3, 1e-6])
         self.assertEqual(by_tolerance[0].setting, "tolerance 0.001")
 
     def test_doubt(self):
-        way = answers.answer(self.one, 1e-2).best
-        self.assertEqual(answers.doubt(self.one, way), "")
+        way = integrators.answer(self.one, 1e-2).best
+        self.assertEqual(integrators.doubt(self.one, way), "")
         self.one.uncertainty = 1.0
-        self.assertIn("reference", answers.doubt(self.one, way))
+        self.assertIn("reference", integrators.doubt(self.one, way))
 
     def test_profile(self):
         """Shares grow with the factor and end with what is reached at all."""
-        for level in answers.LEVELS:
-            curves = answers.profile(self.every, level)
+        for level in integrators.LEVELS:
+            curves = integrators.profile(self.every, level)
             self.assertEqual(set(curves), set(motions.CONSTANTS))
             for shares in curves.values():
                 self.assertEqual(shares, sorted(shares))
             self.assertAlmostEqual(max(s[0] for s in curves.values()), 1)
-        self.assertEqual(answers.profile(self.every, 1e-6)["alpha"][-1], 0)
+        self.assertEqual(integrators.profile(self.every, 1e-6)["alpha"][-1], 0)
 
     def test_summary(self):
         """All formulations of a case: who is soonest in how many, who keeps energy at what cost."""
-        for own in answers.by_case(self.every).values():
+        for own in integrators.by_case(self.every).values():
             self.assertEqual(len(own), 2)
-            for level in answers.LEVELS:
-                found = answers.summary(own, level)
-                count, reached = answers.wins(own, level)
+            for level in integrators.LEVELS:
+                found = integrators.summary(own, level)
+                count, reached = integrators.wins(own, level)
                 self.assertEqual((dict(found.wins), found.reached, found.count),
                                  (count, reached, 2))
                 self.assertEqual({w.scheme for w in found.best}, {found.wins[0][0]})
                 kept = any(w.scheme == "conserving" for p in own
-                           for w in answers.answer(p, level).ways)
+                           for w in integrators.answer(p, level).ways)
                 self.assertEqual({s for s, _ in found.keeping}, {"conserving"} if kept else set())
                 for p, (_, ratio) in zip(own, found.keeping):
-                    ways = {w.scheme: w.cost for w in answers.answer(p, level).ways}
+                    ways = {w.scheme: w.cost for w in integrators.answer(p, level).ways}
                     self.assertEqual(ratio, ways["conserving"] / min(ways.values()))
 
     def test_counted(self):
-        self.assertEqual(answers.counted(self.every, 1e-2), dict.fromkeys(motions.CONSTANTS, 4))
-        self.assertEqual(answers.counted(self.every, 1e-6),
+        self.assertEqual(integrators.counted(self.every, 1e-2), dict.fromkeys(motions.CONSTANTS, 4))
+        self.assertEqual(integrators.counted(self.every, 1e-6),
                          {"alpha": 0, "conserving": 0, "radau": 4})
 
     def test_iterations(self):
         """At each stiffness, of the same step."""
-        rows, stiffenings = answers.iterations(problems())
+        rows, stiffenings = integrators.iterations(problems())
         self.assertEqual(stiffenings, list(motions.STIFFENINGS))
         self.assertEqual(rows[self.one.name, "alpha", 0.4], {1: 3.0, 1e3: 3.0, 1e6: 3.0})
         self.assertNotIn((self.one.name, "radau", 0.2), rows)
@@ -103,19 +102,19 @@ class Answers(unittest.TestCase):
         found = motions.record()
         found["references"][0]["reason"] = "no result after 120 s"
         every = problems(found)
-        self.assertEqual(len(answers.judged(every)), 3)
+        self.assertEqual(len(integrators.judged(every)), 3)
         self.assertEqual([p.reference for p in integrators_page.unmeasured(every)],
                          ["no result after 120 s"])
 
     def test_structures(self):
         """All stiffenings of a mesh together, the name without them."""
-        found = answers.structures(problems())
+        found = integrators.structures(problems())
         self.assertEqual(len(found), 4)
         self.assertEqual({p.stiffening for own in found.values() for p in own},
                          set(motions.STIFFENINGS))
 
     def test_names(self):
-        self.assertEqual(stored.ordered({"radau", "new", "alpha:rho=0.5", "alpha"}),
+        self.assertEqual(integrators.ordered({"radau", "new", "alpha:rho=0.5", "alpha"}),
                          ["alpha", "alpha:rho=0.5", "radau", "new"])
 
 
@@ -124,9 +123,9 @@ class Words(unittest.TestCase):
     def test_first(self):
         """The counts in the sentence are those of the answers."""
         every = problems()
-        text = words.first(every, 1.0)
-        for level in answers.LEVELS:
-            count, reached = answers.wins(answers.judged(every), level)
+        text = integrators_page.first(every, 1.0)
+        for level in integrators.LEVELS:
+            count, reached = integrators.wins(integrators.judged(every), level)
             said = re.search(rf"within {100 * level:g} % (.*?)[;.]", text)[1]
             told = {s: int(n) for s, n in re.findall(r"(\w+) in (\d+)", said)}
             self.assertEqual(told, {s: n for s, n in count.items() if 2 * n >= max(count.values())})
@@ -136,9 +135,9 @@ class Words(unittest.TestCase):
     def test_one_problem(self):
         """The step stands in the sentence."""
         one = problems()[:1]
-        best = answers.answer(one[0], 1e-2).best
+        best = integrators.answer(one[0], 1e-2).best
         self.assertIn(f"within 1 % {best.scheme} with step {best.run.step:g} s",
-                      words.first(one, 1.0))
+                      integrators_page.first(one, 1.0))
 
     def test_doubt(self):
         """Of a scheme that wins and falls more slowly than it should."""
@@ -146,58 +145,58 @@ class Words(unittest.TestCase):
         for row in found["orders"]:
             if row["integrator"] == "radau":
                 row.update(order=1.0, verdict="low order")
-        text = words.first(problems(found), 1.0)
+        text = integrators_page.first(problems(found), 1.0)
         self.assertIn("3 of these 3 answers are to be taken with care", text)
         self.assertRegex(text, r"order 1\.0, not 5")
 
     def test_nothing(self):
-        self.assertIn("No run", words.first([], 1.0))
+        self.assertIn("No run", integrators_page.first([], 1.0))
         rows = [motions.run("alpha", 1.0)]
-        one = stored.problems_of(motions.group("a", "b", rows))[0]
-        self.assertIn("within 1 % none", words.first([one], 1.0))
+        one = integrators.problems_of(motions.group("a", "b", rows))[0]
+        self.assertIn("within 1 % none", integrators_page.first([one], 1.0))
 
     def test_stability(self):
-        text = words.stability(next(iter(answers.structures(problems()).values())))
+        text = integrators_page.stability(next(iter(integrators.structures(problems()).values())))
         self.assertIn("Alpha and conserving stay bounded", text)
         self.assertIn("trapezoidal grows or stops from a step of 0.05 s on", text)
 
     def test_iterations(self):
         """The largest growth, counted by hand."""
         rows = {"a": {1: 3.0, 1e6: 3.25}, "b": {1: 4.0, 1e3: 9.0, 1e6: 4.5}}
-        self.assertIn("at most 0.5 iterations more, of 2", words.iterations(rows))
-        self.assertEqual(words.iterations({}), "")
+        self.assertIn("at most 0.5 iterations more, of 2", integrators_page.iterations(rows))
+        self.assertEqual(integrators_page.iterations({}), "")
 
     def test_verdicts(self):
         rows = [motions.VERDICT, {**motions.VERDICT, "as_expected": False}]
-        self.assertIn("all as expected", words.verdicts(rows[:1]))
-        self.assertIn("1 differ", words.verdicts(rows))
+        self.assertIn("all as expected", integrators_page.verdicts(rows[:1]))
+        self.assertIn("1 differ", integrators_page.verdicts(rows))
 
 
 class Map(unittest.TestCase):
 
     def setUp(self):
-        self.problems = next(iter(answers.structures(problems()).values()))
+        self.problems = next(iter(integrators.structures(problems()).values()))
 
     def test_letters(self):
         """Each field has the letter of its fate, and says it in words."""
-        markup = stability.draw(self.problems, legend=False).markup
+        markup = integrators_page.draw_map(self.problems, legend=False).markup
         fields = re.findall(r"<title>(.*?)</title>.*?<text[^>]*>(\w)</text>", markup)
-        wanted = stability.fates(self.problems)
+        wanted = integrators_page.fates(self.problems)
         self.assertEqual(len(wanted), 3 * len(motions.FATE_STEPS) * len(motions.STIFFENINGS))
         self.assertEqual(len(fields), len(wanted))
         for words_of, letter in fields:
             scheme, step, by, what = re.match(r"(\w+), step (\S+) s, EA × (\S+): (\w+)",
                                               words_of).groups()
             self.assertEqual(what, motions.fate(scheme, float(step), float(by)))
-            self.assertEqual(letter, stability.LOOK[what][0])
+            self.assertEqual(letter, integrators_page.LOOK[what][0])
 
     def test_letters_differ(self):
-        self.assertEqual(len({look[0] for look in stability.LOOK.values()}), len(stability.LOOK))
-        self.assertEqual(len({look[1] for look in stability.LOOK.values()}), len(stability.LOOK))
+        self.assertEqual(len({look[0] for look in integrators_page.LOOK.values()}), len(integrators_page.LOOK))
+        self.assertEqual(len({look[1] for look in integrators_page.LOOK.values()}), len(integrators_page.LOOK))
 
     def test_not_run(self):
         self.problems[-1].runs.pop()
-        self.assertEqual(stability.draw(self.problems).markup.count("–"), 1)
+        self.assertEqual(integrators_page.draw_map(self.problems).markup.count("–"), 1)
 
 
 class Page(ProgramTest):
@@ -241,7 +240,7 @@ class Page(ProgramTest):
         for text in ('{"cases": []}', "[1", "[]"):
             (self.folder / "paces.json").write_text(text, encoding="utf-8")
             with self.assertRaisesRegex(Unreadable, "run 'make lab L=paces', or remove it"):
-                stored.read(self.folder / "results.h5")
+                integrators.read(self.folder / "results.h5")
 
     def test_nothing_from_elsewhere(self):
         self.assertNotRegex(self.text, r'(src|href)="https?:')

@@ -9,7 +9,6 @@ import numpy as np
 
 from harness.tools.kit.program import TRUTHS, ProgramTest, report, run
 from reports import motion_page
-from reports.motion import figures, stored, units, words
 from reports.test import balances, frames
 from reports.test.browser_test import CHROMIUM, chromium, console
 from reports.test.film_test import CLOCK
@@ -20,8 +19,8 @@ FORMULATIONS = ("beamw", "collocation")
 
 def motion(**more):
     found = balances.rows("beamw", 4, **more)
-    return stored.Motion("beamw", 4, {name: found[name].astype(float)
-                                      for name in balances.COLUMNS})
+    return motion_page.Motion("beamw", 4, {name: found[name].astype(float)
+                                           for name in balances.COLUMNS})
 
 
 class Words(unittest.TestCase):
@@ -35,31 +34,31 @@ class Words(unittest.TestCase):
                             ({"hht": 0.1}, "HHT (0.1)"),
                             ({"trapezoidal": True}, "the trapezoidal rule"),
                             ({"rho": 0.6}, "alpha (rho 0.6)"), ({}, "alpha (rho 0.9)")):
-            self.assertEqual(words.scheme(how), wanted)
+            self.assertEqual(motion_page.scheme(how), wanted)
 
     def test_sentence(self):
         """Its numbers are those of the rows."""
-        text = words.sentence(motion(), {"integrator": "radau", "tolerance": "1e-06"})
+        text = motion_page.sentence(motion(), {"integrator": "radau", "tolerance": "1e-06"})
         self.assertIn("Radau with a tolerance of 1e-06 a step takes 400 steps of 0.005 s to 2 s",
                       text)
         self.assertIn("3.0 iterations each; energy drifts by at most 1e-05 of its largest value.", text)
 
     def test_momenta_that_stay(self):
         self.assertIn("momentum and angular momentum by 0e+00",
-                      words.sentence(motion(free=True), {}))
-        self.assertNotIn("momentum", words.sentence(motion(), {}))
+                      motion_page.sentence(motion(free=True), {}))
+        self.assertNotIn("momentum", motion_page.sentence(motion(), {}))
 
     def test_steps(self):
         found = motion()
         found.columns["step"][1] = 0.001
         found.columns["rejected"][3] = 2
         self.assertIn("400 steps of 0.001 to 0.005 s (2 longer ones rejected)",
-                      words.sentence(found, {}))
+                      motion_page.sentence(found, {}))
 
     def test_spread(self):
-        self.assertEqual(words.spread([motion()]), "")
+        self.assertEqual(motion_page.spread([motion()]), "")
         self.assertIn("Of all 2 formulations energy drifts by 1e-05 to 1e-03",
-                      words.spread([motion(), motion(drift=1e-3)]))
+                      motion_page.spread([motion(), motion(drift=1e-3)]))
 
 
 class Curves(unittest.TestCase):
@@ -67,13 +66,13 @@ class Curves(unittest.TestCase):
     def test_no_peak_is_lost(self):
         x, y = np.arange(1000.0), np.zeros(1000)
         y[777] = 5
-        at, most = figures.largest(x, y)
-        self.assertEqual((len(at), most.max(), at[most.argmax()]), (figures.MOST_POINTS, 5, 777))
+        at, most = motion_page.largest(x, y)
+        self.assertEqual((len(at), most.max(), at[most.argmax()]), (motion_page.MOST_POINTS, 5, 777))
 
     def test_thinned(self):
-        at = figures.thinned(np.arange(1000))
-        self.assertEqual((at[0], at[-1], len(at)), (0, 999, figures.MOST_POINTS))
-        self.assertEqual(figures.thinned(np.arange(3)).tolist(), [0, 1, 2])
+        at = motion_page.thinned(np.arange(1000))
+        self.assertEqual((at[0], at[-1], len(at)), (0, 999, motion_page.MOST_POINTS))
+        self.assertEqual(motion_page.thinned(np.arange(3)).tolist(), [0, 1, 2])
 
     def test_units(self):
         """Numbers of an axis stay short; units that are no names take a power of ten."""
@@ -83,7 +82,7 @@ class Curves(unittest.TestCase):
                                      ([1e-3], "kg m/s", (1e-3, "10⁻³ kg m/s")),
                                      ([], "m", (1, "m")),
                                      ([4e-4], "1", (1e-3, "10⁻³")), ([0, 0], "m", (1, "m"))):
-            self.assertEqual(units.fitting(values, unit), wanted)
+            self.assertEqual(motion_page.fitting(values, unit), wanted)
 
     def test_scale(self):
         """Drifts are parts of the most energy or work."""
@@ -110,10 +109,10 @@ class Page(ProgramTest):
 
     def test_finest_meshes(self):
         """Of each formulation, the first row is of the begin."""
-        found = stored.motions_of(self.results, "elastica")
+        found = motion_page.motions_of(self.results, "elastica")
         self.assertEqual([(m.formulation, m.elements, len(m.steps)) for m in found],
                          [("beamw", 4, 400), ("collocation", 4, 99)])
-        self.assertEqual(stored.motions_of(self.results, "roll_up"), [])
+        self.assertEqual(motion_page.motions_of(self.results, "roll_up"), [])
 
     def test_list(self):
         """Cases with a motion, each with its sentence."""
@@ -129,8 +128,8 @@ class Page(ProgramTest):
         figure = re.search(r'<svg id="motion_elastica_energies".*?</svg>', self.text, re.S)[0]
         line = re.search(r'data-f="kinetic".*?points="([^"]+)"', figure)[1]
         points = np.array([[float(x) for x in p.split(",")] for p in line.split()])
-        found = stored.motions_of(self.results, "elastica")[0]
-        at = figures.thinned(found.time)
+        found = motion_page.motions_of(self.results, "elastica")[0]
+        at = motion_page.thinned(found.time)
         for of, column in ((found.time[at], 0), (found.columns["kinetic"][at], 1)):
             slope, off = np.polyfit(of, points[:, column], 1)
             self.assertLess(np.abs(slope * of + off - points[:, column]).max(), 0.11)
@@ -190,9 +189,9 @@ class Truths(ProgramTest):
 
     def test_of_all_instants(self):
         """At the defaults but for the time; of other parameters, models, quantities none."""
-        found = stored.truths_of(self.path, "swing", "x", 9.0)
+        found = motion_page.truths_of(self.path, "swing", "x", 9.0)
         self.assertEqual([(t.time, t.value) for t in found], [(1, 0), (2, 1), (9, 2)])
-        self.assertEqual(stored.truths_of(self.path, "nothing", "x", 9.0), [])
+        self.assertEqual(motion_page.truths_of(self.path, "nothing", "x", 9.0), [])
 
     def test_values_at_points(self):
         """A case whose points differ in time gives values over time; other parameters none."""
@@ -204,7 +203,7 @@ class Truths(ProgramTest):
         case = types.SimpleNamespace(
             parameters=[{"parameter": "time", "default": "9"}],
             points=[point("", 5.0), point("time=3", 4.0), point("time=3;step=1", 7.0)])
-        x, y, n, whole = figures.over_time(case, "x")["beamw"]
+        x, y, n, whole = motion_page.over_time(case, "x")["beamw"]
         self.assertEqual((x.tolist(), y.tolist(), n, whole), ([3, 9], [4, 5], 4, False))
 
     def test_one_instant(self):
@@ -215,14 +214,14 @@ class Truths(ProgramTest):
             name="pendulum", parameters=[{"parameter": "time", "default": "0.125"}],
             points=[types.SimpleNamespace(parameters="", series=[series], units={})])
         site = types.SimpleNamespace(truths=TRUTHS)
-        self.assertGreater(len(stored.truths_of(TRUTHS, "pendulum", "tip_x", 0.125)), 1)
-        self.assertIsNone(figures.quantity(site, case, "tip_x", "figure"))
+        self.assertGreater(len(motion_page.truths_of(TRUTHS, "pendulum", "tip_x", 0.125)), 1)
+        self.assertIsNone(motion_page.draw_quantity(site, case, "tip_x", "figure"))
 
     def test_words(self):
-        self.assertEqual(words.between([2.04e-5, 1.96e-5], "{:.0e}"), "2e-05")
-        self.assertEqual(words.between([1, 3], "{:.1f}"), "1.0 to 3.0")
-        self.assertEqual(words.whenever("displacement of a along x, 0.125 s after the start of the "
-                                        "motion, plus 1"), "displacement of a along x, plus 1")
+        self.assertEqual(motion_page.between([2.04e-5, 1.96e-5], "{:.0e}"), "2e-05")
+        self.assertEqual(motion_page.between([1, 3], "{:.1f}"), "1.0 to 3.0")
+        self.assertEqual(motion_page.whenever("displacement of a along x, 0.125 s after the start of the "
+                                              "motion, plus 1"), "displacement of a along x, plus 1")
 
     def test_stored_truths_are_read(self):
         """Every case of the packed truths can be asked."""
@@ -230,7 +229,7 @@ class Truths(ProgramTest):
             names = list(file["truths"])
         self.assertGreater(len(names), 10)
         for name in names:
-            stored.truths_of(TRUTHS, name, "tip_x", 1.0)
+            motion_page.truths_of(TRUTHS, name, "tip_x", 1.0)
 
 
 if __name__ == "__main__":

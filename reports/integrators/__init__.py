@@ -1,1 +1,0 @@
-"""The page of integrators: error of time against cost, stability, iterations."""

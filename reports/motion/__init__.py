@@ -1,1 +1,0 @@
-"""Pages of motions in time: energies, momenta, steps and quantities over time."""
