@@ -18,12 +18,12 @@ that only repeat the formulation without their options are left out.
 import math
 from dataclasses import dataclass, field
 
-from reports import data
-from reports import verdicts as words
+from reports import data, verdicts as words
 
 ALL = "all quantities"
 NO_COSTS = "the results have no costs"  # files of before work was priced
 SOUND = ("pass", *words.UNJUDGED)
+LEVELS = tuple(data.REACH)
 
 
 @dataclass
@@ -219,3 +219,30 @@ def failures(point):
 def savings(point):
     """[(series, mesh)] measured with nothing left out."""
     return [(s, m) for s in point.series for m in s.meshes if m.kept is not None]
+
+
+# The soonest way of every case to each level: what the heat map and the index show.
+
+
+@dataclass
+class CaseLine:
+    """A case at its defaults: all its judged quantities together."""
+
+    case: object  # data.Case
+    quantities: list  # with a truth to judge by
+    found: dict  # level -> answers.Answer
+
+
+def line_of_case(case):
+    """None where nothing is judged."""
+    point = case.points[0]
+    names = judged(point)
+    if not names:
+        return None
+    asked = ALL if len(names) > 1 else names[0]
+    return CaseLine(case, names, {level: answer(point, asked, level) for level in LEVELS})
+
+
+def lines_of_cases(cases):
+    """Of every case with a truth at its defaults."""
+    return [found for found in map(line_of_case, cases) if found]

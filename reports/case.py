@@ -2,12 +2,138 @@
 question, the rest folded."""
 import functools
 import math
+from dataclasses import dataclass
 
-from reports import answers, beside, case_truth, plots, question_figures, scene_drawing
-from reports.site import LEVELS, ROOT
-from reports.verdicts import UNJUDGED
+from reports import answers, data, plots
+from reports.answers import LEVELS
+from reports.drawing import describe, draw, scene
+from reports.site import ROOT
+from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 
-NAVIGATION = []
+# What the page of a case shows of its scene: the drawing, its sections, the same in words.
+
+
+@dataclass
+class Drawing:
+    """figure, sections: images of the site, the second None where no section has a shape; lines:
+    [(heading, lines)]."""
+    figure: object
+    sections: object
+    counts: str
+    lines: list
+
+
+def drawing(site, case):
+    """Of the first parameter point, or None where the results hold no scene of it."""
+    read = scene.read(case.points[0].scene)
+    if read is None:
+        return None
+    beside = draw.draw_sections(read)
+    return Drawing(site.image(draw.draw(read), f"{case.name}_scene", tight=False),
+                   site.image(beside, f"{case.name}_sections", tight=False) if beside else None,
+                   describe.counts(read), describe.describe(read))
+
+
+# What is known of the quantities of a parameter point: truths with their digits, verdicts in a
+# matrix.
+
+MOST_DIGITS = 15
+
+
+@dataclass(frozen=True)
+class Truth:
+    """One truth of a quantity, in its unit; of: the formulations it is for, where not all."""
+    value: str
+    digits: int
+    kind: str
+    theory: str
+    source: str
+
+
+@dataclass
+class Quantity:
+    """meaning: what it is; truths: none where it is not judged."""
+    name: str
+    unit: str
+    meaning: str
+    truths: list
+    is_curve: bool
+
+
+def digits_of(value, uncertainty):
+    """How many digits of a truth are known."""
+    if not value or not uncertainty:
+        return MOST_DIGITS
+    return max(1, min(MOST_DIGITS, math.floor(math.log10(abs(value) / uncertainty))))
+
+
+def truths_of(point, name):
+    """The different truths that formulations are judged by, each once."""
+    out = {}
+    for series in point.series:
+        v = answers.verdict_of(series, name)
+        if v and math.isfinite(v.truth):
+            digits = digits_of(v.truth, v.truth_uncertainty)
+            truth = Truth(f"{v.truth:.{min(10, digits)}g}", digits, v.truth_kind, v.theory,
+                          v.source)
+            out.setdefault((truth.value, truth.source), truth)
+    return list(out.values())
+
+
+def quantities(point):
+    """Of a point, in the order of the case."""
+    curves = {q for s in point.series for m in s.meshes for q in m.curves}
+    names = dict.fromkeys([*point.meanings, *point.units])
+    return [Quantity(name, point.units[name], point.meanings.get(name, ""),
+                     truths_of(point, name), name in curves) for name in names
+            if name in point.units]
+
+
+@dataclass
+class Cell:
+    """A verdict in the matrix, or an empty one."""
+    sign: str
+    look: str
+    words: str
+
+
+def away(v):
+    """How far another model's limit is from the truth."""
+    if not math.isfinite(v.model_error):
+        return []
+    return [f"{percent(v.model_error)} from the {v.model_truth_kind} value"]
+
+
+def cell_of(series, name):
+    v = None if series.missing else answers.verdict_of(series, name)
+    if v is None or v.verdict in UNJUDGED:
+        if series.other and v is not None:
+            return Cell("○", "model", "; ".join([series.without, *away(v)]))
+        why = f"does not offer {series.missing}" if series.missing else v.verdict if v else ""
+        return Cell("·", "skip", why)
+    kind = BY_NAME[v.verdict]
+    words = [v.verdict, *remarks(v)] + ([f"known: {v.finding}"] if v.finding else [])
+    return Cell(kind.sign, kind.look, "" if v.verdict == "pass" else "; ".join(words))
+
+
+def matrix(point):
+    """(series, [(quantity, cells)]) of what is judged."""
+    names = answers.judged(point)
+    shown = [s for s in point.series if any(cell_of(s, n).look != "skip" for n in names)]
+    return shown, [(name, [cell_of(s, name) for s in shown]) for name in names]
+
+
+def tally_of(point):
+    """[(kind, number)] of the verdicts of a point, from good to bad."""
+    counts = {}
+    for series in point.series:
+        for v in series.verdicts:
+            if v.verdict not in UNJUDGED and not series.missing:
+                counts[v.verdict] = counts.get(v.verdict, 0) + 1
+    return [(kind, counts[name]) for name, kind in BY_NAME.items() if name in counts]
+
+
+NAVIGATION = [("convergence.html", "to print")]
 MOST_POINTS = 3  # parameter points with a figure
 MOST_PANELS = 6  # small figures of the other quantities, and of model errors
 # of verdicts on one page; with more, other parameter points have pages of their own
@@ -23,7 +149,7 @@ def question_of(site, point, quantity, name):
     shown, further = plots.leading(point, quantity)
 
     def draw(series, kind, *abscissae):
-        return question_figures.errors_figure(
+        return plots.errors_figure(
             site, point, quantity, series, abscissae, f"{name}_{kind}",
             told=len(abscissae) == 1) if series else None
 
@@ -51,21 +177,21 @@ def figures_of(site, case, index):
         out["main"] = question_of(site, point, main, name)
     elif quantities and (index < MOST_POINTS or point.others):
         shown, _ = plots.leading(point, main)
-        out["main"] = {**NOTHING, "elements": question_figures.errors_figure(
+        out["main"] = {**NOTHING, "elements": plots.errors_figure(
             site, point, main, shown, ("elements",), name, told=False)}
     others = [q for q in quantities if q != main and told_of(point, q)]
     out["panels_left_out"] = others[MOST_PANELS:]
     if others and index == 0:
-        out["others"] = question_figures.small_multiples(site, point, others[:MOST_PANELS],
-                                                         f"{name}_others")
+        out["others"] = plots.small_multiples(site, point, others[:MOST_PANELS],
+                                              f"{name}_others")
     modelled = [q for q in point.units
                 if any(plots.finite(s, q, "model_errors") for s in point.series)][:MOST_PANELS]
     if modelled and (index == 0 or point.others):
-        out["model"] = question_figures.small_multiples(site, point, modelled, f"{name}_model",
-                                                        "model_errors", "model error", "elements")
+        out["model"] = plots.small_multiples(site, point, modelled, f"{name}_model",
+                                             "model_errors", "model error", "elements")
     if index == 0:
         names = sorted({q for s in point.series for m in s.meshes for q in m.curves})
-        drawn = ((q, question_figures.curves(site, point, q, f"{name}_{q}_curve")) for q in names)
+        drawn = ((q, plots.curves(site, point, q, f"{name}_{q}_curve")) for q in names)
         out["curves"] = [(q, image) for q, image in drawn if image]
     return out
 
@@ -126,18 +252,18 @@ def parts_of(site, case, index):
     names = answers.judged(point)
     noise = [100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes
              if m.clock.repeats > 1 and m.clock.least > 0]
-    shown, cells = case_truth.matrix(point)
+    shown, cells = matrix(point)
     figures = figures_of(site, case, index)
     main = figures["quantity"] or (names[0] if names else None)
     return {
         "point": point, "figures": figures, "quantity":
             main, "table": table_of(point, main) if main else [],
-        "limits": limits_of(point) if index == 0 or not names else [], "others": beside.rows(point), "cheapest": cheapest_of(point),
+        "limits": limits_of(point) if index == 0 or not names else [], "others": data.rows_beside(point), "cheapest": cheapest_of(point),
         "front": answers.front(point, main) if main else [], "failures":
             answers.failures(point), "savings": answers.savings(point), "noise": sorted(noise),
         "causes": causes_of(point), "shown": shown, "cells": cells,
         "verdicts": verdicts_of(point, index), "tally":
-            case_truth.tally_of(point), "has_model": any(
+            tally_of(point), "has_model": any(
                 math.isfinite(v.model_error) for s in point.series for v in s.verdicts)
     }
 
@@ -181,12 +307,51 @@ def write(site, case):
                further=[] if apart else parts[1:],
                signs=signs_of(parts[:1] if apart else parts),
                places=[(part, page_of(case, i)) for i, part in enumerate(parts)],
-               drawing=scene_drawing.drawing(site, case),
-               quantities=case_truth.quantities(case.points[0]), sections=sections)
+               drawing=drawing(site, case),
+               quantities=quantities(case.points[0]), sections=sections)
     for i, part in enumerate(parts[1:] if apart else (), 1):
         site.write("case_point.html", page_of(case, i), **shared, part=part,
                    signs=signs_of([part]))
 
 
 def tasks(site):
-    return [functools.partial(write, site, case) for case in site.cases]
+    return [functools.partial(write_sheets, site),
+            *(functools.partial(write, site, case) for case in site.cases)]
+
+
+# A convergence report on paper: every case on a sheet, to be printed or attached (A4; headless:
+# chromium --print-to-pdf).
+
+
+
+def sheet(site, case):
+    """The first judged quantity of the defaults: its figure, and for each formulation limit, order, errors, time to every level."""
+    point = case.points[0]
+    names = answers.judged(point)
+    if not names:
+        return None
+    quantity, rows = names[0], []
+    for series in point.series:
+        v = answers.verdict_of(series, quantity)
+        if v is not None and not series.missing:
+            rows.append(
+                (series.key, v, [answers.way(series, [quantity], level) for level in LEVELS]))
+    truth = next((v for _, v, _ in rows if math.isfinite(v.truth)), None)
+    if truth is None:
+        return None
+    image = plots.errors_figure(site, point, quantity,
+                                plots.leading(point, quantity)[0],
+                                ("elements", "time"), f"sheet_{case.name}")
+    return {
+        "case": case, "quantity": quantity, "unit": point.units[quantity],
+        "image": image and site.keep(image), "rows": rows, "truth": truth
+    }
+
+
+def write_sheets(site):
+    sheets = [s for s in (sheet(site, case) for case in site.cases) if s]
+    site.write("convergence.html",
+               "convergence.html",
+               sheets=sheets,
+               about=site.about,
+               bench=site.bench)

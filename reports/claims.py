@@ -1,13 +1,93 @@
 """What the papers claim, beside what is measured here; and other programs on the same case."""
+import csv
 import functools
 import math
 import pathlib
 
-from reports import answers, data
-from reports.peers import figure_of
-from reports.site import LEVELS
+from reports import answers, data, plots
+from reports.answers import LEVELS
+from reports.chart import Chart
+from reports.site import ROOT, number, percent
+from reports.style import plt
+from reports.verdicts import OWN_LIMITS
 
-NAVIGATION = [("claims.html", "claims")]
+# Errors of our formulations and of other programs that were run elsewhere, side by side.
+
+
+def peers_figure(site, ours, others, name):
+    """ours: [(key, meshes)], others: {program: [data.Mesh]}: errors against unknowns and time."""
+    chart = Chart(2, (470, 260))
+    labels = ("unknowns", "time of the solution [ms]; open marks: taken elsewhere")
+    for quantity in ("C_xx", "C_zz"):
+        row = [chart.panel("", labels[0], f"relative error of {quantity}", whole=True)]
+        row.append(chart.panel("", labels[1], like=row[0]))
+        curves_of = [(key, meshes, site.styles.of(key)) for key, meshes in ours]
+        curves_of += [(f"{program} (elsewhere)", meshes, data.style_beside(i))
+                      for i, (program, meshes) in enumerate(others.items())]
+        for label, meshes, look in curves_of:
+            error = [plots.clipped(m.errors[quantity]) for m in meshes]
+            row[0].plot([m.free for m in meshes], error, label=label, **look)
+            row[1].plot([1e3 * m.clock.solve for m in meshes], error, label=label, **look)
+        for one in row:
+            one.level(0.01)
+    return chart.image(site, name)
+
+
+# On the page of the column: the printed form levels off where it was derived to.
+
+COLUMN_CASE, COLUMN_POINT, COLUMN_QUANTITY = "c_column", "section_data=printed", "buckling_load"
+COLUMN_ALT = ("Error of the buckling load against elements: beamw levels off, "
+              "beamw_consistent goes down")
+COLUMN_PAIR = ("beamw", "beamw_consistent")
+
+
+def column_words(verdict):
+    """A verdict with the size of its error where it has a limit of its own."""
+    own = verdict.verdict in OWN_LIMITS
+    return f"{verdict.verdict} ({100 * verdict.error:+.3g} %)" if own else verdict.verdict
+
+
+def draw_column(axes, series, style):
+    """One formulation, its verdict beside its last mesh, its predicted limit dashed."""
+    pairs = plots.finite(series, COLUMN_QUANTITY)
+    verdict = answers.verdict_of(series, COLUMN_QUANTITY)
+    axes.plot([m.n for m, _ in pairs], [e for _, e in pairs], label=series.key, **style)
+    own, colour = verdict.verdict in OWN_LIMITS, style["color"]
+    axes.annotate(column_words(verdict), (pairs[-1][0].n, pairs[-1][1]), textcoords="offset points",
+                  xytext=(-4, 6) if own else (-10, -6), ha="right", fontsize=8.5, color=colour)
+    if math.isfinite(verdict.predicted):
+        axes.axhline(abs(verdict.predicted / verdict.truth - 1), color=colour, linewidth=0.9,
+                     linestyle=(0, (4, 3)), zorder=0)
+
+
+def column_figure(site, point):
+    """The figure; None where one of the two was not run."""
+    found = {s.key: s for s in point.series}
+    if not all(key in found and plots.finite(found[key], COLUMN_QUANTITY) for key in COLUMN_PAIR):
+        return None
+    figure, axes = plt.subplots(figsize=(6.4, 3.8))
+    for key in COLUMN_PAIR:
+        draw_column(axes, found[key], site.styles.of(key))
+    axes.set_xlim(1.8, 260)
+    plots.log_axes(axes, "elements over the column", "relative error of the buckling load", True)
+    axes.legend(loc="lower left")
+    return site.image(figure, "column")
+
+
+def column_section(site, case):
+    point = next((p for p in case.points if p.parameters == COLUMN_POINT), None)
+    image = column_figure(site, point) if case.name == COLUMN_CASE and point else None
+    if not image:
+        return []
+    return [("Convergence to a wrong limit, as predicted",
+             f'<figure><div class="figure" tabindex="0">{image.inline(COLUMN_ALT)}</div>'
+             '<figcaption>J Table 2, printed constants: '
+             'the printed second-order modes do not see shear. The limit that follows from the '
+             'printed formulas was derived by itself (dashed); the program meets it, and it is not '
+             'the exact load, to which the consistent modes converge.</figcaption></figure>')]
+
+
+NAVIGATION = [("claims.html", "claims"), ("papers.html", "papers")]
 PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # of sheet_cantilever: what reference/peers.csv speaks of
 SECTIONS = ("printed constants", "section_data=printed"), (
     "shear flow", "")  # of J Table 2: no single set gives all of its four entries
@@ -38,19 +118,19 @@ def canonical(parameters):
     return ";".join(sorted(p for p in parameters.split(";") if p))
 
 
-def percent(value):
+def percent_of(value):
     return "–" if not math.isfinite(value) else f"{100 * value:+.2f} %"
 
 
 def sheets(look, truths):
     free, far = "tip_warping=1", "tip_deflection=0.05;tip_warping=1"
     yield ("N 4.1: one third-order element within 0.8 % at 0.15 L (tip free to warp)", "0.8 %",
-           ", ".join(f"{q} {percent(look.error('sheet_cantilever', free, 'sheet_third', 1, q))}"
+           ", ".join(f"{q} {percent_of(look.error('sheet_cantilever', free, 'sheet_third', 1, q))}"
                      for q in ("C_xx", "C_zz")))
     yield ("N 4.1: within 2.4 % of du_z/dF_z at 0.5 L (tip free to warp)", "2.4 %",
-           f"C_zz {percent(look.error('sheet_cantilever', far, 'sheet_third', 1, 'C_zz'))}")
+           f"C_zz {percent_of(look.error('sheet_cantilever', far, 'sheet_third', 1, 'C_zz'))}")
     yield ("N 4.1: the second order needs more than three elements", "> 3", ", ".join(
-        f"n = {n}: {percent(look.error('sheet_cantilever', free, 'sheet_second', n, 'C_zz'))}"
+        f"n = {n}: {percent_of(look.error('sheet_cantilever', free, 'sheet_second', n, 'C_zz'))}"
         for n in (1, 2, 3, 4)))
     for wagner, quantity, claim in (("", "C_ux_My", "2.4 %"), (";wagner=0", "C_ux_My", "38 %"),
                                     ("", "C_uz_Fz", "all components: 6.4 %")):
@@ -59,7 +139,7 @@ def sheets(look, truths):
                                       truths, "sheet_wagner", free + wagner, quantity)
         yield (
             f"N 4.1: three elements {'without' if wagner else 'with'} the Wagner torque, {quantity} against a plate (tip free to warp)",
-            claim, percent(value / plate - 1))
+            claim, percent_of(value / plate - 1))
 
 
 def joint(look, truths):
@@ -77,7 +157,7 @@ def joint(look, truths):
     one, four = (look.value("spherical_joint", parameters, key, n, "support_stiffness_max")
                  for key, parameters, n, *_ in (published[0], published[4]))
     yield ("N 4.2: one element of third order from four of second", "1.5 %",
-           percent(one / four - 1))
+           percent_of(one / four - 1))
 
 
 def column(look, truths):
@@ -191,7 +271,7 @@ def peers(site):
         meshes = [m for m in series.meshes if all(map(math.isfinite, both(m)))]
         ours += [(series.key, meshes)] if meshes else []
         out += [(series.key, m.n, m.free, *both(m), m.clock.solve, True) for m in meshes]
-    figure = figure_of(site, ours, others, "peers") if ours else None
+    figure = peers_figure(site, ours, others, "peers") if ours else None
     ways = [answers.way(s, ["C_xx", "C_zz"], TARGET[0]) for s in (point.series if point else [])]
     best = min((w for w in ways if w and not w.defects), key=answers.by_cost, default=None)
     return sorted(out, key=lambda row: (row[2], row[0])), figure, best
@@ -212,7 +292,7 @@ def write(site):
                timed=site.bench is not None)
 
 
-def section(site, case):
+def peers_section(site, case):
     """On the page of the peers' case, where it was run at their parameters: where they are."""
     if case.name != "sheet_cantilever" or peers_point(site) is None:
         return []
@@ -222,5 +302,70 @@ def section(site, case):
     )]
 
 
+def section(site, case):
+    return peers_section(site, case) + column_section(site, case)
+
+
 def tasks(site):
-    return [functools.partial(write, site)]
+    return [functools.partial(write, site), functools.partial(write_papers, site)]
+
+
+# The papers figure by figure (reference/papers.csv), beside what is measured here, and equation by
+# equation (reference/equations.csv).
+
+TABLE = ROOT / "reference" / "papers.csv"
+EQUATIONS = ROOT / "reference" / "equations.csv"
+STATUSES = ("reproduced", "partly", "not reproducible", "contradicted", "open")
+NAMES = {
+    "J": "J: thin-walled beam element with shear (Jonker)",
+    "N": "N: third-order sheet element (Nijenhuis, Meijaard, Naves, Aarts)",
+}
+
+
+def read(path=TABLE):
+    """Rows of a table, in its order."""
+    with open(path, newline="", encoding="utf-8") as table:
+        return list(csv.DictReader(table))
+
+
+def measured(look, truths, row):
+    """What the results hold of a row, in words; '' if it names no cell or the cell was not run."""
+    if not row["elements"]:
+        return ""
+    cell = row["case"], row["parameters"], row["formulation"], int(row["elements"]), row["quantity"]
+    value, error, other = (
+        look.value(*cell),
+        look.error(*cell),
+        data.read_other_model(truths, row["case"], row["parameters"], row["quantity"]),
+    )
+    if not math.isfinite(value):
+        return ""
+    unit = look.points[row["case"], canonical(row["parameters"])].units.get(row["quantity"], "")
+    words = [f"{number(value)} {'' if unit == '1' else unit}".strip()] + (
+        [f"{percent(error)} from the exact beam"] if math.isfinite(error) else []
+    )
+    return ", ".join(
+        words
+        + ([f"{percent(value / other - 1)} from plate or solid"] if math.isfinite(other) else [])
+    )
+
+
+def counts(rows):
+    """[(status, number of rows)] of one paper."""
+    return [(status, sum(r["status"] == status for r in rows)) for status in STATUSES]
+
+
+def write_papers(site):
+    look, cases = Lookup(site.cases), {c.name for c in site.cases}
+    rows = [
+        {**row, "measured": measured(look, site.truths, row), "linked": row["case"] in cases}
+        for row in read()
+    ]
+    sets = read(EQUATIONS)
+    papers = [(title, [r for r in rows if r["paper"] == letter],
+               [r for r in sets if r["paper"] == letter]) for letter, title in NAMES.items()]
+    site.write(
+        "papers.html", "papers.html",
+        papers=[(title, counts(of), of, equations) for title, of, equations in papers],
+        total=[(status, n) for status, n in counts(rows) if n]
+    )

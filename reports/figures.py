@@ -20,7 +20,50 @@ from xml.etree import ElementTree
 
 from markupsafe import Markup, escape
 
-from reports import markers, style
+from reports import style
+
+# Markers of charts, and what the curves of a page share: said once in the page.
+
+MARKERS = {}  # identifier of a marker of charts: its definition
+CURVE = re.compile(r'stroke="([^"]*)"((?: [\w-]+="[^"]*")*) '
+                   r'style="(marker(?:-mid)?):url\(#(\w+)\)"')
+
+
+def markers_in(markup):
+    """Identifiers of the markers of charts in it."""
+    return sorted(set(re.findall(r"marker(?:-mid)?:url\(#(\w+)\)", markup)) & set(MARKERS))
+
+
+def markers_by_name(markup):
+    """Colours of formulations by their names only, which a page has from its style sheet."""
+    return re.sub(r"var\((--f\d+),#[0-9a-f]{6}\)", r"var(\1)", markup)
+
+
+def with_classes(page):
+    """The page with colour and marker of each kind of curve said once, in a class."""
+    looks = {}
+
+    def named(found):
+        stroke, others, where, marker = found.groups()
+        name = looks.setdefault((stroke, where, marker), f"q{len(looks)}")
+        return f'class="{name}"{others}'
+
+    short = CURVE.sub(named, page)
+    rules = "".join(f".{name}{{stroke:{stroke};{where}:url(#{marker})}}"
+                    for (stroke, where, marker), name in looks.items())
+    return short.replace("</head>", f"<style>{rules}</style>\n</head>", 1) if looks else page
+
+
+def with_markers(page):
+    """The page with the definitions of the markers that its charts use, once."""
+    names = markers_in(page)
+    if not names:
+        return page
+    defined = markers_by_name("".join(MARKERS[name] for name in names))
+    hidden = '<svg width="0" height="0" style="position:absolute" aria-hidden="true"><defs>'
+    page = with_classes(page)
+    return page.replace("</main>", f"{hidden}{defined}</defs></svg>\n</main>", 1)
+
 
 SVG, LINK = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
 INHERITED = ("fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-linejoin",
@@ -51,7 +94,7 @@ class Image:
         width = re.search(r' width="(\d+)"', self.markup)
         own = (f'<svg id="{name}" role="img" aria-label="{escape(alt)}" '
                f'style="--width:{width[1] if width else 700}px"')
-        return Markup(markers.by_name(self.markup).replace("<svg", own, 1) + data)
+        return Markup(markers_by_name(self.markup).replace("<svg", own, 1) + data)
 
 
 def plain(value, digits):
@@ -246,7 +289,7 @@ def short(svg, name):
 def alone(markup):
     """The same SVG as a file of its own."""
     names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
-    used = [markers.MARKERS[m] for m in markers.used(markup)]
+    used = [MARKERS[m] for m in markers_in(markup)]
     markup = markup.replace("</svg>", f"<defs>{''.join(used)}</defs></svg>") if used else markup
     return '<?xml version="1.0" encoding="utf-8"?>\n' + markup.replace(
         "<svg", f"<svg {names}", 1).replace(' href="', ' xlink:href="')

@@ -9,7 +9,7 @@ import sys
 import h5py
 from markupsafe import Markup, escape
 
-from reports import data, pictures, shapes, viewer
+from reports import data, pictures, shapes
 from reports.site import ASSETS
 
 MOST = 40_000  # points of all frames together: about 0.9 MB
@@ -74,7 +74,7 @@ def chosen(path, wanted):
 
 def words_of(summary, s):
     """What is seen."""
-    times = s.value[viewer.frames_of(s)]
+    times = s.value[shapes.frames_of(s)]
     what = f"{summary[:1].upper()}{summary[1:]}. " if summary else ""
     return (f"{what}{times[0]:.4g} to {times[-1]:.4g} s, computed with {s.formulation}, n = {s.n}, "
             "at true scale.")
@@ -84,9 +84,9 @@ def page(path, wanted=None):
     """The film as text."""
     name, summary, point = chosen(path, wanted)
     s = shapes.read_file(path, name, point)
-    first = viewer.frames_of(s)[0]
-    view = pictures.best_view(s, viewer.frames_of(s))
-    shape = viewer.shape(s, pictures.title_of, pictures.supports(s), pictures.hinges(s), first,
+    first = shapes.frames_of(s)[0]
+    view = pictures.best_view(s, shapes.frames_of(s))
+    shape = shapes.shape(s, pictures.title_of, pictures.supports(s), pictures.hinges(s), first,
                          view.angles, MOST)
     scripts = "\n".join(f"<script>\n{(ASSETS / n).read_text(encoding='utf-8')}</script>"
                         for n in SCRIPTS)
@@ -96,7 +96,7 @@ def page(path, wanted=None):
     return PAGE.format(title=escape(name), name=escape(name), words=escape(words_of(summary, s)),
                        style=(ASSETS / "style.css").read_text(encoding="utf-8"), look=LOOK,
                        still=Markup(pictures.still(s, first)), caption=held,
-                       shape=viewer.as_json(shape).replace("<", "\\u003c"), scripts=scripts)
+                       shape=shapes.as_json(shape).replace("<", "\\u003c"), scripts=scripts)
 
 
 def write(text, path):

@@ -1,13 +1,119 @@
 """A page for each formulation: theory, what it offers, where it fails and why, how fast it is."""
 import functools
+import math
+import re
 from dataclasses import dataclass
 
-from reports import answers, certificates, data, explanation, formulation_figures, ledger, tally
+import markdown
+
+from reports import answers, certificates, data, ledger, mathml, verdicts
+from reports.answers import LEVELS
 from reports.case import page_of
-from reports.site import LEVELS, file_of
+from reports.chart import Chart
+from reports.site import ROOT, file_of
 from reports.verdicts import SEVERITY, UNJUDGED, worst
 
-NAVIGATION = []
+# elements/NAME.md: what a formulation is, in words and equations, for its page.
+
+DISPLAY = re.compile(r"\$\$(.+?)\$\$", re.S)
+INLINE = re.compile(r"\$([^$\n]+?)\$")
+
+
+def rendered(text):
+    """Markdown with equations between dollars ($ in a line, $$ on lines of their own) as HTML."""
+    equations = []
+
+    def keep(found, display):
+        equations.append(mathml.convert(found.group(1), display))
+        return f"EQUATION{len(equations) - 1}E"
+
+    text = DISPLAY.sub(lambda found: keep(found, True), text)
+    text = INLINE.sub(lambda found: keep(found, False), text)
+    page = markdown.markdown(text, extensions=["tables"])
+    # What follows an equation without a space stays on its line.
+    page = re.sub(r"(EQUATION\d+E)([.,;:)]+)(?!<)", r'<span class="whole">\1\2</span>', page)
+    return re.sub(r"EQUATION(\d+)E", lambda found: equations[int(found.group(1))], page)
+
+
+def sections(text):
+    """[(heading, text)] of the parts that begin with a heading of the second level."""
+    parts = re.split(r"^## (.+)$", text, flags=re.M)[1:]
+    return [(h.strip(), body.strip()) for h, body in zip(parts[::2], parts[1::2])]
+
+
+def linked(page, pages):
+    """The same with names of cases and formulations as links. pages: {name: file}."""
+
+    def link(found):
+        name = found.group(1)
+        return f'<a href="{pages[name]}">{name}</a>' if name in pages else found.group(0)
+
+    return re.sub(r"<code>(\w+)</code>", link, page)
+
+
+def explanation_of(name, pages):
+    """[(heading, HTML)] of a formulation; [] where nothing explains it."""
+    path = ROOT / "elements" / f"{name}.md"
+    if not path.is_file():
+        return []
+    return [(h, linked(rendered(body), pages))
+            for h, body in sections(path.read_text(encoding="utf-8"))]
+
+
+# Error against elements of a formulation, where it is least and where it is largest.
+
+FLOOR = 1e-12  # errors below are drawn there
+TITLES = ("least", "largest")
+WRONG_LIMITS = ("wrong limit", "wrong limit, as predicted")
+GREY = {"back": True, "color": "currentColor", "alpha": 0.25, "linewidth": 1}
+
+
+def curve(series, quantity):
+    """[(elements, size of the error)] of the meshes that have one."""
+    return [(m.n, max(abs(m.errors[quantity]), FLOOR)) for m in series.meshes
+            if math.isfinite(m.errors.get(quantity, math.nan))]
+
+
+def candidates(found):
+    """[(error on the finest mesh, case name, quantity, (case, point, series))] with three meshes at
+    least: the first judged quantity of each case, and those whose limit is known to be wrong."""
+    out = []
+    for case, point, series in found:
+        names = answers.judged(point)[:1]
+        names += [v.quantity for v in series.verdicts if v.verdict in WRONG_LIMITS]
+        for name in dict.fromkeys(names) if not series.missing and not series.other else ():
+            points = curve(series, name)
+            if len(points) >= 3:
+                out.append((points[-1][1], case.name, name, (case, point, series)))
+    return sorted(out, key=lambda item: item[:3])
+
+
+def extremes(found):
+    """[(case, point, series, quantity)] with the least and the largest error on the finest mesh."""
+    known = candidates(found)
+    chosen = {known[i][:3]: (*known[i][3], known[i][2]) for i in (0, -1)} if known else {}
+    return list(chosen.values())
+
+
+def draw_extremes(site, key, items, name):
+    """Two panels; grey: the other formulations."""
+    chart = Chart(2, (380, 230))
+    for (case, point, series, quantity), title in zip(items, TITLES):
+        one = chart.panel(f"{title}: {case.name}, {quantity}", "elements per member",
+                          "relative error", whole=True)
+        for other in point.series:
+            skipped = other.missing or other.other or other.key == key
+            points = [] if skipped else curve(other, quantity)
+            if points and ":" not in other.key:
+                one.plot(*zip(*points), **GREY)
+        own = curve(series, quantity)
+        errors = {m.n: m.errors[quantity] for m in series.meshes if quantity in m.errors}
+        look = site.points(key, ("n", "error"), [(n, errors[n]) for n, _ in own], case.name)
+        one.plot(*zip(*own), **{**look, "linewidth": 2})
+    return chart.image(site, name)
+
+
+NAVIGATION = [("cases.html", "all cases"), ("formulations.html", "all formulations")]
 CHOICE = "When to choose it"  # heading of a text, to which what is measured is added
 ANALYSES = ("statics", "vibration", "buckling")
 # Verdicts that say that more elements do not give the answer.
@@ -56,8 +162,8 @@ def rules(rows, known, titles):
         own = found.get(rule["rule"])
         if own:
             # What a kept misprint repeats counts here, on its own page.
-            counted = [tally.Row(r.case, r.parameters, r.formulation, r.verdict, tally.OWN)
-                       for r in own]
+            counted = [verdicts.TallyRow(r.case, r.parameters, r.formulation, r.verdict,
+                                         verdicts.OWN) for r in own]
             out.append({**ledger.line(rule, counted, titles),
                         "where": sorted({r.case for r in own})})
     return out
@@ -131,7 +237,7 @@ def table(found):
 class Known:
     """What all pages take from, found once."""
 
-    rows: list  # tally.Row of every verdict
+    rows: list  # verdicts.TallyRow of every verdict
     rules: list  # of the ledger
     declared: dict  # formulation -> row of /declarations
     ways: dict  # all_ways
@@ -140,7 +246,7 @@ class Known:
 
 
 def gather(site):
-    return Known(list(tally.rows(site.cases)), data.read_rules(site.truths),
+    return Known(list(verdicts.rows(site.cases)), data.read_rules(site.truths),
                  data.read_declarations(site.results), all_ways(site.cases), ledger.headings(),
                  certificates.names(site))
 
@@ -157,7 +263,7 @@ def contents(site, key, known):
     everywhere = [(c, p, s) for c in site.cases for p in c.points for s in p.series
                   if s.key == key]
     found = defaults(site.cases, key)
-    own = [r for r in known.rows if r.formulation == key and r.standing != tally.ALIAS
+    own = [r for r in known.rows if r.formulation == key and r.standing != verdicts.ALIAS
            and r.verdict.verdict not in UNJUDGED]
     counts = {}
     for r in own:
@@ -172,7 +278,7 @@ def contents(site, key, known):
         "summary": series.summary,
         "source": series.source,
         "variants": [k for k in site.styles.order if k != key and split(k)[0] == name],
-        "explanation": explanation.of(name, pages_of(site)),
+        "explanation": explanation_of(name, pages_of(site)),
         "declared": known.declared.get(key),
         "choices": choices,
         "example": example(name, choices),
@@ -192,12 +298,59 @@ def contents(site, key, known):
 
 def write(site, key, known):
     context = contents(site, key, known)
-    drawn = [] if context["options"] else formulation_figures.extremes(defaults(site.cases, key))
-    image = formulation_figures.draw(site, key, drawn, f"{file_of(key)}_errors") if drawn else None
+    drawn = [] if context["options"] else extremes(defaults(site.cases, key))
+    image = draw_extremes(site, key, drawn, f"{file_of(key)}_errors") if drawn else None
     site.write("formulation.html", f"{file_of(key)}.html", image=image,
                drawn=[(c.name, q) for c, _, _, q in drawn], **context)
 
 
 def tasks(site):
-    known = gather(site)
-    return [functools.partial(write, site, key, known) for key in site.styles.order]
+    known, rows = gather(site), list(verdicts.rows(site.cases))
+    return [functools.partial(write_cases, site, rows),
+            functools.partial(write_formulations, site, rows),
+            *(functools.partial(write, site, key, known) for key in site.styles.order)]
+
+
+# Two short pages: all cases, and all formulations.
+
+
+
+def counts(rows):
+    """{verdict: number} of rows that are judged, second names left out, from bad to good."""
+    found = {}
+    for row in rows:
+        if row.standing != verdicts.ALIAS and row.verdict.verdict not in UNJUDGED:
+            found[row.verdict.verdict] = found.get(row.verdict.verdict, 0) + 1
+    return sorted(found.items(), key=lambda item: -SEVERITY[item[0]])
+
+
+def grouped(rows, name):
+    """{name of a row: rows}."""
+    found = {}
+    for row in rows:
+        found.setdefault(getattr(row, name), []).append(row)
+    return found
+
+
+def wrong_in(cases, key):
+    """Cases at whose default parameters more elements do not give the answer."""
+    found = [(c.name, standing(s)) for c in cases for s in c.points[0].series if s.key == key]
+    return [name for name, v in found if v is not None and v.verdict in WRONG]
+
+
+def write_cases(site, rows):
+    of_case = grouped(rows, "case")
+    site.write("cases.html", "cases.html",
+               cases=[(c, len(c.points), len({s.key for p in c.points for s in p.series
+                                              if not s.missing}),
+                       counts(of_case.get(c.name, []))) for c in site.cases])
+
+
+def write_formulations(site, rows):
+    of_key = grouped(rows, "formulation")
+    summary = {s.key: s.summary for c in site.cases for p in c.points for s in p.series}
+    found = [(key, summary[key], counts(of_key.get(key, [])), wrong_in(site.cases, key))
+             for key in site.styles.order]
+    site.write("formulations.html", "formulations.html",
+               plain=[row for row in found if ":" not in row[0]],
+               variants=[row for row in found if ":" in row[0]], file_of=file_of)

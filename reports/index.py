@@ -1,8 +1,195 @@
 """First page: on one screen what was found, whom to believe, and the answer for every case."""
 import functools
+import math
+import re
+from dataclasses import dataclass
 
-from reports import agreed, answers, heat, kinds, profiles, sentences, tally, trust
-from reports.profile_page import panel
+import h5py
+
+from reports import answers, problems, profiles, verdicts
+from reports.data import text
+from reports.profiles import panel
+
+# What a case is about, by the analyses of its scene: a word to find it under.
+
+# A case is of the first kind one of whose analyses it has.
+KINDS = (
+    ("stiffness and compliance", ("compliance",)),
+    ("past a limit point", ("continuation",)),
+    ("turning steadily", ("rotation",)),
+    ("buckling", ("buckling",)),
+    ("vibration", ("modal",)),
+    ("large displacements", ("static",)),
+    ("linear statics", ("linear",)),
+)
+OTHER = "others"
+ENTRY = re.compile(r"^  [^\s:]+: \{(\w+)[:}]", re.M)
+
+
+def analyses_in(scene):
+    """Names of the kinds of analysis in a scene file as the program writes it."""
+    block = re.search(r"^analyses:\n((?:  .*\n)*)", scene, re.M)
+    return ENTRY.findall(block.group(1)) if block else []
+
+
+def kind_of(analyses):
+    return next((kind for kind, names in KINDS if set(names) & set(analyses)), OTHER)
+
+
+def scenes(path):
+    """{case: scene file of its defaults, or of its first point; "" where the results have none}"""
+    found = {}
+    with h5py.File(path) as file:
+        for name, group in file["cases"].items():
+            rows = group["scenes"][()] if "scenes" in group else ()
+            written = {text(row["point"]): text(row["scene"]) for row in rows}
+            found[name] = written.get("default", next(iter(written.values()), ""))
+    return found
+
+
+def grouped_by_kind(cases, path):
+    """[(kind, [data.Case])] of a file of results, in the order of KINDS."""
+    written, groups = scenes(path), {}
+    for case in cases:
+        found = kind_of(analyses_in(written.get(case.name, "")))
+        groups.setdefault(found, []).append(case)
+    order = [kind for kind, _ in KINDS] + [OTHER]
+    return sorted(groups.items(), key=lambda item: order.index(item[0]))
+
+
+# Where there is no truth: the limit that formulations agree on, and how they stand to it.
+
+AGREED = "agreement"  # as the judge calls it: of at least two families of formulations
+
+
+@dataclass
+class AgreedRow:
+    """A quantity of a case at its defaults."""
+
+    case: str
+    quantity: str
+    unit: str
+    value: float
+    errors: dict  # formulation -> of its limit
+    meshes: dict  # formulation -> elements from which on every mesh is within the level
+
+    def within(self, level):
+        return sorted(key for key, error in self.errors.items() if abs(error) <= level)
+
+    @property
+    def farthest(self):
+        """The formulation whose limit is farthest off; None where all are the same."""
+        key = max(self.errors, key=lambda key: (abs(self.errors[key]), key))
+        return key if self.errors[key] else None
+
+    @property
+    def fewest(self):
+        """(elements, formulations that need no more), or None."""
+        least = min(self.meshes.values(), default=None)
+        keys = (k for k, n in self.meshes.items() if n == least)
+        return least and (least, sorted(keys, key=lambda key: (":" in key, key)))
+
+
+def first_within(series, quantity, level):
+    """Elements from which on every mesh is within the level of what is agreed, or None."""
+    found = None
+    for mesh in reversed(series.meshes):
+        if not abs(mesh.model_errors.get(quantity, math.nan)) <= level:
+            break
+        found = mesh.n
+    return found
+
+
+def row_of(case, quantity, level):
+    point = case.points[0]
+    tries = [(s, v) for s in point.series for v in s.verdicts
+             if v.quantity == quantity and v.model_truth_kind == AGREED and math.isfinite(v.limit)]
+    if not tries:
+        return None
+    meshes = {s.key: first_within(s, quantity, level) for s, _ in tries}
+    return AgreedRow(case.name, quantity, point.units.get(quantity, ""), tries[0][1].model_truth,
+                     {s.key: v.model_error for s, v in tries if math.isfinite(v.model_error)},
+                     {key: n for key, n in meshes.items() if n is not None})
+
+
+def rows_agreed(cases, level):
+    """[Row] of quantities that are agreed on and have no truth, at the defaults of each case."""
+    found = []
+    for case in cases:
+        point = case.points[0]
+        known = {v.quantity for s in point.series for v in s.verdicts if math.isfinite(v.truth)}
+        names = [q for q in point.units if q not in known]
+        found += [row for row in (row_of(case, q, level) for q in names) if row and row.errors]
+    return found
+
+
+# What was found, in three sentences: of speed, of trust, of the truths. The template has words.
+
+NAMED = 3  # cases that a sentence names
+
+
+def ahead(values):
+    """The formulations with the largest value, to a percent, and that value."""
+    most = max(values.values())
+    return sorted(k for k, v in values.items() if round(100 * v) == round(100 * most)), most
+
+
+def of_speed(compared, rows):
+    """Who is near the best most often, who solves most; None where nothing is compared."""
+    if not compared.any:
+        return None
+    known = [r for r in rows if math.isfinite(r.solved)]
+    near, near_share = ahead({r.key: r.near for r in known})
+    most, most_share = ahead({r.key: r.solved for r in known})
+    return {
+        "problems": len(compared.problems),
+        "cases": compared.cases,
+        "near": near,
+        "near_share": near_share,
+        "most": most,
+        "most_share": most_share,
+        "most_factor": max(r.factor for r in known if r.key in most),
+    }
+
+
+def of_trust(cases, rows):
+    """Who never tends to a wrong limit, who does most often and where, how much was derived."""
+    if not rows:
+        return None
+    worst = max(rows, key=lambda r: (r.wrong, r.key))
+    unexpected = sum(not row.verdict.as_expected for row in verdicts.rows(cases))
+    return {
+        "never": [r.key for r in rows if not r.wrong and not r.counts["failed"]],
+        "wrong": sum(r.wrong for r in rows),
+        "derived": sum(r.counts["predicted"] for r in rows),
+        "worst": worst.key,
+        "times": worst.wrong,
+        "judged": worst.judged,
+        "where": list(problems.wrong_cases(cases, worst.key))[:NAMED],
+        "unexpected": unexpected,
+    }
+
+
+def of_truths(cases):
+    """How many truths were judged by, of which kinds, how well they are known; None without any."""
+    known = {}
+    for row in verdicts.rows(cases):
+        v = row.verdict
+        if math.isfinite(v.truth) and row.standing != verdicts.ALIAS:
+            known[row.case, row.parameters, v.quantity, v.theory] = v
+    if not known:
+        return None
+    kinds = {}
+    for v in known.values():
+        kinds[v.truth_kind] = kinds.get(v.truth_kind, 0) + 1
+    digits = sorted(v.truth_uncertainty / abs(v.truth) for v in known.values() if v.truth)
+    return {
+        "number": len(known),
+        "kinds": dict(sorted(kinds.items(), key=lambda item: -item[1])),
+        "half": digits[(len(digits) - 1) // 2] if digits else math.nan,
+        "all": digits[-1] if digits else math.nan,
+    }
+
 
 NAVIGATION = [("index.html", "beamwork")]
 LEVEL = 0.01  # of the answers
@@ -26,9 +213,9 @@ FIGURE = (300, 165)  # axes, pixels
 def formulation_rows(cases):
     """{key: {case: {verdict: count}}} over all points, without second names."""
     rows = {}
-    for row in tally.rows(cases):
+    for row in verdicts.rows(cases):
         cell = rows.setdefault(row.formulation, {}).setdefault(row.case, {})
-        if row.standing != tally.ALIAS:
+        if row.standing != verdicts.ALIAS:
             cell[row.verdict.verdict] = cell.get(row.verdict.verdict, 0) + 1
     return rows
 
@@ -44,18 +231,18 @@ def table_of(case):
 
 def write(site):
     compared = profiles.Compared(site.cases)
-    rows = trust.table(site.cases, compared.problems, compared.keys)
-    lines = {found.case.name: found for found in heat.lines(site.cases)}
+    rows = problems.trust_table(site.cases, compared.problems, compared.keys)
+    lines = {found.case.name: found for found in answers.lines_of_cases(site.cases)}
     written = {file for file, _ in site.navigation}
     site.write("index.html", "index.html", about=site.about, cases=site.cases, lines=lines, level=LEVEL,
-               agreed=agreed.rows([c for c in site.cases if c.name not in lines], LEVEL),
+               agreed=rows_agreed([c for c in site.cases if c.name not in lines], LEVEL),
                places=[place for place in PLACES if place[0].partition("#")[0] in written],
-               groups=kinds.grouped(site.cases, site.results),
-               speed=sentences.of_speed(compared, rows),
-               trust=sentences.of_trust(site.cases, rows), truths=sentences.of_truths(site.cases),
+               groups=grouped_by_kind(site.cases, site.results),
+               speed=of_speed(compared, rows),
+               trust=of_trust(site.cases, rows), truths=of_truths(site.cases),
                profile=panel(site, compared, profiles.PICTURES[0], LEVEL, "profile", FIGURE)
                if compared.any else None, rows=rows[:MOST_ROWS], compared=compared,
-               counts=tally.count_verdicts(site.cases),
+               counts=verdicts.count_verdicts(site.cases),
                glances=site.glances, tables={c.name: table_of(c) for c in site.cases},
                verdicts=formulation_rows(site.cases))
 

@@ -10,7 +10,7 @@ from reports.chart import Chart
 from reports.figures import FONT, Image
 from reports.integrators import ordered
 from reports.motion_page import between
-from reports.profile_figures import Fixed, factors, stairs
+from reports.profiles import Fixed, factors, stairs
 
 # Sentences about integrators.
 

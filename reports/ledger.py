@@ -3,12 +3,14 @@ import functools
 import math
 import re
 
-from reports import data, tally
+import markdown
+
+from reports import data, verdicts
 from reports.checks import stored
 from reports.site import ROOT
 from reports.verdicts import AS_PREDICTED, OWN_LIMITS, SEVERITY, UNJUDGED, met
 
-NAVIGATION = [("ledger.html", "ledger")]
+NAVIGATION = [("ledger.html", "ledger"), ("errata.html", "errata")]
 
 
 def slug(title):
@@ -61,15 +63,15 @@ def left(v):
 
 def line(rule, rows, titles):
     """What the page says of one rule. rows: its verdicts, counted or not."""
-    own = [r for r in rows if r.standing == tally.OWN]
-    seen, left_out = tally.counts(rows)
+    own = [r for r in rows if r.standing == verdicts.OWN]
+    seen, left_out = verdicts.counts(rows)
     known = [r for r in own if math.isfinite(r.verdict.error)]
     return {
         **rule,
         "seen": sorted(seen.items(), key=lambda item: -SEVERITY[item[0]]),
         "number": len(own),
-        "aliases": left_out.get(tally.ALIAS, 0),
-        "misprints": left_out.get(tally.MISPRINT, 0),
+        "aliases": left_out.get(verdicts.ALIAS, 0),
+        "misprints": left_out.get(verdicts.MISPRINT, 0),
         "worst": max(known, key=lambda r: abs(r.verdict.error), default=None),
         "left": max((left(r.verdict) for r in known), default=math.nan),
         "met": predictions(own),
@@ -81,7 +83,7 @@ def unexplained(rows):
     """[((formulation, verdict), number)] of verdicts that differ from the expected ones."""
     found = {}
     for r in rows:
-        if not r.verdict.as_expected and r.standing == tally.OWN:
+        if not r.verdict.as_expected and r.standing == verdicts.OWN:
             key = r.formulation, r.verdict.verdict
             found[key] = found.get(key, 0) + 1
     return sorted(found.items())
@@ -89,14 +91,14 @@ def unexplained(rows):
 
 def contents(cases, rules):
     """The context of the page."""
-    rows, titles = list(tally.rows(cases)), headings()
+    rows, titles = list(verdicts.rows(cases)), headings()
     of_rule = {rule["rule"]: [] for rule in rules}
     for row in rows:
         of_rule.get(row.verdict.finding, []).append(row)
     judged = [r for r in rows if r.verdict.verdict not in UNJUDGED]
-    seen, left_out = tally.counts(judged)
+    seen, left_out = verdicts.counts(judged)
     lines = [line(rule, of_rule[rule["rule"]], titles) for rule in rules]
-    own = [r for r in judged if r.standing == tally.OWN and r.verdict.verdict != "pass"]
+    own = [r for r in judged if r.standing == verdicts.OWN and r.verdict.verdict != "pass"]
     return {
         "lines": lines,
         "explained": {
@@ -105,10 +107,10 @@ def contents(cases, rules):
             "met": sum(r.verdict.verdict in AS_PREDICTED for r in own),
         },
         "seen": sorted(seen.items(), key=lambda item: SEVERITY[item[0]]),
-        "aliases": left_out.get(tally.ALIAS, 0),
-        "misprints": left_out.get(tally.MISPRINT, 0),
-        "names": tally.ALIASES,
-        "kept_misprints": tally.MISPRINTS,
+        "aliases": left_out.get(verdicts.ALIAS, 0),
+        "misprints": left_out.get(verdicts.MISPRINT, 0),
+        "names": verdicts.ALIASES,
+        "kept_misprints": verdicts.MISPRINTS,
         "unexplained": unexplained(judged),
     }
 
@@ -119,5 +121,58 @@ def write(site):
     site.write("ledger.html", "ledger.html", studied=studied, **context)
 
 
+def navigation(site):
+    return [("causes.html", "causes")] if has_causes(site) else []
+
+
 def tasks(site):
-    return [functools.partial(write, site)]
+    pages = (write, write_errata) + ((write_causes,) if has_causes(site) else ())
+    return [functools.partial(page, site) for page in pages]
+
+
+# Experiments on the causes of the ledger, which `make lab L=causes` leaves beside the results.
+
+
+
+def verdict_of(study):
+    """What the experiments on one verdict show, in words for the head of its table."""
+    gone = [e for e in study["experiments"] if e["gone"]]
+    if any(e["kind"] == "finer" for e in gone):
+        return "the meshes of the verdict are too coarse"
+    names = [
+        f"without {e['what']}" if e["kind"] == "without" else f"with {e['formulation']}"
+        for e in gone
+    ]
+    return "gone " + ", ".join(names) if names else "none of these takes it away"
+
+
+def by_rule(record):
+    """{rule: [(study, what it shows)]} in the order of the rules' names."""
+    found = {}
+    for study in record["studies"]:
+        found.setdefault(study["finding"], []).append((study, verdict_of(study)))
+    return dict(sorted(found.items()))
+
+
+def has_causes(site):
+    return stored(site, "causes.json") is not None
+
+
+def write_causes(site):
+    record = stored(site, "causes.json")
+    known = {rule["rule"] for rule in data.read_rules(site.truths)}
+    solved = sum(any(e["gone"] for e in s["experiments"]) for s in record["studies"])
+    site.write("causes.html", "causes.html", record=record, rules=by_rule(record), known=known,
+               solved=solved)
+
+
+# reference/ERRATA.md as a page.
+
+
+
+def write_errata(site):
+    text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
+    parser = markdown.Markdown(extensions=["tables", "toc"])
+    body = parser.convert(text)
+    parts = [(t["id"], t["name"]) for top in parser.toc_tokens for t in top["children"]]
+    site.write("errata.html", "errata.html", body=body, parts=parts)

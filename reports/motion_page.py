@@ -10,7 +10,7 @@ import numpy as np
 import yaml
 from markupsafe import Markup, escape
 
-from reports import pictures, shapes, tally
+from reports import pictures, shapes, verdicts
 from reports.chart import Chart
 from reports.data import holds, text
 from reports.style import COLOURS
@@ -288,7 +288,7 @@ def draw_momenta(site, motion, name):
 
 def leading(motions):
     """Those that are drawn: plain formulations first."""
-    rank = sorted(motions, key=lambda m: (tally.corrected(m.formulation) is not None,
+    rank = sorted(motions, key=lambda m: (verdicts.corrected(m.formulation) is not None,
                                           ":" in m.formulation))
     return rank[:MOST_CURVES]
 
@@ -374,7 +374,7 @@ def draw_quantity(site, case, name, image):
     chart = Chart(1, WIDE)
     size, shown = fitting(np.concatenate([y for _, y, _, _ in found.values()]), unit)
     panel = chart.panel("", "time [s]", f"{name} [{shown}]", xlog=False, ylog=False)
-    keys = sorted(found, key=lambda k: (tally.corrected(k) is not None, ":" in k))[:MOST_CURVES]
+    keys = sorted(found, key=lambda k: (verdicts.corrected(k) is not None, ":" in k))[:MOST_CURVES]
     for key in keys:
         x, y, n, whole = found[key]
         at = thinned(x)

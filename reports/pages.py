@@ -21,15 +21,10 @@ from reports.site import Site
 PAGES = (
     "index",
     "sweep_page",
-    "lists",
-    "answers_page",
-    "profile_page",
+    "answers_table",
+    "profiles",
     "claims",
-    "papers",
     "ledger",
-    "causes",
-    "errata",
-    "column",
     "case",
     "explorer",
     "formulation",
@@ -44,8 +39,6 @@ PAGES = (
     "integrators_page",
     "motion_page",
     "checks",
-    "printable",
-    "environment",
     "glossary",
 )
 

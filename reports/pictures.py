@@ -1,6 +1,5 @@
 """Pictures of every scene, undeformed and deformed, with its modes (shapes.py): a still one, and
-what can be turned
-(viewer.py).
+what can be turned.
 
 Surfaces are projected in parallel and painted from back to front."""
 import functools
@@ -10,7 +9,7 @@ import os
 
 import numpy as np
 
-from reports import viewer
+from reports import shapes
 from reports.shapes import CLAMPED, FRAME, bodies, distance, exaggeration, read, size_of, strips
 
 NAVIGATION = [("pictures.html", "pictures")]
@@ -181,8 +180,8 @@ def draw(site, case, s):
     with open(os.path.join(site.folder, f"picture_{case.name}.svg"), "w", encoding="utf-8") as out:
         out.write(still(s, start))
     view = best_view(s, [start])
-    found = viewer.shape(s, title_of, supports(s), hinges(s), start, view.angles)
-    viewer.store(site, case.name, found)
+    found = shapes.shape(s, title_of, supports(s), hinges(s), start, view.angles)
+    shapes.store(site, case.name, found)
 
 
 def write_case(site, case):
@@ -203,7 +202,7 @@ def markup(case, s):
     """The place of the viewer with the still picture in it: case pages take it from here."""
     name = html.escape(case.name)
     image = f'<img src="picture_{name}.svg" alt="{name}, undeformed and deformed" loading="lazy">'
-    place = viewer.markup(case.name, image, f"{case.name} in space")
+    place = shapes.markup(case.name, image, f"{case.name} in space")
     return f"<figure>{place}<figcaption>{caption(s)}</figcaption></figure>"
 
 

@@ -133,7 +133,7 @@ class Point:
     parameters: str
     series: list
     units: dict
-    others: list = field(default_factory=list)  # series of other programs (reports/beside.py)
+    others: list = field(default_factory=list)  # series of other programs (reports/data.py)
     noise: float = 1.25  # costs whose ratio is below it tie
     scene: str = ""  # as a scene file
     meanings: dict = field(default_factory=dict)  # quantity -> what it is, in one line

@@ -6,11 +6,10 @@ import pathlib
 import jinja2
 from markupsafe import Markup, escape
 
-from reports import answers, beside, data, experiments, figures, glossary, markers, navigation, style, verdicts
+from reports import answers, data, experiments, figures, glossary, navigation, style, verdicts
 from reports.style import Styles, plt
 from reports.sweep import stored
 
-LEVELS = (0.1, 0.01, 0.001, 0.0001)
 ASSETS = pathlib.Path(__file__).parent / "assets"
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
@@ -71,7 +70,7 @@ class Site:
         self.about, self.cases = ({}, []) if self.alone else data.read_results(results, bench)
         for path in others:
             data.read_about(path)
-            beside.add(self.cases, path)
+            data.add_beside(self.cases, path)
         self.bench = data.read_about(bench, data.root_of_bench) if bench else None
         self.kinds = data.read_truth_counts(truths)
         self.results, self.truths, self.folder = results, truths, folder
@@ -94,7 +93,7 @@ class Site:
                                       breakable=breakable,
                                       file_of=file_of,
                                       term=glossary.linker(truths))
-        self.templates.globals.update(levels=LEVELS,
+        self.templates.globals.update(levels=answers.LEVELS,
                                       nan=math.nan,
                                       kinds_of_verdicts=verdicts.BY_NAME,
                                       remarks=verdicts.remarks,
@@ -145,7 +144,7 @@ class Site:
         path = os.path.join(self.folder, name)
         text = self.templates.get_template(template).render(self_name=name, **context)
         with open(path, "w", encoding="utf-8") as out:
-            out.write(markers.with_markers(text))
+            out.write(figures.with_markers(text))
 
     def points(self, key, columns, rows, title=""):
         """What plot() wants for a curve whose marks say more than where they are: with the pointer

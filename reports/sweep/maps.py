@@ -8,7 +8,7 @@ from matplotlib import colormaps
 from matplotlib.colors import to_hex
 
 from reports import style
-from reports.axis import linear_ticks, log_ticks
+from reports.chart import linear_ticks, log_ticks
 from reports.figures import FONT, Image, number
 
 EMPTY, UNKNOWN = -2, -1  # no point there; no reference to judge by

@@ -7,7 +7,7 @@ import sys
 import unittest
 
 from harness.tools.kit.program import ROOT, ProgramTest, drawn, run
-from reports import answers, answers_page, answers_table, data
+from reports import answers, answers_table, data
 from reports.test.browser_test import CHROMIUM, chromium
 from reports.test.results import Site, verdict
 
@@ -65,14 +65,14 @@ class Page(ProgramTest):
                 row = dict(zip(whole["asked"] + whole["columns"], question + way))
                 found.append({**row, "formulation": whole["formulations"][row["formulation"]]})
         self.assertEqual(found, answers_table.rows(self.cases))
-        first = {c.name: answers_table.asked(c.points[0])[0] for c in self.cases}
+        first = {c.name: answers_table.asked_of(c.points[0])[0] for c in self.cases}
         together = [r for r in found if r["quantity"] == first[r["case"]]]
         self.assertEqual(len(rows), len(together))
         for a, b in zip(rows, together):
             self.assertEqual((a["formulation"], int(a["n"]), float(a["tolerance"])),
                              (b["formulation"], b["n"], b["tolerance"]))
         first = [r for r in found if r["rank"] == 1 and r["case"] == "elastica"]
-        right = {level: answers.answer(self.cases[0].points[0], answers_table.asked(
+        right = {level: answers.answer(self.cases[0].points[0], answers_table.asked_of(
             self.cases[0].points[0])[0], level).best[0].key for level in data.REACH}
         self.assertEqual({r["tolerance"]: r["formulation"] for r in first
                           if r["quantity"] == first[0]["quantity"]}, right)
@@ -95,7 +95,7 @@ class Page(ProgramTest):
             mesh.priced = False
         site = Site(cases=self.cases)
         site.folder, site.about, site.bench = self.folder, {}, None
-        answers_page.write(site)
+        answers_table.write(site)
         self.assertEqual(site.pages["answers.html"]["unpriced"],
                          [self.cases[0].points[0].series[0].key])
         for mesh in self.cases[0].points[0].series[0].meshes:
@@ -106,7 +106,7 @@ class Page(ProgramTest):
             self.assertIn(f"<th>{level}</th>", self.page)
         point = self.cases[0].points[0]
         words = answers_table.sentence(
-            answers.answer(point, answers_table.asked(point)[0], 0.01))
+            answers.answer(point, answers_table.asked_of(point)[0], 0.01))
         self.assertIn(f"<td>{html.escape(words)}</td>", self.page)
 
     def asked(self, *said):
@@ -130,7 +130,7 @@ class Page(ProgramTest):
             right = 0
             for case in self.cases:
                 point = case.points[0]
-                found = answers.answer(point, answers_table.asked(point)[0], level)
+                found = answers.answer(point, answers_table.asked_of(point)[0], level)
                 told = ", ".join(f"{w.key} n&nbsp;=&nbsp;{w.n}" for w in found.best)
                 right += bool(found.best)
                 self.assertTrue(not told or f"<td>{told}" in page, told)
@@ -142,25 +142,25 @@ class Page(ProgramTest):
             self.assertTrue("Give a tolerance from 0.0001 to 10 %." in
                             self.asked(("tolerance", value)), value)
         page = self.asked(("which", "each"), ("case", "elastica"))
-        rows = len(answers_table.asked(self.cases[0].points[0])) - 1
+        rows = len(answers_table.asked_of(self.cases[0].points[0])) - 1
         self.assertTrue(f"{rows} of {rows} reached" in page)
 
 
 class Names(unittest.TestCase):
 
     def test_nothing_of_a_file_ends_the_script(self):
-        text = answers_page.embedded({"case": "</script><b>&"})
+        text = answers_table.embedded({"case": "</script><b>&"})
         self.assertNotIn("<", text)
         self.assertEqual(json.loads(text), {"case": "</script><b>&"})
 
     def test_rounding_never_lets_a_mesh_in(self):
         for value in (0.0100000004, 0.0099999996, 1 / 3, 1.23456789e-7):
-            self.assertGreaterEqual(answers_page.outward(value), value)
-            self.assertLess(answers_page.outward(value), value * (1 + 2e-5))
+            self.assertGreaterEqual(answers_table.outward(value), value)
+            self.assertLess(answers_table.outward(value), value * (1 + 2e-5))
 
     def test_defects_have_words(self):
-        self.assertEqual(answers_page.defect_of([verdict("u", "pass")]), "")
-        self.assertEqual(answers_page.defect_of([verdict("u", "pass"), verdict("v", "biased")]),
+        self.assertEqual(answers_table.defect_of([verdict("u", "pass")]), "")
+        self.assertEqual(answers_table.defect_of([verdict("u", "pass"), verdict("v", "biased")]),
                          "with a different limit")
 
 

@@ -3,7 +3,7 @@ import math
 import unittest
 
 from harness.tools.kit.program import TRUTHS, ProgramTest, run
-from reports import beside, data, pages
+from reports import data, pages
 
 HEAD = """# beamwork-import: 1
 # program: {}
@@ -40,12 +40,12 @@ class Beside(ProgramTest):
 
     def test_errors_are_those_of_the_judge(self):
         case = data.read_case(self.place / "ours.h5", "elastica")
-        beside.add([case], self.place / "theirs.h5")
+        data.add_beside([case], self.place / "theirs.h5")
         added, judged = case.points[0].others[0], self.point("both.h5").others[0]
         for a, b in zip(added.meshes, judged.meshes):
             self.assertTrue(math.isclose(a.errors["w_over_L"], b.errors["w_over_L"], rel_tol=1e-9))
             self.assertEqual((a.n, a.free, a.clock.solve), (b.n, b.free, b.clock.solve))
-        beside.add([case], self.place / "theirs.h5")
+        data.add_beside([case], self.place / "theirs.h5")
         self.assertEqual(len(case.points[0].others), 1, "once is enough")
 
     def test_names_are_escaped_everywhere(self):
@@ -60,8 +60,8 @@ class Beside(ProgramTest):
 
     def test_look(self):
         """Other programs are hollow and have no colour of a formulation."""
-        self.assertEqual(beside.style(3)["color"], "currentColor")
-        self.assertTrue(beside.style(3)["hollow"])
+        self.assertEqual(data.style_beside(3)["color"], "currentColor")
+        self.assertTrue(data.style_beside(3)["hollow"])
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import re
 import unittest
 
 from harness.tools.kit.program import ProgramTest, report, run
-from reports import case, case_truth, data, plots, question_figures, scene_drawing
+from reports import case, data, plots
 from reports.plots import MOST_CURVES, OPEN
 from reports.style import Styles
 from reports.test import results
@@ -44,7 +44,7 @@ class Figures(unittest.TestCase):
         """The truth is known to 1e-6: two of four marks are open, on that line, and the legend says
         so."""
         site, own = Site(), point(series("beamw", (1e-2, 1e-4, 1e-8, -1e-9)))
-        image = question_figures.errors_figure(site, own, "u", own.series, ("elements",), "f")
+        image = plots.errors_figure(site, own, "u", own.series, ("elements",), "f")
         self.assertIn(OPEN, html.unescape(image.markup))
         full, = re.findall(r'<polyline stroke="none" points="([^"]*)" style="([^"]*)"',
                            image.markup[:image.markup.index("data-l")])
@@ -56,7 +56,7 @@ class Figures(unittest.TestCase):
 
     def test_above_the_digits(self):
         own = point(series("beamw", (1e-2, 1e-4)))
-        image = question_figures.errors_figure(Site(), own, "u", own.series, ("elements",), "f")
+        image = plots.errors_figure(Site(), own, "u", own.series, ("elements",), "f")
         self.assertNotIn(OPEN, html.unescape(image.markup))
 
     def test_eight_at_most(self):
@@ -76,25 +76,25 @@ class Figures(unittest.TestCase):
 
     def test_no_errors(self):
         own = point(series("beamw", (math.nan, math.nan)))
-        self.assertIsNone(question_figures.errors_figure(Site(), own, "u", own.series,
-                                                         ("time",), "f"))
+        self.assertIsNone(plots.errors_figure(Site(), own, "u", own.series,
+                                              ("time",), "f"))
 
 
 class Truths(unittest.TestCase):
     def test_digits(self):
-        self.assertEqual(case_truth.digits_of(2.0, 2e-6), 6)
-        self.assertEqual(case_truth.digits_of(2.0, 0), case_truth.MOST_DIGITS)
-        self.assertEqual(case_truth.digits_of(2.0, 3.0), 1)
+        self.assertEqual(case.digits_of(2.0, 2e-6), 6)
+        self.assertEqual(case.digits_of(2.0, 0), case.MOST_DIGITS)
+        self.assertEqual(case.digits_of(2.0, 3.0), 1)
 
     def test_each_truth_once(self):
-        found = case_truth.truths_of(point(series("a", [1e-3]), series("b", [1e-2]),
-                                           series("c", [1e-2], truth=3.0)), "u")
+        found = case.truths_of(point(series("a", [1e-3]), series("b", [1e-2]),
+                                     series("c", [1e-2], truth=3.0)), "u")
         self.assertEqual([t.value for t in found], ["2", "3"])
 
     def test_matrix(self):
         other = results.series("b", [results.verdict("u", "wrong limit", truth=1.0, error=0.1,
                                                      limit=1.1)])
-        shown, rows = case_truth.matrix(point(series("a", [1e-3]), other))
+        shown, rows = case.matrix(point(series("a", [1e-3]), other))
         self.assertEqual([s.key for s in shown], ["a", "b"])
         (name, cells), = rows
         self.assertEqual((name, [c.sign for c in cells]), ("u", ["✓", "≠"]))
@@ -166,8 +166,8 @@ class Pages(ProgramTest):
         """There is no drawing, and quantities stand without explanations."""
         old = data.Case("c", "", "", [point(series("a", [1e-3]))])
         old.points[0].meanings = {}
-        self.assertIsNone(scene_drawing.drawing(None, old))
-        self.assertEqual([(q.name, q.meaning) for q in case_truth.quantities(old.points[0])],
+        self.assertIsNone(case.drawing(None, old))
+        self.assertEqual([(q.name, q.meaning) for q in case.quantities(old.points[0])],
                          [("u", "")])
 
 

@@ -3,7 +3,7 @@ import json
 import unittest
 
 from harness.tools.kit.program import TRUTHS, ProgramTest
-from reports import causes
+from reports import ledger
 from reports.test.results import Site
 
 
@@ -21,18 +21,18 @@ class Causes(ProgramTest):
             ([instead], "gone with other"),
             ([experiment("without", False)], "none of these takes it away"),
         ):
-            self.assertEqual(causes.verdict_of({"experiments": [finer, *last]}), words)
+            self.assertEqual(ledger.verdict_of({"experiments": [finer, *last]}), words)
         coarse = {"experiments": [experiment("finer", True, "more elements"), instead]}
-        self.assertIn("too coarse", causes.verdict_of(coarse))
+        self.assertIn("too coarse", ledger.verdict_of(coarse))
 
     def test_page(self):
         site = Site(str(self.folder / "results.h5"), TRUTHS)
-        self.assertFalse(causes.present(site))
+        self.assertFalse(ledger.has_causes(site))
         studies = [{"finding": name, "experiments": []} for name in ("b", "a", "b")]
         record = {"minutes": 1, "not_run": 0, "studies": studies}
         (self.folder / "causes.json").write_text(json.dumps(record), encoding="utf-8")
-        self.assertTrue(causes.present(site))
-        causes.write(site)
+        self.assertTrue(ledger.has_causes(site))
+        ledger.write_causes(site)
         rules = site.pages["causes.html"]["rules"]
         self.assertEqual([(name, len(found)) for name, found in rules.items()], [("a", 1),
                                                                                  ("b", 2)])

@@ -5,7 +5,7 @@ import types
 import unittest
 import xml.etree.ElementTree
 
-from reports import axis, chart, figures
+from reports import chart, figures
 from reports.site import Site
 from reports.style import Styles
 
@@ -21,7 +21,7 @@ class Axes(unittest.TestCase):
 
     def test_part(self):
         """Decades are equally long; the margin keeps what is drawn inside."""
-        one = axis.Axis(log=True)
+        one = chart.Axis(log=True)
         one.take([1e-3, 1e-1, 1e1, 0, float("nan")])
         one.settle()
         low, middle, high = one.part([1e-3, 1e-1, 1e1])
@@ -30,20 +30,20 @@ class Axes(unittest.TestCase):
         self.assertAlmostEqual(high, 1 - low)
 
     def test_ticks(self):
-        self.assertEqual([w for _, w in axis.log_ticks(0.5e-3, 20)],
+        self.assertEqual([w for _, w in chart.log_ticks(0.5e-3, 20)],
                          ["10⁻³", "10⁻²", "10⁻¹", "1", "10"])
-        self.assertLessEqual(len(axis.log_ticks(1e-14, 1)), 8)
-        self.assertEqual(axis.whole_ticks(0.9, 70), [1, 2, 5, 10, 20, 50])
-        self.assertEqual(axis.whole_ticks(9.7, 13.2), [10, 11, 12, 13])
-        self.assertEqual([w for _, w in axis.linear_ticks(-0.1, 1.05)],
+        self.assertLessEqual(len(chart.log_ticks(1e-14, 1)), 8)
+        self.assertEqual(chart.whole_ticks(0.9, 70), [1, 2, 5, 10, 20, 50])
+        self.assertEqual(chart.whole_ticks(9.7, 13.2), [10, 11, 12, 13])
+        self.assertEqual([w for _, w in chart.linear_ticks(-0.1, 1.05)],
                          ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"])
         for low, high in ((1.2, 1.9), (3.1, 3.2), (40, 41)):
-            self.assertGreater(len(axis.whole_ticks(low, high)), 0)
+            self.assertGreater(len(chart.whole_ticks(low, high)), 0)
 
     def test_nothing_to_scale(self):
         """One value, and none, have an axis too."""
         for values in ([3.0], []):
-            one = axis.Axis(log=True, whole=True)
+            one = chart.Axis(log=True, whole=True)
             one.take(values)
             one.settle()
             self.assertLess(one.low, one.high)

@@ -4,7 +4,7 @@ import json
 import re
 import unittest
 
-from reports import figures, markers, style
+from reports import figures, style
 from reports.style import Styles, plt
 
 
@@ -80,12 +80,12 @@ class Looks(unittest.TestCase):
         curve = '<polyline points="{}" stroke="red" stroke-dasharray="1 2" style="{}:url(#k1)"/>'
         page = "<head></head>" + "".join(curve.format(*one) for one in (
             ("0,0", "marker"), ("1,1", "marker"), ("2,2", "marker-mid")))
-        made = markers.with_classes(page)
+        made = figures.with_classes(page)
         self.assertEqual(re.findall('points="(.*?)" class="(.*?)" stroke-dasharray="1 2"/>', made),
                          [("0,0", "q0"), ("1,1", "q0"), ("2,2", "q1")])
         self.assertIn(".q0{stroke:red;marker:url(#k1)}.q1{stroke:red;marker-mid:url(#k1)}</style>",
                       made)
-        self.assertEqual(markers.with_classes("<head></head>"), "<head></head>")
+        self.assertEqual(figures.with_classes("<head></head>"), "<head></head>")
 
 
 if __name__ == "__main__":

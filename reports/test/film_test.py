@@ -11,7 +11,7 @@ import unittest
 import numpy as np
 
 from harness.tools.kit.program import ROOT, TRUTHS, ProgramTest, run
-from reports import film, shapes, viewer
+from reports import film, shapes
 from reports.test import frames
 from reports.test.browser_test import CHROMIUM, chromium, console
 
@@ -59,19 +59,19 @@ class Film(ProgramTest):
         cls.shape = json.loads(re.search(rf'id="shape_{CASE}">(.*?)</script>', cls.text, re.S)[1])
 
     def numbers(self, name, width):
-        whole = np.frombuffer(base64.b64decode(self.shape[name]), "<i2") / viewer.WHOLE
+        whole = np.frombuffer(base64.b64decode(self.shape[name]), "<i2") / shapes.WHOLE
         return whole.reshape(len(self.shape["states"]), -1, width)
 
     def test_frames_are_those_of_the_file(self):
         """Every one, at its time, to a unit of what is stored."""
         s = shapes.read_file(self.results, CASE)
-        at, _ = viewer.kept(s, film.MOST)
+        at, _ = shapes.kept(s, film.MOST)
         self.assertEqual(self.shape["times"][1:], TIMES.tolist())
         half, found = self.shape["half"], self.numbers("at", 7)[..., :3]
         off = found * self.shape["half"] - s.position[:, at]
-        self.assertLess(np.ptp(off, axis=(0, 1)).max(), 1.01 * half / viewer.WHOLE)
+        self.assertLess(np.ptp(off, axis=(0, 1)).max(), 1.01 * half / shapes.WHOLE)
         off = self.numbers("nodes", 3) * half - s.nodes
-        self.assertLess(np.ptp(off, axis=(0, 1)).max(), 1.01 * half / viewer.WHOLE)
+        self.assertLess(np.ptp(off, axis=(0, 1)).max(), 1.01 * half / shapes.WHOLE)
 
     def test_sections_turn_with_their_frames(self):
         """Each axis of the last frame is that of the first, turned by rate times time."""
@@ -84,12 +84,12 @@ class Film(ProgramTest):
     def test_thinned(self):
         """With less room frames are left out evenly, never the first or the last."""
         s = shapes.read_file(self.results, CASE)
-        states = viewer.drawn_states(s, viewer.LEAST * len(s.members) * 6)
+        states = shapes.drawn_states(s, shapes.LEAST * len(s.members) * 6)
         self.assertEqual([states[0], states[1], states[-1]], [0, 1, len(TIMES)])
         self.assertEqual(len(states), 7)
         apart = np.diff(states[1:])
         self.assertLessEqual(apart.max() - apart.min(), 1)
-        self.assertEqual(viewer.drawn_states(s), list(range(len(TIMES) + 1)))
+        self.assertEqual(shapes.drawn_states(s), list(range(len(TIMES) + 1)))
 
     def test_alone(self):
         """One file below 2 MB that asks for nothing from elsewhere."""
@@ -213,11 +213,11 @@ class Genuine(ProgramTest):
                           "collocation", "-n", 1, "--shapes", "-o", results)
             self.assertEqual(filmed(results, target), 0)
             s = shapes.read_file(results, name)
-            times = s.value[viewer.frames_of(s)]
+            times = s.value[shapes.frames_of(s)]
             self.assertGreater(len(times), 15)
             self.assertTrue((np.diff(times) > 0).all())
             self.assertIn(f" to {times[-1]:.4g} s", target.read_text(encoding="utf-8"))
-            moved = np.ptp(s.nodes[viewer.frames_of(s)], axis=0).max()
+            moved = np.ptp(s.nodes[shapes.frames_of(s)], axis=0).max()
             self.assertGreater(moved, 0.01 * shapes.size_of(s))
 
 

@@ -3,7 +3,7 @@ import re
 import unittest
 
 from harness.tools.kit.program import ROOT, TRUTHS, ProgramTest, run
-from reports import explanation, formulation, mathml
+from reports import formulation, mathml
 from reports.site import Site, file_of
 from reports.verdicts import UNJUDGED
 
@@ -19,7 +19,7 @@ def texts():
 
 def claims(text):
     """[(is it for them?, cases named)] of the bullets on when to choose a formulation."""
-    said = dict(explanation.sections(text))[formulation.CHOICE]
+    said = dict(formulation.sections(text))[formulation.CHOICE]
     bullets = re.findall(r"^\* \*\*(For|Not for)\*\* (.*)$", said, flags=re.M)
     return [(kind == "For", re.findall(r"`(\w+)`", words)) for kind, words in bullets]
 
@@ -31,7 +31,7 @@ class Texts(unittest.TestCase):
         self.assertEqual(set(texts()), found)
 
     def test_none_is_needed(self):
-        self.assertEqual(explanation.of("a_new_one", {}), [])
+        self.assertEqual(formulation.explanation_of("a_new_one", {}), [])
 
     def test_equations(self):
         made = mathml.convert(r"\bar e_1' = \frac{1}{2} (x^2 - \sum_k N_k) \mathbf{n} < 3")
@@ -46,8 +46,8 @@ class Texts(unittest.TestCase):
             self.assertIn(culprit, str(caught.exception))
 
     def test_words_that_name_a_page(self):
-        words = explanation.rendered("see `elastica`, `x`")
-        made = explanation.linked(words, {"elastica": "e.html"})
+        words = formulation.rendered("see `elastica`, `x`")
+        made = formulation.linked(words, {"elastica": "e.html"})
         self.assertIn('<a href="e.html">elastica</a>', made)
         self.assertIn("<code>x</code>", made)
 

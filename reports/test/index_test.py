@@ -5,7 +5,7 @@ import unittest
 
 from harness.tools.kit.program import ROOT, TRUTHS, ProgramTest, drawn, report, run
 from harness.tools.kit.scenes import LEAF
-from reports import agreed, data, kinds
+from reports import data, index
 from reports.test.results import case, series
 
 SCENE = """beamwork: 1
@@ -22,13 +22,13 @@ quantities:
 class Kinds(unittest.TestCase):
 
     def test_analyses_of_a_scene(self):
-        self.assertEqual(kinds.analyses_in(SCENE), ["static", "compliance"])
-        self.assertEqual(kinds.analyses_in("beamwork: 1\n"), [])
+        self.assertEqual(index.analyses_in(SCENE), ["static", "compliance"])
+        self.assertEqual(index.analyses_in("beamwork: 1\n"), [])
 
     def test_the_first_kind_counts(self):
-        self.assertEqual(kinds.kind_of(["static", "compliance"]), "stiffness and compliance")
-        self.assertEqual(kinds.kind_of(["modal", "buckling"]), "buckling")
-        self.assertEqual(kinds.kind_of([]), kinds.OTHER)
+        self.assertEqual(index.kind_of(["static", "compliance"]), "stiffness and compliance")
+        self.assertEqual(index.kind_of(["modal", "buckling"]), "buckling")
+        self.assertEqual(index.kind_of([]), index.OTHER)
 
 
 class Agreed(unittest.TestCase):
@@ -45,7 +45,7 @@ class Agreed(unittest.TestCase):
     def rows(self, *tries):
         one = case("one", *tries)
         one.points[0].units = {"u": "m"}
-        return agreed.rows([one], 0.01)
+        return index.rows_agreed([one], 0.01)
 
     def test_limits_and_meshes(self):
         row, = self.rows(self.tried("a", 2.0, (0.5, 0.002, 0.02, 0.001)),

@@ -3,7 +3,7 @@ import unittest
 
 from harness.tools.kit.program import TRUTHS
 from reference import pack
-from reports import data, errata, ledger, tally
+from reports import data, ledger, verdicts
 from reports.site import ROOT
 from reports.test.results import Site, case, series, verdict
 
@@ -45,22 +45,22 @@ def sheet(second_name):
 class Tally(unittest.TestCase):
 
     def standings(self, found):
-        return {(r.formulation, r.verdict.quantity): r.standing for r in tally.rows([found])}
+        return {(r.formulation, r.verdict.quantity): r.standing for r in verdicts.rows([found])}
 
     def test_repeats(self):
         stands = self.standings(sheet(1.5))
-        self.assertEqual(stands["sheet_third", "C_ux_Fx"], tally.OWN)
-        self.assertEqual(stands["sheet_third", "C_xx"], tally.ALIAS)
-        self.assertEqual(stands["sheet_third_printed", "C_ux_Fx"], tally.MISPRINT)
+        self.assertEqual(stands["sheet_third", "C_ux_Fx"], verdicts.OWN)
+        self.assertEqual(stands["sheet_third", "C_xx"], verdicts.ALIAS)
+        self.assertEqual(stands["sheet_third_printed", "C_ux_Fx"], verdicts.MISPRINT)
 
     def test_a_misprint_with_a_verdict_of_its_own_counts(self):
-        self.assertEqual(self.standings(sheet(1.5))["sheet_third_printed", "C_zz"], tally.OWN)
+        self.assertEqual(self.standings(sheet(1.5))["sheet_third_printed", "C_zz"], verdicts.OWN)
 
     def test_a_name_with_other_bits_is_no_alias(self):
-        self.assertEqual(self.standings(sheet(1.5 + 2.3e-16))["sheet_third", "C_xx"], tally.OWN)
+        self.assertEqual(self.standings(sheet(1.5 + 2.3e-16))["sheet_third", "C_xx"], verdicts.OWN)
 
     def test_a_name_without_the_other_is_no_alias(self):
-        self.assertEqual(self.standings(sheet(1.5))["sheet_third", "C_zz"], tally.OWN)
+        self.assertEqual(self.standings(sheet(1.5))["sheet_third", "C_zz"], verdicts.OWN)
 
 
 class Ledger(unittest.TestCase):
@@ -104,7 +104,7 @@ class Ledger(unittest.TestCase):
 
     def test_proofs_lead_to_sections_that_exist(self):
         site = Site()
-        errata.write(site)
+        ledger.write_errata(site)
         for title in ledger.headings():
             link = ledger.link_of(f"reference/ERRATA.md, {title.lower()}", ledger.headings())
             self.assertIn(f'id="{link.partition("#")[2]}"', site.pages["errata.html"]["body"])
@@ -113,7 +113,7 @@ class Ledger(unittest.TestCase):
         """A table without an empty line above it would be read as prose."""
         text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
         site = Site()
-        errata.write(site)
+        ledger.write_errata(site)
         body = site.pages["errata.html"]["body"]
         self.assertEqual(body.count("<table>"), text.count("\n|---"))
 

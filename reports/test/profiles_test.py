@@ -2,7 +2,7 @@
 import math
 import unittest
 
-from reports import data, problems, profile_figures, profiles, sentences, trust
+from reports import data, index, problems, profiles
 from reports.problems import Question, any_defect, no_defect, to_the_smallest
 from reports.test.results import series
 
@@ -70,12 +70,12 @@ class Shares(unittest.TestCase):
 class Stairs(unittest.TestCase):
 
     def test_a_share_holds_from_its_factor_on(self):
-        found = profile_figures.stairs([1, 2, 3, 5, 10], [0.25, 0.5, 0.5, 0.75, 0.75])
+        found = profiles.stairs([1, 2, 3, 5, 10], [0.25, 0.5, 0.5, 0.75, 0.75])
         self.assertEqual(found, ([1, 2, 2, 5, 5, 10], [0.25, 0.25, 0.5, 0.5, 0.75, 0.75]))
 
     def test_ticks_are_on_the_axis(self):
         for farthest in profiles.FARTHEST.values():
-            axis = profile_figures.factors(farthest)
+            axis = profiles.factors(farthest)
             values = [value for value, _ in axis.ticks()]
             self.assertEqual((values[0], values[-1]), (1, farthest))
             for value, part in zip(axis.part([1, farthest]), (0, 1)):
@@ -112,11 +112,11 @@ class ByHand(unittest.TestCase):
         self.assertEqual(at(self.compared, Question(0.1), 100), {"a": 0, "b": 0})
 
     def test_trust_and_speed(self):
-        rows = {r.key: r for r in trust.table(two(), self.compared.problems, ["a", "b"])}
+        rows = {r.key: r for r in problems.trust_table(two(), self.compared.problems, ["a", "b"])}
         self.assertEqual([rows[k].solved for k in "ab"], [0.75, 1])
         self.assertEqual([rows[k].near for k in "ab"], [0.75, 0.75])
         self.assertEqual([rows[k].factor for k in "ab"], [1, 2])
-        said = sentences.of_speed(self.compared, list(rows.values()))
+        said = index.of_speed(self.compared, list(rows.values()))
         self.assertEqual((said["near"], said["most"], said["most_share"]), (["a", "b"], ["b"], 1))
 
 
@@ -189,7 +189,7 @@ class Contestants(unittest.TestCase):
         """Results of an older program have no costs."""
         tries = [tried(k, {"u": GOOD}, math.nan) for k in "ab"]
         compared = profiles.Compared([case("one", tries)])
-        row, _ = trust.table([case("one", tries)], compared.problems, compared.keys)
+        row, _ = problems.trust_table([case("one", tries)], compared.problems, compared.keys)
         self.assertFalse(compared.any)
         self.assertTrue(math.isnan(row.solved) and math.isnan(row.factor))
 
@@ -207,22 +207,22 @@ class Sentences(unittest.TestCase):
                               tried("b", {"u": GOOD, "v": ("diverged", math.nan, False)}),
                               tried("c", {"u": GOOD, "v": GOOD})])]
         compared = profiles.Compared(cases)
-        said = sentences.of_trust(cases, trust.table(cases, compared.problems, compared.keys))
+        said = index.of_trust(cases, problems.trust_table(cases, compared.problems, compared.keys))
         self.assertEqual((said["never"], said["worst"], said["where"]), (["c"], "a", ["one"]))
         self.assertEqual((said["wrong"], said["derived"], said["times"]), (2, 1, 2))
 
     def test_of_truths(self):
-        said = sentences.of_truths([case("one", [tried("a", {"u": GOOD, "v": GOOD})])])
+        said = index.of_truths([case("one", [tried("a", {"u": GOOD, "v": GOOD})])])
         self.assertEqual((said["number"], said["kinds"], said["half"]), (2, {"exact": 2}, 1e-9))
-        self.assertIsNone(sentences.of_truths([case("one", [tried("a", {})])]))
+        self.assertIsNone(index.of_truths([case("one", [tried("a", {})])]))
 
 
 class Median(unittest.TestCase):
 
     def test_of_weights(self):
-        self.assertEqual(trust.median([(3, 1), (1, 1), (2, 1)]), 2)
-        self.assertEqual(trust.median([(1, 0.7), (5, 0.3)]), 1)
-        self.assertTrue(math.isnan(trust.median([])))
+        self.assertEqual(problems.median([(3, 1), (1, 1), (2, 1)]), 2)
+        self.assertEqual(problems.median([(1, 0.7), (5, 0.3)]), 1)
+        self.assertTrue(math.isnan(problems.median([])))
 
 
 if __name__ == "__main__":

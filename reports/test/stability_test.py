@@ -4,7 +4,7 @@ import unittest
 
 from harness.records.test.stored import put_experiment
 from harness.tools.kit.program import TRUTHS, ProgramTest, run
-from reports import environment, stability, stability_map
+from reports import checks, stability
 from reports.site import Site
 
 
@@ -23,7 +23,7 @@ class Stability(ProgramTest):
         """There is no page, and what makes it is said with the environment."""
         site = Site(self.folder / "results.h5", TRUTHS, self.folder / "site")
         self.assertFalse(stability.present(site))
-        self.assertIn("stress", [command for command, _ in environment.more(site)])
+        self.assertIn("stress", [command for command, _ in checks.more(site)])
 
     def test_sweep(self):
         self.answered("stress", "-k", "decay_free or twist_wagner", "-o",
@@ -84,11 +84,11 @@ class Stability(ProgramTest):
 
     def test_bands_of_the_map(self):
         """Many extremes stand in bands, each with its names and all formulations."""
-        many = [{"name": f"extreme_{i}", "values": [1.0]} for i in range(stability_map.MOST + 1)]
+        many = [{"name": f"extreme_{i}", "values": [1.0]} for i in range(stability.MOST + 1)]
         cell = stability.Cell([{"outcome": "value", "error": 0.1, "condition": 1, "iterations": 1,
                                 "reason": "", "as_expected": True}])
         record = {"extremes": many, "formulations": [{"formulation": "beamw"}]}
-        markup = stability_map.draw(record, {(e["name"], "beamw"): {1.0: cell} for e in many},
+        markup = stability.draw_map(record, {(e["name"], "beamw"): {1.0: cell} for e in many},
                                     stability.LOOK, stability.MEANING).markup
         self.assertEqual(markup.count(">beamw<"), 2)
         self.assertEqual(markup.count(">extreme_"), len(many))

@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 from harness.tools.kit.program import ProgramTest, drawn
-from reports import shapes, viewer
+from reports import shapes
 from reports.test.browser_test import CHROMIUM, chromium, console
 
 # Opens a copy of a page, waits for the viewer, counts what is drawn in three states of it.
@@ -51,22 +51,22 @@ class Stored(ProgramTest):
         cls.found = json.loads(re.fullmatch(r'beamwork_shape\("spherical_joint", (.*)\);\n', text)[1])
 
     def numbers(self, name, width):
-        whole = np.frombuffer(base64.b64decode(self.found[name]), "<i2") / viewer.WHOLE
+        whole = np.frombuffer(base64.b64decode(self.found[name]), "<i2") / shapes.WHOLE
         return whole.reshape(len(self.found["states"]), -1, width)
 
     def test_nodes(self):
         """They are where the results have them, to half a unit of what is stored."""
         half, nodes = self.found["half"], self.numbers("nodes", 3) * self.found["half"]
-        for k, of in enumerate(viewer.exaggerations(self.shapes)):
+        for k, of in enumerate(shapes.exaggerations(self.shapes)):
             wanted = self.shapes.nodes[0] + of * (self.shapes.nodes[k] - self.shapes.nodes[0])
             off = nodes[k] - wanted
-            self.assertLess(np.ptp(off, axis=0).max(), 1.01 * half / viewer.WHOLE)
+            self.assertLess(np.ptp(off, axis=0).max(), 1.01 * half / shapes.WHOLE)
 
     def test_axes(self):
         """The stored quaternions turn the axes of space into those of the section."""
         w, x, y, z = np.moveaxis(self.numbers("at", 7)[0][:, 3:], -1, 0)
         second = np.stack([2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)], axis=1)
-        at, _ = viewer.kept(self.shapes)
+        at, _ = shapes.kept(self.shapes)
         np.testing.assert_allclose(second, self.shapes.axes[0][at, 1], atol=2e-4)
 
     def test_members(self):
@@ -83,7 +83,7 @@ class Stored(ProgramTest):
         s = types.SimpleNamespace(kind=["undeformed", "path", "path"], sections=[np.zeros((1, 4, 2))],
                                   position=np.array([[[0, 0, 0], [1, m, 0]] for m in move], float),
                                   axes=np.tile(np.eye(3), (3, 2, 1, 1)))
-        self.assertEqual(viewer.exaggerations(s), [1.0, 100.0, 100.0])
+        self.assertEqual(shapes.exaggerations(s), [1.0, 100.0, 100.0])
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_browser(self):
