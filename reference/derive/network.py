@@ -9,9 +9,127 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
-from reference.derive.beam import STEP, cross_matrix, exponential, product, quaternion, rotation
-from reference.derive.line_load import Loaded
-from reference.derive.parts import Body, Member
+from reference.derive.beam import (STEP, Scaled, chebyshev, cross_matrix, exponential, product,
+                                   quaternion, rotation)
+
+# Loads along a beam (beam.py): six more states, F and m0 (moment about the origin, fixed axes) less those at the start,
+#   F' = -f q,   m0' = -f ((r + R d) x q + c),
+# per initial length, q and c in fixed axes, or turning with the sections, linear along the beam (then s is a state before the six);
+# d: where q acts, from the centroid; f: factor at the level.
+
+
+class LineLoad:
+    """force [N/m], moment [N] at each length, in fixed axes, or in those of the section, with which they turn; at [m]: of the force, in the
+    section's axes; factor(level); more: what force and moment are more at the end than at the start, linear between, or None."""
+
+    def __init__(self, force, moment, at, turns, factor, more=None):
+        self.force, self.moment, self.at, self.turns, self.factor = (*(np.array(
+            v, dtype=float) for v in (force, moment, at)), turns, factor)
+        self.more = None if more is None else [np.array(v, dtype=float) for v in more]
+
+    def scaled(self, length, force):
+        more = None if self.more is None else (self.more[0] * length / force, self.more[1] / force)
+        return LineLoad(self.force * length / force, self.moment / force, self.at / length,
+                        self.turns, self.factor, more)
+
+    def at_place(self, s):
+        """Force and moment [3, many]."""
+        more = (0.0, 0.0) if self.more is None else (v[:, None] * s for v in self.more)
+        return [v[:, None] + m for v, m in zip((self.force, self.moment), more)]
+
+
+class Loaded(Scaled):
+    """A scaled beam with such loads; the level is the network's."""
+    carries = True
+    stays = False  # do its loads stay where they are at rest? So they do in linear analysis
+
+    def __init__(self, beam, loads):
+        self.__dict__.update(beam.__dict__)
+        self.plain, self.loads, self.level = beam, loads, 0.0
+        self.varies = any(load.more is not None for load in loads)
+
+    @property
+    def states(self):
+        return self.plain.states + self.varies + 6
+
+    def slope(self, y, p):
+        n = self.plain.states
+        place = y[:7].real if self.stays else y[:7]  # what is not varied has no derivative
+        R, out = rotation(place[3:]), np.zeros((6, y.shape[1]), dtype=np.result_type(y, p))
+        s = y[n].real if self.varies else 0 * y[0].real
+        for load in self.loads:
+            factor = load.factor(self.level)
+            q, c = (np.einsum("ijk,jk->ik", R, factor * (v + 0 * s)) if load.turns else
+                    factor * v + 0 * y[:3] for v in load.at_place(s))
+            out[:3] -= q
+            out[3:] -= np.cross(place[:3] + np.einsum("ijk,j->ik", R, load.at), q, axis=0) + c
+        rates = [self.plain.slope(y[:n], p + y[-6:]), self.length * out]
+        return np.concatenate(rates[:1] + [1 + 0 * y[:1]] * self.varies + rates[1:])
+
+    def at_rest(self, start, q0, s):
+        y = self.plain.at_rest(start, q0, s)
+        return np.concatenate([y] + [np.array(s)[None]] * self.varies + [np.zeros((6, y.shape[1]))])
+
+
+# What a network (network.py) consists of: rigid bodies, and beams between them.
+
+
+class Body:
+
+    def __init__(self, x, conditions, on=None):
+        """on: the body that a joint is on."""
+        self.on = on
+        self.x, self.q, self.load, self.conditions = np.array(x, dtype=float), np.array(
+            [1.0, 0, 0, 0]), np.zeros(6), conditions
+
+    @property
+    def R(self):
+        return rotation(self.q)
+
+
+class Member:
+    """A beam between two bodies; warp: 'fixed', 'free' or a name shared by several ends."""
+
+    def __init__(self, beam, bodies, ends, q0, warp, intervals, nodes):
+        self.beam, self.bodies, self.warp = beam, bodies, warp
+        self.ends, self.q_end = ends, [q0, None]  # offsets and triads in the bodies' axes
+        self.p = np.zeros(6)
+        self.s, self.W = chebyshev(nodes)
+        grid = (np.arange(intervals)[:, None] + self.s[None, :]) / intervals
+        self.h = 1.0 / intervals
+        start = np.array(bodies[0].x) + ends[0]
+        self.y = np.moveaxis(
+            beam.at_rest(start, q0, grid.ravel()).reshape(beam.states, intervals, -1), 0, 2)
+        self.q_end[1] = self.y[-1, -1, 3:7].copy()
+        self.ends[1] = self.y[-1, -1, :3] - bodies[1].x
+
+    @property
+    def size(self):
+        return 6 + (2 if self.beam.warps else 0) + self.y.shape[0] * self.beam.states
+
+    def start_state(self):
+        y = self.y[0, 0].copy()
+        y[:3] = self.bodies[0].x + self.bodies[0].R @ self.ends[0]
+        y[3:7] = product(self.bodies[0].q, self.q_end[0])
+        return y
+
+    def linearise(self):
+        """Per interval: Y = base + A y_start + B p for changes, with the residual of the current values folded into base."""
+        m, n1, n = self.y.shape
+        columns = self.y.reshape(-1, n).T
+        f, fy, fp = self.beam.slope_and_derivatives(
+            columns, np.repeat(self.p[:, None], columns.shape[1], axis=1))
+        f, fy, fp = f.T.reshape(m, n1, n), fy.reshape(m, n1, n, n), fp.reshape(m, n1, n, 6)
+        W = self.h * self.W
+        matrix = -np.einsum("jk,mkab->mjakb", W, fy).reshape(m, n1 * n, n1 * n)
+        matrix[:, np.arange(n1 * n), np.arange(n1 * n)] += 1
+        start = np.tile(np.eye(n), (n1, 1))
+        by_p = np.einsum("jk,mkab->mjab", W, fp).reshape(m, n1 * n, 6)
+        residual = (self.y[:, :1] + np.einsum("jk,mka->mja", W, f) - self.y).reshape(m, n1 * n, 1)
+        right = np.concatenate([np.broadcast_to(start, (m, n1 * n, n)), by_p, residual], axis=2)
+        self.response = np.linalg.solve(matrix, right).reshape(m, n1, n, n + 7)
+        return self.response[:, -1]
+
 
 BODY = 12  # x, rotation, force, moment
 

@@ -16,13 +16,12 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 from reference.derive import scene_text, scenes  # noqa: E402
-from reference.derive.scene_network import SceneNetwork  # noqa: E402
-from reference.derive.scene_parts import cut, whole  # noqa: E402
 from reference.derive.predicted_beam import Printed  # noqa: E402
-from reference.derive.scene_states import Path, compliance, linear, reaction, resultants  # noqa: E402
+from reference.derive.scene_network import SceneNetwork, cut, whole  # noqa: E402
+from reference.derive.scene_states import (  # noqa: E402
+    Path, compliance, frequencies, linear, reaction, resultants)
 from reference.derive.scene_support import WORDS  # noqa: E402
 from reference.derive.scene_text import Refused, number, only  # noqa: E402
-from reference.derive.scene_vibration import frequencies  # noqa: E402
 
 TABLES = "examples"
 SOURCE = "reference/derive/of_scene.py"

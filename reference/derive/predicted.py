@@ -2,7 +2,7 @@
 
 usage: predicted.py [--write] [CASE...]     derives reference/predicted/CASE.csv; compares or writes
 
-The beam that a formulation converges to (predicted_strains.py, predicted_beam.py) takes the place
+The beam that a formulation converges to (predicted_beam.py) takes the place
 of the exact one in the programs that derive exact values; predicted_column.py has the half-waves.
 What agrees with the exact value is no prediction and is left out.  shear_stability=*: these
 formulations have one form of the second order, whatever theory a case asks for.

@@ -1,4 +1,4 @@
-"""The beam that a printed element converges to: beam.py with the measures of predicted_strains.py.
+"""The beam that a printed element converges to: beam.py with the measures below.
 
 Energy per length W = 1/2 s.E, E(gamma, kappa, a) the measures and s their stresses.  At each point
 the stress resultants N, M of beam.py and the amplitude a are given; gamma, kappa and s follow from
@@ -9,7 +9,153 @@ B' = s.dE/da.
 import numpy as np
 
 from reference.derive.beam import Beam, Scaled, product, rotation
-from reference.derive.predicted_strains import MEASURES, OF, VARIABLES, Jet
+
+# Strain measures of printed elements under refinement: what a short element of a smooth beam sees.
+#
+# r' = R (e_x + gamma), kappa~ = R^T R', a warping amplitude; h length, lambda = |e_x + gamma|; chord
+# along n = (e_x + gamma)/lambda.  To leading order in h each function gives (eps, g_y, g_z, g_w, k_x,
+# k_y, k_z), which the stiffness multiplies: it tends to diag(EA, G D, GIt, EIy, EIz), and EIw a'^2;
+# the g are those of the shear centre.  Proofs with short elements: reference/test/predicted_test.py.
+#
+# J Eq. 7, where e3, e4 = -+ h n_z + h^2 k_y/2, e5, e6 = +- h n_y + h^2 k_z/2, e2 = h^2 kappa_x:
+#   eps = lambda - 1,  g_y = n_y - zs k_x,  g_z = n_z + ys k_x,  g_w = k_x - a,
+#   k_x = kappa_x,  k_y = n_x kappa_y - n_y kappa_x,  k_z = n_x kappa_z - n_z kappa_x
+# J Eq. 66, with w = kappa_x - a:
+#   eps + (n_y^2 + n_z^2)/10 + (Ip/A) (kappa_x^2 + w^2/5)/2 - (ys^2 + zs^2) kappa_x^2/10,
+#   k_x + n_y k_y + n_z k_z,  k_y - n_y w/5,  k_z - n_z w/5
+# N Eqs. 37, 40, 42, with the angles of N's local coordinates, sin y = n_z, tan z = -n_y/n_x, and
+# p = kappa_x - kappa_y tan z, y' = kappa_y/cos z, z' = kappa_z:
+#   eps = lambda - 1 + (y^2 + z^2)/10 + Ite p^2/2,  g_y = -z,  g_z = y,  g_w = p - a,
+#   k_x = p + y z',  k_y = y' + z p,  k_z = z' - y p
+# The same integrals over the linear solution with shear (sheet_second_consistent):
+#   eps = lambda - 1 - (y^2 + z^2)/2 + Ite p^2/2,  k_x = p + z y',  k_y = y',  k_z = z'
+# N Eqs. 44-65 (sheet_third): those of Eq. 37; what the stress function adds is of higher order in h,
+# and g_y has no compliance (N Eq. 50).
+
+VARIABLES = 7  # gamma, kappa, a
+MEASURES = 7
+
+
+class Jet:
+    """Value [many], gradient [VARIABLES, many], Hessian [VARIABLES, VARIABLES, many]."""
+
+    def __init__(self, value, gradient, hessian):
+        self.value, self.gradient, self.hessian = value, gradient, hessian
+
+    @staticmethod
+    def variables(values):
+        """One of each row of values [VARIABLES, many]."""
+        zero = np.zeros((VARIABLES,) + values.shape, dtype=values.dtype)
+        return [Jet(v, np.eye(VARIABLES)[i][:, None] + zero[0], zero) for i, v in enumerate(values)]
+
+    def _of(self, value, first, second):
+        """f(self) from f, f', f''."""
+        g = self.gradient
+        return Jet(value, first * g, first * self.hessian + second * g[:, None] * g[None])
+
+    def __add__(self, other):
+        if not isinstance(other, Jet):
+            return Jet(self.value + other, self.gradient, self.hessian)
+        return Jet(self.value + other.value, self.gradient + other.gradient,
+                   self.hessian + other.hessian)
+
+    def __mul__(self, other):
+        if not isinstance(other, Jet):
+            return Jet(self.value * other, self.gradient * other, self.hessian * other)
+        cross = self.gradient[:, None] * other.gradient[None]
+        curved = self.value * other.hessian + other.value * self.hessian
+        gradient = self.value * other.gradient + other.value * self.gradient
+        return Jet(self.value * other.value, gradient, curved + cross + np.swapaxes(cross, 0, 1))
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __neg__(self):
+        return self * -1.0
+
+    def __sub__(self, other):
+        return self + other * -1.0
+
+    def __truediv__(self, other):
+        return self * other._of(1 / other.value, -1 / other.value ** 2, 2 / other.value ** 3)
+
+    def sqrt(self):
+        root = np.sqrt(self.value)
+        return self._of(root, 1 / (2 * root), -1 / (4 * root * self.value))
+
+    def arcsin(self):
+        x = self.value
+        first = 1 / np.sqrt(1 - x * x)
+        return self._of(np.arcsin(x), first, x * first ** 3)
+
+    def arctan(self):
+        x = self.value
+        first = 1 / (1 + x * x)
+        return self._of(np.arctan(x), first, -2 * x * first ** 2)
+
+
+def chord(gamma):
+    """lambda and n."""
+    x = gamma[0] + 1.0
+    stretch = (x * x + gamma[1] * gamma[1] + gamma[2] * gamma[2]).sqrt()
+    return stretch, [x / stretch, gamma[1] / stretch, gamma[2] / stretch]
+
+
+def jonker_first(gamma, kappa, a, centre, polar):
+    """J Eq. 7 alone (beamw_first); a None: nothing warps."""
+    stretch, n = chord(gamma)
+    ys, zs = centre
+    k = [kappa[0], n[0] * kappa[1] - n[1] * kappa[0], n[0] * kappa[2] - n[2] * kappa[0]]
+    warping = None if a is None else k[0] - a
+    return [stretch + -1.0, n[1] - zs * k[0], n[2] + ys * k[0], warping] + k
+
+
+def jonker(gamma, kappa, a, centre, polar):
+    """J Eqs. 7 and 66 (beamw, beamw_vlasov); polar = Ip/A, 0 without the trapeze term."""
+    eps, _, _, w, kx, ky, kz = jonker_first(gamma, kappa, a, centre, polar)
+    _, n = chord(gamma)
+    ys, zs = centre
+    eps = eps + (n[1] * n[1] + n[2] * n[2]) * 0.1 + kx * kx * (polar / 2 - (ys * ys + zs * zs) / 10)
+    twist, warping = kx + n[1] * ky + n[2] * kz, None
+    if w is not None:
+        eps, ky, kz = eps + w * w * (polar / 10), ky - n[1] * w * 0.2, kz - n[2] * w * 0.2
+        warping = twist - a
+    return [eps, n[1] - zs * twist, n[2] + ys * twist, warping, twist, ky, kz]
+
+
+def _angles(gamma, kappa):
+    """lambda, y, z, p, y' of N's local coordinates."""
+    stretch, n = chord(gamma)
+    slope = -(n[1] / n[0])  # tan z
+    rate = kappa[1] * (slope * slope + 1.0).sqrt()
+    return stretch, n[2].arcsin(), slope.arctan(), kappa[0] - kappa[1] * slope, rate
+
+
+def nijenhuis(gamma, kappa, a, centre, polar):
+    """N Eq. 37 (sheet_second, sheet_third)."""
+    stretch, y, z, p, dy = _angles(gamma, kappa)
+    eps = stretch + -1.0 + (y * y + z * z) * 0.1 + p * p * (polar / 2)
+    warping = None if a is None else p - a
+    return [eps, -z, y, warping, p + y * kappa[2], dy + z * p, kappa[2] - y * p]
+
+
+def nijenhuis_sheared(gamma, kappa, a, centre, polar):
+    """N Eq. 7 over N Eqs. 14-19 with Phi (sheet_second_consistent)."""
+    stretch, y, z, p, dy = _angles(gamma, kappa)
+    eps = stretch + -1.0 - (y * y + z * z) * 0.5 + p * p * (polar / 2)
+    return [eps, -z, y, None if a is None else p - a, p + z * dy, dy, kappa[2]]
+
+
+def simo_reissner(gamma, kappa, a, centre, polar):
+    """Those of beam.py, less what eccentricity adds: a test of the rest of the machinery."""
+    (ys, zs), warping = centre, None if a is None else kappa[0] - a
+    eps = gamma[0] + kappa[0] * kappa[0] * (polar / 2)
+    return [eps, gamma[1] - zs * kappa[0], gamma[2] + ys * kappa[0], warping] + list(kappa)
+
+
+OF = {"beamw": jonker, "beamw_vlasov": jonker, "beamw_first": jonker_first,
+      "sheet_second": nijenhuis, "sheet_third": nijenhuis,
+      "sheet_second_consistent": nijenhuis_sheared}
+
 
 WARPING, TORSION = 3, 4  # among the measures
 NEWTON_STEPS, SETTLED = 40, 1e-12

@@ -1,4 +1,4 @@
-"""Half-waves of a fork-ended beam as printed elements see it (measures: predicted_strains.py).
+"""Half-waves of a fork-ended beam as printed elements see it (measures: predicted_beam.py).
 
 The strain energy is that of column.py (amplitudes of v_s, w_s, phi; g_y, g_z, g_w); the parts of
 second order of the measures do work with a uniform axial force or moment.  At the centroid, with

@@ -8,9 +8,9 @@ import unittest
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
-from reference.derive import predicted_strains  # noqa: E402
+from reference.derive import predicted_beam  # noqa: E402
 from reference.derive.beam import exponential, rotation  # noqa: E402
-from reference.derive.predicted_strains import Jet  # noqa: E402
+from reference.derive.predicted_beam import Jet  # noqa: E402
 
 
 X, WEIGHT = (lambda x, w: ((x + 1) / 2, w / 2))(*np.polynomial.legendre.leggauss(12))
@@ -111,7 +111,7 @@ def nijenhuis_modes(h, sheared):
 
 
 def measured(e, h, centre):
-    """What the stiffness of a short element multiplies, in the order of predicted_strains.py."""
+    """What the stiffness of a short element multiplies, in the order of predicted_beam.py."""
     k, gy, gz = e[1] / h ** 2, (e[4] - e[5]) / (2 * h), (e[3] - e[2]) / (2 * h)
     warping = k - (e[6] + e[7]) / (2 * h ** 2)
     bending = [(e[2] + e[3]) / h ** 2, (e[4] + e[5]) / h ** 2]
@@ -147,17 +147,17 @@ def appendix_a(h):
 
 
 class Measures(unittest.TestCase):
-    """The densities of derive/predicted_strains.py, by short elements."""
+    """The densities of derive/predicted_beam.py, by short elements."""
 
     def assert_limit(self, modes, measures, centre, h, delta):
         limit = extrapolated(lambda length: measured(modes(length), length, centre), h)
         self.assertLess(np.max(np.abs(limit - measures)), delta)
 
     def test_first_order(self):
-        self.assert_limit(jonker_modes, values(predicted_strains.jonker_first), CENTRE, 0.2, 1e-6)
+        self.assert_limit(jonker_modes, values(predicted_beam.jonker_first), CENTRE, 0.2, 1e-6)
 
     def test_eq66(self):
-        printed, first = values(predicted_strains.jonker), values(predicted_strains.jonker_first)
+        printed, first = values(predicted_beam.jonker), values(predicted_beam.jonker_first)
         self.assert_limit(lambda h: eq66(jonker_modes(h), h), printed, CENTRE, 0.2, 1e-6)
         self.assertGreater(np.min(np.abs(printed - first)), 1e-3)
 
@@ -165,7 +165,7 @@ class Measures(unittest.TestCase):
         """Without warping shear: W is their p."""
         for sheared, name in ((False, "sheet_second"), (True, "sheet_second_consistent")):
             p = KAPPA[0] + KAPPA[1] * GAMMA[1] / (1 + GAMMA[0])
-            limit = values(predicted_strains.OF[name], a=p)
+            limit = values(predicted_beam.OF[name], a=p)
             modes = functools.partial(nijenhuis_modes, sheared=sheared)
             self.assert_limit(modes, limit, (0, 0), 0.1, 1e-5)
 
@@ -175,7 +175,7 @@ class Measures(unittest.TestCase):
             e, at_centre = eq66(jonker_modes(h), h), np.eye(8)
             at_centre[2:6, 1] = np.array([-YS, YS, -ZS, ZS]) / h
             return (at_centre @ e) @ appendix_a(h) @ (at_centre @ e) / (2 * h)
-        eps, gy, gz, gw, kx, ky, kz = values(predicted_strains.jonker)
+        eps, gy, gz, gw, kx, ky, kz = values(predicted_beam.jonker)
         g = np.array([gy, gz, gw])
         bending = IY * ky ** 2 + IZ * kz ** 2 + IW * RATE ** 2
         density = (E * (AREA * eps ** 2 + bending) + G * (g @ D @ g + IT * kx ** 2)) / 2
@@ -183,9 +183,9 @@ class Measures(unittest.TestCase):
 
     def test_all_are_right_without_shear(self):
         given = {"gamma": (0.02, 0, 0), "a": KAPPA[0]}
-        right = predicted_strains.simo_reissner(*variables(**given), (0, 0), POLAR)
+        right = predicted_beam.simo_reissner(*variables(**given), (0, 0), POLAR)
         for name in ("beamw", "sheet_second", "sheet_second_consistent"):
-            ours = predicted_strains.OF[name](*variables(**given), (0, 0), POLAR)
+            ours = predicted_beam.OF[name](*variables(**given), (0, 0), POLAR)
             for one, other in zip(ours, right):
                 self.assertAlmostEqual(one.value[0], other.value[0], delta=1e-14)
 
@@ -196,7 +196,7 @@ class Measures(unittest.TestCase):
         def jets(measures, shift):
             v = Jet.variables((point + shift)[:, None])
             return measures(v[:3], v[3:6], v[6], CENTRE, POLAR)
-        for measures in set(predicted_strains.OF.values()):
+        for measures in set(predicted_beam.OF.values()):
             for i, d in enumerate(step * np.eye(7)):
                 found = zip(jets(measures, d), jets(measures, -d), jets(measures, 0 * d))
                 for ahead, back, here in found:

@@ -9,9 +9,9 @@ import numpy as np
 from mpmath import diff, mpf, pi, sin
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
-from reference.derive import cantilevers, channel_cantilever, column, equilibrium  # noqa: E402
-from reference.derive import predicted, predicted_rows, predicted_strains, rederive  # noqa: E402
-from reference.derive import sheets  # noqa: E402
+from reference.derive import (  # noqa: E402
+    cantilevers, channel_cantilever, column, equilibrium, predicted, predicted_beam, predicted_rows,
+    rederive, sheets)
 from reference.derive.beam import Beam  # noqa: E402
 from reference.derive.network import Network, clamped  # noqa: E402
 from reference.derive.predicted_beam import Printed  # noqa: E402
@@ -33,7 +33,7 @@ class Machinery(unittest.TestCase):
 
     def test_exact_strains_give_the_exact_beam(self):
         """With measures of the Simo-Reissner beam: every exact value of three points."""
-        form = lambda beam: Printed(beam, predicted_strains.simo_reissner)  # noqa: E731
+        form = lambda beam: Printed(beam, predicted_beam.simo_reissner)  # noqa: E731
         exact = predicted_rows.exact_values()
         rows = [
             *sheets.cantilever(form=form), *sheets.twisted(form=form, tip_warping=1),

@@ -10,8 +10,7 @@ import numpy as np
 
 from reference.derive import rederive
 from reference.derive.solids import channel, deck, sheet
-from reference.derive.solids.grid import BRICK, graded
-from reference.derive.solids.tip import spin, turned
+from reference.derive.solids.deck import BRICK, graded, spin, turned
 
 TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 needs_ccx = unittest.skipUnless(deck.available(), f"{deck.PROGRAM} is not installed")

@@ -10,7 +10,7 @@ import numpy as np
 
 from reference.derive import defaults
 from reference.derive.solids import deck
-from reference.derive.solids.grid import Grid
+from reference.derive.solids.deck import Grid
 
 LENGTH = float(defaults.values("c_cantilever")["length"])
 HEIGHT, WIDTH, FLANGE, WEB, YOUNG, SHEAR = 0.3, 0.1, 0.016, 0.01, 210e9, 80.77e9

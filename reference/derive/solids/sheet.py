@@ -12,8 +12,7 @@ import numpy as np
 from reference.derive import defaults
 from reference.derive.compliance import entry_of, unit_of
 from reference.derive.solids import deck
-from reference.derive.solids.grid import Grid, graded
-from reference.derive.solids.tip import Tip, spin, turned
+from reference.derive.solids.deck import Grid, Tip, graded, spin, turned
 
 SIZES = ("length", "width", "thickness", "young", "poisson")  # of both cases
 LENGTH, WIDTH, THICKNESS, YOUNG, POISSON = (
