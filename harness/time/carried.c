@@ -108,7 +108,7 @@ static void add_body(const model *m, const mesh_discrete *d, carried_mass of[])
     take(m, d->el.vertex[0], b->mass, moment, tensor, of);
 }
 
-/* Frames without mass are left out. */
+/* Keeps the frames that have mass or inertia, and sums them. */
 static void keep_heavy(const model *m, carried_mass of[], carried_masses *out)
 {
     for (int i = 0; i < model_vertices(m); i++) {

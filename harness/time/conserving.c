@@ -382,9 +382,9 @@ static void heavy_ones(const model *m, const carried_mass *one, const carried_st
     }
 }
 
-/* Masses of released ends go on with velocities of their own, so that these keep energy and momenta
- * as those of nodes do: they follow from the coordinates but for what is of second order in a step.
- */
+/* Velocities of the masses at released ends, integrated separately, so that they conserve energy
+ * and momenta as those of nodes do. They differ from the rates of the coordinates by terms of
+ * second order in the step. */
 static void conserving_released_rates(const conserving *s, const instant *from, double h,
                                       instant *to)
 {

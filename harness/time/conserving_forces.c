@@ -404,10 +404,11 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
     return STATUS_OK;
 }
 
-/* Rates r of strains and theirs, s, at the end of a step, from those at its begin and the mean m:
- *   r1 = (3 m - r0)/2 + h s0/4,  s1 = (m - r0)/h + s0/2:
- * of second order, also of what has no inertia, and an error of the begin is gone after two steps
- * (2 m - r0 would keep it for ever). */
+/* Strain rates r1 and their derivatives s1 at the end of a step, from r0 and s0 at its start and
+ * the mean rate m:
+ *   r1 = (3 m - r0)/2 + h s0/4,  s1 = (m - r0)/h + s0/2.
+ * Of second order, also without inertia; an initial error is gone after two steps (2 m - r0 would
+ * keep it for ever). */
 void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;

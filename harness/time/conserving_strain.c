@@ -142,7 +142,7 @@ static void stress_spring(conserving *s, const instant *from, model_state *now, 
     take_energy(s, &of, energy_of_spring(&of), sum);
 }
 
-/* At the begin [J]. */
+/* Kinetic energy and sizes of the strain energies at the start of the step [J]. */
 static double size_of_energy(const conserving *s, const instant *from)
 {
     inertia_balance moving;

@@ -161,8 +161,8 @@ void inertia_rows(const double turn[9], double K[36])
     }
 }
 
-/* The same of a released end; its rates' own change with the state (of axes that turn) is left out.
- */
+/* The same for a released end. The change of its rates with the state (of axes that turn) is
+ * omitted. */
 static void released_tangent(const model *m, int vertex, const model_state *s,
                              const inertia_parts *p, const inertia_relation *with, sparse *S)
 {

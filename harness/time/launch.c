@@ -77,7 +77,7 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
         start_angles(m, s, index, field->spin, v);
 }
 
-/* What is held and driven lets the field be. */
+/* REFUSED: fixed or prescribed coordinates contradict the initial velocity field. */
 static status check_field(const model *m, const model_state *s, const scene_start *field,
                           const double v[], fault *f)
 {
@@ -101,7 +101,7 @@ static status check_field(const model *m, const model_state *s, const scene_star
     return STATUS_OK;
 }
 
-/* What is driven begins where the state has it. */
+/* REFUSED: a prescribed coordinate starts at another value than in the state. */
 static status check_drivers(const model *m, const double inc[], fault *f)
 {
     const double nothing = 1e-9;

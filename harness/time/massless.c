@@ -407,9 +407,9 @@ static status give_way(motion_stage *s, const double zero[], double h, double so
     return balance(s, zero, now, moved, f);
 }
 
-/* First the rates, which a way tells that is long enough to have digits, and as if nothing had been
- * moved the balance of what no damping holds. What iterations had left between D(x) and e would be
- * a way, too. */
+/* First the rates, from a displacement that is large enough to have digits. Then, from the state
+ * before it, the balance of coordinates that no damping resists. Gaps between D(x) and e that
+ * iterations left are closed before: they would count as a displacement, too. */
 static status creep(motion_stage *s, const double zero[], double h, instant *now, double moved[],
                     const unsigned char of[], fault *f)
 {

@@ -18,7 +18,7 @@ typedef struct motion_course {
     const scene_motion *how;
     int analysis, follows;
     double path;             /* parameter of the state that it starts from; NAN: it has none */
-    const outcome_end *from; /* where the motion stopped that this one goes on from; NULL: none */
+    const outcome_end *from; /* end of the motion that this one continues; NULL: none */
     carried_masses masses;
     run_damping damping;
     outer_work work;
@@ -83,7 +83,7 @@ static status keep_step(motion_course *w, const step_record *record, double erro
     return peaks_here(&w->peaks, &w->now, w->balance, last, f);
 }
 
-/* [s] of the last motion of the scene that goes on from this one. */
+/* [s] end of the last motion in the chain of motions that continue this one. */
 static double end_of_all(const motion_course *w)
 {
     const scene *s = w->c->scene;
@@ -192,8 +192,9 @@ static status jump(motion_course *w, fault *f)
     return peaks_here(&w->peaks, &w->now, w->balance, 0, f);
 }
 
-/* Of the instant that a step has come to. The first ones behind the begin and behind a jump of what
- * acts are judged by those that follow, unless jumps are too many for that. */
+/* Checks the energy balance at the end of a step. The first steps after the start or after a jump
+ * of the loads are checked together with later ones, unless frequent jumps leave 2 ACCOUNT_STEPS
+ * steps unchecked. */
 static status judge(motion_course *w, double end, fault *f)
 {
     if (w->quiet <= ACCOUNT_STEPS && w->unjudged < 2 * ACCOUNT_STEPS && w->now.time < end) {
@@ -244,7 +245,7 @@ static status go_on(motion_course *w, fault *f)
                : STATUS_OK;
 }
 
-/* Where it goes on from, in another run or in the scene. */
+/* Finds the end that the motion resumes from, in another run or in the scene. */
 static status find_end(motion_course *w, fault *f)
 {
     w->from = resume_given(w->c, w->analysis);

@@ -255,7 +255,7 @@ void radau_in_space(const radau *r, int vertex, int i, const double B[9], double
 /* Of one element in one stage. */
 typedef struct damped {
     double J[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES]; /* by the model's coordinates */
-    double gained[ELEMENT_MAX_STRAINS];                    /* strains since the begin */
+    double gained[ELEMENT_MAX_STRAINS];                    /* strains since the start of the step */
 } damped;
 
 static void take(radau *r, const instant *from, int stage, int element, damped *out)

@@ -251,7 +251,7 @@ static int move(complement_way *w, double gap[])
     return 1;
 }
 
-/* Newton, as long as he contracts. */
+/* Newton's method, as long as the corrections contract. */
 static int arrive(complement_way *w, const double goal[])
 {
     enum { MOST_ITERATIONS = 8 };
@@ -295,9 +295,9 @@ static int follow(complement_way *w, const double goal[])
     return part >= shortest;
 }
 
-/* The stresses that the strains of an element are to have: those of the state, or where damping has
- * a share in these, what the strains alone have of them: P'(e) + P''(e) de, e those before the
- * increment. NULL: cannot be told. */
+/* Target stresses for the strains of an element: those of the state or, where damping has a share
+ * in these, the part that depends on strains alone: P'(e) + P''(e) de, with the strains e before
+ * the increment. NULL: the element has no stresses at e. */
 static const double *goal_of(const complement *c, const model_state *s, int element, double room[])
 {
     const model *m = c->m;

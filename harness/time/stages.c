@@ -204,8 +204,9 @@ static double add_mass(const model *m, const carried_masses *all, int index, con
     return all->mass[index].mass;
 }
 
-/* Of an element that spreads its mass: at the nodes that the body moves and the ends released from
- * it, not between these and others. What is missing here is missing in the whole matrix. */
+/* Adds an element with consistent mass: entries of the nodes that the body moves and of the ends
+ * released from it, not those that couple these with other nodes. A motion without mass here has
+ * none in the whole matrix. Returns the largest mass of a node. */
 static double add_element(const model *m, int element, int body, const model_state *s,
                           const body_mass *g)
 {

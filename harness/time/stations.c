@@ -72,7 +72,7 @@ static void vector_rates(const double t[3], const double W[3], const double Wd[3
     mat3_mul_vec(inverse, more, second);
 }
 
-/* Vector of the turn over the step, in the vertex's axes at its begin. */
+/* Rotation vector over the step, in the vertex's axes at the start of the step. */
 static void turn_of(const step_between *b, int vertex, double t[3])
 {
     double back[4], q[4];

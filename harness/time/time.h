@@ -7,19 +7,19 @@
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
 
-/* What a motion is at one instant. */
+/* State of a motion at one instant. */
 
 typedef struct instant {
     double time; /* [s] */
     model_state *state;
     double *v, *a;           /* [free + driven] rates and their derivatives: see time_impl.h */
-    double work, dissipated; /* [J] since the begin: by what acts from outside; by damping */
+    double work, dissipated; /* [J] since t = 0: by external forces; by damping */
     double *strain,
         *strain2; /* [elements x strains] rates of the strains of what is damped, and
                      their derivatives as generalized-alpha has them; NULL: nothing is */
     double stress,
         contraction;   /* largest stress so far, and how Newton contracted last: newton.h */
-    double *ends;      /* [released ends x 6] of their masses as conserving steps go on with them:
+    double *ends;      /* [released ends x 6] of their masses as conserving steps integrate them:
                           velocity of the centre, angular one in the end's axes; NULL: none is */
     int ends_known;    /* 0: they are those of v */
     double *algorithm; /* [free + driven] of generalized-alpha: the acceleration it averages */
@@ -30,19 +30,19 @@ void instant_free(instant *);
 void instant_copy(const model *, const instant *from, instant *to);
 /* Numbers in `ends`. */
 size_t instant_ends(const model *);
-/* What Newton's arrivals know of the motion so far belongs to it: a step that was tried in vain
- * leaves nothing behind. To be said before a step, and with the instant it has come to. */
+/* The convergence history of Newton's method belongs to the instant: a rejected step leaves no
+ * trace. Call recall before a step, and remember with the instant at its end. */
 void instant_recall(const instant *from, arrival *);
 void instant_remember(const arrival *, instant *to);
 
 /* A motion inside one of its steps: a polynomial of every coordinate's increment, that of rotations
- * of the vector in the frame's axes at the begin, with the places and rates of both ends, and where
- * a scheme has them as exactly, with the accelerations too. What is driven is read where it is
- * prescribed. */
+ * of the vector in the frame's axes at the start, with the positions and rates of both ends, and
+ * with the accelerations too where a scheme has them to the same order. Prescribed coordinates are
+ * read from their drivers. */
 
 typedef enum between_degree {
-    BETWEEN_CUBIC,  /* of places and rates: order 4 inside a step; accelerations run linearly */
-    BETWEEN_QUINTIC /* of accelerations too: order 6 */
+    BETWEEN_CUBIC,  /* positions and rates: order 4 inside a step; accelerations are linear */
+    BETWEEN_QUINTIC /* accelerations too: order 6 */
 } between_degree;
 
 typedef struct step_between {
@@ -86,7 +86,7 @@ typedef struct carried_masses {
 /* Elements of two nodes carry a half at each, of three Simpson's shares (J Eq. 73). What an end has
  * that is released from its node moves with turns and shifts of its own. */
 status carried_alloc(const model *, carried_masses *, fault *);
-/* Rigid bodies alone, beside masses that elements spread. */
+/* Rigid bodies alone, in addition to consistent masses of elements. */
 status carried_alloc_spread(const model *, carried_masses *, fault *);
 void carried_free(carried_masses *);
 /* Of one node of an element, about it, and of its warping amplitude [kg m^4]. */
@@ -111,17 +111,17 @@ void work_free(outer_work *);
  * `along`; the forces are those of the state with rates v and accelerations a, at `time`. */
 double work_power(outer_work *, const model_state *, const double v[], const double a[],
                   double time, const double along[]);
-/* Of a step: the mean of the forces at its begin and its end along its increment inc[free +
- * driven]. Exact for forces that stay; else of second order. */
+/* Work of a step: mean of the forces at its start and its end along its increment inc[free +
+ * driven]. Exact for constant forces; else of second order. */
 double work_trapezoid(outer_work *, const instant *from, const instant *to, const double inc[]);
 
-/* What all integrators of motions are: one step from an instant to another. */
+/* Interface of all time integrators: one step from an instant to another. */
 
 typedef struct scheme_request {
     analysis_context *c;
     const carried_masses *masses;
     const scene_motion *how;
-    outer_work *work; /* of what acts from outside: for instant.work */
+    outer_work *work; /* of external forces: for instant.work */
     int estimate;     /* 1: the error of each step is wanted */
 } scheme_request;
 
@@ -140,11 +140,11 @@ struct motion_scheme {
     void (*free)(motion_scheme *);
 };
 
-/* What is missing in the balance of a motion's energy, against what the motion has of it. */
+/* Energy-balance error of a motion, relative to its energy. */
 
-/* Parts of account_size: energy from nothing that ends a motion; energy lost that is stated, and
- * that ends a motion unless the scene asks for it. */
-enum { ACCOUNT_STEPS = 10 }; /* at the begin: the motion has hardly any energy to be measured by */
+/* Parts of account_size: energy gained without cause that ends a motion; energy lost that is
+ * reported, and energy lost that ends a motion unless the scene asks for it. */
+enum { ACCOUNT_STEPS = 10 }; /* first steps: too little energy to measure an error by */
 extern const double account_gained, account_stated, account_lost;
 
 typedef struct account {
@@ -153,24 +153,24 @@ typedef struct account {
     double work;    /* [J] at the last one */
 } account;
 
-/* Of the begin (steps 0) and of all steps, in their order. */
+/* Adds the balance at the start (steps 0), then of every step, in their order. */
 void account_take(account *, int steps, const double balance[SCENE_BALANCES]);
 /* The largest energy so far, or all the work so far, if that is larger [J]. */
 double account_size(const account *);
-/* [J] what may be missing: a part of that, and rounding. */
+/* [J] allowed energy-balance error: a part of that, and rounding. */
 double account_most(const account *, double part, double rounding);
 
 /* Is energy lost on purpose: by alpha with a spectral radius below 0.9, or by steps that the scene
  * prescribes? */
 int account_loses(const scene_motion *);
 
-/* NOT_CONVERGED: more energy than account_gained has come from nothing, or more than account_lost
- * was lost, which nobody asked for. rounding [J]: see balance_rounding. */
+/* NOT_CONVERGED: the motion has gained more energy than account_gained without cause, or lost more
+ * than account_lost although the scene does not ask for it. rounding [J]: see balance_rounding. */
 status account_judge(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
-/* Damping in proportion to stiffness: stresses gain eta S0 e', with the rates of the strains and
- * the stiffness S0 of the undeformed element. Rigid motions cost nothing. */
+/* Stiffness-proportional damping: stresses gain eta S0 e', with the rates of the strains and the
+ * stiffness S0 of the undeformed element. Rigid motions are not damped. */
 
 /* Is any member of the scene damped? */
 int damping_acts(const scene *);

@@ -1,4 +1,4 @@
-/* The inside of time/. */
+/* Internal interfaces of time/. */
 #ifndef BEAMWORK_TIME_IMPL_H
 #define BEAMWORK_TIME_IMPL_H
 
@@ -19,19 +19,19 @@
  */
 status alpha_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* A step beside those of a motion, which does not go on from it: what the scheme itself says of an
- * instant inside a step. */
+/* A separate step, from which the motion does not continue: the scheme's own values at an instant
+ * inside a step. */
 
-/* From where the motion's step began; its work is counted, its iterations are not kept. */
+/* From the start of the motion's step; its work is counted, its iterations are not recorded. */
 status aside_step(analysis_context *, motion_scheme *, const instant *from, double time,
                   instant *at, fault *);
 
 /* Energies and momenta of a motion at an instant. */
 
-/* out[SCENE_BALANCES]; of the drift the energy of the begin is not yet taken off. */
+/* out[SCENE_BALANCES]; the initial energy is not yet subtracted from the energy-balance error. */
 status balance_of(const model *, const carried_masses *, const instant *,
                   double out[SCENE_BALANCES], fault *);
-/* Strain energy [J] that is there when all coordinates are off by their rounding: less is none. */
+/* Strain energy [J] of rounding errors in all coordinates: a smaller one counts as zero. */
 double balance_rounding(const model *);
 
 /* The mass matrix of what moves with one body: its coordinates and those of the ends of members
@@ -155,10 +155,10 @@ typedef enum rotation_form {
     FORM_SEQUENCE /* angles one after the other */
 } rotation_form;
 
-/* REFUSED: two turns about fixed axes that move while the third is held or moves otherwise, with
- * its row kept or left out alike. They hold a component of the angular velocity at zero, which has
- * no integral: exp(-b e_j~) exp(-a e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so that no
- * state of the coordinates says where the node is. */
+/* REFUSED: two turns about fixed axes that move while the third is fixed or moves otherwise,
+ * whether its row is kept or eliminated. They fix a component of the angular velocity at zero,
+ * which has no integral: exp(-b e_j~) exp(-a e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so
+ * that no state of the coordinates says where the node is. */
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
@@ -216,8 +216,8 @@ typedef struct inertia_balance {
 void inertia_of(const model *, const carried_masses *, const model_state *, const double v[],
                 const double ends[], inertia_balance *out);
 
-/* Errors of what has inertia. Accelerations of what has none are its positions by the square of a
- * step, so that an estimate that reads them tells nothing of the error of a motion. */
+/* Errors of coordinates with inertia. Accelerations of massless coordinates are their positions by
+ * the square of a step, so that an estimate that reads them is not one of the motion's error. */
 
 typedef struct massive {
     int ready;
@@ -262,7 +262,7 @@ typedef struct conserving {
     evaluation *evaluation;         /* [CHUNK_MOST] work space */
     double h;                       /* [s] of the step */
     double k, denominator, missing; /* missing: of sum k_e . gap_e + k_d . gap_d */
-    int settled;                    /* 1: what is left of gaps is rounding, no stresses */
+    int settled;                    /* 1: the remaining gaps are rounding, no stresses */
     int wild;                       /* 1: k was too large to be used */
     double largest, change;         /* stresses */
     arrival arrival;
@@ -270,7 +270,7 @@ typedef struct conserving {
 } conserving;
 
 /* conserving_strain.c: of all elements and springs. */
-/* Energies of the begin, and springs as they are there; d is zero. */
+/* Energies and springs at the start of the step; d is zero. */
 status conserving_begin(conserving *, const instant *from, fault *);
 /* Stresses of the present strains, and k; 0 as long as it is not to be trusted. */
 status conserving_stresses(conserving *, const instant *from, model_state *now, int iteration,
@@ -380,7 +380,7 @@ status checks_massless(const analysis_context *, const carried_masses *, const s
  * are those of the mean of a step. */
 status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* An element or a spring over a step: what differs is only who evaluates it. */
+/* An element or a spring over a step: they differ only in the function that evaluates them. */
 
 enum {
     DEFORMABLE_POINTS = 2, /* between the ends of a step */
@@ -406,10 +406,10 @@ typedef struct deformable {
     double length;         /* [m] that incompatibilities are relative to */
 } deformable;
 
-/* Number of them, the springs behind the elements, and each of them. */
+/* Number of them, the springs after the elements, and each of them. */
 int deformable_count(const conserving *);
 deformable deformable_at(const conserving *, const instant *from, model_state *now, int i);
-/* How many behind `first`, and it, are evaluated in one go: elements of one kind, or 1. */
+/* How many from `first` on are evaluated in one go: elements of one kind, or 1. */
 int deformable_together(const conserving *, int first);
 
 /* What one iteration evaluates of one of them. */
@@ -486,13 +486,13 @@ status explicit_check(const model *, const carried_masses *, fault *);
  * the structure. A motion that comes to less than half of its guess is integrated again. */
 
 typedef struct extent {
-    model_state *begin; /* where the motion began */
+    model_state *begin; /* initial state of the motion */
     double bent;        /* its distance from the undeformed state: what that is known to is noise */
     double scale;       /* the guess, in the measure of model.h: 1 is the size of the structure */
-    double largest;     /* distance from the begin so far, of what has inertia */
+    double largest;     /* distance from `begin` so far, of coordinates with inertia */
     double rate;        /* [1/s] largest mean one of a step, likewise */
     double density;     /* error of a step by its size to the order of the scheme: extent_error */
-    double worst;       /* largest error of a step that was taken, by its part of the motion */
+    double worst;       /* largest error of an accepted step, by its part of the motion */
 } extent;
 
 /* The guess to begin with. */
@@ -546,11 +546,11 @@ void increment_add(const model *, const model_state *now, const double dx[], dou
 status integrator_alloc(const scheme_request *, motion_scheme **, fault *);
 void integrator_free(motion_scheme *);
 
-/* Instants at which loads or what is driven has a kink or a jump: no step goes across. */
+/* Slope discontinuities and jumps of loads and prescribed motions: no step crosses one. */
 
-/* The first behind `time` [s]; INFINITY: there is none. */
+/* The first after `time` [s]; INFINITY: there is none. */
 double kinks_next(const model *, double time);
-/* Where a step that ends at a kink reads its loads: just before. */
+/* Time at which a step that ends at a discontinuity reads its loads: just before it. */
 double kinks_before(const model *, double time);
 
 /* One instant of a motion, found by mixed Newton (N section 4) from the instant before: equilibrium
@@ -558,10 +558,10 @@ double kinks_before(const model *, double time);
  *   v = v0 + g inc,   a = a0 + b inc.
  * Elements keep strains and stresses as unknowns, so that stiff ones cost no iterations. */
 
-/* Do the factors of the last equations serve for the next ones? What they lack is the product of
- * both corrections; those of the stresses (newton.h) tell where members are stiff. Measured with
- * elongations 1e6 times stiffer: beyond 2e-4 corrections stop to contract and steps of 0.2 s fail,
- * below as many iterations as with factors of their own. */
+/* 1: the factors of the last equations serve for the next ones. Their error is the product of both
+ * corrections; those of the stresses (newton.h) show it where members are stiff. Measured with
+ * elongations 1e6 times stiffer: beyond 2e-4 corrections stop contracting and steps of 0.2 s fail;
+ * below, there are as many iterations as with new factors. */
 int stage_stands(const arrival *);
 
 typedef struct motion_stage {
@@ -573,7 +573,7 @@ typedef struct motion_stage {
     arrival arrival;
     complement *complement;
     int all, free;
-    int begins; /* 1: at a kink what acts behind it counts, 0: what acts before */
+    int begins; /* 1: at a discontinuity loads after it count, 0: those before */
     long counted;
 } motion_stage;
 
@@ -597,8 +597,8 @@ status stage_solve(motion_stage *, const model_state *from, double time, stage_r
 /* How a motion begins: velocities that were asked for, and accelerations and massless coordinates
  * that belong to them. */
 
-/* Behind a kink or a jump of what acts: accelerations and massless coordinates that belong to it,
- * velocities as they are. */
+/* Consistent accelerations and massless coordinates after a discontinuity of the loads; velocities
+ * do not change. */
 status launch_again(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
                     instant *room, fault *);
 /* now: the state and the time are given; `room` is work space. frame: the axes that the state is at
@@ -636,13 +636,12 @@ status massless_stiffest(const model *, const carried_masses *, const model_stat
 status massless_accelerate(const model *, const carried_masses *, const model_state *,
                            const double force[], double a[], fault *);
 
-/* Largest and least values of what a motion has where its steps end: reactions, resultants,
- * stresses, energies and momenta. There they are those of the scheme. Between, a cubic through four
- * ends that follow each other says where a value may pass them (order 4), and a step of its own
- * leads there: the cubic's value counts where both agree to less than it adds, so that what steps
- * do not resolve is not believed. */
+/* Extrema of a motion's reactions, resultants, stresses, energies and momenta. At the ends of steps
+ * the values are those of the scheme. Between, a cubic through four consecutive ends shows where a
+ * value may exceed them (order 4), and a separate step leads there. The cubic's value counts where
+ * both agree to less than it adds, so that an extremum that steps do not resolve is rejected. */
 
-enum { PEAKS_ENDS = 4 }; /* of steps that follow each other */
+enum { PEAKS_ENDS = 4 }; /* of consecutive steps */
 
 /* One quantity. */
 typedef struct peak {
@@ -658,7 +657,7 @@ typedef struct peaks {
     motion_scheme *scheme;
     const carried_masses *masses;
     outcome_motion *out;
-    int count, ends; /* quantities; ends since what acts was last smooth no longer, or begun */
+    int count, ends; /* quantities; ends since the start or the last discontinuity of the loads */
     peak *one;       /* [count] */
     instant last[PEAKS_ENDS], at;
 } peaks;
@@ -682,13 +681,13 @@ void peaks_end(peaks *);
  *   beside a body:        dr = dr_b + c x rho_m,   forces f, m + rho_m x f;
  *   by angles, or released to turn, each about b, with tau = 2 tan(d angle/2):
  *                         c_k = c_(k-1) + tau_k x_k,  x = [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4)
- *                         with b at the begin: along the mean axis, about which no moment acts;
+ *                         with b at the start: along the mean axis, about which no moment acts;
  *   released to slide:    dr = .. + c x (a s)_m + [a_m - c x (a_1 - a_n)/4] ds. */
 
 enum { PLACE_MOST = 6 + SCENE_RELEASED };
 
 typedef struct frame_place {
-    int columns;                  /* the six of the node; behind them own turns, then slides */
+    int columns;                  /* the six of the node, then its own turns, then slides */
     double work[6 * PLACE_MOST];  /* [6 x columns] forces F on the frame are work^T F on these */
     double moved[6 * PLACE_MOST]; /* derivative of (dr, c) of the frame by these */
     double curved[PLACE_MOST * PLACE_MOST]; /* that of work^T F at fixed F */
@@ -841,30 +840,30 @@ void released_motion(const released_masses *, double plain, const double body[9]
 void released_project(const released_masses *, const double A[36], const double motion[],
                       double out[KINEMATICS_MOST * KINEMATICS_MOST]);
 
-/* A motion that goes on from where another one stopped, as if there had been one only. */
+/* Resumes a motion at the end of another one, as if there had been one only. */
 
-/* What its steps depend on. */
+/* Step control that a motion continues with. */
 typedef struct resume_control {
     double step; /* [s] the next one */
     account account;
-    double origin; /* [J] energy at the begin */
-    int quiet;     /* steps since what acts was last smooth no longer */
+    double origin; /* [J] energy at t = 0 */
+    int quiet;     /* steps since the last discontinuity of the loads */
     extent extent;
 } resume_control;
 
-/* For a motion of the scene that goes on from this one, or, of the last one, for another run
- * (solve_options.keep_ends); else nothing is kept. */
+/* Keeps the end for a motion of the scene that continues this one or, of the last one, for another
+ * run (solve_options.keep_ends); else nothing. */
 status resume_keep(const analysis_context *, int analysis, const instant *now,
                    const resume_control *, outcome_motion *, fault *);
-/* Where the motion begins that another run stopped; NULL: it does not go on from one. */
+/* The end in another run that the motion resumes from; NULL: there is none. */
 const outcome_end *resume_given(const analysis_context *, int analysis);
-/* Of a motion before it. NOT_CONVERGED: that stopped early. */
+/* The end of an earlier motion of the scene. NOT_CONVERGED: that motion stopped early. */
 status resume_before(const analysis_context *, int before, const outcome_end **, fault *);
-/* REFUSED: it is of another mesh. */
+/* Sets the instant and the control from that end. REFUSED: it belongs to another mesh. */
 status resume_take(const analysis_context *, const outcome_end *, instant *now, resume_control *,
                    fault *);
 
-/* Where something has no inertia, what belongs to places and rates at one instant. */
+/* Consistent state of coordinates without inertia, from positions and rates at one instant. */
 
 /* What has no inertia comes into balance with what acts from now on and with the rates of the rest,
  * whose gyroscopic moments it takes; then accelerations follow, 0 of what has none. What damping
@@ -939,9 +938,9 @@ void spread_times(const model *, const spread_parts *, const double A[],
                   const spread_motion motion[], double out[]);
 void spread_rows(const spread_parts *, double K[]);
 
-/* What a motion leaves of the instants that were asked for, wherever its steps end: places and
- * rates are those of the polynomial inside the step, and where forces or energies are read a step
- * of its own leads to the instant, which the motion does not go on from. */
+/* Output of a motion at the requested instants, wherever its steps end. Positions and rates are
+ * those of the polynomial inside the step; where forces or energies are read, a separate step leads
+ * to the instant, and the motion does not continue from it. */
 
 typedef struct stations {
     analysis_context *c;
