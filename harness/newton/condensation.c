@@ -281,8 +281,8 @@ status condensation_factor(condensation *s, fault *f)
     return factor_numeric(s->factor, &s->inside, f);
 }
 
-/* Coordinates of the ends of members, and the patterns of what is left when members are condensed.
- */
+/* Coordinates of the ends of members, and the patterns of the system that remains when members are
+ * condensed. */
 
 static void note(const mesh_element *el, int number[])
 {

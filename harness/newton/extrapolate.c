@@ -5,12 +5,12 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Of many elements fewer states are kept, which are as good: iterations of sheet_cantilever,
+/* In large models fewer states are kept, with the same effect: iterations of sheet_cantilever,
  * spherical_joint and hexapod are the same with eight as with twelve. */
 enum { MANY_ELEMENTS = 1000, OF_MANY = 8 };
-/* Of the first step, so that a line may go on from it. */
+/* Most iterations of a first step that a linear extrapolation starts from. */
 enum { EASY_ITERATIONS = 4 };
-/* Largest error of a guess, relative to that of no guess, with which it spares iterations. */
+/* Largest error of a guess, relative to that of no guess, with which it saves iterations. */
 static const double worthwhile = 0.3;
 
 /* The last k of the first `count` states. */

@@ -244,9 +244,8 @@ double linear_geometric_energy2(const equations *eq, const double sigma[], const
            linear_springs_geometric_energy2(m, sigma + model_elements(m) * model_strains(m), x);
 }
 
-/* The form is linear in the stresses: what is missing there is its own rounding. The stresses' is
- * that of the terms they are made of, in whatever direction it falls: it has the size of a stress
- * `other` of all kinds at once. */
+/* The form is linear in the stresses: their error is rounding. It is the rounding of the terms that
+ * the stresses are sums of, in any direction: as large as a stress `other` of all kinds at once. */
 double linear_geometric_rounding(const equations *eq, const double load_x[], const double sigma[],
                                  const double x[])
 {

@@ -240,7 +240,7 @@ const char *modes_family_name(scene_family family)
     return "any";
 }
 
-enum { MOST = 8 }; /* modes of one cluster that are told apart */
+enum { MOST = 8 }; /* modes of one cluster that are distinguished */
 
 static status motions_alloc(const model *m, const scene *s, int count, size_t n, const double *mode,
                             motion shape[], fault *f)

@@ -46,7 +46,7 @@ typedef struct linear_memory {
 /* What of the loads along members goes to the ends of elements. */
 enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
 
-/* What the path parameter means, what acts, and how the axes turn: of one analysis. */
+/* Meaning of the path parameter, loads, and rotation of the axes of one analysis. */
 typedef struct loading {
     int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
     double held_path; /* path parameter at which those stay in time that have no such function */
@@ -77,7 +77,7 @@ typedef struct run_state {
     struct run_ahead *ahead; /* one block; NULL: nothing has been evaluated ahead: newton_impl.h */
     run_undeformed undeformed;
     run_damping *damping; /* of a motion; NULL: none */
-    linear_memory memory; /* of those who linearise one state at a time */
+    linear_memory memory; /* of callers that linearise one state at a time */
 } run_state;
 
 typedef struct equations {
@@ -106,7 +106,7 @@ typedef struct advance_stress {
 /* After linearise_state with that memory and K dx = residual: strains, stresses, inner unknowns of
  * every element and then the frames take their increments. dx[free + driven]. Returns the largest
  * correction, dimensionless: translations by the size of the scene, rotations in rad, warping by
- * the element length, inner unknowns as the element says. stress: NULL where nobody asks. */
+ * the element length, inner unknowns as the element defines. stress: NULL: not wanted. */
 double advance_state(const equations *, const linear_memory *, model_state *, const double dx[],
                      double path, advance_stress *);
 /* The state is in equilibrium: the next increments start from it with the tangent of the last
@@ -151,12 +151,12 @@ typedef void (*loads_entry)(void *context, int row, int column, double value);
 void applied_stiffness(const model *, const model_state *, const scene_load *, double scale,
                        loads_entry take, void *context);
 
-/* When Newton has arrived at a state: from the size of his corrections of motions and stresses, and
- * from how they contracted. */
+/* Convergence test of Newton's method: size of the last corrections of motions and stresses, and
+ * their rate of decrease. */
 
-/* Of one path. All but `stress` are dimensionless. */
+/* Convergence history along one path. All members except `stress` are dimensionless. */
 typedef struct arrival {
-    double criterion;          /* that was asked for; 0: that of rounding */
+    double criterion;          /* requested; 0: that of rounding */
     double small;              /* largest of two corrections after another that ends a step */
     double correction, before; /* the last one; the one before it in the same step, or INFINITY */
     double stress;             /* largest one of the path so far [N] */
@@ -175,13 +175,13 @@ void arrival_take(double correction, const advance_stress *, int first, arrival 
 /* 1: another correction would change nothing. */
 int arrival_reached(const arrival *);
 /* 1: the state has moved so little since the last linearisation that its tangent is that of the
- * state, as far as rounding lets them be told apart. */
+ * state, up to rounding. */
 int arrival_tangent_stands(const arrival *);
 
 /* Members condensed to their ends before the tangent is solved, and back.
  *
  * Where members have many elements the assembled tangent loses digits with the fourth power of
- * their number, as flexibilities of members (newton_impl.h) do not; and the system that is left is
+ * their number, which flexibilities of members (newton_impl.h) do not; and the remaining system is
  * as small as with one element per member. */
 
 typedef struct condensation condensation;
@@ -304,31 +304,32 @@ typedef struct outcome_passing {
     double error; /* estimate of what reading it between the ends of steps adds to the value */
 } outcome_passing;
 
-/* Of a motion where a step ended that was accepted; the first one: of the begin. */
+/* End of an accepted step of a motion; the first one is the initial state. */
 typedef struct outcome_step {
-    double time, step;        /* [s] its end and length; of the begin 0 */
+    double time, step;        /* [s] its end and length; 0 of the initial state */
     double error;             /* estimate of what it adds to positions, in the measure of model.h;
-                                 0: it was not asked for */
+                                 0: not requested */
     int iterations, rejected; /* rejected: longer ones that were tried before it */
     double balance[SCENE_BALANCES];
 } outcome_step;
 
-/* Where a motion stopped: all that one needs which goes on from there. */
+/* End of a motion: all that another one needs to continue it. */
 typedef struct outcome_end {
     int analysis;            /* of the scene */
     double time, step;       /* [s] step: the next one */
     double path;             /* of the state */
-    double work, dissipated; /* [J] since the begin */
-    double largest, origin;  /* [J] largest energy so far; that of the begin */
+    double work, dissipated; /* [J] since t = 0 */
+    double largest, origin;  /* [J] largest energy so far; that at t = 0 */
     double turned;           /* [J] sum of the work of all steps, whatever their signs */
     double scale, extent, rate, density; /* of time_impl.h */
     double stress, contraction;          /* of newton.h */
-    int quiet;                           /* steps since what acts was last smooth no longer */
+    int quiet;                           /* steps since the last discontinuity of the loads */
     size_t states, coordinates, strains, released, between;
     double *value; /* [2 states + 3 coordinates + 2 strains + released + 5 between]; NULL: none. The
-                      state; that of the begin; rates, their derivatives, and what generalized-alpha
-                      has of these; rates of damped strains and their derivatives; rates of released
-                      ends as conserving steps have them; turns of nodes against others (model.h) */
+                      state; the initial one; rates, their derivatives, and those that
+                      generalized-alpha averages; rates of damped strains and their derivatives;
+                      rates of released ends as conserving steps have them; turns of nodes against
+                      others (model.h) */
 } outcome_end;
 /* How many numbers `value` has. */
 size_t outcome_end_values(const outcome_end *);
@@ -337,11 +338,11 @@ void outcome_end_free(outcome_end *);
 typedef struct outcome_motion {
     outcome_path path;
     outcome_instant *instant; /* [stations] */
-    int steps;                /* with the begin */
+    int steps;                /* with the initial state */
     outcome_step *step;       /* [steps] */
     outcome_passing *passing; /* [quantities of the scene] */
     outcome_path frames;      /* for pictures, evenly over the time */
-    double origin;            /* [J] energy at the begin, of the first of motions that go on */
+    double origin;            /* [J] energy at t = 0 of the first motion of a chain */
     outcome_end end;
 } outcome_motion;
 
@@ -349,8 +350,8 @@ typedef struct outcome_continuation {
     outcome_path path;
     int points;               /* of the path, the first without load */
     double *factor, *control; /* [points] load factor and control value [m] */
-    int undecided; /* 1: whether there are critical points between these load factors, and
-                      how many, could not be told: what is known are the events before */
+    int undecided;            /* 1: the number of critical points between these load factors is not
+                                 known: only the events before are */
     int decided_events;
     double undecided_from, undecided_to;
     model_state **state; /* [points] of nodes; NULL unless a curve of coordinates is wanted */
@@ -448,7 +449,7 @@ typedef struct row_label {
 /* out[free]; a coordinate that several nodes share is the first one's. */
 void rows_label(const model *, row_label out[]);
 
-/* Matrices of small motions about the states of a solution, for programs that go on with them:
+/* Matrices of small motions about the states of a solution, for other programs:
  *   M q'' + G q' + K q = B u
  * with q the free coordinates in the order of the rows, u the changes of the loads' factors. */
 
@@ -487,14 +488,14 @@ typedef struct solve_options {
                     */
     int condensed; /* elements of a member from which on it is condensed to its ends; 0: default */
     int phases;    /* 1: read the clock between the parts of an iteration */
-    int sample;  /* > 0: only so many iterations of each static path, for their time: there will be
-                   no values */
-    int shapes;  /* most states of every path whose centre lines are kept; 0: no shapes */
-    int systems; /* 1: the matrices of small motions about all states are kept */
+    int sample;    /* > 0: only N iterations of each static path, to measure their time: there are
+                     no values */
+    int shapes;    /* most states of every path whose centre lines are kept; 0: no shapes */
+    int systems;   /* 1: the matrices of small motions about all states are kept */
     int whole_steps; /* 1: a step in time that fails ends the motion, instead of being halved */
-    int keep_ends;   /* 1: where motions stop is kept, for another run that goes on from there */
+    int keep_ends;   /* 1: the ends of motions are kept, for another run that resumes there */
     int restarts;
-    const outcome_end *restart; /* [restarts] where those stopped that motions go on from */
+    const outcome_end *restart; /* [restarts] ends in another run that motions resume from */
     int all_analyses;           /* 1: those that no quantity reads run, too */
     int looks;       /* 1: static paths are judged where pivots do not, and within their steps */
     int values_only; /* 1: what only curves and matrices show at a station is not computed */
@@ -527,7 +528,7 @@ typedef struct iteration_record {
     double incompatibility; /* max |D(x) - e|/l before it */
 } iteration_record;
 
-/* Of a state under small disturbances that keep what is held and driven. */
+/* Stability of a state under small disturbances with fixed and prescribed coordinates unchanged. */
 typedef enum step_stability {
     STEP_OPEN, /* not decided by the signs of pivots: no symmetric tangent, or axes that turn */
     STEP_NO_DIVERGENCE, /* no symmetric tangent and no mass: no eigenvalue has passed zero */
@@ -587,7 +588,7 @@ typedef struct path_event {
                        distance of the branches */
 } path_event;
 
-/* Of a motion in time: its begin, and where each of its steps ended. */
+/* One row of a transient analysis: the initial state, or the end of a step. */
 typedef struct motion_record {
     int analysis; /* of the scene */
     double path;  /* parameter of the state that the motion starts from; NAN: it has none */
@@ -610,7 +611,7 @@ typedef struct solve_result {
     int motions;
     motion_record *motion; /* [motions] one motion after the other */
     int ends;
-    outcome_end *end; /* [ends] of motions that no other one of the scene goes on from */
+    outcome_end *end; /* [ends] of motions that no other motion of the scene continues */
     double seconds_setup,
         seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
     counters counters; /* its work; of shapes and matrices none */
@@ -630,8 +631,8 @@ void result_free(solve_result *);
 typedef struct context_work {
     double setup;        /* [s] spent on patterns and symbolic factorisation */
     int singular;        /* 1: the last factorisation failed */
-    matrix_factor *left; /* of the pattern of the free coordinates, whose numbers nobody needs any
-                     more; NULL: none */
+    matrix_factor *left; /* of the pattern of the free coordinates, no longer in use; NULL: none
+                          */
 } context_work;
 
 typedef struct analysis_context {
@@ -678,12 +679,12 @@ void context_count_solution(const analysis_context *, const matrix_factor *, int
 /* The work of an eigenvalue problem, into the counters. */
 void context_count_eigen(const analysis_context *, const eigen_result *);
 
-/* What is released of the prescribed motion of a node borders the tangent of the free coordinates.
- */
+/* Tangent of the free coordinates, bordered by the released coordinates of a node whose motion is
+ * prescribed. */
 
 enum { TANGENT_COMPONENTS = 6, TANGENT_BORDER = 12 };
 
-/* Released coordinates: driven ones that are free now. */
+/* Released coordinates: prescribed ones that are free now. */
 typedef struct border {
     int count;
     int coordinate[TANGENT_BORDER];
@@ -991,7 +992,7 @@ int convention_changes(scene_moments of_tangent, scene_moments convention, const
 /* C[6 x 6] of the tangent, complete in the components that can move, becomes that of the
  * convention, and K[6 x 6] is its inverse on the motions the node can make; where nothing changes C
  * keeps all its digits.  m[3]: moment on the node [N m]. Rows and columns of held components: zero.
- * SINGULAR: C has no inverse there, beside its round-off. */
+ * SINGULAR: C has no inverse there, up to its round-off. */
 status convention_apply(scene_moments of_tangent, scene_moments convention, const movable *motions,
                         const double m[3], double C[36], double K[36], fault *f);
 
@@ -1008,13 +1009,13 @@ int extrapolate_state(const equations *, int count, const model_state *const at[
  * INFINITY: there would have been none. */
 void extrapolate_errors(const equations *, int most, const model_state *const at[], double error[]);
 
-/* What Newton's method did: the iterations of every load step that was kept. */
+/* Record of Newton's method: the iterations of every accepted load step. */
 
 /* One more iteration of the step that is being tried. energy = |r . K^-1 r| of its residual r [J];
  * NAN: not known. */
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f);
-/* The step was tried in vain: its iterations are forgotten. */
+/* Removes the iterations of a rejected step. */
 void history_drop_step(solve_result *r, const step_record *step);
 
 /* What the steps from `first` on are of, and whether the states where they ended are stable. */
@@ -1039,16 +1040,16 @@ status history_add_event(solve_result *, const path_event *, fault *);
 /* Which models have the same answers: formulations that differ in what a scene does not have are
  * the same one there. */
 
-/* Of whatever was added, in that order. */
+/* Identity of all data that were added, in that order. */
 typedef struct identity {
     uint64_t part[2];
 } identity;
 
 identity identity_begin(void);
 void identity_add(identity *, const void *bytes, size_t size);
-/* The functions of a model's elements, their data and what was left out: of one scene, two models
- * with the same have the same answers, to the bit. 0: nobody knows, for a formulation may fail from
- * outside. */
+/* Adds the functions of a model's elements, their data and the eliminated coordinates: two models
+ * of one scene with the same identity have bit-for-bit the same results. 0: not known, since a
+ * formulation that runs outside may fail. */
 int identity_add_model(identity *, const model *);
 
 /* Resultants of the stresses on the sections of a member.
@@ -1214,25 +1215,25 @@ typedef struct newton_correction {
 status newton_direction(newton_run *, double path, step_record *, fault *);
 /* The state takes dx, at that path parameter. */
 void newton_advance(newton_run *, double path, newton_correction *);
-/* What the formulation does not follow of the structure at rest: arcs of its elements. */
+/* NOT_CONVERGED: the arc of an element at rest rises by more than the formulation can follow. */
 status newton_judge_rest(const model *m, fault *f);
-/* Every state that an analysis accepts is asked here, with the one before it: NOT_CONVERGED names
- * an element that is turned by more than its formulation can follow, a spring whose rotation vector
- * has lost its direction, or what is driven too far in one step. A node's vector that has lost its
- * direction is no number from there on. */
+/* Checks every state that an analysis accepts against the one before it. NOT_CONVERGED names an
+ * element that is turned by more than its formulation can follow, a spring whose rotation vector
+ * has lost its direction, or a prescribed coordinate that moves too far in one step. A node's
+ * rotation vector that has lost its direction is NaN from there on. */
 status newton_accept(const model *, const model_state *from, model_state *, fault *);
 
-/* What Newton's iteration differs by from analysis to analysis. */
+/* Parts of Newton's iteration that depend on the analysis. */
 typedef struct newton_use {
     void *of;
-    newton_run *on;  /* of a path: its states are asked newton_accept, and what strayed from its
-                    first  correction, and may be at another equilibrium, has not converged; NULL: of
-                    a  motion */
+    newton_run *on;  /* of a path: newton_accept checks its states, and a state far from its first
+                    correction, which may be another equilibrium, is not converged; NULL: of
+                    a motion */
     int least, most; /* iterations */
     /* The equations of the present state are solved, and the state takes the correction. */
     status (*correct)(void *of, int iteration, newton_correction *, step_record *, fault *);
     void (*prepare)(void *of, int iteration, double correction); /* another one; NULL: nothing */
-    status (*accept)(void *of, fault *); /* asked when it has converged; NULL: always */
+    status (*accept)(void *of, fault *); /* called when it has converged; NULL: always accepted */
 } newton_use;
 
 /* Of states on a path. */

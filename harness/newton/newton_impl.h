@@ -55,7 +55,7 @@ static inline status ahead_stress(const equations *eq, int i, const double e[],
     return model_type(eq->m)->stress(model_kind_of(eq->m, i)->data, e, inner, out);
 }
 
-/* Solutions of a tangent that what is released borders (tangent.c). */
+/* Solutions with the tangent bordered by released coordinates (tangent.c). */
 
 /* Factors of the bordered system. */
 typedef struct bordered {
@@ -70,7 +70,7 @@ typedef struct bordered {
  * case. */
 status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f);
 void bordered_free(bordered *s);
-/* In place; what is held or prescribed stays as it is. x: [columns x all] */
+/* In place; fixed and prescribed coordinates do not change. x: [columns x all] */
 void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[]);
 /* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
  * strains (newton.h). SINGULAR: round-off leaves too few digits. */
@@ -105,12 +105,12 @@ status chain_alloc(int links, int joint, int y, chain **out, fault *);
 void chain_free(chain *);
 
 void chain_begin(chain *);
-/* The next link. SINGULAR: the row up to here, clamped at its begin, is at a critical state. */
+/* The next link. SINGULAR: the chain up to here, clamped at its start, is at a critical state. */
 status chain_add(chain *, const chain_link *, fault *);
 /* K[2 joint x 2 joint] of the ends when all links are there. SINGULAR: the chain, clamped at both
  * ends, is at a critical state. */
 status chain_stiffness(const chain *, double K[], fault *);
-/* Negative eigenvalues of what is inside, both ends clamped. */
+/* Number of negative eigenvalues of the coordinates inside, both ends clamped. */
 int chain_negative(const chain *);
 
 /* Loads r[links x y] on all coordinates but those of the ends (the last joint is not read), in the
@@ -257,11 +257,10 @@ typedef struct undeformed_element {
     const double *J, *C, *initial;
 } undeformed_element;
 
-/* In large models elements of one kind that follow each other with the same orientation, as far as
- * rounding of their places lets it be told, are one. FAULT: out of memory. */
+/* In large models consecutive elements of one kind with the same orientation, up to the rounding of
+ * their positions, share one. FAULT: out of memory. */
 status undeformed_of(const equations *, int element, undeformed_element *, fault *);
-/* What no element has yet is evaluated for all together, where the formulation can, until
- * ahead_end. */
+/* Evaluates missing elements together, where the formulation can, until ahead_end. */
 void undeformed_begin(const equations *);
 
 #endif

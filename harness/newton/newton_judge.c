@@ -1,6 +1,6 @@
-/* Newton's corrections contract as their squares, and so do those of the stresses: in stiff
- * elements these are less exact than the motions by orders, so that the motions alone do not tell.
- */
+/* Newton's corrections converge quadratically, and so do those of the stresses. In stiff elements
+ * the stresses are less exact than the motions by orders of magnitude, so that a test of the
+ * motions alone is not enough. */
 #include "harness/newton/newton.h"
 
 #include <stdio.h>
@@ -161,8 +161,8 @@ void advance_settle(const model *m, const linear_memory *memory, const model_sta
     }
 }
 
-/* Whether a step has ended, goes on or leads nowhere; whether the state it ends in is one that the
- * formulation follows. */
+/* Decide whether a step has converged, continues or fails, and whether the formulation is valid in
+ * the state at its end. */
 
 static status judge_twist(const model *m, const model_state *s, fault *f)
 {

@@ -252,8 +252,8 @@ status history_add_step(solve_result *r, const step_record *record, fault *f)
     return memory_append(&r->step, &r->steps, record, sizeof *record, "step records", f);
 }
 
-/* With a mass an odd number of eigenvalues beyond zero is a divergence, and what else there is
- * frequencies tell. */
+/* With mass an odd number of eigenvalues beyond zero is a divergence; all else is decided by
+ * frequencies. */
 static step_stability without_symmetry(const scene *s, const step_record *one)
 {
     const int massive = scene_has_mass(s);

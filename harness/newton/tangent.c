@@ -1,4 +1,4 @@
-/* The tangent of the free coordinates is factored once; what is released borders it:
+/* The tangent of the free coordinates is factored once; released coordinates border it:
  *   [ K  U ] [x]   [f]
  *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
 #include "harness/newton/newton_impl.h"
@@ -362,7 +362,7 @@ void bordered_free(bordered *s)
     free(s->solution);
 }
 
-/* What is released, and what it takes from a solution without it. */
+/* Released coordinates z, and their contribution to a solution without them. */
 static void add_released(const node_tangent *t, const bordered *s, double x[])
 {
     const border *b = &t->border;
@@ -414,9 +414,9 @@ status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, 
 
 enum { LEAST = 2, MOST = 30 };
 
-/* Of a correction: beyond the first nobody asks for more; the second is a thousandth of the
- * tolerance that quantities are judged by (SCENE_TOLERANCE), for what is derived from the solution
- * may lose digits of its own.  By the level of newton.h, eps (L/side)^2 times 2.5, bars beyond
+/* Sizes of a correction: below the first no further one is made; the second is a thousandth of the
+ * tolerance of quantities (SCENE_TOLERANCE), since quantities derived from the solution may lose
+ * further digits.  By the level of newton.h, eps (L/side)^2 times 2.5, bars beyond
  * L/side = 1300 leave the first, beyond 42000 the second; in a run of verify no correction that was
  * judged by it exceeded 2e-12. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;
