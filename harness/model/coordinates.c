@@ -1,4 +1,4 @@
-/* Which scalars are unknown, which are prescribed, and what was left out. */
+/* Numbers the unknown and the prescribed coordinates; the others are eliminated. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>

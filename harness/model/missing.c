@@ -445,7 +445,7 @@ static void tell(const scene *s, const scene *other, char *text, size_t room)
         const scene_member *m = &s->member[i / 2];
         const int node = i % 2 == 0 ? m->p : m->q, state = state_of(&e, i / 2, i % 2);
         if (node < 0 || node >= s->nodes)
-            continue; /* scene_validate tells it */
+            continue; /* scene_validate reports it */
         e.node[node].all += warps(s, i / 2, i % 2);
         if (state < STATES)
             e.node[node].of[state]++;

@@ -17,9 +17,9 @@
  * model's coordinates, in this order:
  *   [0, free)                          unknowns
  *   [free, free + driven)              prescribed along the path by drivers
- * What is held or depends on other coordinates (rigid offsets, rotation
- * sequences, shared angles) has no coordinate: it was left out.  An unknown
- * driver is a driven coordinate whose increment is found with the free ones; the coordinate its
+ * Scalars that are fixed or depend on other coordinates (rigid offsets, rotation
+ * sequences, shared angles) are eliminated: they have no coordinate.  An unknown
+ * driver is a prescribed coordinate whose increment is found with the free ones; the coordinate its
  * condition names is free.
  *
  * Increments of coordinates are additive for translations, warping and angles,
@@ -33,12 +33,12 @@ typedef struct model_request {
     const element_type *type;
     const double *options; /* of the formulation; NULL: defaults */
     int elements;          /* per member */
-    int keep_all;          /* 1: leave nothing out (same answer, more work) */
-    unsigned omit; /* physics of the scene to be left out besides what the type does not offer */
+    int keep_all;          /* 1: eliminate nothing (same results, more work) */
+    unsigned omit; /* physics of the scene to omit in addition to what the type does not support */
 } model_request;
 
-/* What the formulation does not offer of the scene's physics is left out, and model_left_out says
- * so; REFUSED (with the reason) where that leaves nothing to solve: see harness/model/model.h. */
+/* Omits physics of the scene that the formulation does not support; model_left_out lists it.
+ * REFUSED (with the reason): nothing remains to be solved: see missing_refused. */
 status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 
@@ -58,16 +58,17 @@ const scene *model_scene(const model *);
 int model_keeps_all(const model *); /* model_request.keep_all */
 /* The vertex that moves this one rigidly; itself: it has coordinates of its own. */
 int model_body(const model *, int vertex);
-/* 1: it is the vertex of a released end, behind those of nodes. */
+/* 1: it is the vertex of a released end; these follow those of nodes. */
 int model_is_released(const model *, int vertex);
-/* Longest member [m]: displacements are small or large beside it. */
+/* Longest member [m]: the size that displacements are compared with. */
 double model_length(const model *);
 
 /* Physics of the scene that it does not have: FEATURE_* and OMIT_* bits (model.h). */
 unsigned model_omits(const model *);
-/* What it has of that: FEATURE_* bits. */
+/* Physics of the scene that it has: FEATURE_* bits. */
 unsigned model_features(const model *);
-/* What was left out, one line each ("warping coordinates of 12 ends: nothing warps there"). */
+/* Eliminated coordinates, omitted physics: one line each ("warping coordinates of 12 ends: nothing
+ * warps there"). */
 int model_left_out(const model *, const char *const **lines);
 
 /* Why nothing that was evaluated counts: what the formulation says of itself
@@ -163,14 +164,14 @@ void division_free(division *);
 
 int division_pieces(const division *, int member);
 int division_elements(const division *, int member);
-/* Begin and end of the piece of an element, counted along its member, and the element's number in
- * the piece. */
+/* ends: start and end of the piece of an element, counted along its member. Returns the element's
+ * number in the piece. */
 int division_piece(const division *, int member, int number, double ends[2]);
 /* Of a point x in [0, 1] of an element, and the other way round. */
 double division_place(const division *, int member, int number, double x);
 double division_inside(const division *, int member, int number, double place);
-/* The element at a place, with the point in it; between two of them that towards the end, or
- * (before) towards the begin. */
+/* The element at a position along a member, with the point in it; between two elements the one
+ * towards the end of the member or (before) towards its start. */
 int division_at(const division *, int member, double place, int before, double *x);
 
 /* The mesh of a model, to read: elements, vertices, and what joins them. It stays once model_alloc
@@ -306,7 +307,7 @@ static inline int model_work_size(const model *m)
     return model_mesh_of(m)->work_size;
 }
 
-/* Coordinates: [0, unknowns) and, behind them, those that drivers prescribe. */
+/* Coordinates: [0, unknowns), followed by those that drivers prescribe. */
 static inline int model_unknowns(const model *m)
 {
     return model_mesh_of(m)->free;
@@ -333,7 +334,7 @@ static inline const mesh_element *model_element(const model *m, int element)
 {
     return &model_mesh_of(m)->element[element];
 }
-/* The first of a member; of the number of members: behind the last. */
+/* The first of a member; of the number of members: one past the last. */
 static inline int model_first_element(const model *m, int member)
 {
     return model_mesh_of(m)->first_element[member];
@@ -353,7 +354,7 @@ static inline const mesh_kind *model_kind_of(const model *m, int element)
 {
     return &model_mesh_of(m)->kind[model_mesh_of(m)->element[element].kind];
 }
-/* Rigid bodies, behind them the springs. */
+/* Rigid bodies, followed by the springs. */
 static inline int model_discretes(const model *m)
 {
     return model_mesh_of(m)->discretes;
@@ -415,7 +416,7 @@ static inline int slot_along(const model *m)
     return slot_followed(m) + 3 * model_inner(m);
 }
 
-/* Discrete elements, beside those of the members: rigid bodies at nodes, and springs.  None: no
+/* Discrete elements, next to those of the members: rigid bodies at nodes, and springs.  None: no
  * work. */
 
 status discrete_build(model *, fault *);
@@ -460,7 +461,7 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
 typedef struct mesh_entry {
     short local;  /* row * columns + column of the element's matrix */
     short column; /* of the element's matrix */
-    int offset;   /* in the pattern: from the begin of its column */
+    int offset;   /* in the pattern: from the start of its column */
 } mesh_entry;
 
 /* What elements share whose entries stand alike in the columns of a pattern. */
@@ -498,14 +499,14 @@ int features_spreads(const scene *, int analysis, const element_type *, const do
 unsigned features_needed(const scene *);
 /* Those without which an asked quantity means nothing. */
 unsigned features_of_quantities(const scene *);
-/* Of the physics that it would call for, what the scene leaves out. */
+/* Physics that the scene would need but omits. */
 unsigned features_omitted(const scene *);
 /* Of the physics that it does not leave out, what a section that is given by its numbers has
  * nothing of, and what counts where there are the analyses of the scene: zero, as far as the
  * numbers say. */
 unsigned features_not_given(const scene *, int section);
 /* Of walls: does its bimoment turn it on, which no formulation has, where the analyses have
- * stresses and neither warping nor the Wagner torque is left out? */
+ * stresses and neither warping nor the Wagner torque is omitted? */
 int features_one_sided(const scene *, int section);
 /* The same with the theory of shear in stability that the type has instead of the one the scene
  * asks for: FEATURE_* bits. */
@@ -547,15 +548,15 @@ double kinematics_component(const model *, const model_state *, int node, int co
  * rotation vector of its turn against that [rad]. */
 double kinematics_relative(const model *, const model_state *, int from, int node, int component);
 double kinematics_driver_value(const model *, const model_state *, int driver);
-/* Largest angle [rad] that an element's nodes have turned against each other, chords: or against
- * its chord, and that element. Less than two turns are told apart. */
+/* Largest angle [rad] between the orientations of an element's nodes (chords: or between a node and
+ * its chord), and that element. Angles below two full turns are distinguished. */
 double kinematics_largest_turn(const model *, const model_state *, int chords, int *element_index);
 /* Likewise, about the element's axis. */
 double kinematics_largest_twist(const model *, const model_state *, int *element_index);
 /* Rise of the arc of an element at rest, by its curvature about z, in radii of gyration. */
 double kinematics_largest_rise(const model *, int *element_index);
 
-/* Coordinate index of a component of a node, or -1 where it is held, or dependent. */
+/* Coordinate index of a component of a node, or -1 where it is fixed or dependent. */
 int kinematics_coordinate(const model *, int node, int component);
 /* Most coordinates that a vertex depends on: those of a body, and those of a released end. */
 enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
@@ -594,18 +595,18 @@ double metric_distance(const model *, const model_state *, const model_state *,
 /* The largest angle [rad] between the orientations of a node in two states. */
 double metric_turn_between(const model *, const model_state *, const model_state *);
 
-/* What a scene needs and a formulation does not offer: what it can run without, as another model,
- * and what it cannot. */
+/* Physics that a scene needs and a formulation does not support: what can be omitted, which gives
+ * another model, and what cannot. */
 
-/* Physics that can be left out and are no feature of their own. */
+/* Physics that can be omitted and have no FEATURE_* bit. */
 enum {
     OMIT_SHEAR_Y = FEATURE_END,            /* shear flexibility along y */
     OMIT_SHEAR_COUPLING = FEATURE_END << 1 /* between its directions, and with warping */
 };
-enum { OMIT_WORDS = 200, OMIT_BITS = 16 }; /* length of their words; how many there are */
+enum { OMIT_WORDS = 200, OMIT_BITS = 16 }; /* length of their names; number of bits */
 
-/* The needs that the type does not offer, or a limit it hits, in words, which are empty if and only
- * if there are none; 0: it has all that the scene needs. */
+/* Names the physics that the type does not support, or a limit that the scene exceeds; words are
+ * empty if and only if there are none. 0: it has all that the scene needs. */
 int missing_words(const scene *, const element_type *, char *words, int size);
 /* Those of them without which nothing of the scene can be solved; 0: it can run. */
 int missing_refused(const scene *, const element_type *, char *words, int size);
@@ -613,16 +614,16 @@ int missing_refused(const scene *, const element_type *, char *words, int size);
 unsigned missing_omits(const scene *, const element_type *);
 /* Such bits in words. */
 void missing_omit_words(unsigned omits, char words[OMIT_WORDS]);
-/* Takes out of a section what is left out and no element is asked for by a feature. */
+/* Removes omitted physics from a section, where elements do not do so by a feature. */
 void missing_omit(section *, unsigned omits);
-/* The limit of the type that a section of so many closed cells hits, in words; NULL: none. */
+/* The limit of the type that a section with N closed cells exceeds, in words; NULL: none. */
 const char *missing_in_section(const element_type *, const section *, int cells, int warps);
 
 /* What the type offers in one direction only (element_lack) where the scene needs it, in words: 0:
  * nothing, 1: so little of it that it is shown and not refused, 2: missing_words says so too. */
 int lacks_of(const scene *, const element_type *, char *words, int size);
 
-/* What a state of a model consists of, for those who advance one. */
+/* Members of a model's state, for functions that advance it. */
 
 struct model_state {
     double path;
@@ -715,7 +716,7 @@ void release_jacobian(const model *, const model_state *, int vertex, int count,
                       double T[]);
 /* Own coordinates move by dx; returns the largest change [1, rad]. */
 double release_advance(const model *, model_state *, int vertex, const double dx[]);
-/* Place and orientation behind those of all nodes. */
+/* Position and orientation, after those of all nodes. */
 void release_follow(const model *, model_state *);
 
 /* Spatial axes of the turns [turns x 3]; of three: the fixed ones. */
@@ -788,12 +789,12 @@ status turns_build(model *, fault *);
  * it keeps that of `before`. */
 void turns_continue(const double q[4], const double before[3], double out[3]);
 
-/* Why there is no number of a turn. */
+/* Message: why the rotation vector of a turn is NaN. */
 extern const char turns_lost[];
 
 /* Of a state whose orientations have changed; state.turn holds where they come from. */
 void turns_follow(const model *, model_state *);
-/* [3] in a state, not a number where it has lost its direction. */
+/* [3] in a state, NaN where it has lost its direction. */
 const double *turns_of_node(const model_state *, int node);
 const double *turns_of_spring(const model *, const model_state *, int spring);
 /* NULL: no quantity reads it. */

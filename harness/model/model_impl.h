@@ -43,9 +43,9 @@ struct model {
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all;
     unsigned features, omits; /* what it has, and what it has not of what the scene has */
-    section *section;  /* of the scene; behind them of members whose section changes: model.h */
-    int *profile;      /* [members] section of the first element */
-    mesh_triad *triad; /* [triads], room for those of all nodes of all elements */
+    section *section;         /* of the scene, then of members whose section changes: model.h */
+    int *profile;             /* [members] section of the first element */
+    mesh_triad *triad;        /* [triads], room for those of all nodes of all elements */
     int triads;
     int *kind_of_section; /* [sections] the first, or NONE */
     mesh_turn *turn;      /* [turns] in the order of model.h */
@@ -54,7 +54,7 @@ struct model {
     division division;    /* of the members into elements */
     model_state *rest;    /* undeformed */
     int lines;
-    char **line; /* what was left out */
+    char **line; /* eliminated coordinates, omitted physics */
 };
 _Static_assert(offsetof(struct model, mesh) == 0, "model_mesh_of finds it by the model's address");
 

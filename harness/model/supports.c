@@ -50,8 +50,8 @@ static int orthonormal(int n, int count, double (*column)[N], double (*basis)[N]
     return rank;
 }
 
-/* Columns of T with unit length, displacements in units of `length`; those that cancel to nothing
- * are left out. */
+/* Columns of T scaled to unit length, displacements in units of `length`. Columns that cancel to
+ * rounding are omitted. Returns how many remain. */
 static int unit_columns(int columns, const double *T, double length, double (*column)[N])
 {
     int count = 0;
