@@ -135,8 +135,8 @@ status candidates_refine(candidates *p, int count, fault *f)
                : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
 }
 
-/* y += K^-1 (s A x - K y), with K y from the elements: what is left falls by the part of K that
- * assembling it has changed. */
+/* y += K^-1 (s A x - K y), with K y from the elements: the residual decreases by the relative error
+ * of the assembled K. */
 static void refine(candidates *p, const double x[], double y[])
 {
     const eigen_problem *e = p->problem;
@@ -247,8 +247,8 @@ double *candidates_products(const candidates *p)
 
 /* With x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y) of mu. What y
  * has of a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a part c_k/(mu_k - mu) of
- * that mode in x, which moves the quotient mu by c_k^2/(mu_k - mu), or, where they are too close to
- * be told apart, by their distance. The rest counts in full. */
+ * that mode in x, which moves the quotient mu by c_k^2/(mu_k - mu) or, where they are too close to
+ * be distinguished, by their distance. The rest counts in full. */
 void candidates_judge(candidates *p, int i, double *residual, double *error)
 {
     const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
@@ -271,13 +271,12 @@ void candidates_judge(candidates *p, int i, double *residual, double *error)
     *error += fmax(rest, 0);
 }
 
-/* By Sylvester's law the number of mu > s > 0 is that of the negative pivots of K - A/s. The pivots
- * tell sides apart as long as s keeps its distance from every eigenvalue: by more than rounding the
- * matrices moves them. */
+/* By Sylvester's law the number of mu > s > 0 is that of the negative pivots of K - A/s. The count
+ * is right as long as s is farther from every eigenvalue than rounding of the matrices moves it. */
 
-static const double close = 1e-9; /* relative distance of eigenvalues that are not told apart */
+static const double close = 1e-9; /* relative distance of eigenvalues that are not distinguished */
 
-/* Unknowns from which on room is worth more than having it at once again. */
+/* Number of unknowns from which on memory is freed rather than kept for reuse. */
 enum { LARGE = 20000 };
 
 void candidates_count_rest(candidates *p)
@@ -324,13 +323,13 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
     static const double place[] = {0.5, 0.35, 0.65};
     double low;
     const int q = above_cluster(p, wanted, &low);
-    /* just above the cluster: farther up, what is missing could lie below */
+    /* just above the cluster: farther up, missing values could lie below it */
     const double told_apart = 2 * close + 32 * p->noise[q], near = 1e-2;
     const double high = q > 0 ? fmin(p->matrix_mu[q - 1], low * (1 + fmax(near, told_apart)))
                               : low * (1 + told_apart);
     int above = 0;
     *missing = -1;
-    /* A count that does not fit is not believed at once: there is no pivoting. */
+    /* A count that does not match is repeated elsewhere: the factorisation does not pivot. */
     for (int i = 0; i < 3; i++) {
         const status outcome =
             candidates_count_above(p, low + place[i] * (high - low), &above, work, f);

@@ -13,9 +13,9 @@ enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 12, PARAMETERS = 11, POINTERS = 14 };
 enum {
     ENDED_EARLY = 1,
     CONVERGED = 4
-}; /* ARPACK's verdict; where it tells how many values have converged */
+}; /* ARPACK: its result; index of the number of converged values */
 
-/* Of a vector: Rayleigh's quotient squares it. */
+/* Error of a vector: that of its Rayleigh quotient is the square. */
 static const double tolerance = 1e-10;
 
 typedef struct lanczos_workspace {
@@ -113,7 +113,7 @@ static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutio
     }
 }
 
-/* ARPACK's order is the reverse of ours. */
+/* Reverses the order: ARPACK's values ascend, mu[] descends. */
 static void reverse(size_t n, int count, double x[])
 {
     for (int low = 0, high = count - 1; low < high; low++, high--)
@@ -124,7 +124,7 @@ static void reverse(size_t n, int count, double x[])
         }
 }
 
-/* ARPACK's values and vectors, the largest first. The vectors are what is left of the basis. */
+/* ARPACK's values and vectors, the largest first. *x: the basis, shortened to the vectors. */
 static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, double mu[],
                            double **x, fault *f)
 {

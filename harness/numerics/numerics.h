@@ -80,7 +80,7 @@ void factor_solve_many(matrix_factor *fa, int columns, int stride, double x[]);
 void factor_solve_transposed(matrix_factor *fa, double x[]); /* A^T x = b */
 factor_counts factor_count(const matrix_factor *fa);
 
-/* Solutions that somebody else knows how to find. */
+/* A solver that another module provides. */
 typedef struct factor_operator {
     void *context;
     void (*solve)(void *context, int transposed, double x[]);
@@ -132,7 +132,7 @@ typedef struct eigen_side {
     double *residual; /* [count] an eigenvalue lies within residual |mu| of mu */
     double *error; /* [count] estimate: |mu| is off by error |mu|, which is at most about residual^2
                       |mu| */
-    int rounding;  /* candidates that were round-off of A and are left out */
+    int rounding;  /* number of candidates that were rejected as round-off of A */
     status status; /* NOT_CONVERGED: the iteration ended before all wanted ones were proved to be
                       there ... */
     char reason[FAULT_TEXT]; /* ... and why; those found are the first of their side all the same */
@@ -148,15 +148,15 @@ typedef struct eigen_result {
 /* REFUSED when K is not positive definite; NOT_CONVERGED when one of the sides is: what either side
  * found stays. Values that are a rounding error of the largest one or of their own form, or in
  * large problems 1e-9 of the largest, are taken for zero and not returned. The error of a value
- * tells how many digits it has; without one it is not returned. */
+ * gives the number of its digits; a value without digits is not returned. */
 status eigen_solve(const eigen_problem *problem, eigen_result *out, fault *f);
 void eigen_free(eigen_result *r);
 
-/* The clocks of the house. */
+/* Clocks. */
 
-/* [s] that pass, whatever happens in them; from an arbitrary origin. */
+/* Wall-clock time [s] from an arbitrary origin. */
 double clock_wall_seconds(void);
-/* [s] of the processor spent by this thread: other programs on the machine do not count. */
+/* Processor time [s] of this thread: other programs on the machine do not count. */
 double clock_processor_seconds(void);
 
 /* Small motions x exp(lambda t) in a frame that turns steadily: (lambda^2 M + lambda G + K) x = 0,

@@ -171,7 +171,7 @@ double by_numbers_take(by_numbers *b, const sparse *a)
                 continue;
             const double part =
                 fabs(value - other) / (b->diagonal[j] * b->diagonal[b->upper.row[k]]);
-            largest = part <= largest ? largest : part; /* what is no number is not symmetric */
+            largest = part <= largest ? largest : part; /* NaN is not symmetric */
         }
     return isnan(largest) ? INFINITY : largest;
 }
