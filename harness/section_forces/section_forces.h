@@ -39,12 +39,12 @@ typedef struct span_frame {
 } span_frame;
 
 /* R' = R kappa~, r' = R (e_x + gamma) over [0, 1] in units of the length, kappa[points x 3] and
- * gamma[points x 3] in section axes: Magnus' series of order six between the points.  Both ends are
- * met: what is left over, which is an error of discretisation, is spread in proportion to x. */
+ * gamma[points x 3] in section axes: Magnus' series of order six between the points.  The curve
+ * meets both ends: its gap, an error of discretisation, is distributed in proportion to x. */
 void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
                         const double kappa[], const double gamma[], span_curve *out);
 
-/* What goes through the sections of an element, from the forces at its ends and the loads between.
+/* Section forces of an element, from the forces at its ends and the loads between.
  *
  * Whatever a formulation assumes inside, its elements' ends are in equilibrium.  Between them the
  * line is the one of the exact beam (Simo-Reissner with warping, the section's constants, the
