@@ -43,14 +43,14 @@ status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 
 /* Matrices of small motions about what has been solved. */
 
-/* About the undeformed structure, every station of every path that was reached, and the loaded
- * states of modal analyses: the matrices that those are made with. */
+/* Matrices about the undeformed structure, every station that was reached of every path, and the
+ * loaded states of modal analyses. */
 status collect_systems(const analysis_context *, system_matrices *, fault *);
 
 /* Compliance and stiffness of a node in a deformed state. */
 
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* The analysis at a state that Newton has just reached, from his last tangent where that stands. */
+/* The analysis at a state that Newton's method has just reached, with its last tangent if valid. */
 status compliance_take(analysis_context *, int analysis, const newton_run *, node_tangent *,
                        station_matrices *out, fault *);
 
@@ -209,13 +209,13 @@ typedef struct path_point {
                    */
     int determinant; /* sign of det K */
     double least;    /* eigenvalue of K of least size, its real part where K is not
-                        symmetric; NAN: not asked for */
+                        symmetric; NAN: not wanted */
     int nearest;
     double complex mu[LEFT_NEAREST]; /* [nearest] eigenvalues next to zero, least size first, where
                                         K is not symmetric */
 } path_point;
 
-/* Where a step goes: to this value of the control coordinate, or so far along the arc. */
+/* Goal of a step: a value of the control coordinate, or an arc length. */
 typedef struct path_goal {
     int by_arc;
     double value;
@@ -231,7 +231,7 @@ typedef struct continuation {
     int keeps_states;   /* 1: the outcome keeps the state of every point */
     newton_run n;       /* n.backup: state at the start of the step */
     flutter_judge judge;
-    model_state *end; /* of the step, while a critical point inside it is looked for */
+    model_state *end; /* of the step, while a critical point inside it is sought */
     double *weight;   /* [free + driven] the metric */
     double *load;     /* [free + driven] f' */
     double *response; /* [free + driven] K^-1 f' */
@@ -239,9 +239,9 @@ typedef struct continuation {
     double *mode;     /* [free + driven] null vector */
     path_goal goal;   /* of the step that is iterated */
     path_point here, next, trial;
-    int first;    /* negative pivots at the begin */
-    int narrow;   /* 1: where something changes was told as near as can be */
-    int doubtful; /* 1: whether the step has critical points could not be decided */
+    int first;    /* negative pivots at the start */
+    int narrow;   /* 1: a change of stability was located as closely as possible */
+    int doubtful; /* 1: not known whether the step has critical points */
     int looked;   /* 1: n.dx, response and the factors belong to the present state */
 } continuation;
 
@@ -251,7 +251,8 @@ void continuation_step_free(continuation *);
 
 double continuation_step_dot(const continuation *, const double a[],
                              const double b[]); /* in the metric */
-/* Newton to the goal from n.backup = the state of `here`; the arc is measured along its tangent. */
+/* Newton's method to the goal from n.backup = the state of `here`; the arc is measured along its
+ * tangent. */
 status continuation_step_correct(continuation *, path_goal, step_record *, fault *);
 /* The same from the present state, to which the last one led. */
 status continuation_step_go_on(continuation *, path_goal, step_record *, fault *);
@@ -262,7 +263,7 @@ status continuation_step_look(continuation *, const double along[], path_point *
 /* After a correction that has converged: the point from the last factors, which belong to a state
  * that is away by the last correction; nothing is left to correct. */
 status continuation_step_end(continuation *, path_point *, const step_record *, fault *);
-/* The state goes back to that of `here`. */
+/* Restores the state of `here`. */
 void continuation_step_go_back(continuation *);
 
 /* continuation.c: why the step from `here` to `next` is too long or led to another branch;
@@ -270,14 +271,14 @@ void continuation_step_go_back(continuation *);
  * points may lie in one step, as it cannot be shorter. */
 const char *continuation_sound_doubt(const continuation *, int last_resort, double *swing);
 
-/* The end of a step in doubt. */
+/* End of a step that may lie on another branch. */
 typedef struct rival {
     model_state *state; /* NULL: none */
     double factor;
 } rival;
 
-/* The step from the control coordinate `from` had led to the rival, the path leads here: an event,
- * and with constant steps the end. */
+/* Reports a jump: the step from the control coordinate `from` had led to the rival, but the path
+ * leads to `here`. With constant steps the path ends. */
 status continuation_sound_report_jump(continuation *, const rival *, double from, fault *);
 
 /* continuation_critical.c: the critical points between `here` and `next`, if any, become events.
@@ -343,8 +344,8 @@ status linear_analysis(analysis_context *, int analysis, analysis_outcome *, fau
 /* Natural frequencies: M x = (1/omega^2) K x with tangent K and mass M of the deformed state. */
 status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
 /* The value of the path parameter, beyond the end of the static path, at which the tangent of the
- * nonlinear path first becomes singular (a bifurcation; loads and drivers go on as they are along
- * the path). */
+ * nonlinear path first becomes singular (a bifurcation; loads and drivers continue as along the
+ * path). */
 status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
 
 /* Natural frequencies about the undeformed state. */

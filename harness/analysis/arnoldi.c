@@ -10,12 +10,12 @@
 
 enum { FIRST = 16, MORE = 12, MAX_STARTS = 5, MAX_VECTORS = 400 };
 
-/* Of a residual: in parts of the value itself, and of the largest one, whose rounding is in all. */
+/* Bounds of a residual: relative to the value, and to the largest one, whose rounding is in all. */
 static const double good_residual = 1e-12, rounding_residual = 1e-14, stalled_residual = 1e-8,
                     bearable_residual = 1e-5;
-/* Values are the same up to this part of them. */
+/* Relative distance below which values are the same. */
 static const double same = 1e-6;
-/* What is left of a vector that the basis has already. */
+/* Relative size of what orthogonalisation leaves of a vector that lies in the basis. */
 static const double nothing = 1e-14;
 
 typedef struct solver {

@@ -47,8 +47,8 @@ static status add_point(continuation *p, fault *f)
     return STATUS_OK;
 }
 
-/* Of the step from `before` to `here`: whether it was decided, and what has passed zero so far
- * where there is no inertia that tells. */
+/* Records whether the critical points of the step from `before` to `here` are decided, and the
+ * eigenvalues that have passed zero so far where no inertia counts them. */
 static void judge(continuation *p, const path_point *before, step_record *record)
 {
     outcome_continuation *o = p->o;
@@ -94,8 +94,8 @@ static void turn_start(continuation *p)
         p->here.tangent[k] = -p->here.tangent[k];
 }
 
-/* Corrects and looks; not sound: the state is what was found, in doubt. A step along the arc ends
- * at the station it would pass. */
+/* Corrects the state and evaluates the point. Not sound: the state found may lie on another branch.
+ * A step along the arc ends at the station that it would pass. */
 static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
                        fault *f)
 {
@@ -148,8 +148,8 @@ static double length_left(const continuation *p, path_goal goal, double gone)
     return goal.by_arc ? goal.value - gone : fabs(goal.value - p->here.control);
 }
 
-/* The arc to a point depends on the steps to it: a rival that was not met so far may lie further
- * on. */
+/* The arc to a point depends on the steps to it: a rival that was not met so far may lie farther
+ * along it. */
 static int arrived(const continuation *p, path_goal goal, double station, const rival *r,
                    double gone, double nearest)
 {
@@ -213,7 +213,7 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
                                               : STATUS_OK;
 }
 
-/* Where a step in doubt ends: smaller ones may lead elsewhere. */
+/* Stores the end of a step that may lie on another branch: smaller steps may lead elsewhere. */
 static status rival_alloc(const continuation *p, rival *r, fault *f)
 {
     TRY(kinematics_state_alloc(p->c->model, &r->state, f));
@@ -222,8 +222,8 @@ static status rival_alloc(const continuation *p, rival *r, fault *f)
     return STATUS_OK;
 }
 
-/* After a step that failed (doubted 0) or that may have gone elsewhere; with a rival that reach
- * frees. */
+/* Repeats in smaller steps a step that failed or whose end may lie on another branch, which then is
+ * the rival. The function reach frees the rival. */
 static status try_again(continuation *p, path_goal goal, double station, const attempt *t,
                         int doubted, rival *r, double *size, fault *f)
 {

@@ -110,7 +110,7 @@ static status try_at(continuation *p, path_goal goal, const sought *s, bound *b,
     TRY(continuation_step_look(p, p->moved, &p->trial, &record, f));
     *before = is_before(p, s);
     b->value = s->by_rate ? p->trial.rate : least_of(p, &p->trial);
-    /* Another eigenvalue may be the least one: its sign tells nothing of this point. */
+    /* The least eigenvalue may be another one, whose sign does not concern this point. */
     const int falls =
         p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > s->negative;
     if (!s->by_rate && (b->value > 0) != (*before == falls))
@@ -126,8 +126,8 @@ static double next_part(const bound *low, const bound *high)
     return isfinite(secant) && secant > low->at && secant < high->at ? secant : low->at + width / 2;
 }
 
-/* Narrows the interval; the state is then the critical point as near as it can be told. *gone: the
- * test function has no zero; *behind: part of the step at which the point was passed. */
+/* Narrows the interval; the state is then the critical point, up to rounding. *gone: the test
+ * function has no zero; *behind: part of the step after which the point was passed. */
 static status locate(continuation *p, path_goal goal, const sought *s, int *gone, double *behind,
                      fault *f)
 {
@@ -206,7 +206,7 @@ static int holds_some_turns(const model *m)
     return 0;
 }
 
-/* *s goes on behind the pair, which is no critical point. */
+/* Continues the search *s after the pair, which is no critical point. */
 static status pass_pair(continuation *p, path_goal goal, sought *s, double behind, int *jump,
                         fault *f)
 {
@@ -217,7 +217,7 @@ static status pass_pair(continuation *p, path_goal goal, sought *s, double behin
     return STATUS_OK;
 }
 
-/* The critical point inside the step becomes an event. *s goes on behind it. */
+/* Reports the critical point inside the step as an event, and continues the search *s after it. */
 static status report_critical(continuation *p, path_goal goal, sought *s, int *jump, fault *f)
 {
     double behind = 1;

@@ -69,8 +69,8 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
                                                      : rate * rate;
 }
 
-/* The station at `path`, walked to from the kept state; STATUS_SINGULAR: the tangent is. surely 1:
- * what is not more than rounding does not grow. */
+/* The station at `path`, reached from the kept state. STATUS_SINGULAR: the tangent is singular.
+ * With the flag set, growth within rounding counts as none. */
 static status look_closely(search *s, double path, int surely, station *out, fault *f)
 {
     newton_run *n = s->n;

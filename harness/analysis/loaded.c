@@ -150,7 +150,7 @@ typedef struct loaded_search {
                          none */
     double farthest;  /* path at which the search ends */
     double rate;      /* distance of the last stable states over that of their paths */
-    int lost;         /* 1: the path does not go on from the last stable state to the one tried */
+    int lost;         /* 1: the path does not lead from the last stable state to the one tried */
     eigen_result found;
 } loaded_search;
 
@@ -264,7 +264,7 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
     s->lost = outcome == STATUS_NOT_CONVERGED;
     if (outcome != STATUS_OK && outcome != STATUS_SINGULAR && !s->lost) /* singular: critical */
         return outcome;
-    if (outcome == STATUS_OK) { /* an unstable one far away tells nothing of this path either */
+    if (outcome == STATUS_OK) { /* an unstable state far away may lie on another path */
         const double rate = rate_to(s, path);
         s->lost = s->rate > 0 && rate > steepest * s->rate;
         *stable &= !s->lost;

@@ -151,8 +151,8 @@ static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere
     return 0;
 }
 
-/* Are the modes of a station wanted? Where not only those of the last are, all: what grows is told
- * of the first station where it does. */
+/* 1: the modes of a station are wanted. Where not only those of the last station are, all are:
+ * growth is reported at the first station where it occurs. */
 static int are_wanted_at(const analysis_context *c, int analysis, const outcome_path *path,
                          int station)
 {

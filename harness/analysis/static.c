@@ -1,8 +1,7 @@
-/* Nonlinear equilibrium along a path, with steps that adapt: by whether Newton succeeds, not by
- * what the tangent misses. Steps by that error are shorter than he needs, and cost more (measured
- * with errors from 0.2 to 2 rad or lengths on all cases of one station: 14 to 20 % more
- * iterations).
- */
+/* Nonlinear equilibrium along a load path with adaptive steps. The step size follows from the
+ * success of Newton's method, not from the error of the tangent. Steps by that error are shorter
+ * than Newton's method needs, and cost more (measured with errors from 0.2 to 2 rad or lengths on
+ * all cases of one station: 14 to 20 % more iterations). */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -13,9 +12,9 @@
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
-/* Whether what a step led to is stable, where pivots do not tell. *found: path within the step at
- * which stability is another than at its ends, or INFINITY; last_resort: the step cannot be
- * shorter. */
+/* Stability of the state at the end of a step, where pivots do not decide it. *found: path within
+ * the step at which stability differs from that at its ends, or INFINITY; last_resort: the step
+ * cannot be shorter. */
 static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, step_record *record,
                          double *found, fault *f)
 {
