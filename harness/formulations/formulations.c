@@ -173,7 +173,7 @@ unsigned formulation_bears_on(const formulation *chosen)
     return features;
 }
 
-/* Whoever loads one and misses its name is told what it is called. */
+/* REFUSED: unknown name; the message lists the names of loaded formulations. */
 static status unknown(const char *name, fault *f)
 {
     char loaded[200] = "";

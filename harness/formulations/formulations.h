@@ -10,25 +10,25 @@
 #include "elements/shared/parameter.h"
 #include "elements/shared/status.h"
 
-/* What a formulation leaves out, made from what it gives: derivatives by differences, strains and
- * stresses from a force or an energy. */
+/* Completes the interface of a formulation: derivatives by differences, strains and stresses from a
+ * force or an energy. */
 
-/* *out: the whole interface for the same beam: `given` itself where it leaves nothing out. Refuses
- * types that contradict themselves. */
+/* *out: the whole interface for the same beam: `given` itself where nothing is missing. REFUSED:
+ * the type is inconsistent. */
 status adapters_complete(const element_type *given, const double options[], element_type *out,
                          fault *f);
 
-/* Relative error that differences leave in its stiffness, as measured on beams
- * (test/adapters_test.c); 0: it leaves nothing to them. */
+/* Relative error of its stiffness by differences, as measured on beams (test/adapters_test.c); 0:
+ * it needs no differences. */
 double adapters_error(const element_type *given);
 
-/* In a few words what the type leaves to differences; "" where that is nothing. */
+/* Names what is computed by differences for the type; "": nothing. */
 const char *adapters_words(const element_type *given);
 
 /* NAME=VALUE: the one text form of what a user chooses, parameters of a case as well as options of
  * a formulation. */
 
-/* Tables, one behind the other, and the words of refusals. */
+/* Tables, one after the other, and the words of error messages. */
 typedef struct assignment_list {
     const parameter_type *part[PARAMETER_PARTS];
     const char *what;     /* "parameter" */
@@ -39,7 +39,7 @@ typedef struct assignment_list {
 } assignment_list;
 
 enum { ASSIGNMENT_SHOWN = 256 };
-/* What stands behind `beamwork list` to show them, as a shell reads it. */
+/* Arguments of `beamwork list` that show them, quoted for a shell. */
 void assignment_shown(const assignment_list *, char out[ASSIGNMENT_SHOWN]);
 
 enum { ASSIGNMENT_VALUE = 64 };
@@ -64,8 +64,8 @@ void assignment_value_text(const parameter_type *, double value, char *text, int
 
 const case_type *case_find(const char *name, fault *f); /* NULL: unknown, f names the nearest */
 
-/* Node states moved by increments, as the derivatives of element.h mean it: positions and warping
- * amplitudes added, rotations R <- exp(dphi~) R. */
+/* Node states moved by increments, as defined for the derivatives of element.h: positions and
+ * warping amplitudes are added, rotations R <- exp(dphi~) R. */
 
 /* out = x moved by step[7 nodes] (dr [m], dphi [rad], da [rad/m] of each node). */
 void chart_move(const node_state x[], int nodes, const double step[], node_state out[]);
@@ -79,7 +79,7 @@ double chart_unit(int c, double length);
 void chart_dexp(const double psi[3], double T[9]);
 void chart_dexp_inverse(const double psi[3], double T[9]);
 
-/* What a result was made with. */
+/* Program, machine and libraries that computed a result. */
 
 typedef struct environment {
     const char *version, *released /* 2026-11-21 */, *commit, *compiler, *flags;
@@ -105,12 +105,12 @@ typedef enum newton_form {
 
 typedef struct formulation {
     const element_type *type;
-    double option[FORMULATION_OPTIONS]; /* its own, in table order, and those that all take */
+    double option[FORMULATION_OPTIONS]; /* its own, in table order, then the common ones */
     /* name, and the options that differ from their defaults */
     char key[FORMULATION_KEY];
 } formulation;
 
-/* What every formulation takes, behind its own options. */
+/* Options that every formulation has, after its own. */
 extern const parameter_type formulation_common[];
 /* The options of a type and those that every formulation takes. */
 assignment_list formulation_options(const element_type *);
@@ -127,15 +127,15 @@ unsigned formulation_bears_on(const formulation *chosen);
 
 /* Formulations side by side. */
 
-/* One more, as -f says it, or "all"; each once. REFUSED: unknown, given twice, or beyond the room
- * of `most`. */
+/* Adds one, in the form of -f, or "all"; each once. REFUSED: unknown, given twice, or beyond the
+ * room of `most`. */
 status formulation_list_add(const char *text, int most, formulation list[], int *count, fault *f);
 
 /* All formulations: those of elements/, then those that were loaded. */
 
 enum { FORMULATIONS_MOST_LOADED = 16 };
 
-/* Number i, or NULL behind the last one. */
+/* Number i, or NULL after the last one. */
 const element_type *formulations_at(int i);
 /* Of this name, or NULL. */
 const element_type *formulations_named(const char *name, size_t length);
@@ -143,9 +143,9 @@ const element_type *formulations_named(const char *name, size_t length);
 int formulations_is_loaded(const element_type *t);
 /* 1: the project has not accepted it: it was loaded, or it is not among those that
  * formulations_accept names; until that names any, all of the tree's are accepted. Its verdicts
- * gate where somebody loaded or named it (sweep_gates). */
+ * count towards the exit status if the user loaded or named it (sweep_gates). */
 int formulations_is_new(const element_type *t);
-/* One that is accepted (reference/accepted.csv); a name that is not here is passed over. */
+/* Marks one as accepted (reference/accepted.csv); an unknown name is ignored. */
 void formulations_accept(const char *name);
 /* Adds one; refuses a name that is there, and words that mean more than one (all). The type stays
  * the caller's, and so does `from`: what --element calls it, or NULL. */
@@ -153,7 +153,7 @@ status formulations_add(const element_type *t, const char *from, fault *f);
 /* What --element called it; NULL: it was not loaded so. */
 const char *formulations_element(const element_type *t);
 
-/* Formulations in processes of their own: --element 'exec:COMMAND'. */
+/* Formulations in separate processes: --element 'exec:COMMAND'. */
 
 enum { PROCESS_MOST = 16 };
 
@@ -195,7 +195,7 @@ typedef struct parameters_words {
     char text[CASE_MAX_PARAMETERS][128];
 } parameters_words;
 
-/* The same for points of one case, one behind the other. */
+/* The same for points of one case, one after the other. */
 uint64_t parameters_hash_next(const case_type *c, const double value[], const int any[],
                               parameters_words *before);
 
@@ -243,8 +243,8 @@ status select_all_met(const char *expression, const select_words *, fault *);
 
 enum { STENCIL_MOST = 576 }; /* values of a function */
 
-/* Units between places: what is left out is h^6/140 of the seventh derivative, h^6/560 of the
- * eighth; round-off eps/h and 4 eps/h^2. */
+/* Step size h in units. Truncation error: h^6/140 times the seventh derivative, h^6/560 times the
+ * eighth; round-off: eps/h and 4 eps/h^2. */
 static const double stencil_first_step = 2e-3, stencil_second_step = 1e-3;
 
 /* values[count] where arguments i and j are moved by si and sj units (i == j: by si + sj); returns

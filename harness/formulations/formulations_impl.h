@@ -43,7 +43,7 @@ child_event child_write(const child *, const void *bytes, size_t count, int limi
 child_event child_read(const child *, void *bytes, size_t least, size_t most, size_t *count,
                        int limit);
 
-/* What a process says of itself: the line of JSON of the protocol (protocol.md). */
+/* Description of its formulation that a process sends: the protocol's JSON line (protocol.md). */
 
 enum { PROCESS_PROTOCOL = 1, HANDSHAKE_MOST = 65536 };
 
@@ -54,8 +54,8 @@ typedef struct handshake {
     element_constants constants; /* of the type */
 } handshake;
 
-/* `who` begins every refusal. What the type points to stays allocated, but not on refusal.
- * type.constants is left for the owner. REFUSED: what it says is not the line of the protocol. */
+/* `who` begins every error message. handshake_free frees what the type points to; after an error
+ * there is nothing to free. The owner sets type.constants. REFUSED: no line of the protocol. */
 status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f);
 /* What the type of a handshake points to; a type of zeros has nothing. */
 void handshake_free(element_type *);
@@ -86,7 +86,7 @@ typedef struct channel {
     int limit;    /* seconds for an answer; 0: none */
     pthread_mutex_t lock;
     channel_bytes out, in;
-    /* What broke it, until it is told; "": nothing. */
+    /* The error that broke it, until it is reported; "": none. */
     char trouble[FAULT_TEXT];
     int told;
 } channel;
@@ -106,9 +106,10 @@ void *channel_add(channel *, size_t count);
  * line; FAULT: the channel is broken, the process ended, and `trouble` says why. */
 status channel_ask(channel *, enum channel_request what, int mask, int elements, size_t least,
                    size_t most, const char **body, size_t *count, fault *);
-/* Keeps what was refused until it is told; smaller steps may help elsewhere: nothing then. */
+/* Stores the reason of a REFUSED or FAULT until it is reported. Other outcomes are ignored: smaller
+ * steps may help. */
 void channel_note(channel *, status outcome, const fault *why);
-/* From now on it is called after its formulation. */
+/* Names it after its formulation in messages from now on. */
 status channel_call(channel *, const char *name, fault *);
 /* Ends the process and frees what the channel has. */
 void channel_end(channel *);
@@ -155,7 +156,7 @@ size_t forces_size(const element_data *d);
  * force_many. */
 void forces_evaluate(const element_type *given, gather *, int first, int count);
 
-/* The options in what a process says of itself. */
+/* Options in the description that a process sends. */
 
 /* *out: a table to be freed, or NULL for none (list NULL or empty); also on refusal. REFUSED as
  * handshake_read. */

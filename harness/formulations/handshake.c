@@ -218,7 +218,7 @@ static status read_all(const handshake_reading *r, handshake *out)
     TRY(words_of(r, "offers", NULL, &t->offers));
     TRY(words_of(r, "limits", limits, &t->limits));
     TRY(words_of(r, "shear_theories", theories, &t->shear_theories));
-    /* who has a theory of shear offers it */
+    /* a type with a shear theory supports its feature */
     t->offers |= t->shear_theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0;
     t->offers |= t->shear_theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0;
     TRY(number_of(r, "nodes", 2, ELEMENT_MAX_NODES, 2, &out->constants.nodes));

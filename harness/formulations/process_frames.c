@@ -104,7 +104,7 @@ static void fill_nan(double to[], size_t count)
         to[i] = NAN;
 }
 
-/* strain has no outcome: what it gives is no number, and the type says why when it is asked. */
+/* Strain functions return no status: sets their output to NaN. element_type.trouble: why. */
 static void no_strains(const frame_question *q, strain_output out[], const fault *why)
 {
     const size_t m = (size_t)q->data[0]->strains, c = (size_t)q->data[0]->coordinates;
