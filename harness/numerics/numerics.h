@@ -8,9 +8,9 @@
 
 /* Sparse matrices in compressed columns, and their direct factorisation.
  *
- * Symmetric matrices keep the upper triangle (row <= column) only; the rest keep everything. Some
- * of these are factored as symmetric all the same when their numbers are. The pattern is fixed
- * once; numbers are added by position, so assembly searches nothing. */
+ * Symmetric matrices store the upper triangle (row <= column) only, others all entries. Some of the
+ * latter are factored as symmetric when their numbers are. The pattern is fixed once; numbers are
+ * added by position, so assembly searches nothing. */
 
 typedef struct sparse {
     int n, symmetric;
@@ -25,22 +25,22 @@ typedef struct sparse {
 status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f);
 void sparse_free_values(sparse *a);
 void sparse_zero(sparse *a);
-/* The first rows and columns of `whole`, whose others are the last in each of them. */
+/* Copies the leading rows and columns of `whole`. */
 void sparse_copy_leading(const sparse *whole, sparse *leading);
-/* Entry (j, j), 0 where none is stored, whichever part of the matrix is. */
+/* Entry (j, j); 0 where none is stored. */
 double sparse_diagonal(const sparse *a, int j);
 void sparse_mul(const sparse *a, const double x[], double y[]); /* y = A x */
-/* What rounding of all its terms, each in the same direction, changes in x^T A y, A symmetric, or
- * skew where the upper triangle is stored. */
+/* Change of x^T A y by rounding of all its terms in the same direction; A symmetric, or skew where
+ * the upper triangle is stored. */
 double sparse_rounding(const sparse *a, const double x[], const double y[]);
 
-/* Of a matrix that is stored whole, the upper triangle, and whether that is all there is. */
+/* Upper triangle of a matrix that is stored whole, and a test for symmetry. */
 typedef struct by_numbers by_numbers;
 
 status by_numbers_alloc(const sparse *pattern, by_numbers **out, fault *f);
 void by_numbers_free(by_numbers *);
-/* Largest |a_ij - a_ji|/sqrt|a_ii a_jj| of `a`, whose upper triangle is copied; INFINITY where that
- * has no measure. */
+/* Copies the upper triangle of `a`. Returns its largest |a_ij - a_ji|/sqrt|a_ii a_jj|; INFINITY
+ * where that is NaN. */
 double by_numbers_take(by_numbers *, const sparse *a);
 const sparse *by_numbers_upper(const by_numbers *);
 
@@ -59,8 +59,8 @@ typedef struct factor_counts {
 /* Up to this asymmetry a matrix counts as symmetric by its numbers. */
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
 /* Symbolic analysis once: fill-reducing order (AMD). Symmetric: LDL^T without pivoting, whose signs
- * give the inertia; unsymmetric: KLU. By its numbers: LDL^T of the upper triangle, bit by bit that
- * of a matrix that stores nothing else, or KLU. */
+ * give the inertia; unsymmetric: KLU. By its numbers: LDL^T of the upper triangle, bit-for-bit
+ * that of a matrix that stores nothing else, or KLU. */
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
 /* For a matrix with the pattern that `of` was made for: a symmetric one takes the order of `of`,
  * which must outlive it and not be factored at the same time. */
@@ -94,16 +94,16 @@ status factor_of(const factor_operator *, matrix_factor **out, fault *f);
  * diagonal: Hager's estimate, a lower bound within a small factor. NAN when memory ran out. */
 double factor_condition(matrix_factor *fa, const sparse *a);
 
-/* A few eigenpairs of A x = mu K x with K symmetric positive definite and A symmetric, however
+/* A few eigenpairs of A x = mu K x with K symmetric positive definite and A symmetric, which may be
  * indefinite or singular.
  *
- * Buckling: A = -G, mu = 1/lambda.  Vibration: A = M, mu = 1/omega^2 (a structure that is not held:
- * K + shift M in place of K). Small problems are solved densely (LAPACK), the others by Lanczos in
- * the inner product of K (ARPACK).  Each mu is the quotient of two quadratic forms, which the
- * caller can evaluate better than from the matrices, and the inertia of K - A/s proves that no
- * eigenvalue was missed, repeated ones included. */
+ * Buckling: A = -G, mu = 1/lambda.  Vibration: A = M, mu = 1/omega^2 (a structure without
+ * supports: K + shift M in place of K). Small problems are solved densely (LAPACK), the others by
+ * Lanczos in the inner product of K (ARPACK).  Each mu is the quotient of two quadratic forms,
+ * which the caller can evaluate better than from the matrices, and the inertia of K - A/s proves
+ * that no eigenvalue was missed, repeated ones included. */
 
-/* Error of a value, in parts of itself, beyond which no digit is worth telling. */
+/* Relative error of a value beyond which it has no digits. */
 #define EIGEN_LARGEST_ERROR 1e-2
 
 typedef double eigen_form(void *context, const double x[]);
@@ -117,12 +117,10 @@ typedef struct eigen_problem {
     int smallest;            /* wanted number of most negative mu */
     eigen_form *K_energy,
         *A_energy; /* x^T K x and x^T A x (A without the sign), [K's unit]; NULL: from the matrix */
-    eigen_form *K_rounding,
-        *A_rounding; /* what rounding may change in them; NULL: nothing worth asking */
-    eigen_product
-        *K_product; /* y = K x with fewer digits lost than by the matrix; NULL: there is none */
-    void *context;  /* of all of them */
-    int iterate;    /* 1: Lanczos whatever the size (for tests) */
+    eigen_form *K_rounding, *A_rounding; /* their possible error by rounding; NULL: negligible */
+    eigen_product *K_product; /* y = K x with fewer digits lost than by the matrix; NULL: none */
+    void *context;            /* of all of them */
+    int iterate;              /* 1: Lanczos whatever the size (for tests) */
 } eigen_problem;
 
 typedef struct eigen_side {
@@ -170,8 +168,8 @@ double clock_processor_seconds(void);
  * and the projected problem is solved as it is; lambda has a real part where a motion grows; what
  * the count proves then: numerics_impl.h.
  *
- * What has no mass has no frequency, and what has too little beside the rest (frequencies above
- * some 1e4 times those of the heavy parts) may end the search before all wanted modes are found.
+ * Massless coordinates have no frequency. Coordinates with very little mass (frequencies above some
+ * 1e4 times those of the heavy parts) may end the search before all wanted modes are found.
  *
  * Assembling K loses the digits of soft motions.  The basis is orthonormal in K_product, which
  * keeps them, and so are all residuals; the factors of the matrix only improve vectors by them. */
@@ -183,7 +181,7 @@ typedef struct gyroscopic_problem {
     int wanted;    /* number of lowest modes */
     eigen_product
         *K_product; /* y = K x with fewer digits lost than by the matrix; NULL: there is none */
-    eigen_form *K_rounding; /* what rounding may change in x^T K x of it; NULL: from the matrix */
+    eigen_form *K_rounding; /* error of x^T K x by rounding; NULL: from the matrix */
     void *context;          /* of both */
 } gyroscopic_problem;
 
@@ -203,20 +201,20 @@ typedef struct gyroscopic_result {
 status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);
 void gyroscopic_free(gyroscopic_result *);
 
-/* Whether a problem fits into this machine, asked before it is tried: a system that promises memory
- * it does not have would end the program, and others, without a word. And lists that grow. */
+/* Check of the memory before a problem is solved: a system that promises memory it does not have
+ * would end the program, and others, without a message. And lists that grow. */
 
-/* REFUSED when `what` needs more than that. bytes: at least so many. */
+/* REFUSED: `what` needs more memory than the machine has. bytes: lower bound of the need. */
 status memory_check(double bytes, const char *what, const char *remedy, fault *f);
-/* A copy of `entry`, of `size` bytes, at the end of *list (the address of its pointer), which is
- * freed with free(). FAULT: "out of memory for WHAT". */
+/* Appends a copy of `entry`, of `size` bytes, to *list (the address of its pointer), which is freed
+ * with free(). FAULT: "out of memory for WHAT". */
 status memory_append(void *list, int *count, const void *entry, size_t size, const char *what,
                      fault *f);
 
-/* Where the time of a solution goes: the parts of Newton's iterations, and the rest. The clock is
- * that of the whole, the processor's: where several threads share the elements, that of the thread
- * that leads, with its waiting for the others. It is read only when it is wanted and only inside an
- * iteration; what the readings themselves take, 0.4 us each, belongs to no part. */
+/* Run time of a solution by parts of Newton's iterations, and the rest. The clock is the processor
+ * time, as for the whole; where several threads share the elements, that of the leading thread with
+ * its waiting for the others. It is read only on request and only inside an iteration. The time of
+ * the readings, 0.4 us each, belongs to no part. */
 
 typedef enum newton_phase {
     PHASE_ELEMENTS,
@@ -235,7 +233,7 @@ typedef struct phases {
     double seconds[PHASES]; /* [s] */
 } phases;
 
-/* From nothing; what a reading takes is the least of a few. */
+/* Sets all to zero; the time of a reading is the least of a few. */
 static inline void phases_want(phases *p, int wanted)
 {
     enum { FEW = 50 };
@@ -254,7 +252,7 @@ static inline void phases_start(phases *p)
         p->last = clock_processor_seconds();
 }
 
-/* What has passed since the last reading belongs to k. */
+/* Adds the time since the last reading to part k. */
 static inline void phases_lap(phases *p, newton_phase k)
 {
     if (!p->running)
@@ -270,7 +268,7 @@ static inline void phases_stop(phases *p)
     p->running = 0;
 }
 
-/* All parts, which are `whole` [s] together, but for the readings. */
+/* All parts; their sum is `whole` [s] less the readings. */
 static inline void phases_of_whole(const phases *p, double whole, double part[PHASES])
 {
     part[PHASE_REST] = whole - (double)p->readings * p->reading;
@@ -295,7 +293,7 @@ typedef void team_work(void *context, int first, int end); /* [first, end) */
 
 /* One piece of work into a slot; all members. */
 typedef void team_fill(void *context, int piece, int slot);
-/* What a slot holds is used up, by the caller; 0: that was the last piece that is wanted. */
+/* The caller uses the content of a slot; returns 0: no further piece is wanted. */
 typedef int team_take(void *context, int piece, int slot);
 
 enum { TEAM_MOST = 16, TEAM_SLOTS = 8 };
@@ -305,8 +303,8 @@ status team_alloc(int threads, thread_team **out,
 void team_free(thread_team *t);
 /* work over [0, count), shared; t NULL: by the caller alone. Returns when all is done. */
 void team_run(thread_team *t, int count, team_work *work, void *context);
-/* Pieces [0, pieces) are filled by whoever is free, a few ahead, and taken in their order by the
- * caller, who fills too: slots stay in the cache, and sums keep their order. slot: below
+/* Pieces [0, pieces) are filled by any free thread, a few ahead, and taken in their order by the
+ * caller, which fills too: slots stay in the cache, and sums keep their order. slot: below
  * TEAM_SLOTS, and 0 where t is NULL. */
 void team_relay(thread_team *t, int pieces, team_fill *fill, team_take *take, void *context);
 
