@@ -1,4 +1,4 @@
-/* The inside of analysis/. */
+/* Internal interfaces of analysis/. */
 #ifndef BEAMWORK_ANALYSIS_IMPL_H
 #define BEAMWORK_ANALYSIS_IMPL_H
 
@@ -10,8 +10,8 @@
 #include "harness/numerics/numerics.h"
 
 /* Eigenpairs of largest size of a real operator without symmetry: the operator projected on a
- * growing orthonormal basis (Arnoldi).  There is no inertia that counts them: when those wanted
- * have converged, another start joins the basis until it brings nothing that is as large. */
+ * growing orthonormal basis (Arnoldi).  No inertia counts them: when the wanted ones
+ * have converged, start vectors are added until one brings no value that is as large. */
 
 typedef struct arnoldi_problem {
     int n, wanted;
@@ -35,13 +35,13 @@ void arnoldi_free(arnoldi_result *);
 
 status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
-/* Centre lines of what has been solved, for pictures. */
+/* Centre lines of all solutions, for pictures. */
 
 /* Of the undeformed structure, of at most `most` states of every path, of linear solutions and
  * modes. */
 status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 
-/* Matrices of small motions about what has been solved. */
+/* Matrices of small motions about all solutions. */
 
 /* Matrices about the undeformed structure, every station that was reached of every path, and the
  * loaded states of modal analyses. */
@@ -62,8 +62,8 @@ typedef struct compliance_walk compliance_walk;
 
 /* Of all analyses that follow `path`; *out NULL: there are none. */
 status compliance_walk_begin(newton_run *, int path, compliance_walk **out, fault *);
-/* Newton has reached the station; what cannot be had now is left to the analysis itself. w NULL:
- * nothing follows. FAULT: out of memory. */
+/* Newton's method has reached the station. The analysis itself computes what is not available now.
+ * w NULL: no analysis follows. FAULT: out of memory. */
 status compliance_walk_take(compliance_walk *w, const newton_run *, int station, fault *);
 void compliance_walk_end(compliance_walk *);
 
@@ -83,7 +83,7 @@ int continuation_extract_keeps_states(const scene *, int analysis);
  * M symmetric and positive semidefinite, C of damping or absent.
  *
  * The least s are the largest 1/s^2 of -K^-1 M, or with C the largest 1/s of its companion with the
- * rates of what has a mass.  What has no mass is a zero of these and no motion. */
+ * rates of coordinates with mass.  Massless coordinates are zeros of these and no motion. */
 
 typedef struct unsymmetric_problem {
     const sparse *K, *M, *C; /* same pattern; C NULL: nothing is damped */
@@ -100,12 +100,12 @@ typedef struct unsymmetric_result {
     double *frequency, *growth; /* [count] [rad/s], [1/s]; growth 0: below what rounding makes of a
                                    double value */
     double *split; /* [count] imaginary part of s^2 in parts of its size; 1: divergence */
-    double *error; /* [count] estimate of what rounding changes, in parts of |s| */
+    double *error; /* [count] estimate of the rounding error, relative to |s| */
     double *mode;  /* [count x n] real */
     long solutions;
 } unsymmetric_result;
 
-/* Below this part the imaginary part of s^2 is rounding of a double value. */
+/* A smaller imaginary part of s^2, relative to it, is rounding of a double value. */
 static const double unsymmetric_same = 1e-6;
 
 status unsymmetric_solve(const unsymmetric_problem *, unsymmetric_result *, fault *);
@@ -130,17 +130,17 @@ void flutter_system_free(flutter_system *);
 /* The least `wanted` motions about the state. */
 status flutter_motions(const newton_run *, flutter_system *, int wanted, int estimate,
                        unsymmetric_result *, fault *);
-/* Frequencies, modes and errors become those of an outcome; what has no digits is NAN there. */
+/* Moves frequencies, modes and errors to an outcome; values without digits become NaN. */
 void flutter_take(unsymmetric_result *from, outcome_side *to);
-/* What the motions are of: "", "undamped" where members are damped and damped is 0, or "with the
+/* Damping of the motions: "", "undamped" where members are damped and damped is 0, or "with the
  * members' damping". */
 const char *flutter_damping(const scene *, int damped);
-/* What grows fastest, *mode of them. */
+/* Kind of the fastest growing motion, number *mode. */
 flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int *mode);
 /* "flutter, undamped", "divergence", "flutter, growth with the members' damping" */
 const char *flutter_name(const flutter_system *, flutter_kind);
 
-/* The path at which stability is first lost, from path 0: Newton stands at a state of it. *mode
+/* The path parameter at which stability is first lost, from path 0. The state is on the path. *mode
  * [free], which the caller frees. */
 typedef struct flutter_point {
     double path, error, frequency; /* error: in parts of the path; [rad/s] */
@@ -162,8 +162,8 @@ typedef struct flutter_judge {
     flutter_system of;
 } flutter_judge;
 
-/* Into the record of the step that ended at the state. What is not known stays open. It is not
- * counted as work. */
+/* Writes the stability into the record of the step that ended at the state; unknown: STEP_OPEN. The
+ * work is not counted. */
 status flutter_judge_state(flutter_judge *, analysis_context *, const model_state *, step_record *,
                            fault *);
 /* The same of the state that j->n has; negative_pivots of the record become those of the state, -1:
@@ -295,7 +295,7 @@ void extract_quantity(const analysis_context *, const scene_quantity *, quantity
 
 /* Quantities of a path: at a station, the largest or least of all, or as a curve. */
 
-/* Without a value where the path ends before the stations that the quantity needs. */
+/* No value: the path ends before the stations that the quantity needs. */
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                   quantity_result *);
 
