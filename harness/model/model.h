@@ -48,7 +48,7 @@ typedef struct model_size {
     unsigned features;
 } model_size;
 model_size model_sizes(const model *);
-/* 1: in this motion elements spread their mass along themselves. */
+/* 1: in this motion elements have a consistent mass. */
 int model_spreads(const model *, int analysis);
 /* The same with one element per member. */
 status model_coarse(const model *, model **, fault *);
@@ -56,7 +56,7 @@ status model_coarse(const model *, model **, fault *);
 status model_halved(const model *, model **, fault *);
 const scene *model_scene(const model *);
 int model_keeps_all(const model *); /* model_request.keep_all */
-/* The vertex that moves this one rigidly; itself: it has coordinates of its own. */
+/* The vertex that moves this one rigidly; itself: it has its own coordinates. */
 int model_body(const model *, int vertex);
 /* 1: it is the vertex of a released end; these follow those of nodes. */
 int model_is_released(const model *, int vertex);
@@ -71,8 +71,8 @@ unsigned model_features(const model *);
  * warps there"). */
 int model_left_out(const model *, const char *const **lines);
 
-/* Why nothing that was evaluated counts: what the formulation says of itself
- * (element_type.trouble), once; NULL: nothing is wrong. */
+/* Why all evaluations are invalid, as the formulation reports it (element_type.trouble), once;
+ * NULL: no error. */
 const char *model_trouble(const model *);
 
 /* Everything that changes along a path. A copy undoes a rejected step. */
@@ -89,15 +89,14 @@ int model_shape(const model *, const double x[], double *u, double *position);
 int model_member_vertices(const model *, int member,
                           int vertex[]); /* n + 1 in order; vertex NULL: count only */
 
-/* Numbers that stresses of all elements and springs are: elements x strains, then six per spring.
- */
+/* Number of stresses of all elements and springs: elements x strains, then six per spring. */
 int model_stresses(const model *);
 /* Section constants the model uses for a section of the scene. */
 const section *model_section(const model *, int index);
 
 /* Patterns of the matrices of a model. */
 
-/* Those of one model that have been asked for. */
+/* Patterns of one model that are in use. */
 typedef struct assemble_patterns assemble_patterns;
 status assemble_patterns_alloc(assemble_patterns **, fault *);
 void assemble_patterns_free(assemble_patterns *);
@@ -112,7 +111,7 @@ status assemble_pattern_of_states(const model *, assemble_patterns *, int with_d
                                   const sparse **out, fault *f);
 /* 0: a load or a support may make tangents unsymmetric. */
 int assemble_symmetric(const model *);
-/* Free x free and never symmetric: of motions, whose turning masses are not. */
+/* Free x free, never symmetric: for motions, whose rotating masses have unsymmetric tangents. */
 status assemble_pattern_in_time(const model *, assemble_patterns *, const sparse **out, fault *f);
 
 /* Centre lines of all members in a state, for pictures and other programs.
@@ -142,9 +141,9 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
 
 /* How the members of a scene are divided into elements.
  *
- * Where a load along a member begins, ends or acts between its ends there is a node of the mesh, as
- * if the member were cut there: resultants have a kink or a jump at that place, which no element
- * can have inside.  Each of these pieces has as many elements, all of one length, as a whole member
+ * Where a load along a member begins, ends or acts between its ends, the mesh has a node, as if the
+ * member were cut there: resultants have a slope discontinuity or a jump there, which no element
+ * can have inside.  Each of these pieces has as many elements, of equal length, as a whole member
  * has: a mesh of twice as many has all nodes of the one before. */
 
 typedef struct division {
@@ -154,8 +153,7 @@ typedef struct division {
     int *each;     /* [members] elements of a piece */
 } division;
 
-/* No pieces are shorter than this part of their member: what they would be for lies inside an
- * element. */
+/* Least length of a piece, relative to its member; a shorter one lies inside an element. */
 #define DIVISION_LEAST 1e-3
 
 /* elements: of a piece, where the member does not say so. */
@@ -167,7 +165,7 @@ int division_elements(const division *, int member);
 /* ends: start and end of the piece of an element, counted along its member. Returns the element's
  * number in the piece. */
 int division_piece(const division *, int member, int number, double ends[2]);
-/* Of a point x in [0, 1] of an element, and the other way round. */
+/* Position along the member of a point x in [0, 1] of an element, and the inverse. */
 double division_place(const division *, int member, int number, double x);
 double division_inside(const division *, int member, int number, double place);
 /* The element at a position along a member, with the point in it; between two elements the one
@@ -187,16 +185,16 @@ enum {
 /* Where a frame is and what moves it. The first vertices are the scene's nodes, in order. */
 typedef struct mesh_vertex {
     double position[3]; /* undeformed [m] */
-    int body; /* vertex that moves this one rigidly; itself: it has coordinates of its own */
-    double offset[3];  /* from the body, undeformed [m] */
-    int coordinate[6]; /* of a body: global coordinate or NONE where held */
-    int angles;        /* > 0: rotation is a sequence of so many angles about the axes */
+    int body;           /* vertex that moves this one rigidly; itself: it has its own coordinates */
+    double offset[3];   /* from the body, undeformed [m] */
+    int coordinate[6];  /* of a body: global coordinate or NONE where fixed */
+    int angles;         /* > 0: rotation is a sequence of so many angles about the axes */
     double axis[3][3];
-    int idle;             /* bits of angles that are held: nothing depends on them */
+    int idle;             /* bits of angles that are fixed: nothing depends on them */
     int vector_driver[3]; /* prescribed rotation vector: its drivers; NONE: not prescribed so */
 } mesh_vertex;
 
-/* What an end of a member keeps to itself: see model.h. */
+/* End release of a member: see model.h. */
 typedef struct mesh_release {
     int node; /* of the scene, from which it is released */
     int turns, slides;
@@ -214,17 +212,17 @@ typedef struct mesh_element {
     int kind, member;
     int nodes;
     int vertex[ELEMENT_MAX_NODES];
-    int warp[ELEMENT_MAX_NODES];     /* index, or NONE: held at zero or absent */
+    int warp[ELEMENT_MAX_NODES];     /* index, or NONE: fixed at zero or absent */
     double share[ELEMENT_MAX_NODES]; /* of its mass where that is at nodes: mesh.c */
-    double couple[2];  /* of two nodes: what resultants at an end have beside: time/deformable.c */
+    double couple[2];  /* of two nodes: added to resultants at an end: time/deformable.c */
     mesh_triad *triad; /* [nodes] initial; not its own: equal ones share them */
-    int columns; /* coordinates after elimination: 7 nodes, behind them those of released ends */
+    int columns;       /* coordinates after elimination: 7 nodes, then those of released ends */
     int index[MODEL_MAX_COORDINATES]; /* the global one of each of them, or NONE */
     int plain; /* 1: no offset, sequence or released end: elimination is selection */
 } mesh_element;
 
-/* A rigid body's mass at a vertex, or a spring between vertices: an element beside those of the
- * members. */
+/* A rigid body's mass at a vertex, or a spring between vertices: an element in addition to
+ * those of the members. */
 typedef struct mesh_discrete {
     mesh_element el; /* no kind, no member, no warping */
     const scene_body *body;
@@ -232,7 +230,7 @@ typedef struct mesh_discrete {
     mesh_triad triad[ELEMENT_MAX_NODES];
 } mesh_discrete;
 
-/* What identical elements share. */
+/* Data that identical elements share. */
 typedef struct mesh_kind {
     int section;
     double length, curvature[3], strain[3];
@@ -244,10 +242,10 @@ typedef struct mesh_kind {
                       mass */
 } mesh_kind;
 
-/* What the questions below read without a call: the first member of every model, which
- * harness/model alone fills. */
+/* Data that the functions below read without a call: the first member of every model. Only
+ * harness/model sets it. */
 typedef struct model_mesh {
-    const element_type *type;                       /* with what its file leaves out */
+    const element_type *type;                       /* completed by adapters_complete */
     int nodes, coordinates, strains, inner, memory; /* per element: nodes, 7 nodes, ... */
     int vertices, elements, kinds, warps;
     int first_release, releases; /* vertices of released ends are the last */
@@ -349,7 +347,7 @@ static inline const mesh_kind *model_kind(const model *m, int kind)
 {
     return &model_mesh_of(m)->kind[kind];
 }
-/* What an element is prepared as. */
+/* Kind of an element. */
 static inline const mesh_kind *model_kind_of(const model *m, int element)
 {
     return &model_mesh_of(m)->kind[model_mesh_of(m)->element[element].kind];
@@ -385,8 +383,8 @@ static inline int model_first_release(const model *m)
 {
     return model_mesh_of(m)->first_release;
 }
-/* The axis about which alone a node is held, or driven, so that it takes a moment about it in
- * whatever way the node turns about the two others; NONE: of no or of several axes. */
+/* The only axis about which a node is fixed or prescribed, so that it takes a moment about it for
+ * any rotation about the two others; NONE: no axis, or several. */
 int coordinates_held_turn(const model *, int node);
 /* Warping amplitudes, and the coordinate of one. */
 static inline int model_warps(const model *m)
