@@ -1,4 +1,4 @@
-/* newton/: equations of a model, Newton, tangents, condensation, outcomes. */
+/* newton/: equations of a model, Newton's method, tangents, condensation, outcomes. */
 #ifndef BEAMWORK_NEWTON_H
 #define BEAMWORK_NEWTON_H
 
@@ -13,8 +13,8 @@
 #include "harness/numerics/numerics.h"
 #include "harness/section_forces/section_forces.h"
 
-/* The equations of a model under a loading, and what a run changes besides its states: the model
- * and the loading stay. Nothing of it outlives a solution. */
+/* The equations of a model under a loading, and data that a run changes in addition to its states.
+ * The model and the loading do not change. Nothing of it outlives a solution. */
 
 /* Work done so far. */
 typedef struct counters {
@@ -43,13 +43,13 @@ typedef struct linear_memory {
                      linearisation */
 } linear_memory;
 
-/* What of the loads along members goes to the ends of elements. */
+/* Loads along members that are lumped at the ends of elements. */
 enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
 
 /* Meaning of the path parameter, loads, and rotation of the axes of one analysis. */
 typedef struct loading {
     int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
-    double held_path; /* path parameter at which those stay in time that have no such function */
+    double held_path; /* path parameter of loads and drivers that are no function of time */
     int unloaded;     /* neither loads nor drivers act */
     int lumps;        /* LUMPS_* */
     element_rotating_frame frame; /* its velocity times the path if that is followed */
@@ -93,10 +93,10 @@ void linear_memory_free(linear_memory *);
  * order: results do not depend on it. */
 status run_state_begin(run_state *, const model *, int threads, fault *);
 void run_state_end(run_state *);
-/* How the frame turns at that path parameter. */
+/* Rotation of the frame at that path parameter. */
 element_rotating_frame loading_frame(const loading *, double path);
 
-/* What the solution of the linearised equations does to a state. */
+/* Update of a state by the solution of the linearised equations. */
 
 /* Of all elements [N]. */
 typedef struct advance_stress {
@@ -113,7 +113,7 @@ double advance_state(const equations *, const linear_memory *, model_state *, co
  * linearisation, and nothing that this had left open is closed again. */
 void advance_settle(const model *, const linear_memory *, const model_state *);
 
-/* What a load puts on the vertices of a mesh, in a state. */
+/* Forces of a load on the vertices of a mesh, in a state. */
 
 typedef struct applied {
     int vertex;
@@ -123,7 +123,7 @@ typedef struct applied {
     double arm[3]; /* from the vertex to where the force acts, with which it turns [m] */
 } applied;
 
-/* What the load is times at `path`, or in time (loading_of). */
+/* Factor of the load at `path`, or in time (loading_of). */
 double applied_factor(const equations *, const scene_load *load, double path);
 /* Along the whole of a member, where it goes to nodes with a motion's mass by the shares of that;
  * not by the load's own wish. */
@@ -135,10 +135,10 @@ void applied_each(const model *, const model_state *, const scene_load *, double
 /* The same of a load along the member of this element, and of this element alone. */
 void applied_element(const model *, const model_state *, const scene_load *, double scale,
                      int element, void (*take)(void *context, const applied *), void *context);
-/* The part [from, to] of an element that a load along its member acts on; of one at a place both
- * are it, in the element behind it. 0: it acts elsewhere. */
+/* The part [from, to] of an element that a load along its member acts on; of a point load
+ * both are its position, in the element after it. 0: the load acts elsewhere. */
 int applied_part(const model *, int element, const scene_load *, double part[2]);
-/* Is that inside the element, not at an end of it? */
+/* 1: x is inside the element, not at an end. */
 int applied_inside(double x);
 /* Vector of a load along the member at x in [0, 1] of an element, as the scene gives it. */
 void applied_vector(const model *, int element, const scene_load *, double x, double vector[3]);
@@ -146,7 +146,7 @@ void applied_vector(const model *, int element, const scene_load *, double x, do
  * and z are the principal ones of the section. */
 void applied_member_axes(const double triad[9], const section *, double axes[9]);
 
-/* What the load times `scale` adds to K, entry by entry; some are zero, some at the same place. */
+/* Adds the load times `scale` to K, entry by entry; some are zero, some at the same position. */
 typedef void (*loads_entry)(void *context, int row, int column, double value);
 void applied_stiffness(const model *, const model_state *, const scene_load *, double scale,
                        loads_entry take, void *context);
@@ -161,8 +161,8 @@ typedef struct arrival {
     double correction, before; /* the last one; the one before it in the same step, or INFINITY */
     double stress;             /* largest one of the path so far [N] */
     double stress_change;      /* by the last correction, relative to it */
-    double contraction;        /* size of a correction by the square of the one before it, as seen
-                                  last; NAN: never */
+    double contraction;        /* last ratio of a correction to the square of the one before it;
+                                  NAN: none */
     double remaining;          /* size of the next correction, predicted; NAN: not known */
 } arrival;
 
@@ -186,8 +186,8 @@ int arrival_tangent_stands(const arrival *);
 
 typedef struct condensation condensation;
 
-/* Elements of a member from which on it pays: before, the assembled tangent costs less and has
- * digits enough. */
+/* Least number of elements of a member: with fewer, the assembled tangent costs less and has enough
+ * digits. */
 enum { CONDENSATION_ELEMENTS = 1000 };
 
 /* *out NULL: members have fewer elements than `from`, or something acts between their ends that has
@@ -214,29 +214,29 @@ factor_counts condensation_count(const condensation *);
 /* A factor that solves by it and owns it. */
 status condensation_as_factor(condensation *, matrix_factor **, fault *);
 
-/* What a mode of vibration or buckling looks like. */
+/* Shape of a mode of vibration or buckling. */
 
 typedef struct mode_shape {
     scene_family family;
     int half_waves;
 } mode_shape;
 status modes_identify(const model *, const scene *, const double mode[], mode_shape *, fault *);
-int modes_in_family(const scene_mode *, const mode_shape *); /* is it what the quantity asks for? */
+int modes_in_family(const scene_mode *, const mode_shape *); /* 1: the quantity asks for it */
 const char *modes_family_name(scene_family);
 /* Modes of equal value[count], one after the other (each [n = free + driven]), may be mixed in any
  * way: they become those that move along the members' z axes and those that do not. */
 status modes_separate(const model *, const scene *, int count, const double value[], size_t n,
                       double *mode, fault *);
 
-/* What an analysis leaves for those that follow it and for the quantities that are read from it. */
+/* Results of an analysis, for quantities and for analyses that follow it. */
 
 /* Critical loads of one sign, ascending in size, or frequencies [rad/s], ascending; with their
  * modes. */
 typedef struct outcome_side {
     int count;
     double *value, *mode; /* [count] NAN: lost in round-off; [count x free] */
-    double *error; /* [count] estimate of what iteration and round-off leave, in parts of the value;
-                      NULL: there is none */
+    double *error; /* [count] estimated relative error by iteration and round-off; NULL: there is
+                      none */
     status status; /* NOT_CONVERGED: ... */
     char reason[FAULT_TEXT]; /* ... why there are no more, or some are lost */
 } outcome_side;
@@ -244,8 +244,8 @@ typedef struct outcome_side {
 typedef struct rotation_modes {
     int count;
     double *frequency, *growth; /* [count] [rad/s], [1/s] */
-    double *error; /* [count] estimate of what iteration and round-off leave of lambda = growth + i
-                      frequency, in parts of its size */
+    double *error; /* [count] estimated relative error of lambda = growth + i frequency by iteration
+                      and round-off */
     mode_shape *shape; /* [count] */
     int negative;      /* eigenvalues of the stiffness, and ... */
     int unproven;      /* ... those of them that the modes do not account for */
@@ -278,8 +278,8 @@ typedef struct station_matrices {
 
 typedef struct outcome_compliance {
     outcome_path path;
-    /* of the six components at the node, at every station [stations x 36]; rows of held components
-     * are zero, columns that nothing asks for NAN; belongs to the result */
+    /* of the six components at the node, at every station [stations x 36]; rows of fixed components
+     * are zero, columns that are not requested NaN; belongs to the result */
     const double *matrix;
     station_matrices *taken; /* [stations] on the way along the path; NULL: none */
 } outcome_compliance;
