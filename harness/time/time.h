@@ -56,20 +56,20 @@ typedef struct step_between {
 
 status between_alloc(const equations *, step_between *, fault *);
 void between_free(step_between *);
-/* Of the step; both instants stay as they are as long as it is read. */
+/* Sets the step; both instants must not change as long as it is read. */
 void between_take(step_between *, between_degree, const instant *from, const instant *to);
-/* Places and rates at a time of the step, or next to it [s]. */
+/* Positions and rates at a time of the step, or next to it [s]. */
 void between_places(const step_between *, double time, instant *at);
-/* With all of a state. Strains, stresses and inner unknowns
- * run linearly from end to end: fit for pictures, not for forces. */
+/* The whole state. Strains, stresses and inner unknowns are linear between the ends of the step:
+ * for pictures, not for forces. */
 void between_at(const step_between *, double time, instant *at);
 
-/* Masses that the frames of a model carry: those of the elements, lumped at their nodes, and rigid
- * bodies. What is joined rigidly to a frame belongs to it: one mass, one centre, one tensor. */
+/* Masses at the frames of a model: those of the elements, lumped at their nodes, and rigid bodies.
+ * All masses joined rigidly to a frame belong to it: one mass, one centre, one tensor. */
 
 /* At one frame, in axes that turn with it and were the fixed ones at rest. */
 typedef struct carried_mass {
-    int frame;         /* vertex with coordinates of its own, or of a released end */
+    int frame;         /* vertex with its own coordinates, or of a released end */
     double mass;       /* [kg] */
     double moment[3];  /* mass times its centre, from the frame [kg m] */
     double inertia[9]; /* about the frame [kg m^2] */
@@ -77,14 +77,14 @@ typedef struct carried_mass {
 
 typedef struct carried_masses {
     int masses;
-    carried_mass *mass; /* [masses] one for each frame that carries any */
+    carried_mass *mass; /* [masses] one for each frame that has any */
     double *warping;    /* [coordinates] of warping amplitudes [kg m^4], else 0 */
     double total;       /* [kg] of these */
-    int spread; /* 1: elements spread theirs along themselves (time_impl.h), and none is here */
+    int spread;         /* 1: elements have a consistent mass (time_impl.h), and none is here */
 } carried_masses;
 
-/* Elements of two nodes carry a half at each, of three Simpson's shares (J Eq. 73). What an end has
- * that is released from its node moves with turns and shifts of its own. */
+/* Elements of two nodes have half their mass at each, of three Simpson's shares (Jonker, Eq. 73).
+ * The mass of a released end moves with its own turns and shifts. */
 status carried_alloc(const model *, carried_masses *, fault *);
 /* Rigid bodies alone, in addition to consistent masses of elements. */
 status carried_alloc_spread(const model *, carried_masses *, fault *);
@@ -94,7 +94,7 @@ struct mesh_element;
 void carried_share(const model *, const struct mesh_element *, int node, carried_mass *,
                    double *warping);
 
-/* Work that comes from outside: of the loads and of what holds driven coordinates on their way. */
+/* Work of external forces: of the loads and of the reactions at prescribed coordinates. */
 
 typedef struct outer_work {
     const equations *eq;

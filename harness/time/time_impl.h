@@ -46,7 +46,7 @@ typedef struct body_mass {
     double *zero;         /* [free + driven] rates */
 } body_mass;
 
-/* Room for any body of the model. */
+/* Allocates room for any body of the model. */
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
 /* Of one body in a state; returns the largest mass in it [kg]. */
@@ -102,33 +102,33 @@ void cayley_between(const cayley_step *, double at, cayley_point *);
 void cayley_forces(const cayley_step *, int columns, double f[]);
 
 /* Strains that belong to the stresses of the state, where the stress function P' of elements is not
- * linear. Newton's increment de leaves sigma = P'(e) + P''(e) de, yet at the new strains P' is off
- * by P''' de^2 / 2: in a member that is stiff in elongation thousands of times what it carries,
- * which the next tangent would take for a force in it. So the strains give way instead, to
- * P'(e) = sigma, and D(x) - e holds the difference: the same equations, from the complementary side
- * (Hellinger-Reissner). Where they converge to does not change. */
+ * linear. Newton's increment de leaves sigma = P'(e) + P''(e) de, yet at the new strains P' differs
+ * by P''' de^2 / 2: in a member that is stiff in elongation thousands of times its force, which the
+ * next tangent would treat as a force in it. So the strains are changed instead, to P'(e) = sigma,
+ * and D(x) - e holds the difference: the same equations in complementary form (Hellinger-Reissner).
+ * Their solution does not change. */
 
 typedef struct complement complement; /* of one state */
 
-/* NULL where there is nothing to do: stresses of all kinds of elements are linear in their strains;
- * they depend on unknowns of the element besides; or the type is asked for all elements at once
- * (another process), which would have to be asked again and again. */
+/* NULL: nothing to do: stresses of all kinds of elements are linear in their strains; they depend
+ * on inner unknowns of the element, too; or the type evaluates all elements at once (another
+ * process), which would need many requests. */
 status complement_alloc(const equations *, complement **out, fault *);
 void complement_free(complement *);
 
 /* Before advance_state. NULL: nothing. */
 void complement_keep(complement *, const model_state *);
-/* After it: e of every element, along the stresses from those that were kept to sigma, which stays.
- * An element stays as it is where its stresses agree to a tenth already, and where no strains
- * are found that have them. iteration: from 1; once all elements agree, corrections that are no
- * larger are not looked at in the same step. NULL: nothing. */
+/* After it: sets e of every element, along the stresses from those that were kept to sigma, which
+ * does not change. An element does not change where its stresses agree to a tenth already, or where
+ * no strains are found that have them. iteration: from 1; once all elements agree, corrections that
+ * are no larger are not checked in the same step. NULL: nothing. */
 void complement_strains(complement *, model_state *, int iteration, double correction);
 
-/* How increments, rates and their derivatives follow from each other while a state moves. */
+/* Relation of increments, rates and their derivatives while a state moves. */
 
-/* What the rates and their derivatives do while a state moves: for translations, warping and angles
- * dv = g dx, da = b dx; for a rotation in the frame's axes the same with d inc in place of dx,
- * which is X R^T times the spatial increment, X = inverse Jacobian of time_impl.h at inc[free +
+/* Change of the rates and their derivatives while a state moves: for translations, warping and
+ * angles dv = g dx, da = b dx; for a rotation in the frame's axes the same with d inc in place of
+ * dx, which is X R^T times the spatial increment, X = inverse Jacobian of time_impl.h at inc[free +
  * driven]. */
 typedef struct inertia_relation {
     double b, g; /* [1/s^2], [1/s] */
@@ -145,9 +145,9 @@ void inertia_turn(const model *, int vertex, const model_state *, const double i
  * of each. */
 void inertia_turns(const model *, const model_state *, int vertex, double turn[9], double rate[9]);
 
-/* How the coordinates of a frame's rotation change in time, and what the rates of a model's
- * coordinates mean: translations, warping amplitudes and angles have their derivatives, a rotation
- * that is free or given by a vector has the angular velocity in axes that turn with the frame. */
+/* Rates of a frame's rotation, and the meaning of the rates of a model's coordinates: translations,
+ * warping amplitudes and angles have their derivatives, a rotation that is free or given by a
+ * vector has the angular velocity in axes that turn with the frame. */
 
 typedef enum rotation_form {
     FORM_BODY,    /* three coordinates: components of the angular velocity in the frame's axes */
@@ -175,7 +175,7 @@ void forms_rates(const model *, const model_state *, int vertex, const double v[
 void forms_add_force(const model *, const model_state *, int vertex, const double F[6],
                      double out[]);
 
-/* Forces of inertia of the masses that frames carry, in inertial axes; with a mass, its first
+/* Forces of inertia of the masses at frames, in inertial axes; with a mass, its first
  * moment c and tensor J about the frame, in spatial axes: force  m a + w' x c + w x (w x c), moment
  * c x a + J w' + w x J w. */
 
@@ -228,11 +228,11 @@ typedef struct massive {
 /* Of the masses in a state, once. */
 status massive_of(const model *, const carried_masses *, const model_state *, massive *, fault *);
 void massive_free(massive *);
-/* Root of the sum of weight[c] e[c]^2 over the free coordinates, without what has no inertia, which
- * e loses. */
+/* Removes motions without inertia from e. Returns the root of the sum of weight[c] e[c]^2 over the
+ * free coordinates. */
 double massive_norm(const massive *, const model *, const double weight[], double e[]);
 
-/* Inside of the conserving step. */
+/* Internals of the conserving step. */
 
 typedef struct evaluation evaluation; /* time_impl.h */
 
@@ -242,8 +242,8 @@ typedef struct conserving {
     int free, all;
     sparse S;
     matrix_factor *factor;
-    double *step; /* [free + driven] dr, Cayley vectors c, da; of single angles and of what released
-                     ends keep to themselves the increments, of balls c */
+    double *step; /* [free + driven] dr, Cayley vectors c, da; of single angles and of released
+                     coordinates the increments, of balls c */
     double *residual, *column, *row, *dx; /* [free + driven]; the tangent is S + column row^T */
     double *weight;
     massive massive;
@@ -286,9 +286,10 @@ void conserving_forces(conserving *, const instant *from, model_state *now,
 void conserving_inertia(conserving *, const instant *from, const model_state *now, double h);
 
 /* conserving.c */
-/* What turns without inertia; REFUSED: all that turns does. */
+/* Finds rotations without inertia. REFUSED: no rotation has inertia. */
 status conserving_massless(conserving *, fault *);
-/* Work of what takes driven masses from the rates of the step to the prescribed ones at its end. */
+/* Work of the impulses that change prescribed masses from the rates of the step to those at its
+ * end. */
 double conserving_impulses(const conserving *, const instant *from, double h, const instant *to);
 /* Rates at the end. */
 void conserving_rates(conserving *, const instant *from, double h, instant *to);
@@ -301,7 +302,7 @@ void conserving_loads(conserving *, const instant *from, const model_state *now,
 void conserving_predict(conserving *, const instant *from, double h);
 void conserving_increment(const conserving *, const model_state *from, double inc[]);
 
-/* conserving_forces.c: what work and dissipation of `to` have become. */
+/* conserving_forces.c: sets work and dissipation of `to`. */
 status conserving_work(conserving *, const instant *from, instant *to, double h, fault *);
 /* Rates of strains at the end; stresses of damped members gain eta S0 e'. */
 void conserving_damped(const conserving *, const instant *from, double h, instant *to);
@@ -314,7 +315,7 @@ typedef struct carried_step {
     double J[9];                                    /* about the centre, in the frame's axes */
     double v0[3], v1[3], W0[3], W1[3];              /* of the centre; in the frame's axes */
     double c[3];
-    int rides, held[3]; /* 1: translations of the frame are held, and not all */
+    int rides, held[3]; /* 1: translations of the frame are fixed, and not all */
     double g[3], behind[3], turned[3], late[3]; /* of these (carried.c) */
 } carried_step;
 
@@ -324,8 +325,8 @@ void carried_step_centre(const model *, const carried_mass *, double centre[3], 
 void carried_step_of(const conserving *, const instant *from, const model_state *now, double h,
                      const carried_mass *, carried_step *);
 
-/* carried.c: where a translation of the frame is held beside free ones. */
-/* v1 of the held ones, and the moment `late`. */
+/* carried.c: frames with fixed and free translations. */
+/* v1 of the fixed ones, and the moment `late`. */
 void carried_step_follow(const carried_mass *, carried_step *);
 /* sway[9] = -h/2 dv1/dc; swept: minus d(centre)/dc, T: cayley_tangent. */
 void carried_step_sway(const carried_step *, double h, const double T[9], const double swept[9],
@@ -334,9 +335,8 @@ void carried_step_sway(const carried_step *, double h, const double T[9], const 
 void carried_step_late(const carried_mass *, const carried_step *, double h, const double T[9],
                        const double sway[9], double K[36]);
 
-/* How the relative motion of a step (time_impl.h) changes with dr, c, da of the nodes, in closed
- * form.
- */
+/* Derivatives of the relative motion of a step (time_impl.h) by dr, c, da of the nodes, in closed
+ * form. */
 
 /* d phi_j = own_j dc_j + common_j dc, d z_j likewise, with c the mean; spin dc: of G. */
 typedef struct cayley_slopes {
@@ -352,19 +352,19 @@ void cayley_slopes_columns(const cayley_step *, const cayley_slopes *, const cay
 /* K[7 nodes x 7 nodes] += derivative of cayley_forces at fixed f[7 nodes]. */
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
-/* Whether a motion can be integrated as it was asked for. REFUSED: it cannot. */
+/* Checks that a motion can be integrated as requested. REFUSED: it cannot. */
 
-/* The form of Newton has what the integrator needs; inertia and drivers can be written in time,
- * with the mass that is asked for. */
+/* The form of Newton's method suits the integrator; inertia and drivers are defined in time, with
+ * the requested mass. */
 status checks_of(const analysis_context *, int analysis, fault *);
-/* What has no inertia is found from balance body by body, and not beside masses that elements
- * spread. Without numerical damping accelerations of what has no inertia grow until they overflow.
- */
+/* Coordinates without inertia follow from balance body by body, not together with consistent
+ * masses. Without numerical damping the accelerations of massless coordinates grow until they
+ * overflow. */
 status checks_massless(const analysis_context *, const carried_masses *, const scene_motion *,
                        const model_state *begin, fault *);
 
-/* A step that keeps energy and both momenta of any formulation, from `strain` at three states and
- * `stress` at the end. With the strains e of its ends,
+/* A step that conserves energy and both momenta for any formulation, from `strain` at three states
+ * and `stress` at the end. With the strains e of its ends,
  *   s = (sigma_n + sigma_1)/2,   W = (P''(e_n) + P''(e_1))/2,
  *   d = sum_g w_g J(x(s_g)) (dr^, phi, da),   sigma_m = s + k W d,
  *   k = sum [P(e_1) - P(e_n) - s.d]/sum d.W d   (one number for the whole structure):
@@ -376,8 +376,8 @@ status checks_massless(const analysis_context *, const carried_masses *, const s
  * depend on how far it is bent, its stiff directions move with the strains, and k W d would press
  * against them. */
 
-/* REFUSED: several angles of a node in sequence; no rotation has inertia. Rates of what has none
- * are those of the mean of a step. */
+/* REFUSED: several angles of a node in sequence; no rotation has inertia. Rates of massless
+ * coordinates are the mean rates of a step. */
 status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
 /* An element or a spring over a step: they differ only in the function that evaluates them. */
@@ -435,7 +435,7 @@ struct evaluation {
 void deformable_evaluate(const conserving *, const instant *from, const model_state *now, int count,
                          evaluation[]);
 
-/* What is prescribed in time: increments, rates and their derivatives of driven coordinates. */
+/* Prescribed coordinates in time: increments, rates and their derivatives. */
 
 /* REFUSED: an unknown driver has no motion in time. */
 status drive_check(const model *, fault *);
@@ -446,13 +446,13 @@ void drive_at(const equations *, const model_state *from, double time, double in
 
 /* Runge-Kutta of order 8 with an error estimate of order 7 (Prince & Dormand 1981, rk8pd of GSL)
  * for inc' = X v,  v' = M^-1 (f - h - J^T sigma), X the inverse Jacobian of time_impl.h for
- * rotations in the frame's axes, 1 else: for truths of a mesh. Positions are increments from the
- * begin of each step. */
+ * rotations in the frame's axes, 1 else: for reference values of a mesh. Positions are
+ * increments from the start of each step. */
 
 /* REFUSED: a coordinate has no inertia. */
 status explicit_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* Inside of the explicit integrator. */
+/* Internals of the explicit integrator. */
 
 typedef struct explicit_scheme {
     motion_scheme base;
@@ -481,13 +481,13 @@ status explicit_accelerate(const model *, const carried_masses *, const model_st
 /* REFUSED: a coordinate of the undeformed model has no inertia. */
 status explicit_check(const model *, const carried_masses *, fault *);
 
-/* How far and how fast the motion has been so far. Tolerances of steps are relative to the largest
- * motion so far, and to no less than a guess of the largest one of all: at first 2 % of the size of
- * the structure. A motion that comes to less than half of its guess is integrated again. */
+/* Extent and rate of the motion so far. Tolerances of steps are relative to the largest motion so
+ * far, but at least to a guess of the largest one of all: at first 2 % of the size of the
+ * structure. A motion that reaches less than half of its guess is integrated again. */
 
 typedef struct extent {
     model_state *begin; /* initial state of the motion */
-    double bent;        /* its distance from the undeformed state: what that is known to is noise */
+    double bent;        /* its distance from the undeformed state, whose rounding is the noise */
     double scale;       /* the guess, in the measure of model.h: 1 is the size of the structure */
     double largest;     /* distance from `begin` so far, of coordinates with inertia */
     double rate;        /* [1/s] largest mean one of a step, likewise */
@@ -495,7 +495,7 @@ typedef struct extent {
     double worst;       /* largest error of an accepted step, by its part of the motion */
 } extent;
 
-/* The guess to begin with. */
+/* The initial guess. */
 extern const double extent_guess;
 
 void extent_begin(extent *, const model *);
@@ -506,11 +506,11 @@ extent extent_with(const extent *, const model *, const motion_scheme *, const i
  * estimates were within the last ten radians of the motion: that of positions vanishes where rates
  * turn, and what rates are off by is largest there. */
 double extent_error(const extent *, const motion_scheme *, double h, double error);
-/* The error that a part of the motion may have by a tolerance of all: what coordinates are rounded
- * by is none. */
+/* Allowed error of a part of the motion by a tolerance of the whole; rounding of coordinates does
+ * not count. */
 double extent_allows(const extent *, double part, double tolerance);
-/* 1: the motion, which is over, was less than half of the guess, its steps too long for a tolerance
- * relative to that, and it is more than the noise of where it began. *scale: a better guess. */
+/* 1: the completed motion was less than half of the guess, its steps are too long for a tolerance
+ * relative to that, and it exceeds the rounding of its initial state. *scale: a better guess. */
 int extent_is_less(const extent *, double tolerance, double *scale);
 
 /* States of a motion for pictures, evenly over its time, between the ends of its steps, too. */
@@ -527,7 +527,7 @@ typedef struct frames {
 /* m, to, begin and end are given; count 0: no pictures. */
 status frames_alloc(frames *, int count, fault *);
 void frames_free(frames *);
-/* The motion is where it begins. */
+/* Stores the initial state. */
 status frames_begin(frames *, const instant *now, fault *);
 status frames_step(frames *, between_degree, const instant *from, const instant *to, fault *);
 
@@ -537,12 +537,12 @@ status frames_step(frames *, between_degree, const instant *from, const instant 
 /* `to` has the frames of `from` moved by inc; its strains, stresses and inner unknowns stay. */
 void increment_apply(const model *, const model_state *from, const double inc[], double time,
                      model_state *to);
-/* The increment that spatial increments dx of the state it has led to, still without them, add. */
+/* Adds to inc the spatial increments dx of the state that it has led to; `now` is without dx. */
 void increment_add(const model *, const model_state *now, const double dx[], double inc[]);
 
-/* The integrator that a motion asks for. */
+/* The integrator that a motion requests. */
 
-/* REFUSED: it cannot integrate this model, and why. */
+/* REFUSED: it cannot integrate this model; the fault says why. */
 status integrator_alloc(const scheme_request *, motion_scheme **, fault *);
 void integrator_free(motion_scheme *);
 
@@ -553,8 +553,8 @@ double kinks_next(const model *, double time);
 /* Time at which a step that ends at a discontinuity reads its loads: just before it. */
 double kinks_before(const model *, double time);
 
-/* One instant of a motion, found by mixed Newton (N section 4) from the instant before: equilibrium
- * with the forces of inertia of rates that follow the increment,
+/* One instant of a motion by mixed Newton (Nijenhuis et al., section 4) from the one before:
+ * equilibrium with the forces of inertia of rates that follow the increment,
  *   v = v0 + g inc,   a = a0 + b inc.
  * Elements keep strains and stresses as unknowns, so that stiff ones cost no iterations. */
 
@@ -587,15 +587,15 @@ status stage_direction(motion_stage *, int fresh, fault *);
 typedef struct stage_rates {
     double b, g;
     const double *a0, *v0;
-    double *inc, *v, *a; /* in: inc is the guess, all of the driven coordinates are right */
+    double *inc, *v, *a; /* in: inc is the guess; prescribed coordinates are exact */
 } stage_rates;
 /* `now` has the strains and stresses of `from`, or better ones, and comes to the state at `time`.
  * NOT_CONVERGED: why; then `now` is of no use. */
 status stage_solve(motion_stage *, const model_state *from, double time, stage_rates *,
                    model_state *now, step_record *, fault *);
 
-/* How a motion begins: velocities that were asked for, and accelerations and massless coordinates
- * that belong to them. */
+/* Initial conditions of a motion: requested velocities, with consistent accelerations and massless
+ * coordinates. */
 
 /* Consistent accelerations and massless coordinates after a discontinuity of the loads; velocities
  * do not change. */
@@ -662,23 +662,21 @@ typedef struct peaks {
     instant last[PEAKS_ENDS], at;
 } peaks;
 
-/* c, analysis, scheme, masses and out are given. Nothing is allotted or done where no quantity asks
- * for it. */
+/* c, analysis, scheme, masses and out are given. Does nothing where no quantity needs extrema. */
 status peaks_alloc(peaks *, fault *);
 void peaks_free(peaks *);
-/* The motion is here, with these energies; last 1: nothing smooth follows, as before a jump of what
- * acts and at the end. */
+/* Adds the end of a step, with its energies. last 1: the last one before a discontinuity of the
+ * loads or of the motion. */
 status peaks_here(peaks *, const instant *, const double balance[SCENE_BALANCES], int last,
                   fault *);
-/* From here on what is there otherwise. */
+/* Starts again after a discontinuity. */
 void peaks_jump(peaks *);
 /* The motion is over. */
 void peaks_end(peaks *);
 
-/* How a frame moves over a step with the coordinates of the body that it belongs to and with those
- * that a released end keeps to itself: exactly, so that forces do the same work on either. With
- * means m of both ends of the step,
- *   beside a body:        dr = dr_b + c x rho_m,   forces f, m + rho_m x f;
+/* Motion of a frame over a step by the coordinates of its body and by those of a released end:
+ * exact, so that forces do the same work on either. With means m of both ends of the step,
+ *   moved by a body:      dr = dr_b + c x rho_m,   forces f, m + rho_m x f;
  *   by angles, or released to turn, each about b, with tau = 2 tan(d angle/2):
  *                         c_k = c_(k-1) + tau_k x_k,  x = [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4)
  *                         with b at the start: along the mean axis, about which no moment acts;
@@ -715,12 +713,12 @@ void place_add(conserving *, const model_state *from, const model_state *now, in
 /* Radau IIA of three stages (Hairer & Wanner II, IV.8), order 5, for q' = v, v' = a: positions of
  * the stages are the unknowns, rotations by their vectors in the frame's axes,
  *   t_i' = 1/h sum_j B_ij t_j,  W_i = Jr(t_i) t_i',  a_i = 1/h sum_j B_ij (v_j - v),  B = A^-1,
- * every stage in mixed Newton (N section 4), all three at once. */
+ * every stage in mixed Newton (Nijenhuis et al., section 4), all three at once. */
 
 /* With an estimate of the error of each step, of order 3, from one more factorisation. */
 status radau_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* The matrix of three stages of one step: blocks [n x n] of three by three, those beside the
+/* The matrix of three stages of one step: blocks [n x n] of three by three, off the
  * diagonal of the masses only. */
 
 enum { STAGES = 3 };
@@ -739,13 +737,13 @@ void stages_free(stages_matrix *);
 void stages_put(stages_matrix *, int stage, const sparse *K);
 void stages_zero(stages_matrix *);
 /* Entries K[columns x columns] of an element of block (i, k) are added, of blocks that are all
- * whole (damping, masses that elements spread). pattern: of a single block. */
+ * whole (damping, consistent masses). pattern: of a single block. */
 void stages_add_element(stages_matrix *, int i, int k, const mesh_pattern *pattern, int element,
                         const double K[]);
 /* Entry (row, column) of block (i, k) += value; nothing where either is not free. */
 void stages_add(stages_matrix *, int i, int k, int row, int column, double value);
 
-/* Inside of the three stages. */
+/* Internals of the three stages. */
 
 /* One stage. */
 typedef struct radau_stage {
@@ -792,27 +790,27 @@ void radau_in_space(const radau *, int vertex, int i, const double B[9], double 
 /* The residual of all stages in their present states, and fresh 1: S. */
 status radau_equations(radau *, int fresh, const instant *from, double h, step_record *, fault *);
 
-/* radau_equations.c: S gains what masses take that elements spread. */
+/* radau_equations.c: adds the consistent masses to S. */
 void radau_spread(radau *, double h);
 
-/* radau_equations.c: residual and, fresh 1, S gain what damped members take. */
+/* radau_equations.c: adds the damping of members to the residual and, fresh 1, to S. */
 void radau_damp(radau *, int fresh, const instant *from, double h);
-/* What they lose in a step that was solved [J]; room[elements x strains]. */
+/* Energy that they dissipate in a solved step [J]; room[elements x strains]. */
 double radau_dissipated(const radau *, const instant *from, double h, double room[]);
 /* Their part in radau_error: the model's stresses, with rates of strains -sum e_i (strains
  * gained)/h and tangent g, until damping_follow says otherwise. room likewise, as long. */
 void radau_damp_error(const radau *, const instant *from, double h, const double e[STAGES],
                       double g, double room[]);
 
-/* radau.c: what a step that was solved adds to the error of positions, in the measure of
- * model.h. [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)), with
- * g = 1/(l h), l the real eigenvalue of A, about the instant before. room: work space. */
+/* radau.c: error of positions that a solved step adds, in the measure of model.h. [g^2 M + K] error
+ * = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)), with g = 1/(l h), l the real
+ * eigenvalue of A, about the instant before. room: work space. */
 status radau_error(radau *, const instant *from, double h, instant *room, double *error, fault *);
 
 /* Masses of ends of members that are released from their nodes: they move with the coordinates of
- * the node's body and with turns and shifts of their own (harness/model/model.h). */
+ * the node's body and with their own turns and shifts (harness/model/model.h). */
 
-/* What such an end, or any other vertex, depends on. */
+/* Coordinates that such an end, or any other vertex, depends on. */
 typedef struct released_masses {
     int count, own;             /* the first of its own coordinates among them */
     int body, ball;             /* first of three turns whose rates are an angular velocity in the
@@ -865,18 +863,18 @@ status resume_take(const analysis_context *, const outcome_end *, instant *now, 
 
 /* Consistent state of coordinates without inertia, from positions and rates at one instant. */
 
-/* What has no inertia comes into balance with what acts from now on and with the rates of the rest,
- * whose gyroscopic moments it takes; then accelerations follow, 0 of what has none. What damping
- * holds where it is for longer than a part of the step h [s] stays there and takes the rates that
- * make the balance. zero[free + driven]. NOT_CONVERGED: there is no such balance. */
+/* Brings massless coordinates into balance with the loads from now on and with the gyroscopic
+ * moments of the other rates; then computes accelerations, 0 of massless coordinates. Coordinates
+ * that damping holds for longer than a part of the step h [s] do not move; their rates make the
+ * balance. zero[free + driven]. NOT_CONVERGED: there is no such balance. */
 status settle(motion_stage *, const double zero[], double h, instant *now, fault *);
 
-/* Forces of inertia as reactions and resultants of sections take them. */
+/* Forces of inertia for reactions and section forces. */
 
-/* The motion that they are asked of. */
+/* The motion that causes them. */
 typedef struct shares_motion {
     const double *v, *a; /* [free + driven] */
-    int spread;          /* 1: elements spread their masses (time_impl.h) */
+    int spread;          /* 1: consistent mass of elements (time_impl.h) */
 } shares_motion;
 
 /* F[6] += force and moment (about the node's frame) that the masses moved by a node take. */
@@ -891,10 +889,9 @@ void shares_along(const model *, const model_state *, const shares_motion *, int
 void shares_ends(const model *, const model_state *, const shares_motion *, int element,
                  double ends[2][7]);
 
-/* Masses that elements spread along themselves (element_type.spreads), in place of those lumped at
- * their nodes: what the motion of an element takes at its nodes, carried to the bodies that move
- * them and to ends that are released. Where an element cannot be evaluated all of its numbers are
- * NAN. */
+/* Consistent masses of elements (element_type.spreads), in place of those lumped at their nodes:
+ * the forces of inertia at an element's nodes, transferred to the bodies that move them and to
+ * released ends. Where an element cannot be evaluated, all of its numbers are NaN. */
 
 struct mesh_element;
 
@@ -914,8 +911,7 @@ void spread_add_balance(const model *, const model_state *, const double v[], do
 typedef struct spread_parts {
     const struct mesh_element *el;
     const model_state *state;
-    int columns; /* coordinates of the element: 7 of each node, behind them those of released ends
-                  */
+    int columns; /* coordinates of the element: 7 of each node, then those of released ends */
     double place[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], /* as inertia_parts */
         velocity[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
         acceleration[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
@@ -957,7 +953,7 @@ status stations_alloc(stations *, fault *);
 void stations_free(stations *);
 /* Those inside a step, the end excepted. */
 status stations_inside(stations *, const instant *from, const instant *to, fault *);
-/* The one where the motion is now, if there is one. */
+/* The station at the present time, if there is one. */
 status stations_here(stations *, const instant *now, const double balance[SCENE_BALANCES], fault *);
 
 /* Rotation vectors that belong to a turn of a frame between two instants, and their rates: with
@@ -982,15 +978,15 @@ void inertia_rates(const model *, const model_state *, int vertex, const double 
 void vertex_rates(const model *, const model_state *, int vertex, const double v[],
                   const double a[], frame_rates *);
 
-/* What a motion passes through between its stations: largest and least values, crossings of a
- * level, means. Roots are those of the polynomial inside a step, to round-off. */
+/* Extrema, crossings of a level and means of a motion between its stations. Roots are those of the
+ * polynomial inside a step, to round-off. */
 
 /* One quantity. */
 typedef struct watched {
     const scene_quantity *q;
     outcome_passing *out;
     double from, until; /* [s] */
-    double noise;       /* values nearer to the level than that have no sign */
+    double noise;       /* values nearer to the level have no sign */
     int side;           /* of the level that was left last; 0: none yet */
     int crossings;      /* of its direction, in the window */
     double first, last; /* [s] of them */
