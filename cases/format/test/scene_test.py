@@ -1,12 +1,18 @@
-"""Scene files through the program: mistakes with their places, bits of the cases, parameters, keys."""
+"""Scene files: their form, names, choices, and parts with their instances."""
+import csv
 import json
+import math
 import re
 import unittest
 
+import numpy as np
+
 from cases.format.test.scene_case import EXAMPLES, SceneCase, values
-from harness.tools.kit.program import ROOT, run
+from harness.tools.kit.program import ProgramTest, ROOT, run
 from harness.tools.kit.scenes import LEAF, bad_scenes
 
+
+# Scene files through the program: mistakes with their places, bits of the cases, parameters, keys.
 GOOD = ROOT / "cases/format/test/good"
 # A part of the motion of twelve joints: all of it takes as long as many other cases together.
 PART = {"hexapod_motion": ("--set", "time=0.05")}
@@ -168,6 +174,272 @@ class SceneTest(SceneCase):
         for path in EXAMPLES.glob("*.yaml"):
             used = set(re.findall(r"^([a-z]+):", path.read_text(encoding="utf-8"), re.M))
             self.assertLessEqual(used, set(schema["properties"]))
+
+
+# What the user named comes back by its name: in messages, tables, folders, records and files.
+NUMBERED = re.compile(r"\b(node|member|section|spring|load|analysis|motion)[ _][0-9]")
+
+GUIDE = """beamwork: 1
+sections:
+  steel: {rectangle: {width: 30e-3, thickness: 0.3e-3}, young: 200e9, shear_modulus: 77e9}
+parts:
+  wing:
+    places: [stage]
+    nodes:
+      foot: {at: [0, 0, 0], hold: all}
+      top: {at: [0, 0.08, 0], part_of: stage}
+    members:
+      leaf: {from: foot, to: top, section: steel, y: [1, 0, 0], warping: fixed}
+instances:
+  left: {part: wing, at: [0, 0, 0], connect: {stage: stage}}
+  right: {part: wing, at: [0.06, 0, 0], connect: {stage: stage}}
+nodes:
+  stage: {at: [0.03, 0.08, 0]}
+  post_$i: {for: {i: 1..2}, at: [i, 0, 0], hold: all}
+  peak: {at: [1.5, 0.2, 0]}
+members:
+  brace_$i: {for: {i: 1..2}, from: post_$i, to: peak, section: steel, y: [0, 0, 1], warping: fixed}
+springs:
+  strap: {from: peak, to: stage, stiffness: [1, 1, 1, 0, 0, 0]}
+loads:
+  push: {force: [0, 1e-3, 0], on: stage}
+analyses:
+  travel: {static: {stations: [0.5, 1]}}
+  support: {compliance: {node: stage, about: travel}}
+quantities:
+  stage_y: {displacement: {analysis: travel, node: stage, component: uy}}
+  k_x: {stiffness: {analysis: support, component: ux}}
+  moment: {internal: {analysis: travel, member: left.leaf, end: from, resultant: Mz}, unit: "N m"}
+"""
+
+# What makes the guide wrong, and what the line says after the place in the file.
+WRONG = [
+    ("hold: all}\n      top: {at: [0, 0.08, 0]", "hold: all}\n      top: {at: [0, 0, 0]",
+     "left.leaf: its ends coincide"),
+    ("from: peak, to: stage, st", "from: peak, to: peak, st", "strap: both its ends are node peak"),
+    ("stiffness: [1, 1, 1, 0", "stiffness: [1, -1, 1, 0", "strap: its stiffness"),
+    ("[0, 1e-3, 0], on: stage", "[0, 1/0, 0], on: stage", "division by zero"),
+    ("{force: [0, 1e-3, 0], on: stage}", "{distributed: [0, 1, 0], on: brace_2, axes: member, follower: yes}\n"
+     "  wind: {moment: [0, 0, 1], on: peak, at: [1, 0, 0]}", "wind: only forces act at an offset"),
+    ("stations: [0.5, 1]", "stations: [1, 0.5]", "travel: its stations must ascend"),
+    ("peak: {at: [1.5, 0.2, 0]}", "peak: {at: [1.5, 0.2, 0], mass: -1}", "mass = -1; give at least 0"),
+]
+
+
+class NamesTest(SceneCase):
+
+    def unnumbered(self, text, what):
+        self.assertIsNone(NUMBERED.search(text), (what, NUMBERED.search(text)))
+
+    def line(self, code, words, *arguments):
+        """The one line of a refusal, in which the words stand."""
+        done = run(*arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(words, done.stderr)
+        self.unnumbered(done.stderr, words)
+        return done.stderr
+
+    def test_refusals(self):
+        for before, behind, words in WRONG:
+            self.assertIn(before, GUIDE)
+            path = self.scene(GUIDE.replace(before, behind))
+            line = self.line(2, words, "solve", "--scene", path)
+            self.assertRegex(line, r"scene\.yaml:\d+:\d+: ")
+
+    def test_tables(self):
+        path = self.scene(GUIDE)
+        text = self.answered("solve", "--scene", path, "-f", "collocation", "-n", 2).stdout
+        self.assertIn("compliance of node stage at path 1", text)
+        self.unnumbered(text, "solve")
+
+    def test_loose(self):
+        path = self.scene(GUIDE.replace("peak: {at", "cloud: {at: [5, 5, 0]}\n  rain: {at: [5, 6, 0]}\n  peak: {at")
+                          .replace("springs:", "  mist: {from: cloud, to: rain, section: steel, y: [1, 0, 0]}\nsprings:"))
+        self.line(1, "node cloud at (5, 5, 0) is not held", "solve", "--scene", path,
+                  "-f", "collocation", "-n", 2)
+
+    def test_written(self):
+        path = self.scene(GUIDE)
+        text = self.answered("scene", "--scene", path).stdout
+        self.unnumbered(text, "scene")
+        for words in ("  left.leaf: {from: left.foot, to: left.top, section: steel", "part_of: stage",
+                      "  strap: {from: peak, to: stage", "  push: {force", "about: travel"):
+            self.assertIn(words, text)
+        self.same_again(path, "-f", "collocation", "-n", 2)
+
+    def test_written_weight(self):
+        """A node that has the name of a member, and a load that came to several."""
+        both = GUIDE.replace("peak", "brace_1").replace("0.2, 0]}", "0.2, 0], mass: 0.1}") + "omit: all\n"
+        weight = both.replace("push: {force: [0, 1e-3, 0], on: stage}", "load_1: {gravity: [0, 1e-3, 0], on: all}").replace(
+            "shear_modulus: 77e9}", "shear_modulus: 77e9, density: 7800}")
+        self.same_again(self.scene(weight), "-f", "collocation", "-n", 2)
+
+    def test_matrices(self):
+        path, folder = self.scene(GUIDE), self.folder / "system"
+        self.answered("solve", "--scene", path, "-f", "collocation", "-n", 2, "--matrices", folder)
+        self.assertTrue((folder / "travel_station_1/K.mtx").exists())
+        names = {}
+        for name in ("dofs", "loads", "states"):
+            with open(folder / f"{name}.csv", encoding="utf-8") as file:
+                names[name] = list(csv.DictReader(file))
+        self.assertEqual({r["member"] for r in names["dofs"]}, {"", "left.leaf", "right.leaf", "brace_1", "brace_2"})
+        self.assertEqual({r["node"] for r in names["loads"]}, {"stage"})
+        self.assertEqual({r["analysis"] for r in names["states"]}, {"", "travel"})
+
+    def test_records(self):
+        record = self.record("solve", "--scene", self.scene(GUIDE), "-f", "collocation", "-n", 2)
+        self.assertEqual({m["node_name"] for m in record["matrices"]}, {"stage"})
+
+    def test_export(self):
+        alone = re.sub(r"springs:\n.*\n", "", GUIDE)
+        self.line(2, "node peak: corners of members", "export", "--scene", self.scene(alone), "--to", "calculix")
+        free = re.sub(r"members:\n  brace.*\n|  (post|peak).*\n", "", alone).replace("warping: fixed", "warping: free")
+        self.line(2, "member left.leaf: its ends warp", "export", "--scene", self.scene(free), "--to", "calculix")
+
+
+class OfFile(ProgramTest):
+    def test_any_file_name(self):
+        """What a name cannot have becomes '_', one for each character."""
+        text = (ROOT / "cases" / "examples" / "euler_column.yaml").read_text(encoding="utf-8")
+        text = "\n".join(line for line in text.splitlines() if not line.startswith("name:"))
+        for file, name in (("my-leaf.yaml", "my_leaf"), ("2 blätter.yaml", "scene_2_bl_tter"),
+                           (".yaml", "scene_"), ("x" * 60 + ".yaml", "x" * 47)):
+            path = self.folder / file
+            path.write_text(text, encoding="utf-8")
+            self.assertIn(f"\nname: {name}\n", self.answered("scene", "--scene", path).stdout)
+
+
+# What of a scene file hangs on its parameters.
+CHOSEN = """\
+beamwork: 1
+parameters:
+  load:  {value: tip, choices: [tip, root_side], about: "where it is"}
+  size:  {value: 3, unit: N, min: 0, max: 100, about: "of it"}
+  shear: {value: 0, choices: [0, 1], about: "1: flexible in shear"}
+let:
+  high: sign(size - 10)
+  place: {load: {tip: tip, else: middle}}
+  part: {high: {1: {shear: {0: 0.5, 1: 0.25}}, else: 1}}
+refuse:
+  - {if: {load: root_side, high: [0, 1]}, say: "size = $size N on the root's side; give less than 10 N"}
+sections:
+  leaf: {rectangle: {width: 0.05, thickness: 0.5e-3}, young: 210e9, shear_modulus: 81e9}
+nodes:
+  base: {at: [0, 0, 0], hold: all}
+  middle: {at: [0.05, 0, 0]}
+  tip: {at: [0.1, 0, 0]}
+members:
+  near: {from: base, to: middle, section: leaf, y: [0, 1, 0]}
+  far: {from: middle, to: tip, section: leaf, y: [0, 1, 0]}
+loads:
+  push_$i: {for: {i: 1..2}, if: {load: tip}, force: [0, part*size/2, 0], on: place}
+  push: {if: {load: [root_side]}, force: [0, part*size, 0], on: place}
+omit: {trapeze: yes, shear: {shear: 0}}
+meshes: {shear: {0: [1, 2], 1: [1, 2, 4]}}
+"""
+
+
+class ChoicesTest(SceneCase):
+
+    def written(self, *assignments):
+        """Lines of the scene at these values: loads, omit, meshes."""
+        given = [word for one in assignments for word in ("--set", one)]
+        text = self.answered("scene", "--scene", self.scene(CHOSEN), *given).stdout
+        loads = text[text.index("loads:"):text.index("analyses:")].split()[1:]
+        ends = {line.split(":")[0]: line for line in text.splitlines() if line[:4] in ("omit", "mesh")}
+        return " ".join(loads), ends["omit"], ends["meshes"]
+
+    def test_values_choose(self):
+        """Entries, values, physics and meshes are those of the values that the parameters have."""
+        self.assertEqual(self.written(),
+                         ("push_1: {force: [0, 1.5, 0], on: tip} push_2: {force: [0, 1.5, 0], on: tip}",
+                          "omit: [shear, trapeze]", "meshes: [1, 2]"))
+        self.assertEqual(self.written("load=root_side", "shear=1"),
+                         ("push: {force: [0, 3, 0], on: middle}", "omit: [trapeze]",
+                          "meshes: [1, 2, 4]"))
+        self.assertIn("force: [0, 5, 0]", self.written("size=20")[0])
+        self.assertIn("force: [0, 2.5, 0]", self.written("size=20", "shear=1")[0])
+
+    def test_refused(self):
+        """Values that make no scene are refused at the place that says so; a switch has two values."""
+        path = self.scene(CHOSEN)
+        self.refused(2, f"{path}:11:49: size = 12.5 N on the root's side; give less than 10 N", "solve",
+                     "--scene", path, "--set", "load=root_side", "--set", "size=12.5")
+        self.refused(2, "shear", "solve", "--scene", path, "--set", "shear=0.5")
+
+
+# Parts and their instances: what is placed is what its members, springs and supports are when they are written out.
+
+# LEAF along z, as an instance of a part.
+PLACED = """\
+beamwork: 1
+sections:
+  leaf: {rectangle: {width: 50e-3, thickness: 0.5e-3}, young: 210e9, shear_modulus: 81e9}
+nodes:
+  tip: {at: [0, 0, 0.1]}
+parts:
+  arm:
+    places: [end]
+    nodes: {root: {at: [0, 0, 0], hold: all}}
+    members: {leaf: {from: root, to: end, section: leaf, y: [0, 1, 0]}}
+instances:
+  one: {part: arm, at: [0, 0, 0], axes: {x: [0, 0, 2], z: [0, -1, 0]}, connect: {end: tip}}
+loads:
+  push: {force: [1, 0, 0], on: tip}
+"""
+
+
+class PartsTest(SceneCase):
+
+    def test_instance_by_axes(self):
+        """An instance placed by its axes is what its members are when they are written out."""
+        got = values(self.record("solve", "--scene", self.scene(PLACED), "-f", "collocation",
+                                 "-n", 1))
+        own = values(self.record("solve", "--scene", self.scene(LEAF), "-f", "collocation", "-n",
+                                 1))
+        self.assertAlmostEqual(abs(got["tip_ux"]) / own["tip_uy"], 1, delta=1e-12)
+
+    def test_springs_of_a_part(self):
+        """In its axes: a turned part's spring is the one of the turned matrix T K T^T, on a port as between its own nodes."""
+        turn, a = 0.4, [3e3, 1e3, 2e3, 4.0, 5.0, 6.0]
+        c, s = math.cos(turn), math.sin(turn)
+        R = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])
+        K = R @ (np.diag(a) + 0.1*np.ones((6, 6))) @ R.T
+        def numbers(matrix):
+            return ", ".join(repr(float(x)) for x in ((matrix + matrix.T) / 2).ravel())
+        placed = PLACED.replace("parts:", f"""parts:
+  bearing: {{places: [at], springs: {{s: {{to: at, stiffness: [{numbers(np.diag(a) + 0.1*np.ones((6, 6)))}]}}}}}}
+  pair:
+    places: [at]
+    nodes: {{own: {{at: [0, 0, 0]}}}}
+    springs: {{s: {{from: at, to: own, stiffness: [{numbers(np.array(a))}]}}}}""").replace("instances:", f"""instances:
+  b: {{part: bearing, at: [0, 0, 0.1], turn: {{z: {turn}}}, connect: {{at: tip}}}}
+  p: {{part: pair, at: [0, 0, 0.1], turn: {{z: {turn}}}, connect: {{at: tip}}}}""") + "  pull: {force: [0.5, 1, 2], on: p.own}\n"
+        plain = PLACED.replace("parts:", "  own: {at: [0, 0, 0.1]}\nparts:").replace("loads:", f"""springs:
+  b: {{to: tip, stiffness: [{numbers(K)}]}}
+  p: {{from: tip, to: own, stiffness: [{numbers(R @ np.diag(a) @ R.T)}]}}
+loads:""") + "  pull: {force: [0.5, 1, 2], on: own}\n"
+        where = ("-f", "collocation", "-n", 2)
+        got = self.same_again(self.scene(placed, "placed.yaml"), *where)
+        own = values(self.record("solve", "--scene", self.scene(plain, "plain.yaml"), *where))
+        for name, value in own.items():
+            self.assertAlmostEqual(got[name.replace("own", "p.own")] / value, 1, delta=1e-9, msg=name)
+        self.assertGreater(min(map(abs, own.values())), 1e-9)
+
+    def test_components_of_a_turned_part(self):
+        """Held and driven along the part's axes where these are axes of the scene; a motion against its axis is refused."""
+        part = PLACED.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
+            "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
+        where = ("-f", "collocation", "-n", 1)
+        got = self.same_again(self.scene(part, "part.yaml"), *where)  # its x is z of the scene
+        plain = LEAF.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
+            "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
+        self.assertNotEqual(plain, LEAF)
+        own = values(self.record("solve", "--scene", self.scene(plain), *where))
+        self.assertAlmostEqual(got["tip_uz"], 1e-3, delta=1e-4)
+        self.assertAlmostEqual(got["tip_uz"] / own["tip_ux"], 1, delta=1e-9)
+        self.refused(2, "drive: components that are not along axes of the scene", "scene", "--scene",
+                     self.scene(part.replace("x: [0, 0, 2]", "x: [0, 0, -2]")))
 
 
 if __name__ == "__main__":
