@@ -1,13 +1,20 @@
-"""Formulations of one's own from Python, through both doors: the bits of the program."""
+"""How Python finds, loads and installs the module, and what the module says of itself."""
+import importlib.util
 import json
 import os
+import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import unittest
 
-from harness.library.python.test.module import ROOT, SETTINGS, ModuleTest, python
+from harness.library.python.test.module import (FOLDER, LIBRARY, ModuleTest, ROOT, SETTINGS, bw,
+                                                python)
 from harness.tools.kit.program import environment
 
+
+# Formulations of one's own from Python, through both doors: the bits of the program.
 EXAMPLES = ROOT / "elements" / "examples"
 CASE = "tapered_cantilever"
 # Loaded once in the life of a process: each in a Python of its own.
@@ -77,6 +84,106 @@ class Doors(ModuleTest):
             with self.subTest(door):
                 self.assertEqual(len(done.stdout.splitlines()), 1, done.stderr)
                 self.assertIn(words, done.stdout)
+
+
+# The module finds its library, or says in one line what to do.
+class Finding(ModuleTest):
+
+    def test_missing(self):
+        """No library: one line that says what to do."""
+        settings = {**SETTINGS, "BEAMWORK_LIBRARY": str(self.folder / "none.so")}
+        done = python("import beamwork", env=environment(**settings))
+        last = done.stderr.strip().splitlines()[-1]
+        self.assertTrue(last.startswith("ImportError: beamwork: "), last)
+        self.assertIn("none.so", last)
+        self.assertIn("BEAMWORK_LIBRARY", last)
+
+    def test_no_library(self):
+        path = self.folder / "rubbish.so"
+        path.write_bytes(b"rubbish")
+        done = python("import beamwork",
+                      env=environment(**{**SETTINGS, "BEAMWORK_LIBRARY": str(path)}))
+        self.assertIn("ImportError: beamwork: ", done.stderr.strip().splitlines()[-1])
+
+    def test_another_library(self):
+        """A library that is not ours names what it lacks."""
+        path = self.folder / "other.so"
+        subprocess.run(["cc", "-shared", "-o", path, "-xc", "/dev/null"], check=True)
+        done = python("import beamwork",
+                      env=environment(**{**SETTINGS, "BEAMWORK_LIBRARY": str(path)}))
+        self.assertIn("bw_", done.stderr.strip().splitlines()[-1])
+
+    def test_beside_and_installed(self):
+        """Without the variable: beside the module, and in lib of the prefix it is installed in."""
+        source = os.path.dirname(bw.__file__)
+        for module, library in (("here/beamwork", "here"), ("here2/beamwork", "here2/beamwork"),
+                                ("p/lib/python3/dist-packages/beamwork", "p/lib"),
+                                ("q/lib/python3/dist-packages/beamwork", "q/lib/x86_64-linux-gnu"),
+                                ("clone/harness/library/python/beamwork", "clone/build")):
+            with self.subTest(library):
+                place = self.folder / module
+                subprocess.run(["cp", "-r", source, f"{self.folder}/copied"], check=True)
+                place.parent.mkdir(parents=True, exist_ok=True)
+                os.rename(self.folder / "copied", place)
+                (self.folder / library).mkdir(parents=True, exist_ok=True)
+                os.link(LIBRARY, self.folder / library / LIBRARY.name)
+                settings = {**SETTINGS, "PYTHONPATH": str(place.parent)}
+                del settings["BEAMWORK_LIBRARY"]
+                without = {k: v for k, v in environment(**settings).items()
+                           if k != "BEAMWORK_LIBRARY"}
+                done = python("import beamwork; print(beamwork.path)", env=without)
+                self.assertEqual(done.stdout.strip(),
+                                 str(self.folder / library / LIBRARY.name), done.stderr)
+
+
+# The module as pip installs it, without a network.
+
+# --no-build-isolation takes them from here.
+NEEDS = [name for name in ("pip", "setuptools", "wheel") if importlib.util.find_spec(name) is None]
+
+
+class Installed(ModuleTest):
+
+    @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
+    def test_pip(self):
+        """Into a folder, offline; imported from there it solves."""
+        source, target = self.folder / "source", self.folder / "target"
+        shutil.copytree(FOLDER, source, ignore=shutil.ignore_patterns("__pycache__"))
+        done = subprocess.run([sys.executable, "-m", "pip", "install", "--no-build-isolation",
+                               "--no-index", "--no-deps", "--target", target, source],
+                              text=True, capture_output=True, check=False,
+                              env=environment(HOME=str(self.folder)))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        installed = {path.name for path in (target / "beamwork").glob("*.py")}
+        self.assertEqual(installed, {path.name for path in (FOLDER / "beamwork").glob("*.py")})
+        done = python("import beamwork as bw; print(bw.__file__)\n"
+                      "print(bw.Scene.case('elastica').solve('beamw', 1)['w_over_L'] > 0)",
+                      env=environment(**{**SETTINGS, "PYTHONPATH": str(target)}))
+        path, solved = done.stdout.split()
+        self.assertEqual((pathlib.Path(path).parent, solved), (target / "beamwork", "True"))
+
+
+# What the module says of itself: the version of the program, and help of every public name.
+class Said(ModuleTest):
+
+    def test_version(self):
+        """One version: of the citation, of the library, and of what pip installs."""
+        cited = re.search(r"^version: (\S+)", (ROOT / "CITATION.cff").read_text("utf-8"), re.M)
+        project = (FOLDER / "pyproject.toml").read_text("utf-8")
+        packed = re.search(r'^version = "(.*)"', project, re.M)
+        self.assertEqual({cited.group(1), packed.group(1)}, {bw.version})
+
+    def test_help(self):
+        """Every public name says what it is."""
+        done = python("import beamwork; help(beamwork)")
+        for name in bw.__all__:
+            self.assertIn(name, done.stdout)
+            if callable(getattr(bw, name)):
+                self.assertTrue(getattr(bw, name).__doc__, name)
+        for cls in (bw.Scene, bw.Result, bw.Records):
+            for name, member in vars(cls).items():
+                if not name.startswith("_") and callable(member):
+                    self.assertTrue(member.__doc__, f"{cls.__name__}.{name}")
 
 
 if __name__ == "__main__":
