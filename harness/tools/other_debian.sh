@@ -28,4 +28,4 @@ cp /etc/resolv.conf "$root/etc/resolv.conf"
 git clone -q . "$root/root/beamwork" || exit 1
 options='CFLAGS="-O2 -g"'
 inside 1200 "make -s verify $options VERIFY='-k \"warping_torsion or c_column/default\"'" || exit 1
-inside 900 "make -s test $options TESTS='build/elements/test/quadrature_test build/harness/numerics/test/linear_test' PYTHON_TESTS='harness/records/test/compare_test.py harness/records/test/hash_test.py harness/records/test/part_test.py harness/records/test/short_table_test.py harness/records/test/files_test.py harness/records/test/frames_test.py harness/records/test/matrices_test.py harness/records/test/schema_test.py'"
+inside 900 "make -s test $options TESTS='build/elements/test/quadrature_test build/harness/numerics/test/linear_test' PYTHON_TESTS='harness/records/test/compare_test.py harness/records/test/sweep_test.py harness/records/test/short_table_test.py harness/records/test/files_test.py harness/records/test/matrices_test.py harness/records/test/schema_test.py'"

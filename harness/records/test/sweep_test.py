@@ -1,8 +1,13 @@
-"""beamwork compare of two sweeps: points matched by their parameters, the thresholds and statuses of runs."""
-from harness.records.test import stored
-from harness.records.test.stored import group_of, verify
-from harness.tools.kit.program import ROOT, ProgramTest, run
+"""Results of sweeps and of parts of a run, and the hash of a scene."""
+import h5py
+import numpy
 
+from harness.records.test import stored
+from harness.records.test.stored import altered, group_of, replace, table_of, verify
+from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, run
+
+
+# beamwork compare of two sweeps: points matched by their parameters, the thresholds and statuses of runs.
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 SAME = "0 worse, 0 better, 0 changed, 0 gone, 0 new"
 OPTIONS = ("-f", "beamw", "-f", "sheet_third", "-n", "1,2,4")
@@ -14,7 +19,7 @@ def sweep(path, *what):
     return path
 
 
-def altered(old, new, change):
+def altered_sweep(old, new, change):
     return stored.altered(old, new, lambda file: change(file["experiments/sweep"]))
 
 
@@ -34,7 +39,7 @@ class Sweeps(ProgramTest):
 
     def check(self, change, lines, *options):
         """Of a copy in which something was changed; and what the same says the other way round."""
-        new = altered(self.old, self.new, change)
+        new = altered_sweep(self.old, self.new, change)
         self.assertEqual(self.compared(int(bool(lines)), new, *options)[0], lines)
         back, _ = self.compared(int(bool(lines)), self.old, *options, old=new)
         turned = {"worse": "better", "better": "worse", "gone": "new", "new": "gone", "changed": "changed"}
@@ -51,10 +56,10 @@ class Sweeps(ProgramTest):
                 file["error"][1, 0, 2, 1] = 0.01 * by
             return change
 
-        old = altered(self.old, self.folder / "old.h5", grow(1))
+        old = altered_sweep(self.old, self.folder / "old.h5", grow(1))
         for by, threshold, word in ((1.005, "error=0.01", None), (1.005, "error=0.001", "worse"), (1.02, "error=0.01", "worse"),
                                     (0.9, "error=0.01", "better"), (-1, "error=0.01", "changed")):
-            new = altered(self.old, self.new, grow(by))
+            new = altered_sweep(self.old, self.new, grow(by))
             lines, _ = self.compared(int(word is not None), new, "--threshold", threshold, old=old)
             self.assertEqual(lines, [] if word is None else [
                 f"{word:8} elastica/load=1/beamw n=4: error of u_over_L +1 % -> {by:+.4g} %"])
@@ -79,10 +84,10 @@ class Sweeps(ProgramTest):
         self.check(fails, ["worse    elastica/load=2/sheet_third n=1: ok -> singular"])
         self.check(loses, ["worse    elastica/load=1.5/beamw n=1: w_over_L has no value any more"])
         self.check(other, [f"worse    elastica/load=0.5/beamw n={n}: ok -> other model" for n in (1, 2, 4)])
-        lines, _ = self.compared(1, altered(self.old, self.new, costs))
+        lines, _ = self.compared(1, altered_sweep(self.old, self.new, costs))
         self.assertRegex("\n".join(lines), r"^worse    elastica/load=0.5/beamw n=1: cost .* ms -> .* ms \(\+3.0 %\)$")
         self.compared(0, self.new, "--threshold", "work=0.05")
-        lines, _ = self.compared(1, altered(self.old, self.new, refers))
+        lines, _ = self.compared(1, altered_sweep(self.old, self.new, refers))
         self.assertRegex("\n".join(lines), r"^changed  elastica/load=0.5/reference: theta .* -> .*$")
 
     def test_points(self):
@@ -114,7 +119,7 @@ class Sweeps(ProgramTest):
         with group_of(self.old) as old, group_of(new) as file:
             self.assertEqual((len(old["quantities"]), len(file["quantities"])), (3, 1))
         self.compared(0, new)
-        lines, _ = self.compared(1, altered(new, self.folder / "none.h5", lambda file: file.attrs.__delitem__("selection")))
+        lines, _ = self.compared(1, altered_sweep(new, self.folder / "none.h5", lambda file: file.attrs.__delitem__("selection")))
         self.assertIn("gone     elastica/load=1/beamw n=2: w_over_L", lines)
 
     def test_words_and_scenes(self):
@@ -141,6 +146,186 @@ class Sweeps(ProgramTest):
                 file[name] = [1.5]
 
             for change, what in ((drop, name), (empty, "value" if name == "meshes" else name)):
-                self.refused(2, f"{what} is missing or damaged", "compare", self.old, altered(self.old, self.new, change))
+                self.refused(2, f"{what} is missing or damaged", "compare", self.old, altered_sweep(self.old, self.new, change))
         self.refused(2, "a sweep of version 7, this program reads 1", "compare", self.old,
-                     altered(self.old, self.new, lambda file: file.attrs.modify("beamwork_sweep", 7)))
+                     altered_sweep(self.old, self.new, lambda file: file.attrs.modify("beamwork_sweep", 7)))
+
+
+# compare of a part: what a run was not asked for is counted, what it was asked for and lost is
+# gone.
+CASE = "warping_torsion"
+SCENE = ROOT / "cases" / "examples" / "euler_column.yaml"
+
+
+def without(file, formulation):
+    """Takes a formulation out of the case."""
+    for name in ("cells", "quantities", "verdicts"):
+        rows = file[f"cases/{CASE}/{name}"][()]
+        kept = rows[rows["formulation"] != formulation.encode()]
+        assert len(kept) < len(rows), name
+        replace(file[f"cases/{CASE}"], name, kept)
+
+
+def is_new(file, formulation, value):
+    rows = file["declarations"][()]
+    rows["is_new"][rows["formulation"] == formulation.encode()] = value
+    file["declarations"][...] = rows
+
+
+class Part(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.class_folder()
+        cls.whole, cls.table = folder / "whole.h5", folder / "whole.csv"
+        verify(f"{CASE}/default or elastica/default or c_column/default", cls.whole)
+        with h5py.File(cls.whole) as file:  # as a run of all that there is
+            cls.series = sum(len({(r["point"], r["formulation"]) for r in group["cells"][()]})
+                             for group in file["cases"].values())
+        cls.whole = altered(cls.whole, folder / "all.h5", lambda f: f.attrs.pop("selection"))
+        table_of(cls.whole, cls.table)
+
+    def compared(self, new, code, *words, old=None):
+        """Against the whole run and its short table, in both directions."""
+        for before in [old] if old else [self.whole, self.table]:
+            for pair in ((before, new), (new, before)):
+                done = run("compare", *pair)
+                self.assertEqual(done.returncode, code, (pair, done.stdout, done.stderr))
+                for word in words:
+                    self.assertIn(word, done.stdout)
+
+    def outside(self, new, left):
+        self.compared(new, 0, " 0 worse, 0 better, 0 changed, 0 gone, 0 new",
+                      f"{left} series of ", f" outside the selection of {new}")
+
+    def test_a_case(self):
+        new = verify(f"{CASE}/default", self.folder / "n.h5")
+        with h5py.File(new) as file:
+            self.assertEqual(file.attrs["selection"], f"{CASE}/default".encode())
+            own = len({r["formulation"] for r in file[f"cases/{CASE}/cells"][()]})
+        self.outside(new, self.series - own)
+
+    def test_formulations(self):
+        new = self.folder / "n.h5"
+        self.answered("verify", "-k", f"{CASE}/default", "-f", "beamw", "-f", "collocation", "-o",
+                      new)
+        self.outside(new, self.series - 2)
+
+    def test_options_that_only_one_was_asked_for(self):
+        new = self.folder / "n.h5"
+        self.answered("verify", "-k", "elastica/default", "-f", "collocation:stages=4", "-f",
+                      "collocation", "-o", new)
+        self.compared(new, 0, f"2 series of {new} are outside the selection of ")
+
+    def test_a_scene(self):
+        """A run of one scene against one of all cases and the scene."""
+        old, new = self.folder / "o.h5", self.folder / "n.h5"
+        self.answered("verify", "--built-in", "--scene", SCENE, "-o", old, "-k",
+                      "euler_column or elastica/default")
+        self.answered("verify", "--scene", SCENE, "-o", new)
+        self.compared(new, 0, "outside the selection of", old=altered(
+            old, self.folder / "all.h5", lambda f: f.attrs.pop("selection")))
+
+    def test_quantities(self):
+        """Limits of what is selected are compared, those of the rest are not missed."""
+        new = verify("c_column/default and buckling_load", self.folder / "n.h5")
+        self.compared(new, 0, " 0 gone, 0 new")
+        done = self.answered("compare", self.table, new)
+        self.assertIn("compared by limits only", done.stdout)
+
+        def other(file):
+            rows = file["cases/c_column/verdicts"][()]
+            own = (rows["formulation"] == b"beamw") & (rows["quantity"] == b"buckling_load")
+            self.assertEqual(own.sum(), 1)
+            rows["limit"][own] *= 1.001
+            file["cases/c_column/verdicts"][...] = rows
+
+        changed = altered(new, self.folder / "c.h5", other)
+        done = self.answered("compare", self.table, changed, code=1)
+        self.assertIn("changed  c_column/default/beamw: limit of buckling_load", done.stdout)
+
+    def test_a_lost_series_inside_is_gone(self):
+        for select, options in ((f"{CASE}/default", ()), (f"{CASE}/default", ("-f", "beamw", "-f",
+                                                                              "collocation"))):
+            new = verify(select, self.folder / "n.h5", *options)
+            lost = altered(new, self.folder / "l.h5", lambda file: without(file, "beamw"))
+            for old in (self.whole, self.table):
+                done = self.answered("compare", old, lost, code=1)
+                self.assertIn(f"gone     {CASE}/default/beamw", done.stdout)
+
+    def test_new_formulations_are_told(self):
+        """One that is in one run only is a change, unless it is new."""
+        old = altered(self.whole, self.folder / "o.h5", lambda file: without(file, "beamw"))
+        for new in (False, True):
+            run_of = altered(self.whole, self.folder / "n.h5",
+                             lambda file, new=new: is_new(file, "beamw", new))
+            done = self.answered("compare", old, run_of, code=0 if new else 1)
+            self.assertEqual("do not affect the exit status, is in" in done.stdout, new, done.stdout)
+            self.assertEqual(f"new      {CASE}/default/beamw" in done.stdout, not new)
+
+    def test_a_selection_that_cannot_be(self):
+        bad = altered(self.whole, self.folder / "n.h5",
+                      lambda f: f.attrs.create("selection", numpy.bytes_("(elastica")))
+        done = self.answered("compare", self.whole, bad, code=2)
+        self.assertIn("selection is missing or damaged", done.stderr)
+
+
+# compare --hash: times and machines leave it alone, anything else that a run says does not.
+TABLES = "cases/snap_through"
+
+
+class Hash(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.old = cls.class_folder() / "old.h5"
+        verify("snap_through/default and beamw", cls.old)
+
+    def hashes(self, change, code):
+        """Of the run and of a copy of which change(file) was made."""
+        new = altered(self.old, self.folder / "new.h5", change)
+        out = self.answered("compare", "--hash", self.old, new, code=code).stdout
+        return [line.split()[0] for line in out.splitlines()]
+
+    def test_times_and_machines(self):
+        def change(file):
+            rows = file[TABLES]["cells"][()]
+            rows["seconds_solve"] *= 2
+            rows["seconds_setup"] += 1
+            replace(file[TABLES], "cells", rows)
+            file.attrs["processor"] = numpy.bytes_("another")
+            file.attrs["clock"] = numpy.bytes_("2000-01-01")
+        ours, theirs = self.hashes(change, 0)
+        self.assertRegex(ours, "^[0-9a-f]{64}$")
+        self.assertEqual(ours, theirs)
+
+    def test_the_last_bit(self):
+        """Of one number of every table that has rows."""
+        for table, column in (("quantities", "value"), ("cells", "iterations"),
+                              ("verdicts", "limit"), ("steps", "path")):
+            def change(file, table=table, column=column):
+                rows = file[TABLES][table][()]
+                at = numpy.flatnonzero(numpy.isfinite(rows[column]))[0]
+                rows[column][at] = (numpy.nextafter(rows[column][at], 9e9)
+                                    if rows[column].dtype.kind == "f" else rows[column][at] + 1)
+                replace(file[TABLES], table, rows)
+            self.assertEqual(len(set(self.hashes(change, 1))), 2, table)
+
+    def test_words_rows_and_arrays(self):
+        def word(file):
+            rows = file[TABLES]["verdicts"][()]
+            rows["verdict"][0] = b"other"
+            replace(file[TABLES], "verdicts", rows)
+
+        def row(file):
+            replace(file[TABLES], "quantities", file[TABLES]["quantities"][()][:-1])
+
+        def array(file):
+            values = file[TABLES]["curve_value"][()]
+            replace(file[TABLES], "curve_value", numpy.append(values, 0.0))
+        for change in (word, row, array):
+            self.assertEqual(len(set(self.hashes(change, 1))), 2, change.__name__)
+
+    def test_refused(self):
+        self.refused(2, ["not a file of this program"], "compare", "--hash", PROGRAM)
+        self.refused(2, ["--hash is of whole files"], "compare", "--hash", self.old, "-k", "beamw")
