@@ -1,8 +1,15 @@
-"""What is not asked for is not computed."""
+"""What is computed and printed: what was asked for, what can be had, what is chosen, and what ranks nothing."""
+import json
+import re
+import subprocess
+import unittest
+
 import h5py
 
-from harness.tools.kit.program import ProgramTest
+from harness.tools.kit.program import ProgramTest, ROOT, environment, run
 
+
+# What is not asked for is not computed.
 HEAD = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9,
                density: 7850}}
@@ -129,3 +136,206 @@ class Asked(ProgramTest):
             cells = group["cells"][()]
             finest = cells[cells["elements"] == 16]
             self.assertEqual(list(finest["factorisations"]), [3])
+
+
+# What can be had is printed; what cannot is told with its reason and by the exit status.
+BAR = """beamwork: 1
+parameters: {depth: {value: 0.1, unit: m, min: 0.05, max: 0.5, about: "of the section at b"},
+             damping: {value: 0, unit: s, min: 0, max: 1, about: "of the member"}}
+sections:
+  s: {i: {depth: 0.2, flange: 0.1, flange_thickness: 0.008, web_thickness: 0.005}, young: 210e9,
+      shear_modulus: 81e9, density: 7850}
+  t: {i: {depth: depth, flange: 0.1, flange_thickness: 0.008, web_thickness: 0.005}, young: 210e9,
+      shear_modulus: 81e9, density: 7850}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [2, 0, 0]}}
+members: {m: {from: a, to: b, section: [s, t], y: [0, 1, 0], damping: damping}}
+loads: {p: {force: [0, 0, 100], on: b}}
+analyses: {run: {linear: {}}}
+quantities: {uz: {displacement: {analysis: run, node: b, component: uz}}}
+"""
+HINGES = """beamwork: 1
+sections: {s: {constants: {A: 1e-3, Iy: 1e-6, Iz: 1e-6, It: 2e-6}, young: 210e9,
+               shear_modulus: 81e9}}
+nodes: {a: {at: [0, 0, 0], hold: all}, m: {at: [1, 0, 0]}, b: {at: [2, 0, 0], hold: all}}
+members:
+  p: {from: a, to: m, section: s, y: [0, 1, 0], release: {to: [rz]}}
+  q: {from: m, to: b, section: s, y: [0, 1, 0], release: {from: [rz]}}
+loads: {f: {force: [0, 960, 0], on: m}}
+analyses: {run: {linear: {}}}
+quantities:
+  uy: {displacement: {analysis: run, node: m, component: uy}}
+  rz: {displacement: {analysis: run, node: m, component: rz}}
+"""
+
+
+class Had(ProgramTest):
+    def scene(self, text):
+        path = self.folder / "own.yaml"
+        path.write_text(text)
+        return path
+
+    def test_one_quantity_of_two(self):
+        words = ("solve", "--scene", self.scene(HINGES), "-f", "collocation", "-n", "2")
+        done = run(*words)
+        self.assertEqual(done.returncode, 1, done)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done)
+        self.assertIn("node m turns by itself", done.stderr)
+        self.assertRegex(done.stdout, r"uy +7\.61904")
+        told = json.loads(run(*words, "--format", "json").stdout)
+        values = {q["quantity"]: q["value"] for q in told["quantities"]}
+        self.assertAlmostEqual(values["uy"], 960 / 6 / 210e3, delta=1e-6)
+        self.assertIsNone(values["rz"])
+        found = run("converge", "--scene", self.scene(HINGES), "-f", "collocation", "-n", "1,2")
+        self.assertEqual(found.returncode, 0, found)
+
+    def test_values_that_are_asked_for(self):
+        """A taper of an open section is refused, a prismatic member is none."""
+        words = ("solve", "--scene", self.scene(BAR), "-f", "collocation", "-n", "2")
+        self.refused(2, "own.yaml", *words)
+        done = run(*words, "--set", "depth=0.2")
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done)
+        self.refused(2, "own.yaml", *words, "--set", "depth=0.3")
+        self.refused(2, "did you mean 'depth'", *words, "--set", "deptj=0.2")
+
+    def test_matrices_without_damping(self):
+        words = ("solve", "--scene", self.scene(BAR), "-f", "collocation", "-n", "2", "--set",
+                 "depth=0.2", "--matrices", self.folder / "matrices")
+        self.refused(2, "member m has 0.001 s", *words, "--set", "damping=1e-3")
+        self.assertEqual(run(*words).returncode, 0)
+
+
+# What solve and converge choose where nobody chose.
+LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
+
+
+class Solve(ProgramTest):
+    def test_both(self):
+        """Said in the output, and right."""
+        for case, quantity in (("elastica", "w_over_L"), ("lateral_buckling", "load_factor")):
+            text = self.answered("solve", case).stdout
+            told = re.match(r"-f (\S+): .*no known defect here.*\n-n (\d+): ", text)
+            formulation, n = told.groups()
+            self.assertIn(f"\n{case}, {formulation}\nok; ", text)
+            record = self.record("solve", case)
+            self.assertEqual((record["formulation"], record["elements"]), (formulation, int(n)))
+            one = next(q for q in record["quantities"] if q["quantity"] == quantity)
+            truths = [t for t in one["truths"] if t["truth_kind"] == "exact"]
+            self.assertTrue(truths)
+            self.assertLess(min(abs(t["error"]) for t in truths), 1e-3)
+
+    def test_cost(self):
+        """The formulation costs at most twice what the cheapest for 0.1 % does, as converge says,
+        which runs all of them."""
+        for case in ("elastica", "bend_45", "angle_column", "cross_flexure", "deep_beam", "lateral_buckling",
+                     "carried_rod", "geradin_cardona", "loaded_cantilever", "weighted_column"):
+            chosen = self.record("solve", case)["formulation"]
+            answers = self.record("converge", case, "--error", "0.1%")["answers"]
+            cost = {a["formulation"]: a["cost"] for a in answers if a["rank"]}
+            self.assertIn(chosen, cost, case)
+            self.assertLessEqual(cost[chosen], 2 * min(cost.values()), f"{case}: {chosen}, {cost}")
+
+    def test_finer_than_the_meshes_of_a_scene(self):
+        """Elements are doubled until values have settled."""
+        text = LEAF.read_text(encoding="utf-8")
+        path = self.folder / "coarse.yaml"
+        path.write_text(re.sub(r"(?m)^meshes: .*$", "meshes: [1]", text), encoding="utf-8")
+        told = re.match(r"-f \S+: .*\n-n (\d+): no value changed", self.answered("solve", "--scene", path).stdout)
+        self.assertGreater(int(told.group(1)), 1)
+
+    def test_steps(self):
+        """How many were chosen and how many tries of longer ones failed stands in the first
+        lines, as the steps themselves say."""
+        for case, rejects in (("elastica", True), ("bend_45", False)):
+            more = ("--set", "load=10") if rejects else ()
+            what = ("solve", case, "-f", "beamw", "-n", "8", *more)
+            steps = self.record(*what)["steps"]
+            failed = sum(s["rejected"] for s in steps)
+            self.assertEqual(failed > 0, rejects)
+            told = f" in {len(steps)} load step" + ("s" if len(steps) > 1 else "")
+            told += f" ({failed} longer rejected)," if rejects else ","
+            self.assertIn(told, " ".join(self.answered(*what).stdout.split()))
+
+    def test_one_of_them(self):
+        text = self.answered("solve", "elastica", "-f", "beamw").stdout
+        self.assertTrue(text.startswith("-n "), text)
+        text = self.answered("solve", "elastica", "-n", "3").stdout
+        self.assertRegex(text, r"\A-f \S+: .*\nelastica, ")
+        text = self.answered("solve", "elastica", "-f", "beamw", "-n", "3").stdout
+        self.assertTrue(text.startswith("elastica, beamw\n"), text)
+        self.refused(2, "one -f and one -n", "solve", "elastica", "-f", "beamw", "-n", "1,2")
+
+    def test_the_theory_that_the_case_asks_for(self):
+        """Engesser's by default; the value is that of the truth of this theory."""
+        record = self.record("solve", "shear_column")
+        self.assertIn("engesser", record["cell"]["features"])
+        load = next(q for q in record["quantities"] if q["quantity"] == "buckling_load")
+        self.assertLess(abs(load["error"]), 1e-3)
+
+    def test_a_scene_and_modes(self):
+        text = self.answered("solve", "--scene", LEAF).stdout
+        self.assertRegex(text, r"\A-f \S+: .*\n-n \d+: .*\nleaf_spring_guide, ")
+        text = self.answered("solve", "tip_body", "--follow", "body=0.1..0.2/2").stdout
+        self.assertRegex(text, r"\A-f \S+: .*\n-n \d+: ")
+
+    def test_without_truths(self):
+        """The ledger is not known: a solution all the same, and no word of defects."""
+        done = self.answered("solve", "elastica", env=environment(BEAMWORK_TRUTHS="/nowhere.h5"))
+        self.assertIn("without truths", done.stderr)
+        self.assertRegex(done.stdout, r"\A-f \S+: ")
+        self.assertNotIn("defect", done.stdout)
+
+
+# Formulations whose times rank nothing, in bench and converge: shown, marked, never the cheapest.
+MARK = "timoshenko: by differences, its times rank nothing"
+
+
+class Unranked(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.object = cls.class_folder() / "mine.so"
+        subprocess.run(["cc", "-O2", "-shared", "-fPIC", "-I", ROOT,
+                        ROOT / "elements" / "examples" / "timoshenko.c", "-o", cls.object],
+                       check=True)
+
+    def bench(self, *options):
+        return self.answered("bench", "tapered_cantilever", "--element", self.object, "-f",
+                             "timoshenko", *options).stdout
+
+    def test_table(self):
+        out = " ".join(self.bench("-f", "collocation", "-n", "4,8,16,32").split())
+        self.assertEqual(out.count(MARK), 1)
+        self.assertNotIn("collocation: by differences", out)
+        self.assertRegex(out, r"stretch within 10, 1 %: collocation, n = 4, [^;]*; also within it: "
+                         r"timoshenko, n = 4, [0-9.e-]+ ms \(by differences: no rank\)")
+
+    def test_alone(self):
+        """Nobody is the cheapest where nobody ranks."""
+        out = " ".join(self.bench("-n", "4,8,16,32").split())
+        self.assertRegex(out, r"stretch within 10, 1 %: none that ranks; also within it: timoshenko")
+
+    def test_against(self):
+        """At equal error and at equal elements, as text and as JSON."""
+        out = " ".join(self.bench("--against", "collocation", "-k", "stretch", "--error",
+                                  "1%").split())
+        self.assertIn("no rank: beside", out)
+        self.assertNotIn("is faster", out)
+        at = ("--against", "collocation", "-n", "2")
+        out = self.bench(*at)
+        self.assertIn("pairs): unranked", out)
+        self.assertIn("by differences, its times rank nothing", out)
+        self.assertEqual(json.loads(self.bench(*at, "--format", "json"))["outcome"], "unranked")
+
+    def test_ranked_ones_are(self):
+        out = self.answered("bench", "tapered_cantilever", "-f", "collocation", "--against",
+                            "beamw_consistent", "-k", "stretch", "--error", "1%").stdout
+        self.assertNotIn("rank", out)
+
+    def test_converge_names_what_is_missed(self):
+        out = self.answered("converge", "tapered_cantilever", "-f", "beamw", "-n", "2,4",
+                            "--error", "0.01%").stdout
+        self.assertRegex(" ".join(out.split()), r"not reached by beamw \(\w+: [0-9.]+ %\)")
+
+
+if __name__ == "__main__":
+    unittest.main()

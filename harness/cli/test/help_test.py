@@ -1,10 +1,15 @@
-"""What the program says of itself: help, words that are explained, names that are misspelt."""
+"""What the program says of itself: help, pages of the manual, and commands that it prints."""
 import re
+import shlex
+import shutil
+import subprocess
 import unittest
 
 from harness.cli.test.work import EVERY_VERB
-from harness.tools.kit.program import ROOT, ProgramTest, environment, run
+from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, environment, run
 
+
+# What the program says of itself: help, words that are explained, names that are misspelt.
 WIDEST = 100
 # the C library's argp leaves a byte when it exits
 ENV = environment(ASAN_OPTIONS="detect_leaks=0")
@@ -104,6 +109,183 @@ class Explain(ProgramTest):
         self.refused(2, "did you mean 'bimoment'", "explain", "bimomnet")
         self.refused(2, "did you mean 'J66-shear'", "explain", "J66-sheer")
         self.refused(4, "missing.h5", "explain", "pass", "--truths", "missing.h5")
+
+
+# Pages of the manual: all there is in the program stands in them, and formatters take them.
+
+# the C library's argp leaves a byte when it exits
+MANUAL_ENV = environment(ASAN_OPTIONS="detect_leaks=0")
+FILES = ("beamwork.1", "beamwork-scene.5", "beamwork-results.5")
+# of -h and of a page: letter, name, argument, what it does
+SHOWN = re.compile(r"^  (?:-(\w), |    )--([\w-]+)(\S*)(\s.*\n(?: {30}.*\n)*)", re.MULTILINE)
+TOLD = re.compile(r"^\.It (?:Fl (\w) , )?Fl -([\w-]+)(?: Ns (?:Oo )?= Ns Ar \"(.+?)\")?(?: Oc)?\n"
+                  r"((?:(?!\.It|\.El).*\n)+)", re.MULTILINE)
+
+
+def bare(argument):
+    """"=N", "[=N]": N."""
+    return argument[2:-1] if argument.startswith("[") else argument.removeprefix("=")
+
+
+def plain(page):
+    """Without the escapes that keep characters as they are."""
+    for escaped, shown in (("\\&", ""), ("\\-", "-"), ("\\(aq", "'"), ("\\(dq", '"'),
+                           ("\\(ha", "^"), ("\\(ti", "~"), ("\\(ga", "`"), ("\\e", "\\")):
+        page = page.replace(escaped, shown)
+    return page
+
+
+def hand_page(name):
+    """One that is written by hand, of a day and a version."""
+    return run(name, "0.1.0", "2026-11-21",
+               program=ROOT / "harness" / "library" / "packaging" / "page.sh").stdout
+
+
+class Manual(ProgramTest):
+    def page(self, name):
+        return self.answered("help", "--man", name, env=MANUAL_ENV).stdout
+
+    def names(self):
+        return self.answered("help", "--man").stdout.split()
+
+    def test_a_page_for_each_verb(self):
+        self.assertEqual(sorted(self.names()),
+                         sorted([*FILES, *(f"beamwork-{verb}.1" for verb in EVERY_VERB)]))
+        self.assertEqual(self.page("solve"), self.page("beamwork-solve.1"))
+        self.refused(2, "did you mean 'solve'", "help", "--man", "slove")
+
+    def test_options_of_help(self):
+        """The same options with the same words, in the same order."""
+        for verb in EVERY_VERB:
+            shown = [(letter, name, bare(argument), words.split()) for letter, name, argument, words
+                     in SHOWN.findall(self.answered(verb, "-h", env=MANUAL_ENV).stdout)]
+            told = [(letter, name, argument, words.split()) for letter, name, argument, words
+                    in TOLD.findall(plain(self.page(verb)))]
+            self.assertGreater(len(shown), 1)
+            self.assertEqual(told, shown, verb)
+
+    def test_examples_of_help(self):
+        for verb in EVERY_VERB:
+            lines = self.answered(verb, "-h", env=MANUAL_ENV).stdout.partition("\nexample")[2]
+            text = plain(self.page(verb))
+            for line in lines.splitlines()[1:]:
+                self.assertIn("\n" + line.strip() + "\n", text)
+
+    def test_keys_of_scenes(self):
+        """All of them, as often as `scene --keys` lists them."""
+        keys = re.findall(r"^( *)(\w+) +\S", self.answered("scene", "--keys").stdout.partition(
+            "is replaced:\n")[2], re.MULTILINE)
+        shown = [name for blanks, name in keys if len(blanks) < 12]
+        told = re.findall(r'^\.It Ic "(\w+)"', plain(self.page("beamwork-scene.5")), re.MULTILINE)
+        self.assertGreater(len(told), 150)
+        self.assertEqual(told, shown)
+
+    def test_fields_of_results(self):
+        records = self.record("schema")["records"]
+        page = plain(self.page("beamwork-results.5"))
+        self.assertEqual(re.findall(r'^\.It Va "([\w.]+)"', page, re.MULTILINE),
+                         [field["name"] for record in records for field in record["fields"]])
+        for record in records:
+            self.assertIn(record["table"] + '"\n' + record["summary"].split()[0], page)
+
+    def test_element(self):
+        """Every member of the interface and all physics; nothing is left to be filled in."""
+        page = plain(hand_page("beamwork-element.7"))
+        self.assertNotRegex(page, "@[A-Z]+@")
+        self.assertIn(".Dd November 21, 2026\n", page)
+        header = (ROOT / "elements" / "element.h").read_text(encoding="utf-8")
+        body = re.sub(r"/\*.*?\*/", "", header.partition("typedef struct element_type {")[2]
+                      .partition("} element_type;")[0], flags=re.DOTALL)
+        members = re.findall(r"\(\*(\w+)\)|(\w+)(?:\[\w+\])?;", body)
+        self.assertGreater(len(members), 20)
+        for names in members:
+            name = names[0] or names[1]
+            self.assertRegex(page, rf"\.It Fa (.* , )?{name}\b|^\.Fa {name}\b", name)
+        for constant in re.findall(r"LEAVES_\w+", header):
+            self.assertIn(f".It Dv {constant}\n", page)
+        for name in re.findall(r'\{FEATURE_\w+,\s*"([^"]+)"',
+                               (ROOT / "elements" / "feature.h").read_text(encoding="utf-8")):
+            self.assertIn(f".It {name}\n", page)
+
+    @unittest.skipUnless(shutil.which("mandoc"), "needs mandoc")
+    def test_lint(self):
+        pages = {name: self.page(name) for name in self.names()}
+        hand = {path.name: hand_page(path.name)
+                for path in (ROOT / "harness" / "library" / "packaging").glob("*.[0-9]")}
+        self.assertIn("beamwork-element.7", hand)
+        for name, text in {**pages, **hand}.items():
+            self.assertNotRegex(text, "@[A-Z]+@")
+            path = self.folder / name
+            path.write_text(text, encoding="utf-8")
+            done = subprocess.run(["mandoc", "-T", "lint", "-W", "warning", path], text=True,
+                                  capture_output=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (0, ""), name)
+
+
+# Commands that the program prints are run as they stand: with elements, scenes, and names that need quotes.
+EXAMPLE = (ROOT / "elements" / "examples" / "timoshenko.c").read_text(encoding="utf-8")
+SCENE = (ROOT / "cases" / "examples" / "euler_column.yaml").read_text(encoding="utf-8")
+BENDING = "c->young * c->I"
+
+
+def commands(text):
+    """Lines that begin with the program's name, continued ones joined."""
+    return re.findall(r"(?:^ *|: )(beamwork (?!\w+: )[^;\n]+)", re.sub(r" \\\n *", " ", text), re.MULTILINE)
+
+
+class Printed(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.element = self.folder / "my element's.so"
+        source = self.folder / "mine.c"
+        source.write_text(EXAMPLE.replace(BENDING, "1.1 * " + BENDING).replace("energy += d", "energy += 1.01 * d"),
+                          encoding="utf-8")
+        subprocess.run(["cc", "-O2", "-shared", "-fPIC", "-I", ROOT, source, "-o", self.element], check=True)
+        self.scene = self.folder / "a very long name of a scene, in which one asks for quotes' quotes.yaml"
+        self.scene.write_text(SCENE, encoding="utf-8")
+
+    def run_all(self, text, least, *words):
+        found = commands(text)
+        self.assertGreaterEqual(len(found), least, text)
+        for command in found:
+            for word in words:
+                self.assertIn(str(word), shlex.split(command), command)
+            done = subprocess.run(command.replace("beamwork", shlex.quote(PROGRAM), 1), shell=True, text=True, check=False,
+                                  cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment())
+            self.assertIn(done.returncode, (0, 1), (command, done.stderr))
+            self.assertNotEqual(done.stdout, "", command)
+
+    def test_verify(self):
+        own = ("--element", self.element)
+        self.run_all(run("verify", *own, "-k", "=elastica and default or =tapered_cantilever").stdout, 3, self.element)
+        out = run("verify", *own, "-f", "timoshenko", "--scene", self.scene).stdout
+        self.run_all(out[out.find(" 1. "):], 1, self.element, self.scene)
+        self.assertIn("beamwork element-test", out)
+
+    def test_sweep(self):
+        for of in (("elastica", "--vary", "load=1,5"), ("--scene", self.scene, "--vary", "length=1,2")):
+            done = self.answered("sweep", *of, "--element", self.element, "-f", "timoshenko", "-n", "2")
+            self.run_all(done.stdout, 1, self.element)
+
+    def test_what_is_shown_by(self):
+        """Hints with the name of a file, to be copied from between their quotes."""
+        for words in (("solve", "--scene", self.scene, "--set", "foo=1"), ("sweep", "--scene", self.scene),
+                      ("sweep", "--scene", self.scene, "--vary", "foo")):
+            hint = re.search(r"'(beamwork list .*)' shows", self.refused_line(*words))
+            self.run_all(hint[1], 1, self.scene)
+        hint = re.search(r"'(beamwork merge .*) -o FILE'", self.refused_line(
+            "verify", "-k", "=elastica and =default and =beamw", "--into", "a folder", "-o", "r.h5"))
+        self.assertEqual(shlex.split(hint[1]), ["beamwork", "merge", "a folder"])
+
+    def refused_line(self, *words):
+        done = run(*words)
+        self.assertEqual(done.returncode, 2, done)
+        return done.stderr
+
+    def test_explain(self):
+        for word in ("elastica", "beamw"):
+            out = self.answered("explain", word).stdout
+            self.run_all(out.replace("; beamwork", "\nbeamwork"), 1 if word == "elastica" else 0)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,431 @@
+"""Motions in time: formulations from outside, the error of time, masses, and runs that continue others."""
+import csv
+import io
+import math
+import random
+import re
+import sys
+import unittest
+
+from cases.format.test.scene_case import SceneCase, values
+from harness.cli.test.plugin import EXAMPLES, PluginTest, compile_shared
+from harness.tools.kit.program import ProgramTest, TRUTHS
+
+
+# Formulations from outside in motions in time: by strains, by forces, by an energy alone, and in
+# another process.
+PROCESS = f"exec:'{sys.executable}' '{EXAMPLES / 'timoshenko.py'}'"
+
+ARM = """beamwork: 1
+sections:
+  tube: {tube: {diameter: 20e-3, thickness: 1e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
+nodes:
+  hub: {at: [0, 0, 0], hold: [ux, uy, uz, rx, ry], drive: {rz: turn}}
+  tip: {at: [1, 0, 0], mass: 0.3}
+members:
+  arm: {from: hub, to: tip, section: tube, y: [0, 1, 0]}
+motions:
+  turn: {unit: rad, pieces: [{is: 30*deg*(2*t - sin(4*pi*t)/(2*pi))}]}
+analyses:
+  swing: {motion: {stations: [0.1], integrator: conserving, step: 0.01}}
+quantities:
+  behind: {relative: {analysis: swing, node: tip, from: hub, component: uy}}
+  energy: {energy: {analysis: swing, of: energy}}
+omit: [shear, trapeze, wagner_moments, wagner_torque]
+"""
+
+
+class OwnMotion(PluginTest):
+
+    def flight(self, integrator, name, *element):
+        """A soft rod thrown in space, for a second."""
+        return self.record("solve", "free_flight_space", "--set", f"integrator={integrator}", "-f",
+                           name, "-n", 4, *element)
+
+    def compare(self, name, element, integrators=("alpha", "conserving", "radau")):
+        """As the exact beam with as many elements; conserving steps miss no energy."""
+        for integrator in integrators:
+            ours = self.flight(integrator, "collocation")
+            own = self.flight(integrator, name, "--element", element)
+            for one, same in zip(own["quantities"], ours["quantities"], strict=True):
+                if one["unit"] == "m":
+                    with self.subTest(integrator=integrator, quantity=one["quantity"]):
+                        self.assertAlmostEqual(one["value"], same["value"], delta=0.02)
+            if integrator == "conserving":
+                energy = max(step["kinetic"] for step in own["motion"])
+                self.assertLess(max(abs(step["drift"]) for step in own["motion"]), 1e-12 * energy)
+
+    def test_by_strains(self):
+        self.compare("timoshenko", compile_shared(EXAMPLES / "timoshenko.c", self.folder / "t.so"))
+
+    def test_by_forces(self):
+        self.compare("corotational", compile_shared(EXAMPLES / "corotational.c",
+                                                    self.folder / "c.so"))
+
+    def test_by_an_energy_alone(self):
+        """A thin arm that is turned by its hub."""
+        made = compile_shared(EXAMPLES / "ancf.c", self.folder / "a.so")
+        path = self.folder / "arm.yaml"
+        path.write_text(ARM, encoding="utf-8")
+        own, ours = (self.record("solve", "--scene", path, "-f", *words, "-n", 2)
+                     for words in (("ancf", "--element", made), ("collocation",)))
+        for one, same in zip(own["quantities"], ours["quantities"], strict=True):
+            self.assertAlmostEqual(one["value"] / same["value"], 1, delta=0.02)
+        self.assertLess(max(abs(step["drift"]) for step in own["motion"]), 1e-14)
+
+    def test_in_another_process(self):
+        self.compare("timoshenko_py", PROCESS, ("conserving",))
+
+
+# The error of time of motions whose integration is left to the program: 0.1 % of the motion, be it
+# nanometres or metres.
+
+# A mass on a leaf; a force comes at once: u/u_static = 1 - cos(omega t).
+SUDDEN = """beamwork: 1
+parameters: {{force: {{value: 1, unit: N}}}}
+let: {{T: 2*pi*sqrt(0.5*0.1^3/60), us: force*0.1^3/60}}
+sections:
+  s: {{constants: {{A: 1e-4, Iy: 1e-10, Iz: 1e-10, It: 2e-10}}, young: 200e9, shear_modulus: 80e9, density: 0}}
+nodes:
+  a: {{at: [0, 0, 0], hold: all}}
+  b: {{at: [0.1, 0, 0], mass: 0.5}}
+members:
+  leaf: {{from: a, to: b, section: s, y: [0, 1, 0]}}
+loads:
+  p: {{force: [0, force, 0], on: b, time: 1}}
+analyses:
+  mo: {{motion: {{{how}stations: [T/4, T, 2.25*T, 10.25*T]}}}}
+quantities:
+  u: {{displacement: {{analysis: mo, node: b, component: uy, take: curve}}, factor: 1/us, unit: 1}}
+  largest: {{displacement: {{analysis: mo, node: b, component: uy, take: max}}, factor: 1/us, unit: 1}}
+omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
+"""
+
+# A corner of two leaves that something sets in motion.
+CORNER = """beamwork: 1
+sections:
+  s: {{rectangle: {{width: {width}, thickness: {t}}}, young: 70e9, shear_modulus: 27e9, density: 2700}}
+nodes:
+  a: {{at: [0, 0, 0], {end}}}
+  b: {{at: [{L}, 0, 0], mass: {mass}, inertia: [{I}, {I}, {I}, 0, 0, 0]}}
+  c: {{at: [{L}, 0, {half}]}}
+members:
+  m: {{from: a, to: b, section: s, y: [0, 1, 0]}}
+  k: {{from: b, to: c, section: s, y: [0, 1, 0]}}
+{acts}analyses:
+  mo: {{motion: {{{how}stations: [{stations}]{start}}}}}
+quantities:
+  u: {{displacement: {{analysis: mo, node: b, component: uy, take: curve}}}}
+  v: {{displacement: {{analysis: mo, node: b, component: ux, take: curve}}}}
+  w: {{displacement: {{analysis: mo, node: c, component: uy, take: curve}}}}
+"""
+
+# A leaf that hangs at rest under a load.
+REST = """beamwork: 1
+sections:
+  s: {{rectangle: {{width: 0.02, thickness: 0.002}}, young: 70e9, shear_modulus: 27e9, density: 2700}}
+nodes:
+  a: {{at: [0, 0, 0], hold: all}}
+  b: {{at: [0.3, 0, 0], mass: 0.1, inertia: [1e-5, 1e-5, 1e-5, 0, 0, 0]}}
+members:
+  m: {{from: a, to: b, section: s, y: [0, 1, 0]}}
+loads:
+  p: {{force: [0, {force}, 0], on: b}}
+analyses:
+  st: {{static: {{stations: [1]}}}}
+  mo: {{motion: {{{how}stations: [0.1, 0.5], about: st}}}}
+quantities:
+  u: {{displacement: {{analysis: mo, node: b, component: uy, take: curve}}}}
+"""
+
+# A hub that is driven about three axes, one inside the other.
+ANGLES = """beamwork: 1
+sections:
+  tube: {tube: {diameter: 20e-3, thickness: 1e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
+nodes:
+  hub: {at: [0, 0, 0], hold: [ux, uy, uz], rotation: {sequence: [{axis: z, angle: turn}, {axis: y, angle: tilt}, {axis: x, angle: roll}]}}
+  tip: {at: [1, 0, 0], mass: 0.3}
+members:
+  arm: {from: hub, to: tip, section: tube, y: [0, 1, 0]}
+motions:
+  turn: {unit: rad, pieces: [{until: 0.5, is: 60*deg*(2*t - sin(4*pi*t)/(2*pi))}, {is: 60*deg}]}
+  tilt: {unit: rad, pieces: [{until: 0.5, is: 40*deg*(2*t - sin(4*pi*t)/(2*pi))}, {is: 40*deg}]}
+  roll: {unit: rad, pieces: [{until: 0.5, is: 100*deg*(2*t - sin(4*pi*t)/(2*pi))}, {is: 100*deg}]}
+analyses:
+  swing: {motion: {stations: [0.2, 0.5, 0.7, 1], HOW}}
+quantities:
+  x: {displacement: {analysis: swing, node: tip, component: ux, take: curve}}
+  y: {displacement: {analysis: swing, node: tip, component: uy, take: curve}}
+  z: {displacement: {analysis: swing, node: tip, component: uz, take: curve}}
+  work: {energy: {analysis: swing, of: work, take: curve}}
+"""
+
+
+def corner(seed, how):
+    """A scene by chance: size, mass, what acts, how far (1e-7 to 1e-2 of it) and how long."""
+    chance = random.Random(seed)
+    L = 10**chance.uniform(-1.3, 0.5)
+    t = L/chance.choice([20, 50, 100])
+    width = t*chance.choice([1, 2, 5])
+    mass = chance.choice([0.5, 2])*2700*width*t*L
+    omega = math.sqrt(3*70e9*width*t**3/12/L**3/(mass + 0.6*2700*width*t*L))
+    end = chance.choice([3, 8, 20])/omega
+    reach = 10**chance.uniform(-7, -2)*L
+    force = reach*3*70e9*width*t**3/12/L**3
+    acts = {
+        "force": f"loads:\n  p: {{force: [0, {force}, {force/3}], on: b, time: 1}}\n",
+        "sine": f"loads:\n  p: {{force: [0, {force}, {force/3}], on: b, time: sin({0.9*omega}*t)}}\n",
+        "ramp": f"loads:\n  p: {{force: [0, {force}, 0], on: b, time: t^2*{1/end**2}}}\n",
+        "drive": f"motions:\n  sh: {{unit: m, pieces: [{{is: \"{reach}*sin({0.4*omega}*t)^3\"}}]}}\n",
+        "start": "",
+    }
+    kind = list(acts)[seed % len(acts)]
+    return CORNER.format(
+        L=L, half=L/2, t=t, width=width, mass=mass, I=mass*(L/10)**2, how=how, acts=acts[kind],
+        end="hold: [ux, uz, rx, ry, rz], drive: {uy: sh}" if kind == "drive" else "hold: all",
+        start=f", start: {{velocity: [0, {reach*omega}, 0]}}" if kind == "start" else "",
+        stations=", ".join(str(part*end) for part in (0.13, 0.37, 0.62, 0.81, 1)))
+
+
+class MotionError(ProgramTest):
+
+    def curves(self, text, *options):
+        """The curves of a scene, by their names, and the others' values."""
+        path = self.folder / "scene.yaml"
+        path.write_text(text, encoding="utf-8")
+        record = self.record("solve", "--scene", path, "-f", "geometrically_exact", *options)
+        self.steps = len(record["motion"]) - 1
+        return ({one["quantity"]: one["curve_value"] for one in record["curves"]},
+                {one["quantity"]: one["value"] for one in record["quantities"]})
+
+    def test_sudden_loads(self):
+        """From 2 pm to 20 mm, and with another number of elements; of the largest motion, 2."""
+        for how, limit in (("", 1e-3), ("integrator: alpha, ", 1.2e-3)):
+            for force, n in ((1e-7, 1), (1e-3, 1), (1e-3, 4), (1, 1)):
+                with self.subTest(how=how, force=force, n=n):
+                    curves, values = self.curves(SUDDEN.format(how=how), "-n", n, "--set",
+                                                 f"force={force}")
+                    for got, right in zip(curves["u"], (1, 0, 1, 1), strict=True):
+                        self.assertLess(abs(got - right), 2*limit)
+                    self.assertLess(abs(values["largest"] - 2), 2e-3)
+
+    def test_motions_by_chance(self):
+        for seed in range(10):
+            right, _ = self.curves(corner(seed, "integrator: radau, tolerance: 1e-6, "), "-n", 1)
+            got, _ = self.curves(corner(seed, ""), "-n", 1)
+            largest = max(abs(value) for curve in right.values() for value in curve)
+            for name, curve in right.items():
+                for one, other in zip(curve, got[name], strict=True):
+                    with self.subTest(seed=seed, curve=name):
+                        self.assertLess(abs(one - other), 1e-3*largest)
+
+    def test_at_rest(self):
+        """What is bent by a load that stays is at rest, whatever the integrator, in few steps: what
+        its equilibrium is off by is no motion to be resolved."""
+        for how in ("", "integrator: alpha, ", "integrator: conserving, "):
+            for force in (0, 1, 1e-9):
+                text = REST.format(how=how, force=force)
+                with self.subTest(how=how, force=force):
+                    curves, _ = self.curves(text, "-n", 2)
+                    self.assertLess(abs(curves["u"][1] - curves["u"][0]), 1e-12)
+                    self.assertLess(self.steps, 40)
+
+    def test_conserving_by_driven_angles(self):
+        """Of order 2, and the work done is the energy that there is."""
+        right, _ = self.curves(ANGLES.replace("HOW", "integrator: radau, tolerance: 1e-7"), "-n", 2)
+        errors = []
+        for step in (4e-3, 2e-3):
+            got, _ = self.curves(ANGLES.replace("HOW", f"integrator: conserving, step: {step}"),
+                                 "-n", 2)
+            errors.append(max(abs(a - b) for name in ("x", "y", "z", "work")
+                              for a, b in zip(right[name], got[name], strict=True)))
+        self.assertLess(errors[1], 3e-3)
+        self.assertAlmostEqual(errors[0]/errors[1], 4, delta=0.6)
+
+
+# The parameter `mass` of built-in cases: where the mass of members lies. The usual is what a case has without it.
+ASKED = {"coupled_beam": ("asked=frequencies",), "sheet_cantilever": ("modes=3",),
+         "tapered_cantilever": ("section=wedge", "asked=waves")}
+MASSLESS = {"angle_column", "bend_45", "c_cantilever", "carried_rod", "cross_flexure", "elastica", "geradin_cardona",
+            "hexapod", "lateral_buckling", "lee_frame", "loaded_cantilever", "moment_buckling", "rigid_body",
+            "right_angle_frame", "roll_up", "shear_column", "shear_elastica", "sheet_wagner", "snap_through",
+            "spherical_joint", "wagner_torsion", "warping_torsion", "weighted_column"}
+WHERE = ("-f", "collocation", "-n", 2)
+LUMPED = ("--set", "mass=lumped")
+
+
+def with_key(scene):
+    return re.sub(r"(?m)^analyses:", "mass: lumped\nanalyses:", scene)
+
+
+class MassTest(SceneCase):
+
+    def massive(self):
+        """(case, what is set) of those that have mass."""
+        names = [c["case"] for c in self.record("list")["cases"]]
+        having = [n for n in names if "mass" in {p["name"] for p in self.record("list", n)["parameters"]}]
+        self.assertEqual(set(names) - set(having), MASSLESS)
+        return [(n, tuple(w for one in ASKED.get(n, ()) for w in ("--set", one))) for n in having]
+
+    def lumped_differs(self, case, point):
+        """As the scene of the case with `mass: lumped`, bit for bit, and marked."""
+        usual, lumped = (self.record("solve", case, *WHERE, *point, *mass) for mass in ((), LUMPED))
+        self.assertEqual(usual["parameters"]["mass"], "usual")
+        self.assertEqual(lumped["parameters"]["mass"], "lumped")
+        self.assertRegex(lumped["cell"]["lumped"], "^mass ", case)
+        self.assertNotIn("mass", usual["cell"]["lumped"], case)
+        mine, former = values(lumped), values(usual)
+        self.assertTrue([q for q in mine if mine[q] != former[q]], case)
+        return mine, former
+
+    def test_every_case_that_has_mass(self):
+        for case, point in self.massive():
+            mine, former = self.lumped_differs(case, point)
+            text = self.answered("scene", case, *point).stdout
+            self.assertNotRegex(text, r"(?m)\bmass: (lumped|consistent)", case)
+            if case in ("leaf_guide", "deep_beam", "tip_body", "spin_up"):
+                as_scene = self.record("solve", "--scene", self.scene(with_key(text)), *WHERE)
+                self.assertEqual(values(as_scene), mine, case)
+                as_written = self.record("solve", "--scene", self.scene(text), *WHERE)
+                self.assertEqual(values(as_written), former, case)
+                self.assertIn("\nmass: lumped\n", self.answered("scene", case, *point, *LUMPED).stdout)
+
+    def test_reference_values_hold(self):
+        """Meshes go to the same limit: halves at the nodes to order 2."""
+        found = self.record("solve", "deep_beam", "-f", "collocation", "-n", 64, *LUMPED)
+        errors = [q["error"] for q in found["quantities"] if q["quantity"].startswith("frequency")]
+        self.assertTrue(errors and all(e is not None and 1e-6 < abs(e) < 1e-3 for e in errors), errors)
+        point = ("--set", "omega_star=2.5")
+        said = [self.answered("truth", "tip_body", *point, *mass).stdout.split("\n", 1) for mass in ((), LUMPED)]
+        self.assertEqual(said[0][1], said[1][1])
+        self.assertIn("mass=lumped", said[1][0])
+
+    def test_consistent_is_required(self):
+        """What has it is as usual; what lumps is refused."""
+        spin = ("spin_up", *WHERE, "--set", "time=0.5")
+        usual = values(self.record("solve", *spin))
+        self.assertEqual(values(self.record("solve", *spin, "--set", "mass=consistent")), usual)
+        self.refused(2, "has lumped mass only", "solve", *spin, "--set", "mass=consistent", "--set",
+                     "integrator=conserving")
+
+    def test_names(self):
+        self.refused(2, "elastica has no parameter 'mass'", "solve", "elastica", *LUMPED)
+        self.refused(2, "give one of usual|lumped|consistent", "solve", "tip_body", "--set", "mass=2")
+        text = self.answered("solve", "deep_beam", *WHERE, *LUMPED).stdout
+        self.assertIn("deep_beam (mass=lumped), collocation", text)
+        self.assertIn("lumped: mass of analysis modal", text)
+
+    def test_sweep(self):
+        done = self.answered("sweep", "deep_beam", "--vary", "mass=usual,lumped", *WHERE, "-k", "frequency_1",
+                             "--format", "csv")
+        found = {row["mass"]: abs(float(row["error"])) for row in csv.DictReader(io.StringIO(done.stdout))}
+        self.assertLess(10 * found["usual"], found["lumped"])
+
+
+# Motions that another run goes on with: as one run, bit for bit where steps stay and end there.
+
+# Turned quickly out of its place under its weight, with a load that comes at once.
+SWING = """\
+beamwork: 1
+parameters:
+  end:  {value: 2, unit: s}
+  how:  {value: alpha, choices: [alpha, conserving, radau, explicit]}
+  step: {value: 0.015625, unit: s}
+  tol:  {value: 0, unit: 1}
+  damp: {value: 0, unit: s}
+  mass: {value: 0.3, unit: kg}
+sections:
+  tube: {tube: {diameter: 20e-3, thickness: 1e-3}, young: 70e6, shear_modulus: 26e6, density: 2700}
+nodes:
+  hub: {at: [0, 0, 0], hold: [ux, uy, uz, rx, ry], drive: {rz: turn}}
+  tip: {at: [1, 0, 0], mass: mass, centre: [0, 0.01, 0.02], inertia: [1e-3, 1e-3, 1e-3, 0, 0, 0]}
+members:
+  arm: {from: hub, to: tip, section: tube, y: [0, 1, 0], damping: damp}
+motions:
+  turn: {unit: rad, pieces: [{until: 0.5, is: 30*deg*(2*t - sin(4*pi*t)/(2*pi))}, {is: 30*deg}]}
+loads:
+  weight: {gravity: [0, 0, -0.1], on: all}
+  push: {force: [0, 0.01, 0], on: tip, pieces: [{until: 1, is: 0}, {is: 1}]}
+analyses:
+  hang: {static: {stations: [1]}}
+  swing: {motion: {stations: [end/4, end], integrator: how, step: step, tolerance: tol, about: hang}}
+quantities:
+  x: {displacement: {analysis: swing, node: tip, component: ux}}
+  z: {displacement: {analysis: swing, node: tip, component: uz}}
+  spin: {rate: {analysis: swing, node: tip, component: ry}}
+  energy: {energy: {analysis: swing, of: energy}}
+  work: {energy: {analysis: swing, of: work}}
+  drift: {energy: {analysis: swing, of: drift}, offset: 1}
+  torque: {reaction: {analysis: swing, node: hub, component: rz}}
+omit: [trapeze, wagner_moments, wagner_torque]
+"""
+MESH = ("-f", "geometrically_exact", "-n", 2)
+
+
+class RestartTest(SceneCase):
+
+    def values(self, path, *options):
+        done = self.answered("solve", "--scene", path, "--format", "csv", *options)
+        rows = csv.DictReader(line for line in done.stdout.splitlines() if not line.startswith("#"))
+        return {row["quantity"]: row["value"] for row in rows}
+
+    def in_two(self, stop=1, **changes):
+        """Quantities of one run and of another that goes on from where a third stopped."""
+        path, sets = self.scene(SWING), [f"--set={k}={v}" for k, v in changes.items()]
+        ends = self.folder / "ends.h5"
+        one = self.values(path, *MESH, *sets)
+        self.values(path, *MESH, *sets, "--set", f"end={stop}", "--ends", ends)
+        return one, self.values(path, *sets, "--restart", ends)
+
+    def test_the_same_bits(self):
+        for changes in ({"how": "alpha"}, {"how": "alpha", "damp": 1e-3}, {"how": "alpha", "stop": 0.75},
+                        {"how": "conserving"}, {"how": "conserving", "damp": 1e-3},
+                        {"how": "explicit", "step": 2**-13}):
+            with self.subTest(**changes):
+                one, two = self.in_two(**changes)
+                self.assertEqual(one, two)
+                self.assertGreater(abs(float(one["z"])), 1e-3)
+
+    def test_to_round_off(self):
+        """Factors of a run that begins pivot anew; a step that an end cuts short is another one."""
+        for changes, most in (({"how": "radau"}, 1e-9), ({"how": "radau", "damp": 1e-3}, 1e-9),
+                              ({"how": "radau", "tol": 1e-8}, 1e-4), ({"how": "alpha", "step": 0.01}, 1e-9)):
+            with self.subTest(**changes):
+                one, two = self.in_two(**changes)
+                for name, value in one.items():
+                    self.assertAlmostEqual(float(two[name]), float(value), delta=most * max(1, abs(float(value))))
+
+    def test_one_after_the_other(self):
+        """From a restart to the next one."""
+        path, ends = self.scene(SWING), [self.folder / f"{i}.h5" for i in range(3)]
+        self.values(path, *MESH, "--set", "end=0.5", "--ends", ends[0])
+        self.values(path, "--set", "end=1", "--restart", ends[0], "--ends", ends[1])
+        self.assertEqual(self.values(path, "--restart", ends[1]), self.values(path, *MESH))
+
+    def test_refused(self):
+        path, ends, cut = self.scene(SWING), self.folder / "ends.h5", self.folder / "cut.h5"
+        self.values(path, *MESH, "--set", "end=1", "--ends", ends)
+        cut.write_bytes(ends.read_bytes()[:-100])
+        again = ("solve", "--scene", path, "--restart", ends)
+        for code, words, options in (
+                (2, "is at 1 s: give it a later one", (*again, "--set", "end=1")),
+                (2, "the elements that it began with", (*again, "-n", 4)),
+                (2, "the formulation and the elements", (*again, "-f", "collocation")),
+                (2, "without --keep-all", (*again, "--keep-all")),
+                (2, "integrator: conserving", (*again, "--set", "how=conserving")),
+                (2, "step: 0.01,", (*again, "--set", "step=0.01")),
+                (2, "mass: 0.31,", (*again, "--set", "mass=0.31")),
+                (2, "which is read", (*again, "--ends", ends)),
+                (2, "leave -k, --shapes, --matrices, --ends and", (*again, "--follow", "mass=0.1..0.2/2")),
+                (2, "no motion in time", ("solve", "elastica", "--restart", ends)),
+                (2, "no motion in time", ("solve", "elastica", "--ends", self.folder / "none.h5")),
+                (4, "cut short", ("solve", "--scene", path, "--restart", cut)),
+                (4, "not a file of --ends", ("solve", "--scene", path, "--restart", TRUTHS)),
+                (4, "cannot be read", ("solve", "--scene", path, "--restart", self.folder / "none.h5"))):
+            with self.subTest(words=words):
+                self.refused(code, words, *options)
+        self.assertFalse((self.folder / "none.h5").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
