@@ -1,13 +1,17 @@
-"""The papers item by item and equation by equation: every item has a row, every equation a file and a test or a reason."""
+"""Papers and their equations, and programs that derive values again."""
 import ast
 import csv
 import fnmatch
+import inspect
 import pathlib
 import re
 import unittest
 
 from reference import pack
+from reference.derive import rederive
 
+
+# The papers item by item and equation by equation: every item has a row, every equation a file and a test or a reason.
 REFERENCE = pathlib.Path(__file__).resolve().parents[1]
 ROOT = REFERENCE.parent
 STATUSES = ("reproduced", "partly", "not reproducible", "contradicted", "open")
@@ -131,6 +135,21 @@ class Equations(unittest.TestCase):
         self.assertFalse(defines(ROOT / "elements/beamw/stiffness.c", "beamw_stiffness"))
         self.assertFalse(defines(ROOT / "elements/beamw/modified.h", "beamw_modified_printed"))
         self.assertFalse(defines(REFERENCE / "test/papers_test.py", "Papers.test_files_and_functions"))
+
+
+# What `make truths` runs is what derives exact rows, and each of them is stored.
+class Programs(unittest.TestCase):
+
+    def test_each_takes_no_more_than_whether_all_are_wanted(self):
+        """A program of another kind that calls a function rows() would be taken for one of these."""
+        for name in rederive.programs([]):
+            module = rederive.importlib.import_module(f"reference.derive.{name}")
+            wanted = ["everything"] if rederive.is_solid(name) else []
+            self.assertEqual(list(inspect.signature(module.rows).parameters), wanted, name)
+
+    def test_a_name_that_is_none(self):
+        with self.assertRaisesRegex(SystemExit, "no program 'rotor'"):
+            rederive.programs(["rotor"])
 
 
 if __name__ == "__main__":
