@@ -1,11 +1,21 @@
-"""The report of a small run: every page is there, every link and image resolves, foreign files are refused."""
+"""Reports as a whole, of a scene, and pages of cases."""
+import html
 import html.parser
 import json
+import math
 import re
 import unittest
 import xml.etree.ElementTree
 
-from harness.tools.kit.program import TRUTHS, ProgramTest, drawn, report
+from harness.tools.kit.program import ProgramTest, TRUTHS, drawn, report, run
+from harness.tools.kit.scenes import LEAF
+from reports import case, data, film, plots, shapes
+from reports.plots import MOST_CURVES, OPEN
+from reports.style import Styles
+from reports.test import results
+
+
+# The report of a small run: every page is there, every link and image resolves, foreign files are refused.
 
 # What other commands leave beside the results: a little of everything that the pages draw.
 MESHES = {"parameters": "shear=0", "meshes": [8, 256]}
@@ -168,6 +178,246 @@ class Report(ProgramTest):
         done = report(TRUTHS, self.folder / "none")
         self.assertEqual(done.returncode, 4)
         self.assertEqual(len(done.stderr.strip().splitlines()), 1)
+
+
+# The report of a scene of one's own that has no truth: its picture, and limits in the place of verdicts.
+SWINGS = LEAF.replace("young: 210e9", "density: 7800, young: 210e9") + """
+analyses:
+  swing: {motion: {stations: [0.005, 0.01], step: 1e-3}}
+quantities:
+  tip: {displacement: {analysis: swing, node: tip, component: uy, take: max}}
+"""
+
+
+class SceneReport(ProgramTest):
+
+    def test_without_truths(self):
+        scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
+        scene.write_text(LEAF, encoding="utf-8")
+        done = run("verify", "--shapes", "--scene", scene, "-f", "collocation", "-f", "beamw_consistent",
+                   "-o", results)
+        self.assertEqual(done.returncode, 3, done)
+        drawn = report(results, site)
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        page = (site / "mine.html").read_text(encoding="utf-8")
+        self.assertNotIn("Source:", page)
+        self.assertNotIn("beamwork scene", page, "a command for scenes that the program knows by name")
+        self.assertTrue((site / "picture_mine.svg").is_file())
+        # P L^3/3EI + P L/(k G A)
+        tip = 0.1 ** 3 / (3 * 210e9 * 50e-3 * 0.5e-3 ** 3 / 12)
+        limits = page[page.index("Limits of quantities"):page.index("<summary>Verdicts")]
+        found = [float(text) for text in re.findall(r'class="n">([0-9.e-]+) ± ', limits)]
+        self.assertEqual(sum(abs(value / tip - 1) < 1e-3 for value in found), 2, found)
+        self.assertIn("<details open><summary>Limits of quantities without a truth", page)
+
+    def test_what_is_assumed(self):
+        """What numbers of a section do not say stands on its page, in the words of the terminal."""
+        scene, results, site = (self.folder / name for name in ("bar.yaml", "bar.h5", "site"))
+        text = re.sub("rectangle: {[^}]*}", "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8, Iw: 0}",
+                      LEAF, count=1)
+        self.assertNotEqual(text, LEAF)
+        scene.write_text(text, encoding="utf-8")
+        done = run("verify", "--scene", scene, "-f", "beamw", "-o", results)
+        self.assertEqual(done.returncode, 3, done)
+        drawn = report(results, site)
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        page = (site / "bar.html").read_text(encoding="utf-8")
+        self.assertIn("<p class=\"small\">Not known: shear of section leaf, whose numbers say nothing of it: taken as"
+                      " zero.</p>", page)
+
+    def test_motion_without_summary(self):
+        """Only what a file must say is there: pages and film say nothing in the place of the rest."""
+        scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
+        scene.write_text(SWINGS, encoding="utf-8")
+        done = run("verify", "--shapes", "--scene", scene, "-f", "beamw", "-o", results)
+        self.assertEqual(done.returncode, 3, done)
+        drawn = report(results, site)
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        page = (site / "motions.html").read_text(encoding="utf-8")
+        self.assertRegex(page, r"<dd>[A-Z]")
+        self.assertTrue((site / "motion_mine.html").is_file())
+        name, summary, point = film.chosen(results, None)
+        said = film.words_of(summary, shapes.read_file(results, name, point))
+        self.assertRegex(said, "^0 to 0.01 s, computed with beamw")
+
+    def test_what_has_a_truth_is_left_out(self):
+        verdicts = [
+            data.Verdict("u", "no truth"),
+            data.Verdict("v", "no truth"),
+            data.Verdict("w", "skip")
+        ]
+        judged = [
+            data.Verdict("u", "no truth"),
+            data.Verdict("v", "pass"),
+            data.Verdict("w", "no truth")
+        ]
+        series = [
+            data.Series(key, "", "", "", [], of) for key, of in (("a", verdicts), ("b", judged))
+        ]
+        limits = case.limits_of(data.Point("default", "", series, {"u": "m", "v": "m", "w": "m"}))
+        self.assertEqual([(q, [key for key, _ in found]) for q, found in limits],
+                         [("u", ["a", "b"]), ("w", ["b"])])
+
+
+# Pages of cases: the scene first, every quantity explained, at most eight curves in a figure,
+# errors below the truth's own digits marked as such.
+class Site:
+    """What a chart asks of a site."""
+
+    def __init__(self):
+        self.said, self.styles = [], Styles([])
+
+    def points(self, key, columns, rows, title):
+        self.said.append({"f": key, "t": title, "c": columns, "r": rows})
+        look = Styles.of(key)
+        return {**look, "gid": f"{look['gid']}|{len(self.said) - 1}"}
+
+
+def series(key, errors, truth=2.0, uncertainty=2e-6):
+    """Meshes of 1, 2, 4 ... elements with these errors."""
+    judged = data.Verdict("u", "pass", truth=truth, truth_uncertainty=uncertainty,
+                          truth_kind="exact", tolerance=1e-3 * truth)
+    meshes = [data.Mesh(2**i, "ok", "", data.Clock(0, 1e-3, 1e-3 * 2**i, 1e-3 * 2**i, 1), 8, 4, "",
+                        {"strain_evaluations": 1, "stress_evaluations": 1},
+                        values={"u": truth * (1 + e)}, errors={"u": e})
+              for i, e in enumerate(errors)]
+    return data.Series(key, "", "", "", meshes, [judged])
+
+
+def point(*found):
+    return data.Point("default", "", list(found), {"u": "m"}, meanings={"u": "displacement"})
+
+
+class Figures(unittest.TestCase):
+    def test_below_the_digits(self):
+        """The truth is known to 1e-6: two of four marks are open, on that line, and the legend says
+        so."""
+        site, own = Site(), point(series("beamw", (1e-2, 1e-4, 1e-8, -1e-9)))
+        image = plots.errors_figure(site, own, "u", own.series, ("elements",), "f")
+        self.assertIn(OPEN, html.unescape(image.markup))
+        full, = re.findall(r'<polyline stroke="none" points="([^"]*)" style="([^"]*)"',
+                           image.markup[:image.markup.index("data-l")])
+        lost = re.search(r'points="([^"]+)" stroke="none"[^>]* style="([^"]*)"', image.markup)
+        self.assertEqual([len(full[0].split()), len(lost[1].split())], [2, 2])
+        self.assertEqual(len({p.split(",")[1] for p in lost[1].split()}), 1)
+        self.assertNotEqual(full[1], lost[2])  # another marker
+        self.assertIn('fill-opacity=".07"', image.markup)
+
+    def test_above_the_digits(self):
+        own = point(series("beamw", (1e-2, 1e-4)))
+        image = plots.errors_figure(Site(), own, "u", own.series, ("elements",), "f")
+        self.assertNotIn(OPEN, html.unescape(image.markup))
+
+    def test_eight_at_most(self):
+        """Misprints and options give way; an option on the front stays."""
+        names = [f"f{i}" for i in range(7)]
+        own = point(*[series(key, (1e-2, 1e-4)) for key in names],
+                    series("sheet_third_printed", (1e-2, 1e-5)),
+                    series("f0:mass=lumped", (1e-3, 1e-6)), series("f1:mass=lumped", (0.1, 0.1)))
+        shown, further = plots.leading(own, "u")
+        self.assertEqual([s.key for s in shown], [*names, "f0:mass=lumped"])
+        self.assertEqual([s.key for s in further], ["sheet_third_printed", "f1:mass=lumped"])
+        # f0 is on the front by its first mesh, f11 by its last; of the others the most exact stay.
+        many = point(*[series(f"f{i}", (1e-2, 10.0**-i)) for i in range(12)])
+        shown, further = plots.leading(many, "u")
+        self.assertEqual(len(shown), MOST_CURVES)
+        self.assertEqual({s.key for s in further}, {f"f{i}" for i in range(1, 5)})
+
+    def test_no_errors(self):
+        own = point(series("beamw", (math.nan, math.nan)))
+        self.assertIsNone(plots.errors_figure(Site(), own, "u", own.series,
+                                              ("time",), "f"))
+
+
+class Truths(unittest.TestCase):
+    def test_digits(self):
+        self.assertEqual(case.digits_of(2.0, 2e-6), 6)
+        self.assertEqual(case.digits_of(2.0, 0), case.MOST_DIGITS)
+        self.assertEqual(case.digits_of(2.0, 3.0), 1)
+
+    def test_each_truth_once(self):
+        found = case.truths_of(point(series("a", [1e-3]), series("b", [1e-2]),
+                                     series("c", [1e-2], truth=3.0)), "u")
+        self.assertEqual([t.value for t in found], ["2", "3"])
+
+    def test_matrix(self):
+        other = results.series("b", [results.verdict("u", "wrong limit", truth=1.0, error=0.1,
+                                                     limit=1.1)])
+        shown, rows = case.matrix(point(series("a", [1e-3]), other))
+        self.assertEqual([s.key for s in shown], ["a", "b"])
+        (name, cells), = rows
+        self.assertEqual((name, [c.sign for c in cells]), ("u", ["✓", "≠"]))
+        self.assertEqual(cells[0].words, "")
+        self.assertIn("+10 %", cells[1].words)
+
+    def test_pages_of_their_own(self):
+        few = results.case("c", results.series("a", [results.verdict("u", "pass")]))
+        few.points.append(few.points[0])
+        self.assertEqual(case.page_of(few, 1), "c.html#default")
+        verdicts = [results.verdict("u", "pass")] * (case.MOST_ROWS + 1)
+        few.points.append(data.Point("12ab", "x=1", [results.series("a", verdicts)], {}))
+        self.assertEqual(case.page_of(few, 2), "c_12ab.html")
+        self.assertEqual(case.page_of(few, 0), "c.html#default")
+
+
+class Pages(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.class_folder()
+        done = run("verify", "-k", "elastica or warping_torsion/default or lee_frame/default",
+                   "-f", "beamw", "-f", "collocation", "-o", folder / "r.h5")
+        assert done.returncode == 0, done.stderr
+        drawn = report(folder / "r.h5", folder / "site")
+        assert drawn.returncode == 0, drawn.stderr
+        cls.cases = data.read_results(str(folder / "r.h5"))[1]
+        cls.pages = {c.name: (folder / "site" / f"{c.name}.html").read_text(encoding="utf-8")
+                     for c in cls.cases}
+
+    def test_the_scene_is_first(self):
+        for name, page in self.pages.items():
+            self.assertLess(page.index(f'id="{name}_scene"'), page.index("<h2>Quantities"))
+            self.assertLess(page.index("<h2>Quantities"), page.index("Which formulation?"))
+
+    def test_every_quantity_is_explained(self):
+        for one in self.cases:
+            for name in one.points[0].units:
+                meaning = one.points[0].meanings[name]
+                self.assertGreater(len(meaning), 10)
+                row = f'<tr><td>{name}</td><td class="words">{html.escape(meaning)}</td>'
+                self.assertIn(row, self.pages[one.name])
+
+    def test_every_parameter_is_explained(self):
+        for one in self.cases:
+            for p in one.parameters:
+                self.assertIn(f'<tr><td>{p["parameter"]}</td><td class="words">'
+                              f'{html.escape(p["summary"])}', self.pages[one.name])
+
+    def test_eight_curves(self):
+        for name, page in self.pages.items():
+            for figure in re.findall(r"<svg id=.*?</svg>", page, re.S):
+                keys = set(re.findall(r'data-f="([^"]+)"', figure))
+                self.assertLessEqual(len(keys), MOST_CURVES, name)
+
+    def test_neighbours(self):
+        """Next and previous lead through all cases."""
+        names = [c.name for c in self.cases]
+        for name, following in zip(names, names[1:]):
+            self.assertIn(f'<a href="{following}.html">{following} →</a>', self.pages[name])
+            self.assertIn(f'<a href="{name}.html">← {name}</a>', self.pages[following])
+
+    def test_every_point_is_there(self):
+        elastica = next(c for c in self.cases if c.name == "elastica")
+        self.assertGreater(len(elastica.points), 1)
+        for one in elastica.points:
+            self.assertIn(f'id="{one.name}"', self.pages["elastica"])
+
+    def test_results_without_scenes(self):
+        """There is no drawing, and quantities stand without explanations."""
+        old = data.Case("c", "", "", [point(series("a", [1e-3]))])
+        old.points[0].meanings = {}
+        self.assertIsNone(case.drawing(None, old))
+        self.assertEqual([(q.name, q.meaning) for q in case.quantities(old.points[0])],
+                         [("u", "")])
 
 
 if __name__ == "__main__":

@@ -1,8 +1,7 @@
-"""Shapes that can be turned: what is stored of them, and that a browser draws them. The latter is
-skipped where there
-is no Chromium."""
+"""Pages with scripts: the viewer, the explorer and the page of behaviour."""
 import base64
 import json
+import math
 import re
 import types
 import unittest
@@ -10,8 +9,13 @@ import unittest
 import numpy as np
 
 from harness.tools.kit.program import ProgramTest, drawn
-from reports import shapes
+from reports import data, shapes
 from reports.test.browser_test import CHROMIUM, chromium, console
+
+
+# Shapes that can be turned: what is stored of them, and that a browser draws them. The latter is
+# skipped where there
+# is no Chromium.
 
 # Opens a copy of a page, waits for the viewer, counts what is drawn in three states of it.
 ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {
@@ -104,6 +108,199 @@ class Stored(ProgramTest):
                            (self.site / "pictures.html").as_uri())
         self.assertNotIn("<canvas", without.stdout)
         self.assertIn('<img src="picture_spherical_joint.svg"', without.stdout)
+
+
+# The explorer: its numbers are those of the results, and in a browser it draws what is chosen. The
+# latter is skipped
+# where there is no Chromium.
+
+# Opens a copy of the page and chooses: what is said and drawn before and after.
+EXPLORER_ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {
+  const out = {}, q = what => document.querySelector(what), fields = document.forms.choice.elements;
+  const seen = () => ({ curves: document.querySelectorAll("#explored [data-p]").length, label: q("#explored svg") && q("#explored svg").getAttribute("aria-label"), words: q("#explored-words").textContent });
+  const choose = (name, value) => { fields[name].value = value; document.forms.choice.dispatchEvent(new Event("change")); };
+  out.first = seen(); out.hash = location.hash;
+  q("#explored").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true,
+  cancelable: true }));
+  out.box = q("#said").innerText;
+  choose("x", "u"); choose("y", "v"); out.second = seen();
+  fields.case.value = "warping_torsion"; document.forms.choice.dispatchEvent(new Event("change"));
+  setTimeout(() => { out.third = seen(); q("#out").textContent = JSON.stringify(out); }, 500);
+});</script>"""
+
+
+class Explorer(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.place = cls.class_folder()
+        cls.site = drawn(cls.place, "-k", "elastica or warping_torsion/default")
+
+    def stored(self, name):
+        text = (self.site / f"data_{name}.js").read_text(encoding="utf-8")
+        return json.loads(re.fullmatch(r'beamwork_data\("\w+", (.*)\);\n', text)[1])
+
+    def test_numbers(self):
+        """Every value of the results is there, to the digits that are stored."""
+        case = data.read_case(str(self.place / "results.h5"), "elastica")
+        stored = self.stored("elastica")
+        points = stored["points"]
+
+        def told(text):
+            return stored["w"][text] if isinstance(text, int) else text
+
+        def values(columns):
+            """Of what has a truth they follow from the errors."""
+            errors, _, truth, *plain = map(told, columns)
+            if plain:
+                return plain[0].split()
+            return [e if e == "-" else float(truth) * (1 + float(e)) for e in errors.split()]
+
+        self.assertEqual(len(points), len(case.points))
+        seen = 0
+        for point, found in zip(case.points, points):
+            names = [name for name, _ in found["q"]]
+            for series, one in zip((s for s in point.series if s.meshes), found["s"]):
+                self.assertEqual(series.key, told(one[0]))
+                self.assertEqual([m.n for m in series.meshes], [int(n) for n in told(one[1]).split()])
+                for name, columns in zip(names, one[-1]):
+                    for mesh, value in zip(series.meshes, values(columns) if columns else ()):
+                        wanted = mesh.values.get(name, math.nan)
+                        if value == "-":
+                            self.assertFalse(math.isfinite(wanted))
+                            continue
+                        self.assertAlmostEqual(float(value), wanted, delta=1e-6 * abs(wanted))
+                        seen += 1
+        self.assertGreater(seen, 100)
+
+    @unittest.skipUnless(CHROMIUM, "needs chromium")
+    def test_browser(self):
+        copy = self.site / "chosen.html"
+        text = (self.site / "explorer.html").read_text(encoding="utf-8")
+        copy.write_text(text.replace("</body>", EXPLORER_ACTION + "</body>"), encoding="utf-8")
+        ran = chromium(self.folder, "--virtual-time-budget=10000", "--dump-dom",
+                       copy.as_uri() + "#case=elastica&name=w_over_L&x=n&y=e")
+        self.assertEqual(console(ran), [])
+        out = json.loads(re.search(r'<pre id="out">(.+?)</pre>', ran.stdout, re.S)[1])
+        self.assertEqual(out["first"]["curves"], 10)
+        self.assertEqual(out["first"]["label"],
+                         "relative error of w_over_L against elements per member")
+        self.assertIn("case=elastica", out["hash"])
+        self.assertRegex(out["box"], r"(?s)beamw.*elements\s+1\b.*verdict")
+        self.assertRegex(out["second"]["label"], r"w_over_L \[1\] against unknowns")
+        self.assertTrue(out["third"]["words"].startswith("warping_torsion"))
+
+
+# What a page does in a browser: a box at the marks, formulations switched off, folded parts on
+# paper, no page wider
+# than a phone. Skipped where there is no Chromium.
+BEHAVIOUR_ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
+  const out = {{}}, q = (what, where = document) => where.querySelector(what), frame = q("[data-p]").closest("div.figure"), svg = q("svg", frame);
+  const key = name => frame.dispatchEvent(new KeyboardEvent("keydown", {{ key: name, bubbles: true, cancelable: true }}));
+  const hidden = f => [...document.querySelectorAll(`[data-f="${{f}}"]`)].map(g => g.style.display == "none");
+  {action}
+  q("#out").textContent = JSON.stringify(out);
+}});</script>"""
+
+
+@unittest.skipUnless(CHROMIUM, "needs chromium")
+class Behaviour(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.site = drawn(cls.class_folder(), "-k", "elastica or warping_torsion/default")
+
+    def done(self, page, action, *options):
+        """What the action put into `out`, on a page opened from its file."""
+        copy = self.site / f"acted_{page}"
+        text = (self.site / page).read_text(encoding="utf-8")
+        copy.write_text(text.replace("</body>", BEHAVIOUR_ACTION.format(action=action) + "</body>"),
+                        encoding="utf-8")
+        try:
+            ran = chromium(self.folder, "--virtual-time-budget=10000", "--dump-dom", *options,
+                           copy.as_uri())
+        finally:
+            copy.unlink()
+        self.assertEqual(console(ran), [])
+        found = re.search(r'<pre id="out">(.+?)</pre>', ran.stdout, re.S)
+        self.assertIsNotNone(found, ran.stderr[-2000:])
+        return json.loads(found.group(1).replace("&gt;", ">").replace("&lt;", "<"))
+
+    def test_keyboard(self):
+        """Arrow keys go from mark to mark and from curve to curve; Escape leaves."""
+        out = self.done(
+            "elastica.html", """
+            key("ArrowRight"); out.first = q("#said").innerText;
+            key("ArrowRight"); out.second = q("#said").innerText;
+            key("ArrowDown"); out.other = q("#said b").innerText;
+            out.aloud = q(".aloud").textContent;
+            key("ArrowUp"); out.back = q("#said b").innerText;
+            key("Escape"); out.gone = q("#said").hidden;""")
+        self.assertRegex(out["first"], r"(?s)beamw.*w_over_L.*elements\s+1\b.*value.*error.*verdict")
+        self.assertRegex(out["second"], r"elements\s+2\b")
+        self.assertIn(out["other"], ("beamw_consistent", "beamw_first"))  # next by its times
+        self.assertIn(out["other"], out["aloud"])
+        self.assertEqual(out["back"], "beamw")
+        self.assertTrue(out["gone"])
+
+    def test_pointer(self):
+        """On a mark the box says what it is, far from all there is none."""
+        out = self.done(
+            "elastica.html", """
+            key("ArrowRight"); const ring = q("circle", svg).getBoundingClientRect();
+            key("Escape");
+            const at = (x, y) => svg.dispatchEvent(new PointerEvent("pointermove", { clientX: x, clientY: y, bubbles: true }));
+            at(ring.x + ring.width / 2 + 2, ring.y + ring.height / 2); out.on = q("#said").hidden;
+            const all = svg.getBoundingClientRect();
+            at(all.x + all.width - 1, all.y + all.height - 1); out.off = q("#said").hidden;""")
+        self.assertEqual(out, {"on": False, "off": True})
+
+    def test_legend(self):
+        """A click in one legend switches a formulation off in all figures of the page, another one
+        on again."""
+        out = self.done(
+            "elastica.html", """
+            const entry = q('[data-l="collocation"][role]', svg);
+            out.before = hidden("collocation"); entry.dispatchEvent(new MouseEvent("click"));
+            out.after = hidden("collocation"); out.pressed = entry.getAttribute("aria-pressed");
+            entry.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" })); out.again = hidden("collocation");""")
+        self.assertGreater(len(out["before"]), 8)
+        self.assertEqual(set(out["before"]), {False})
+        self.assertEqual((set(out["after"]), out["pressed"]), ({True}, "false"))
+        self.assertEqual(set(out["again"]), {False})
+
+    def test_at_most_eight(self):
+        """Of ten formulations drawn eight are shown until the button is pressed."""
+        out = self.done(
+            "explorer.html", """
+            const shown = () => new Set([...svg.querySelectorAll("[data-f]")].filter(g => g.style.display != "none").map(g => g.dataset.f)).size;
+            out.first = shown(); q("button.more").click(); out.then = shown(); q("button.more").click(); out.last = shown();""")
+        self.assertEqual(out, {"first": 8, "then": 10, "last": 8})
+
+    def test_paper(self):
+        """What is folded is open on paper and folded again after it."""
+        out = self.done(
+            "elastica.html", """
+            const open = () => document.querySelectorAll("details:not([open])").length;
+            out.before = open(); dispatchEvent(new Event("beforeprint")); out.on = open();
+            dispatchEvent(new Event("afterprint")); out.after = open();""")
+        self.assertGreater(out["before"], 0)
+        self.assertEqual((out["on"], out["after"]), (0, out["before"]))
+
+    def test_phone(self):
+        """No page is wider than a phone: tables and figures scroll in themselves."""
+        frames = "".join(f'<iframe width="390" height="800" src="{p.name}"></iframe>'
+                         for p in sorted(self.site.glob("*.html")))
+        driver = self.site / "phone.html"
+        driver.write_text(
+            f"""<body>{frames}<pre id="out"></pre><script>addEventListener("load", () => {{
+              q = [...document.querySelectorAll("iframe")].filter(f => f.contentDocument.documentElement.scrollWidth > 391).map(f => f.src);
+              document.getElementById("out").textContent = JSON.stringify(q); }});</script></body>""",
+            encoding="utf-8")
+        ran = chromium(self.folder, "--virtual-time-budget=60000", "--dump-dom", driver.as_uri())
+        driver.unlink()
+        found = re.search(r'<pre id="out">(.+?)</pre>', ran.stdout, re.S)
+        self.assertEqual(json.loads(found.group(1)), [])
 
 
 if __name__ == "__main__":
