@@ -181,8 +181,8 @@ int scene_rotates(const scene_analysis *a);
 
 /* Functions of time as text: + - * / ^, parentheses, sin cos tan asin acos atan sinh cosh tanh exp
  * log sqrt, pi, deg and the time t [s]. Values are SI, angles in radians (30*deg*t). ^ binds to the
- * right and before signs: -t^2 = -(t^2). What has kinks is given in pieces (scene.h), so that
- * steps can end there. */
+ * right and before signs: -t^2 = -(t^2). What has kinks is given in pieces (scene_piece), so
+ * that steps can end there. */
 
 typedef struct formula formula;
 
@@ -586,7 +586,7 @@ typedef struct scene_node {
     double axis[3][3]; /* of the sequence; a zero axis ends it. Of a fork: the section's own axis,
                           and the web's direction */
     scene_body body;
-    char name[SCENE_NAME]; /* "": none, as of every entry; cases/scene/scene.h */
+    char name[SCENE_NAME]; /* "": none, as of every entry */
 } scene_node;
 
 /* Releases of an end of a member: components that are not transmitted to its node, in the member's

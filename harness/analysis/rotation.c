@@ -43,7 +43,7 @@ static double tangent_rounding(void *context, const double mode[])
 
 /* Matrices on the pattern of the free coordinates, for all stations. */
 typedef struct matrices {
-    sparse K, M, G, geometric; /* the soft part of K: newton.h */
+    sparse K, M, G, geometric; /* the soft part of K */
     matrix_factor *factor;
     double *residual, *x, *y; /* [free + driven] */
 } matrices;

@@ -1,5 +1,10 @@
 /* experiments/: verification, sweeps, extremes, integrators compared, certificates of elements,
- * shards. */
+ * shards.
+ *
+ * Sections, in this order: against (two in alternation); axis; batches; measures; experiment;
+ * bench; checks of elements and certificates; convergence; deal; design; extremes; integrators
+ * (pace); sweeps (ranges); shard; list; stock; merge; meshes; tally; sweep files and tables;
+ * regressions; solution; restart; runs_on; timing; verification. */
 #ifndef BEAMWORK_EXPERIMENTS_H
 #define BEAMWORK_EXPERIMENTS_H
 
@@ -762,7 +767,7 @@ const cell_result *pace_cell_of(const pace *, int index);
  *   momentum   the same
  *   tolerance  for each of them the decimal logarithm of how many times it the error is; twice as
  *              much or as little is as expected
- *   fate       of each step: grows, stops, bounded or exact (experiments.h) */
+ *   fate       of each step: grows, stops, bounded or exact (pace_fate) */
 
 enum { PACE_FOUND = 128 };
 
@@ -1130,7 +1135,7 @@ status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
 status ranges_file_close(ranges_file *, const tally *, const char *content, status written,
                          fault *f);
 
-/* A sweep as work that can be cut into batches (harness/experiments/experiments.h). */
+/* A sweep as work that can be cut into batches. */
 
 typedef struct ranges_work {
     const parameter_ranges *of;
@@ -1345,7 +1350,7 @@ typedef struct verification_files {
 
 /* The paths are given; sweep and judgement live until the files are closed. */
 status verification_files_open(verification_files *, const sweep *, const judgement *, fault *f);
-/* A case, all of whose series have been judged: of experiments.h, with the files as context. */
+/* A case, all of whose series have been judged: for a verification, with the files as context. */
 void verification_files_case(void *files, const case_type *);
 /* Writes all, with what it was computed on; of an interrupted run under names that say so. */
 status verification_files_close(verification_files *, const overview *, const environment *e,

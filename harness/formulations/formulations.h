@@ -173,7 +173,7 @@ enum { PARAMETERS_TEXT = 512 };
 assignment_list parameters_list(const case_type *c);
 int parameters_count(const case_type *c);
 void parameters_default(const case_type *c, double value[]);
-/* "NAME=VALUE" (harness/formulations/formulations.h). */
+/* assignment: "NAME=VALUE". */
 status parameters_set(const case_type *c, const char *assignment, double value[], fault *f);
 /* "NAME=VALUE;NAME=VALUE": values other than the default; a value "*" is skipped and marked in
  * any[] (may be NULL); "*" alone: any of those of the source. */

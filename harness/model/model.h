@@ -1,4 +1,9 @@
-/* model/: a scene meshed with one formulation. */
+/* model/: a scene meshed with one formulation.
+ *
+ * Sections, in this order: model and its coordinates; matrix patterns; centre lines; division;
+ * mesh; discrete elements; division in words; eliminate; assemble; features; kinematics;
+ * metric; missing; state; movable; loads put on nodes; sections that change; release; spring;
+ * supports; turns; warping of ends. */
 #ifndef BEAMWORK_MODEL_H
 #define BEAMWORK_MODEL_H
 
@@ -63,7 +68,7 @@ int model_is_released(const model *, int vertex);
 /* Longest member [m]: the size that displacements are compared with. */
 double model_length(const model *);
 
-/* Physics of the scene that it does not have: FEATURE_* and OMIT_* bits (model.h). */
+/* Physics of the scene that it does not have: FEATURE_* and OMIT_* bits. */
 unsigned model_omits(const model *);
 /* Physics of the scene that it has: FEATURE_* bits. */
 unsigned model_features(const model *);
@@ -256,7 +261,7 @@ typedef struct model_mesh {
     mesh_warp *warp;
     int discretes, springs; /* springs: the last of them */
     mesh_discrete *discrete;
-    int turns;              /* that are followed: model.h */
+    int turns;              /* that are followed */
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
@@ -395,7 +400,7 @@ static inline int model_warp(const model *m, int warp)
 {
     return model_mesh_of(m)->warp[warp].coordinate;
 }
-/* Rotation vectors that are followed (model.h). */
+/* Rotation vectors that are followed beyond half a circle. */
 static inline int model_turns(const model *m)
 {
     return model_mesh_of(m)->turns;
@@ -535,12 +540,12 @@ void kinematics_state_copy(const model *, const model_state *from, model_state *
 double kinematics_state_path(const model_state *);
 const double *kinematics_strains(const model_state *); /* [elements x strains] */
 
-/* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other rooms,
- * which need not know what a state keeps (model.h). */
+/* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other
+ * folders, which need not know what a state keeps. */
 void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
 /* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed state,
  * of as many turns as the path has made; not a number: the vector has lost its direction on a full
- * turn (model.h). */
+ * turn. */
 double kinematics_component(const model *, const model_state *, int node, int component);
 /* The same of a node in the axes of another, `from`: how its place has moved there [m], or the
  * rotation vector of its turn against that [rad]. */
@@ -634,7 +639,7 @@ struct model_state {
     double *warp;   /* [warps] */
     double *driver; /* [drivers] present value */
     double *e, *sigma, *inner; /* [elements x strains], [.. inner] */
-    double *turn;              /* [turns x 3] rotation vectors that have been followed: model.h */
+    double *turn;              /* [turns x 3] rotation vectors that have been followed */
 };
 
 /* The motions [6: displacement, turn] that a node can make: the span of the columns of its
@@ -745,7 +750,7 @@ enum { SPRING_STRAINS = 6 };
  * by which that of several turns is known; NULL: less than half a turn.
  *
  * On a full turn the vector's derivatives across it have no bounds; within 1e-3 rad of it they stay
- * what they are there. The moment stays exact while it is along the turn (model.h). */
+ * what they are there. The moment stays exact while it is along the turn. */
 void spring_strain(int nodes, const node_state x[], const double near[3], strain_output *out);
 
 /* Whether the supports hold all parts of a structure. Rigid motions of a part are six numbers:

@@ -48,7 +48,7 @@ struct model {
     mesh_triad *triad;        /* [triads], room for those of all nodes of all elements */
     int triads;
     int *kind_of_section; /* [sections] the first, or NONE */
-    mesh_turn *turn;      /* [turns] in the order of model.h */
+    mesh_turn *turn;      /* [turns] in the order of model_turns */
     double size;          /* length of the longest member [m] */
     int asked;            /* elements of a piece of a member */
     division division;    /* of the members into elements */

@@ -73,7 +73,7 @@ typedef struct run_state {
     phases phases;
     thread_team *team;         /* of the loop over elements; NULL: one thread */
     struct element_part *part; /* of a few elements, before they are added up in order; NULL: none
-                                  yet: newton.h */
+                                  yet */
     struct run_ahead *ahead; /* one block; NULL: nothing has been evaluated ahead: newton_impl.h */
     run_undeformed undeformed;
     run_damping *damping; /* of a motion; NULL: none */
@@ -743,7 +743,7 @@ status tangent_take_condensed(analysis_context *c, const scene_compliance *a, co
 void tangent_prescribed(const node_tangent *t, double moment[3]);
 /* Motions that the node can make at all. */
 void tangent_movable(const model *m, const node_tangent *t, movable *out);
-/* C[6 x 6] of the node with the reaction's moment as newton.h has it; columns outside `wanted`,
+/* C[6 x 6] of the node with the reaction's moment by the convention; columns outside `wanted`,
  * and rows and columns of what is not among the `components` that can move, stay zero. */
 status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
                           unsigned components, double C[36], fault *f);
@@ -760,7 +760,7 @@ typedef struct distributed_loads {
     double path;
 } distributed_loads;
 
-/* Does the load do its work within elements? Else halves of it go to their ends (newton.h). */
+/* Does the load do its work within elements? Else halves of it go to their ends. */
 int distributed_spreads(const equations *, const scene_load *);
 
 /* Does the element take it into its own equilibrium (element_type.along)? Dead forces on the whole
@@ -836,7 +836,7 @@ void loads_subtract_stiffness(const equations *eq, const model_state *s, double 
 status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);
 
 /* linearise.c: the moment [N m] about its axis that a node held about one axis alone takes
- * from its support in a state (sigma: as newton.h has it); 0: rounding. */
+ * from its support in a state (sigma: as internal_state has it); 0: rounding. */
 double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
                              double path, int node, int axis);
 /* Elements and loads give the derivatives of work in the exponential chart of a node's turn. Where
@@ -935,7 +935,7 @@ status linearise_state(const equations *, const linear_memory *, const model_sta
 /* Forgets the independent strains and stresses: e = D(x), sigma = P'(e). */
 status linearise_make_compatible(const equations *, model_state *, fault *);
 /* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the
- * state: F[6] [N, N m]. sigma: as newton.h has it. */
+ * state: F[6] [N, N m]. sigma: as internal_state has it. */
 void linearise_node_force(const equations *, const model_state *, const double sigma[], int node,
                           double F[6]);
 /* out[free + driven] += forces that the stresses of these elements take, and all springs. */

@@ -11,7 +11,7 @@
 /* Strains and stresses of all elements evaluated ahead of the loop that wants them, for types that
  * evaluate all elements at once (element_type.strain_many, stress_many, without lanes). For others,
  * and where there is no memory for it, nothing is done ahead and every element is evaluated in the
- * loop; those with lanes a few at a time, where newton.h is used. */
+ * loop; those with lanes a few at a time, where they are taken up (chunk.c). */
 
 /* Strains and stresses evaluated for all elements at once. */
 typedef struct run_ahead {
@@ -73,7 +73,7 @@ void bordered_free(bordered *s);
 /* In place; fixed and prescribed coordinates do not change. x: [columns x all] */
 void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[]);
 /* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
- * strains (newton.h). SINGULAR: round-off leaves too few digits. */
+ * strains (refinement_judge). SINGULAR: round-off leaves too few digits. */
 status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
 
 /* Links in a row, condensed to what their two ends do, and back.
@@ -201,8 +201,8 @@ int condensation_number(condensation *s, int count, const int released[]);
 /* Patterns of both. */
 status condensation_patterns(condensation *s, int ends, fault *f);
 
-/* Springs about the undeformed state, as newton.h has it for elements: sigma[6 x springs] are the
- * last of its stresses. */
+/* Springs about the undeformed state, as linear_stresses has it for elements: sigma[6 x springs]
+ * are the last of its stresses. */
 
 void linear_springs_stiffness(const model *, sparse *K); /* += */
 void linear_springs_stresses(const model *, const double x[], double sigma[]);

@@ -195,7 +195,7 @@ typedef struct gyroscopic_result {
     int unproven;      /* ... those of them that no mode found accounts for: as many directions of
                           growing motions, or of frequencies of negative energy, were not found */
     long solutions, factorisations;
-    double dense_operations; /* as in numerics.h */
+    double dense_operations; /* n^3 of what was solved densely */
 } gyroscopic_result;
 
 status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);

@@ -1,4 +1,9 @@
-/* records/: result files and other formats of results, comparison of runs. */
+/* records/: result files and other formats of results, comparison of runs.
+ *
+ * Sections, in this order: assumptions; stored runs; comparison; csv; schema; lines of CSV;
+ * digest; places of records; followed modes; gather; json; junit; paths; output; HDF5 files;
+ * kept (one file for all experiments); markdown; output folders; reach; rows; hash; store;
+ * system folder; columns. */
 #ifndef BEAMWORK_RECORDS_H
 #define BEAMWORK_RECORDS_H
 
@@ -660,7 +665,7 @@ typedef struct results_hash {
 status results_hash_of(const char *path, results_hash *out, fault *f);
 
 /* results.h5: everything a sweep found, for the reports. Below /cases/CASE a table for each kind of
- * record (records.h), the points of curves and the shapes in arrays beside; `beamwork schema`
+ * record (record_type), the points of curves and the shapes in arrays beside; `beamwork schema`
  * describes them. */
 
 /* A file that is filled case by case, while others are still run. */

@@ -49,9 +49,9 @@ void span_curve_between(const span_grid *g, const span_frame *p, const span_fram
  * Whatever a formulation assumes inside, its elements' ends are in equilibrium.  Between them the
  * line is the one of the exact beam (Simo-Reissner with warping, the section's constants, the
  * physics that is active) that runs from end frame to end frame under F' = -q, m' = -r' x F - mu, N
- * = R^T F, M = R^T m, and section_forces_impl.h, from p with the forces at p, which pass in
- * proportion to x into those from q with the forces at q.  An error of the end forces is the only
- * one that is left: a value inside converges as they do, and meets them at the ends. */
+ * = R^T F, M = R^T m, and the torsion of section_forces_impl.h, from p with the forces at p,
+ * which pass in proportion to x into those from q with the forces at q.  An error of the end forces
+ * is the only one that is left: a value inside converges as they do, and meets them at the ends. */
 
 /* In the principal axes of the turned section, of what lies towards q on what lies towards p;
  * moments about the centroid. */

@@ -1,4 +1,11 @@
-/* study/: cells and their run, truths, verdicts, cost coefficients, times. */
+/* study/: cells and their run, truths, verdicts, cost coefficients, times.
+ *
+ * Sections, in this order: limit; cell; imported values; omission; rules (known deviations);
+ * truths; sweep; verdict; judgement; change (differences of meshes); checksum; child process;
+ * claims; columns; curve error; data files; derive; workload; expense; families; follow;
+ * glossary; handles; interrupt; meeting (equal error); narrow; noise; overview; user-defined
+ * findings, tables and truths; plan; preference; cost of a cell; progress; proposal; reach;
+ * rounding; rounds (times); run; scene truths; sentence; serialise; truth; worker. */
 #ifndef BEAMWORK_STUDY_H
 #define BEAMWORK_STUDY_H
 
@@ -304,7 +311,7 @@ typedef struct series {
     omission without; /* ... without this, as another model where that matters */
     int meshes, mesh[SERIES_MAX_MESHES];
     cell_result *cell; /* [meshes]; their scenes are empty: the point has it */
-    /* [quantities] relative, of the finest mesh (harness/study/study.h); NULL: not measured */
+    /* [quantities] relative, of the finest mesh; NULL: not measured */
     double *noise;
     struct cell_timing *timing; /* [meshes] of a benchmark (harness/study); else NULL */
     imported *imported;         /* another program's: its cells were not run here; else NULL */
@@ -336,8 +343,8 @@ typedef struct sweep {
  * two results. */
 typedef struct sweep_follower {
     void *context;
-    /* 1: the finest mesh of this series, whose cells are all done, is run again for its noise
-     * (study.h). NULL: none is. */
+    /* 1: the finest mesh of this series, whose cells are all done, is run again for its noise.
+     * NULL: none is. */
     int (*doubts)(void *context, const sweep *, int series_index);
     /* Called once for every series, in their order, when it and all before it are complete and
      * their scatter is measured; a failure of it ends the run. An interrupted run removes the
@@ -689,7 +696,7 @@ enum { WORKERS_MOST = 64 };
 
 typedef struct workload_task {
     int series, mesh;
-    int again; /* 0: the cell; k > 0: the same in other words, k - 1 of study.h */
+    int again; /* 0: the cell; k > 0: the same in other words, number k - 1 */
 } workload_task;
 
 /* Shared by all processes: what there is to take, and what each worker is at. */
@@ -712,7 +719,7 @@ typedef struct workload {
     const sweep_follower *follower; /* NULL: none */
     int time_limit;                 /* [s] of one cell; 0: none */
     int together;                   /* of the request */
-    int count, all;       /* tasks: the cells in the order of study.h, then two for each series */
+    int count, all;       /* tasks: the cells in their order of cost, then two for each series */
     workload_task *tasks; /* [all] */
     char *done;           /* [all] 1: it has its result */
     int due, finished;    /* of those that are to be done */
@@ -809,7 +816,7 @@ int expense_order(const sweep *s, int jobs, workload_task tasks[]);
  * affects the exit status. A formulation with a known deviation for a feature of the scene (a rule
  * with that feature in its condition) does not vote, nor does one with `misprint`.
  *
- * Each formulation has a limit L and its uncertainty U (study.h).  Two agree when they have the
+ * Each formulation has a limit L and its uncertainty U.  Two agree when they have the
  * same theory of shear in stability, where that matters, and |L1 - L2| + U1 + U2 is within
  * FAMILIES_APART of their size.  Around the limit that most families agree with, at least two, the
  * reference is the mean by 1/U^2 of those that are within their U of it; its uncertainty is that of

@@ -295,7 +295,7 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
 }
 
 /* Newton on the motions without inertia alone: forces and increments are projected onto them
- * (time_impl.h), and the tangent holds the others by their masses. */
+ * (massless_motion), and the tangent holds the others by their masses. */
 
 /* Stiffness that holds what has inertia, in parts of the largest of its own: no more is lost of
  * that of the rest, no more of Newton's order is either. */

@@ -133,8 +133,8 @@ struct motion_scheme {
     const double *light;   /* what has no inertia and is in no error: metric_distance; NULL: none,
                               or not known before the first step */
     between_degree degree; /* inside a step; quintic: accelerations are as exact as rates */
-    /* One step of h [s]; *error: estimate of what it adds to positions, in the measure of
-     * model.h. NOT_CONVERGED: `to` is of no use, `from` is as it was. */
+    /* One step of h [s]; *error: estimate of what it adds to positions, in the measure
+     * metric_distance. NOT_CONVERGED: `to` is of no use, `from` is as it was. */
     status (*step)(motion_scheme *, const instant *from, double h, instant *to, double *error,
                    step_record *, fault *);
     void (*free)(motion_scheme *);
@@ -208,7 +208,7 @@ double reading_of(const model *, const scene_quantity *, const model_state *, co
  * a[free + driven]: rates of a motion and their derivatives; NULL: nothing moves. */
 status resultants_of(const equations *, const scene_quantity *, const model_state *,
                      const double v[], const double a[], double *out, fault *);
-/* Of a section, in any state that internal.h knows. */
+/* Of a section, in any state that internal_state knows. */
 status resultants_in_section(const equations *, const scene_quantity *, const internal_state *,
                              double *out, fault *);
 

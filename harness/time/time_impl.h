@@ -234,7 +234,7 @@ double massive_norm(const massive *, const model *, const double weight[], doubl
 
 /* Internals of the conserving step. */
 
-typedef struct evaluation evaluation; /* time_impl.h */
+typedef struct evaluation evaluation;
 
 typedef struct conserving {
     motion_scheme base;
@@ -298,7 +298,7 @@ void conserving_rates(conserving *, const instant *from, double h, instant *to);
 void conserving_loads(conserving *, const instant *from, const model_state *now, double h,
                       double out[]);
 
-/* conserving_strain.c: the step, to begin with; as increments of coordinates (time_impl.h). */
+/* conserving_strain.c: the step, to begin with; as increments of coordinates. */
 void conserving_predict(conserving *, const instant *from, double h);
 void conserving_increment(const conserving *, const model_state *from, double inc[]);
 
@@ -369,7 +369,7 @@ status checks_massless(const analysis_context *, const carried_masses *, const s
  *   d = sum_g w_g J(x(s_g)) (dr^, phi, da),   sigma_m = s + k W d,
  *   k = sum [P(e_1) - P(e_n) - s.d]/sum d.W d   (one number for the whole structure):
  * sum sigma_m.d is the change of energy, and forces A^T sigma_m have no resultant in any rigid
- * motion (time_impl.h). Translations m (v1 - v)/h = f - F with dr = h (v + v1)/2; rotations by
+ * motion (cayley_step). Translations m (v1 - v)/h = f - F with dr = h (v + v1)/2; rotations by
  * Cayley vectors R_n^T c = h (W + W1)/2, (R_1 J W1 - R_n J W)/h = m - M. After Simo, Tarnow &
  * Doblare (1995), Gonzalez (1996) and Sansour et al. (2004); the common turn of an element, its two
  * points and the one number are not theirs. W is not P'' at rest: where stresses inside an element
@@ -623,15 +623,15 @@ status massless_forces(const model *, const carried_masses *, const model_state 
                        fault *);
 status massless_motion(const model *, const carried_masses *, const model_state *, double dx[],
                        fault *);
-/* a[free] as rates have it (time_impl.h) loses the motion without inertia. */
+/* a[free] as rates have it (forms_rates) loses the motion without inertia. */
 status massless_drop(const model *, const carried_masses *, const model_state *, double a[],
                      fault *);
-/* Spatial turns of bodies -> as rates have them (time_impl.h): a[free]. */
+/* Spatial turns of bodies -> as rates have them (forms_rates): a[free]. */
 void massless_own_axes(const model *, const model_state *, double a[]);
 /* The largest stiffness of what has inertia, by that [1/s^2]; diagonal[free]: of a stiffness. */
 status massless_stiffest(const model *, const carried_masses *, const model_state *,
                          const double diagonal[], double *, fault *);
-/* a[free] that forces give what has inertia, as rates have it (time_impl.h); 0 for what has none.
+/* a[free] that forces give what has inertia, as rates have it (forms_rates); 0 for what has none.
  */
 status massless_accelerate(const model *, const carried_masses *, const model_state *,
                            const double force[], double a[], fault *);

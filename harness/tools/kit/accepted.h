@@ -1,6 +1,6 @@
 /* Formulations that the project has accepted: those whose answers tests compare with what is right.
- * What a new one must keep in any case is tested of all (harness/model/test/contract_test.c and
- * declared_test.c, harness/analysis/test/invariants_test.c). */
+ * What a new one must keep in any case is tested of all (harness/model/test/kinds_test.c,
+ * harness/analysis/test/invariants_test.c). */
 #ifndef BEAMWORK_TEST_ACCEPTED_H
 #define BEAMWORK_TEST_ACCEPTED_H
 
