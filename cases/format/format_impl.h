@@ -27,7 +27,7 @@ const scope *scope_word(const scope *names, const char *name, const char *word, 
 /* A word of a parameter that has these. */
 const scope *scope_choice(const scope *names, const char *name, const char *word,
                           const char *choices, arena *a);
-/* Adds the constants of a section: see format_impl.h. */
+/* Adds the constants of a section as names. */
 const scope *scope_constants(const scope *names, const char *name, const double value[], arena *a);
 /* The entry of a name of that length, or NULL. */
 const scope *scope_find(const scope *names, const char *name, size_t length);
@@ -123,7 +123,7 @@ void units_translate(const unit_system *, const char *unit, size_t size, char ou
 
 /* Builds a scene from a checked tree, and reads values of its maps by their keys.
  *
- * The tree has the form that format_impl.h describes: a requested value is a number, a word, or a
+ * The tree has been checked by its keys: a requested value is a number, a word, or a
  * list where one is required. A value without meaning is a mistake, and some value is returned. */
 
 typedef struct builder {

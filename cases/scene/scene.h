@@ -1,5 +1,10 @@
 /* scene/: a scene: the structure, its loads and prescribed coordinates, its analyses and
- * quantities. */
+ * quantities.
+ *
+ * Sections, in this order: analysis; formula and function of time; quantity; scene; values
+ * along a path; edit; names; entry (keys of scene files); jet; functions of expressions; inputs
+ * of analyses; lists; words of quantities and omission; quantity type; unit of length; warping
+ * of ends. */
 #ifndef BEAMWORK_CASES_SCENE_SCENE_H
 #define BEAMWORK_CASES_SCENE_SCENE_H
 

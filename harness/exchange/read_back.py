@@ -3,7 +3,7 @@
     python3 harness/exchange/read_back.py DECK.inp... [-o VALUES.csv]
 
 DECK.dat stands beside each deck. Decks of one scene with other meshes are one series: its limit is
-what the solid comes to. Answers (lines `**Q`) are explained in answers.h. The uncertainty
+what the solid comes to. Answers (lines `**Q`) are explained in exchange_impl.h. The uncertainty
 of a value is that of its 7 digits.
 """
 import argparse

@@ -199,7 +199,7 @@ typedef struct mesh_vertex {
     int vector_driver[3]; /* prescribed rotation vector: its drivers; NONE: not prescribed so */
 } mesh_vertex;
 
-/* End release of a member: see model.h. */
+/* End release of a member: see scene_release. */
 typedef struct mesh_release {
     int node; /* of the scene, from which it is released */
     int turns, slides;

@@ -1,4 +1,13 @@
-/* newton/: equations of a model, Newton's method, tangents, condensation, outcomes. */
+/* newton/: equations of a model, Newton's method, tangents, condensation, outcomes.
+ *
+ * Sections, in this order: equations of a model; advance (a state after a correction); applied
+ * loads; arrival (convergence); condensation of members; modes; outcomes of analyses; shapes;
+ * rows; system matrices; solve_options and solve_result; the context of an analysis; bordered
+ * tangent; tangent of a node; distributed loads; equations of elements; loads along a path;
+ * linearise; chunk (elements in one go); convention of moments; extrapolate; history; identity;
+ * internal (section resultants, stresses); undeformed state; linear solutions; predictor;
+ * newton; quadratic forms; quantity results; refinement; rotating frame; singular; tangent in
+ * parts; uncondensed. */
 #ifndef BEAMWORK_NEWTON_H
 #define BEAMWORK_NEWTON_H
 
@@ -322,7 +331,7 @@ typedef struct outcome_end {
     double largest, origin;  /* [J] largest energy so far; that at t = 0 */
     double turned;           /* [J] sum of the work of all steps, whatever their signs */
     double scale, extent, rate, density; /* of time_impl.h */
-    double stress, contraction;          /* of newton.h */
+    double stress, contraction;          /* of Newton's convergence */
     int quiet;                           /* steps since the last discontinuity of the loads */
     size_t states, coordinates, strains, released, between;
     double *value; /* [2 states + 3 coordinates + 2 strains + released + 5 between]; NULL: none. The

@@ -1129,7 +1129,7 @@ status preference_elements(const cell_request *, const formulation *chosen, doub
 
 /* Both at once: of the formulations that preference_formulation ranks equal to the first one, at
  * most five and two of a family, the first that converges where the next mesh with the lowest cost
- * is always solved before more expensive ones, by counted work (study/study.h). request: the cell
+ * is always solved before more expensive ones, by counted work. request: the cell
  * without formulation and elements. */
 status preference_both(const cell_request *, const rule_subject *where, const rule *rules,
                        int count, double asked, preference *out, fault *f);
@@ -1217,8 +1217,8 @@ int proposal_write(FILE *to, const sweep *s, const judgement *j);
 
 /* Which mesh, and which formulation, reaches an error. One rule, without clocks: a formulation is
  * within a level from the coarsest mesh on whose error, and that of every finer one, is;
- * formulations are ordered by their counted work on that mesh, with the committed cost coefficients
- * (study/study.h). One that is known to be wrong in the requested quantity follows all others. */
+ * formulations are ordered by their counted work on that mesh, with the committed cost
+ * coefficients. One that is known to be wrong in the requested quantity follows all others. */
 
 enum { REACH_LEVELS = 4, REACH_EVERY = -1 };
 extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */

@@ -1,4 +1,10 @@
-/* Internal interfaces of time/. */
+/* Internal interfaces of time/.
+ *
+ * Sections, in this order: alpha; aside (a step next to those of the motion); balance; body
+ * mass; cayley; complement; inertia (relations of rates); forms; carried masses; massive;
+ * conserving; deformable; drive; explicit; extent; frames; increment; integrator; kinks; stage;
+ * launch; massless; peaks; place; radau; released; resume; settle; shares; spread; stations;
+ * turning; vertex rates; watches. */
 #ifndef BEAMWORK_TIME_IMPL_H
 #define BEAMWORK_TIME_IMPL_H
 
@@ -128,8 +134,7 @@ void complement_strains(complement *, model_state *, int iteration, double corre
 
 /* Change of the rates and their derivatives while a state moves: for translations, warping and
  * angles dv = g dx, da = b dx; for a rotation in the frame's axes the same with d inc in place of
- * dx, which is X R^T times the spatial increment, X = inverse Jacobian of time_impl.h at inc[free +
- * driven]. */
+ * dx, which is X R^T times the spatial increment, X = turning_inverse at inc[free + driven]. */
 typedef struct inertia_relation {
     double b, g; /* [1/s^2], [1/s] */
     const double *inc;
@@ -335,7 +340,7 @@ void carried_step_sway(const carried_step *, double h, const double T[9], const 
 void carried_step_late(const carried_mass *, const carried_step *, double h, const double T[9],
                        const double sway[9], double K[36]);
 
-/* Derivatives of the relative motion of a step (time_impl.h) by dr, c, da of the nodes, in closed
+/* Derivatives of the relative motion of a step (cayley_step) by dr, c, da of the nodes, in closed
  * form. */
 
 /* d phi_j = own_j dc_j + common_j dc, d z_j likewise, with c the mean; spin dc: of G. */
@@ -445,7 +450,7 @@ void drive_at(const equations *, const model_state *from, double time, double in
               double a[]);
 
 /* Runge-Kutta of order 8 with an error estimate of order 7 (Prince & Dormand 1981, rk8pd of GSL)
- * for inc' = X v,  v' = M^-1 (f - h - J^T sigma), X the inverse Jacobian of time_impl.h for
+ * for inc' = X v,  v' = M^-1 (f - h - J^T sigma), X the inverse Jacobian turning_inverse for
  * rotations in the frame's axes, 1 else: for reference values of a mesh. Positions are
  * increments from the start of each step. */
 
@@ -874,7 +879,7 @@ status settle(motion_stage *, const double zero[], double h, instant *now, fault
 /* The motion that causes them. */
 typedef struct shares_motion {
     const double *v, *a; /* [free + driven] */
-    int spread;          /* 1: consistent mass of elements (time_impl.h) */
+    int spread;          /* 1: consistent mass of elements (element_spreads) */
 } shares_motion;
 
 /* F[6] += force and moment (about the node's frame) that the masses moved by a node take. */
