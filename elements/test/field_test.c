@@ -117,7 +117,7 @@ static void resultants(const displacement_field *f, int kind, const char *name)
     node_state x[ELEMENT_MAX_NODES];
     field_rows rows[LOADS];
     field_load load[LOADS];
-    double R[9];
+    double R[9] = {0};
     for (int k = 0; k < f->nodes; k++) { /* a rigid motion */
         const double turn[3] = {0.7, -0.4, 1.1};
         double along[3];
