@@ -244,10 +244,12 @@ static void add_related(const glossary *g, const char *word, int where, int *cou
     for (int i = 0; i < g->entries && *count < RELATED; i++) {
         const glossary_entry *e = &g->entry[i];
         const size_t used = strlen(line);
+        char term[GLOSSARY_WORD];
+        lower(term, sizeof term, e->term);
         if (where == 0 ? !contains(e->term, word) && !contains(e->also, word)
                        : !contains(e->meaning, word))
             continue;
-        if (contains(line, e->term))
+        if (contains(line, term))
             continue;
         snprintf(line + used, size - used, "%s%s", used > 0 ? ", " : "", e->term);
         ++*count;
