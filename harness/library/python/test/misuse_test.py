@@ -61,7 +61,7 @@ class Arguments(ModuleTest):
                 ("nodes['tip']['at'][0] is nan", {"at": [float("nan"), 0, 0]}),
                 ("nodes['tip']['at'][1] is inf", {"at": numpy.array([0, numpy.inf, 0])}),
                 ("NoneType", {"at": None}), ("complex", {"at": [1j, 0, 0]}),
-                ("empty", {"hold": ""}), ("is not a name", {3: 4}), ("no name", {"": 4}),
+                ("empty", {"hold": ""}), ("is not a name", {3: 4}), ("is not a name", {"": 4}),
                 ("set", {"at": {1, 2, 3}}), ("nested", endless), ("bytes", {"hold": b"all"}),
                 ("at", {"at": [0.1, 0, 0, 0]}), ("nodes['tip']", {"at": "x" * 5000}),
                 ("hold", {"at": [0.1, 0, 0], "hold": "\udcff"}),
