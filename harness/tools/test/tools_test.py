@@ -406,11 +406,11 @@ class Make(Folder):
         return [test.removeprefix(f"{self.folder}/") for test in runs[0]], told
 
     def test_tests_by_words_of_their_names(self):
-        tests, told = self.chosen("rounding_ truths")
-        self.assertEqual([name for name in tests if not re.search("rounding_|truths", name)], [])
+        tests, told = self.chosen("run_test truths")
+        self.assertEqual([name for name in tests if not re.search("run_test|truths", name)], [])
         self.assertIn("harness/study/test/run_test", tests)
-        self.assertTrue(any("/rounding_test" in line and " -o " in line for line in told))
-        self.assertFalse(any("study/test/limit_test" in line for line in told))
+        self.assertTrue(any("/run_test" in line and " -o " in line for line in told))
+        self.assertFalse(any("study/test/rules_test" in line for line in told))
         self.assertIn("reference/test/pack_test.py", self.chosen("reference/")[0])
         self.assertTrue(all("numerics" in name for name in self.chosen("numerics")[0]))
 
