@@ -75,7 +75,7 @@ endif
 
 help: ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-9s %s\n", $$1, $$2}' Makefile harness/library/packaging/install.mk
-	@echo "make lab       measurements and experiments: a list; CONTRIBUTING.md names the parts of make check"
+	@echo "make lab       measurements and experiments: a list; CONTRIBUTING.md names more targets: format, layers, tidy, asan"
 
 # Errors of every mesh are held against the committed ones where LAPACK and libm are theirs; NOT_WORSE= leaves that out.
 NOT_WORSE ?= $(if $(filter 12.%,$(shell cat /etc/debian_version 2>/dev/null)),--not-worse-than $(BASELINE))
@@ -103,7 +103,7 @@ test: $(if $(T),all $(filter $(TESTS),$(RUN)) $(if $(filter harness/library/%.py
 compile_commands.json: FORCE
 	@$(MAKE) --no-print-directory -Bnk V=1 all tests | $(PYTHON) harness/tools/compile_commands.py >$@
 
-all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truths
+all: $(PROGRAM) $(TRUTHS) ## build the program and the packed truths
 
 $(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
 	@$(PROGRAM) import $< -o $@ >/dev/null

@@ -270,7 +270,7 @@ static int differs(const whole *a, const whole *b)
 static void equations(batch *b, equations_function *many, int first, int count, int tangent)
 {
     equations_output out[MANY];
-    const double *e[MANY], *s[MANY], *inner[MANY] = {NULL};
+    const double *e[MANY] = {NULL}, *s[MANY] = {NULL}, *inner[MANY] = {NULL};
     double at[MANY][S];
     status outcome[MANY];
     static whole together[MANY], alone;
@@ -410,7 +410,7 @@ static void strains(batch *b, strains_function *many, int first, int count, int 
 static void stresses(batch *b, stresses_function *many, int first, int count, int what)
 {
     stress_output out[MANY];
-    const double *e[MANY] = {NULL}, *inner[MANY];
+    const double *e[MANY] = {NULL}, *inner[MANY] = {NULL};
     status outcome[MANY];
     answers together[MANY], alone;
     int different = 0;
