@@ -312,7 +312,7 @@ static status solve_column(scene_analysis_kind kind, double P, double M, double 
                        kind == SCENE_MODAL ? scene_frequency(0, SCENE_ANY)
                                            : scene_critical_factor(1, 0));
     gsl_test(formulation_parse("beamw", &fm, f) != STATUS_OK, "beamw exists");
-    const model_request what = {&s, fm.type, fm.option, 16, 0};
+    const model_request what = {&s, fm.type, fm.option, 16, 0, 0};
     status outcome = model_alloc(&what, &m, f);
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, f);
@@ -524,7 +524,7 @@ static void inertia_counts_critical_loads(void)
         solve_result r = {0};
         straight_column(&s, STATIONS, path);
         formulation_parse(names[k], &chosen, &f);
-        const model_request what = {&s, chosen.type, chosen.option, 16, 0};
+        const model_request what = {&s, chosen.type, chosen.option, 16, 0, 0};
         status outcome = scene_validate(&s, &f);
         if (outcome == STATUS_OK)
             outcome = model_alloc(&what, &m, &f);

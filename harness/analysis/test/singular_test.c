@@ -109,7 +109,7 @@ static void supports(const char *formulation_text, int elements)
         two_beams(&s);
         changes[i].change(&s);
         formulation_parse(formulation_text, &fm, &f);
-        const model_request what = {&s, fm.type, fm.option, elements, 0};
+        const model_request what = {&s, fm.type, fm.option, elements, 0, 0};
         gsl_test(scene_validate(&s, &f) != STATUS_OK || model_alloc(&what, &m, &f) != STATUS_OK,
                  "%s: %s", changes[i].what, f.text);
         gsl_test_int(supports_loose_part(m, &node, motion), loose, "%s", changes[i].what);
@@ -155,7 +155,7 @@ static void all_cases_are_held(void)
         gsl_test(case_build(registry_cases[i], value, &s, &f) != STATUS_OK, "%s: %s", s.name,
                  f.text);
         for (int k = 0; registry_formulations[k] != NULL && !tried; k++) {
-            const model_request what = {&s, registry_formulations[k], NULL, 2, 0};
+            const model_request what = {&s, registry_formulations[k], NULL, 2, 0, 0};
             tried = model_alloc(&what, &m, &f) == STATUS_OK;
         }
         gsl_test(!tried || (supports_loose_part(m, &node, motion) && !moves_only(&s)),
@@ -229,7 +229,7 @@ static void driver_that_moves_nothing(double half_angle, int condition_component
                 scene_add_unknown_driver(&s, "unknown", apex, condition_component, known));
     scene_add_static(&s, 1, &end, 1);
     formulation_parse("collocation", &fm, &f);
-    const model_request what = {&s, fm.type, fm.option, 1, 0};
+    const model_request what = {&s, fm.type, fm.option, 1, 0, 0};
     gsl_test(scene_validate(&s, &f) != STATUS_OK || model_alloc(&what, &m, &f) != STATUS_OK,
              "V: %s", f.text);
     const status outcome = solve_scene(&s, m, NULL, &r, &f);

@@ -396,7 +396,8 @@ static int make(const double R[9], scene *s, model **m)
     }
     scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA);
     scene_add_modal(s, SCENE_NONE);
-    const model_request request = {s, formulation_find("geometrically_exact"), NULL, ELEMENTS, 1};
+    const model_request request = {s, formulation_find("geometrically_exact"), NULL, ELEMENTS, 1,
+                                   0};
     const status made = model_alloc(&request, m, &f);
     gsl_test(made != STATUS_OK, "two members: %s", f.text);
     return made == STATUS_OK;

@@ -22,7 +22,7 @@ static int corner(const char *formulation_name, int elements, int attached, scen
     scene_add_member(s, middle, tip, profile, y);
     scene_hold_all(s, root);
     scene_add_static(s, 1, &end, 1);
-    const model_request request = {s, formulation_find(formulation_name), NULL, elements, 0};
+    const model_request request = {s, formulation_find(formulation_name), NULL, elements, 0, 0};
     const status made = model_alloc(&request, m, &f);
     gsl_test(made != STATUS_OK, "a corner: %s", f.text);
     return made == STATUS_OK;

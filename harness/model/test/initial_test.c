@@ -47,7 +47,7 @@ static void solve(const char *name, const double g[3], const int held[6], double
                            i < 6 ? scene_coordinate(tip, i) : scene_reaction(tip, i - 6));
     }
     gsl_test(formulation_parse(name, &fm, &f) != STATUS_OK, "%s exists", name);
-    const model_request what = {&s, fm.type, fm.option, 3, 0};
+    const model_request what = {&s, fm.type, fm.option, 3, 0, 0};
     status outcome = model_alloc(&what, &m, &f);
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, &f);

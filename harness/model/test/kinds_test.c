@@ -64,7 +64,7 @@ static int solve(const element_type *type, int count, const kinds_link links[], 
     solve_result r = {0};
     fault f = {""};
     row_of(count, links, force, &s);
-    const model_request what = {&s, type, NULL, elements, 0};
+    const model_request what = {&s, type, NULL, elements, 0, 0};
     status outcome = model_alloc(&what, &m, &f);
     const int offered = ask_offered(&s, type);
     if (outcome == STATUS_OK) {
@@ -272,7 +272,7 @@ static void profile_row_of(int members, const int ends[][2], scene *s)
 static model *meshed(const scene *s, const element_type *type, int elements, fault *f)
 {
     model *m = NULL;
-    const model_request what = {s, type, NULL, elements, 0};
+    const model_request what = {s, type, NULL, elements, 0, 0};
     return model_alloc(&what, &m, f) == STATUS_OK ? m : NULL;
 }
 

@@ -52,7 +52,7 @@ static void sums_of(const scene_load *load, const char *name, double force[3], d
     gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK ||
                  scene_validate(&s, &f) != STATUS_OK,
              "%s", f.text);
-    const model_request request = {&s, chosen.type, chosen.option, 3, 0};
+    const model_request request = {&s, chosen.type, chosen.option, 3, 0, 0};
     gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s: %s", name, f.text);
     run_state run;
     model_linearisation lin = {.path = 1, .residual = residual};
@@ -161,7 +161,7 @@ static void cantilever(const element_type *type, int attached, int follower, dou
         scene_add_quantity(&s, name[i], "1", path,
                            i < 3 ? scene_coordinate(tip, SCENE_UX + i)
                                  : scene_reaction(tip - 1, SCENE_UX + i));
-    const model_request request = {&s, type, NULL, 4, 0};
+    const model_request request = {&s, type, NULL, 4, 0, 0};
     const int good = scene_validate(&s, &f) == STATUS_OK &&
                      model_alloc(&request, &m, &f) == STATUS_OK &&
                      solve_scene(&s, m, NULL, &r, &f) == STATUS_OK;
@@ -234,7 +234,7 @@ static void solved(const element_type *type, double value[QUANTITIES])
     solve_result r = {0};
     fault f = {""};
     set_up(&s);
-    const model_request request = {&s, type, NULL, ELEMENTS, 0};
+    const model_request request = {&s, type, NULL, ELEMENTS, 0, 0};
     gsl_test(model_alloc(&request, &m, &f) != STATUS_OK ||
                  solve_scene(&s, m, NULL, &r, &f) != STATUS_OK,
              "%s: %s", type->name, f.text);
@@ -291,7 +291,7 @@ static void named(const element_type *type)
     inner = type;
     wrong.equations_many = failing_equations;
     set_up(&s);
-    const model_request request = {&s, &wrong, NULL, ELEMENTS, 0};
+    const model_request request = {&s, &wrong, NULL, ELEMENTS, 0, 0};
     if (model_alloc(&request, &m, &f) == STATUS_OK &&
         kinematics_state_alloc(m, &state, &f) == STATUS_OK) {
         const model_size size = model_sizes(m);
@@ -360,7 +360,7 @@ static void foot_of_an_arm(const element_type *type)
         scene_add_quantity(&s, name, "1", 0,
                            k < 6 ? scene_reaction(foot, k) : scene_coordinate(tip, k - 6));
     }
-    const model_request request = {&s, type, NULL, 2, 0};
+    const model_request request = {&s, type, NULL, 2, 0, 0};
     if (model_alloc(&request, &m, &f) == STATUS_OK &&
         solve_scene(&s, m, NULL, &r, &f) == STATUS_OK) {
         const double x[3] = {1.3 + r.quantity[6].value, -0.4 + r.quantity[7].value,

@@ -29,7 +29,7 @@ static void forces_along(int what, const char *name, double path, int follows, i
     if (what == LINE)
         scene_add_load(&s, SCENE_DISTRIBUTED, member, 0, 3, 0);
     gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK, "%s", f.text);
-    const model_request request = {&s, chosen.type, chosen.option, 1, 0};
+    const model_request request = {&s, chosen.type, chosen.option, 1, 0, 0};
     gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s: %s", name, f.text);
     double residual[MOST];
     run_state run;

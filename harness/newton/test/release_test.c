@@ -97,7 +97,7 @@ static int prepare(release_subject *t, const char *formulation_name)
     formulation chosen;
     fault f = {""};
     const int parsed = formulation_parse(formulation_name, &chosen, &f) == STATUS_OK;
-    const model_request what = {&t->scene, chosen.type, chosen.option, 1, 0};
+    const model_request what = {&t->scene, chosen.type, chosen.option, 1, 0, 0};
     const int good =
         parsed && scene_validate(&t->scene, &f) == STATUS_OK &&
         model_alloc(&what, &t->m, &f) == STATUS_OK &&
@@ -247,7 +247,7 @@ static int warping_member(const element_type *type, int first, int last, scene *
     if (first <= last)
         scene_hold(s, q, first, last);
     scene_add_static(s, 1, &end, 1);
-    const model_request request = {s, type, NULL, 3, 0};
+    const model_request request = {s, type, NULL, 3, 0, 0};
     const status made = model_alloc(&request, m, &f);
     gsl_test(made != STATUS_OK, "%s: %s", type->name, f.text);
     return made == STATUS_OK;

@@ -54,7 +54,7 @@ static inline void gyroscopic_problem_fill(problem *p, double gyroscopic, int ma
 /* The upper triangle, zeros included. */
 static inline sparse gyroscopic_problem_upper(int n, const double A[])
 {
-    sparse s = {n, 1, calloc((size_t)n + 1, sizeof(int)), NULL, NULL};
+    sparse s = {n, 1, calloc((size_t)n + 1, sizeof(int)), NULL, NULL, 0};
     s.row = malloc((size_t)n * (size_t)(n + 1) / 2 * sizeof *s.row);
     s.value = malloc((size_t)n * (size_t)(n + 1) / 2 * sizeof *s.value);
     for (int j = 0, at = 0; j < n; j++) {

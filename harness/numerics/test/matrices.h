@@ -14,7 +14,7 @@
 /* Sparse form of A[n x n]: nonzero entries, and the diagonal in any case. */
 static inline sparse matrices_from_dense(int n, int symmetric, const double A[])
 {
-    sparse s = {n, symmetric, calloc((size_t)n + 1, sizeof(int)), NULL, NULL};
+    sparse s = {n, symmetric, calloc((size_t)n + 1, sizeof(int)), NULL, NULL, 0};
     s.row = malloc(((size_t)n * (size_t)n + 1) * sizeof *s.row);
     s.value = malloc(((size_t)n * (size_t)n + 1) * sizeof *s.value);
     for (int j = 0; j < n; j++) {
@@ -32,7 +32,7 @@ static inline sparse matrices_from_dense(int n, int symmetric, const double A[])
 static inline sparse matrices_chain(int nodes, int size)
 {
     const int n = nodes * size;
-    sparse s = {n, 1, calloc((size_t)n + 1, sizeof(int)), NULL, NULL};
+    sparse s = {n, 1, calloc((size_t)n + 1, sizeof(int)), NULL, NULL, 0};
     s.row = malloc((size_t)n * 2 * (size_t)size * sizeof *s.row + 1);
     for (int j = 0, k = 0; j < n; j++) {
         const int first = j / size > 0 ? (j / size - 1) * size : 0;
@@ -66,7 +66,7 @@ static inline void matrices_free(sparse *s)
 static inline sparse matrices_both_triangles(const sparse *a)
 {
     const int n = a->n;
-    sparse s = {n, 0, calloc((size_t)n + 1, sizeof(int)), NULL, NULL};
+    sparse s = {n, 0, calloc((size_t)n + 1, sizeof(int)), NULL, NULL, 0};
     int *next = calloc((size_t)n + 1, sizeof *next);
     s.row = malloc(2 * (size_t)a->column[n] * sizeof *s.row + 1);
     s.value = malloc(2 * (size_t)a->column[n] * sizeof *s.value + 1);

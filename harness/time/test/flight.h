@@ -34,7 +34,7 @@ typedef struct flight {
 /* The scene's only analysis is the motion; REFUSED and the like: see `why`. */
 static inline status flight_prepare(flight *f, const char *with, int elements)
 {
-    model_request request = {&f->scene, NULL, f->chosen.option, elements, 0};
+    model_request request = {&f->scene, NULL, f->chosen.option, elements, 0, 0};
     TRY(formulation_parse(with, &f->chosen, &f->why));
     request.type = f->chosen.type;
     TRY(model_alloc(&request, &f->m, &f->why));
