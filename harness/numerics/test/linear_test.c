@@ -217,7 +217,8 @@ static void condition_of_a_triangle(void)
             sum += fabs(inverse[i * N + j]);
         norm[1] = fmax(norm[1], sum);
     }
-    const sparse of[2] = {{N, 1, column, row, value}, {N, 0, whole_column, whole_row, whole_value}};
+    const sparse of[2] = {{N, 1, column, row, value, 0},
+                          {N, 0, whole_column, whole_row, whole_value, 0}};
     for (int k = 0; k < 2; k++) {
         matrix_factor *fa;
         gsl_test(factor_alloc(&of[k], &fa, NULL) != STATUS_OK ||
@@ -233,7 +234,7 @@ static void nothing_to_solve(void)
 {
     int column[1] = {0};
     for (int symmetric = 0; symmetric < 2; symmetric++) {
-        const sparse none = {0, symmetric, column, NULL, NULL};
+        const sparse none = {0, symmetric, column, NULL, NULL, 0};
         matrix_factor *fa;
         gsl_test(factor_alloc(&none, &fa, NULL) != STATUS_OK ||
                      factor_numeric(fa, &none, NULL) != STATUS_OK,
