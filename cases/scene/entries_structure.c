@@ -263,6 +263,9 @@ static const entry_field constants[] = {
 #define GIVEN(constant)                                                                            \
     .left_out = "as computed", ENTRY_IN(section_spec, given.constant), .otherwise = NAN
 static const entry_field given[] = {
+    {"A", ENTRY_NUMBER, .unit = "m^2", .summary = "walls: area", GIVEN(A)},
+    {"Iy", ENTRY_NUMBER, .unit = "m^4", .summary = "walls: int z^2 dA", GIVEN(Iy)},
+    {"Iz", ENTRY_NUMBER, .unit = "m^4", .summary = "walls: int y^2 dA", GIVEN(Iz)},
     {"Iw", ENTRY_NUMBER, .unit = "m^6", .summary = "warping constant", GIVEN(Iw)},
     {"ys", ENTRY_NUMBER, .unit = "m", .summary = "shear centre, along y", GIVEN(ys),
      .mirrors = "-"},
@@ -296,6 +299,14 @@ static const entry_field legs[] = {
     {"thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "of both"},
     {.name = NULL}};
 
+static const entry_field tee[] = {
+    {"depth", ENTRY_NUMBER, .needed = 1, .unit = "m",
+     .summary = "of the web, from the flange's centre line to its end"},
+    {"flange", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "its width"},
+    {"flange_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "of the flange"},
+    {"web_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "of the web"},
+    {.name = NULL}};
+
 const entry_field entry_section[] = {
     {"rectangle", ENTRY_MAP, .needed = 1, .group = 1, .below = rectangle, .summary = "solid",
      ENTRY_IN(section_spec, kind), .first = SECTION_RECTANGLE},
@@ -313,6 +324,11 @@ const entry_field entry_section[] = {
     {"box", ENTRY_MAP, .needed = 1, .group = 1, .below = flanged, .summary = "closed, two webs"},
     {"tube", ENTRY_MAP, .needed = 1, .group = 1, .below = tube, .summary = "circular, or a bar",
      ENTRY_IN(section_spec, kind), .first = SECTION_TUBE},
+    {"t", ENTRY_MAP, .needed = 1, .group = 1, .below = tee,
+     .summary = "flange along y, web from it towards -z"},
+    {"profile", ENTRY_TEXT, .needed = 1, .group = 1,
+     .summary = "a rolled one: IPE200, HEA200, HEB200, UPN200, L100x10, SHS100x5, RHS200x100x5, "
+                "CHS114.3x5"},
     {"stiffness", ENTRY_NUMBERS, .needed = 1, .group = 1,
      .summary =
          "(N, Qy, Qz, Mx, My, Mz) from (gx, gy, gz, kx, ky, kz) on the member's line: the 36 "

@@ -12,12 +12,9 @@
 void section_spec_init(section_spec *spec)
 {
     memset(spec, 0, sizeof *spec);
-    double *given[] = {&spec->given.Iw,  &spec->given.ys,  &spec->given.zs,
-                       &spec->given.Dy,  &spec->given.Dz,  &spec->given.Dw,
-                       &spec->given.Dyz, &spec->given.Dyw, &spec->given.Dzw,
-                       &spec->given.It,  &spec->given.Ip,  &spec->given.wagner_torque};
-    for (size_t i = 0; i < sizeof given / sizeof given[0]; i++)
-        *given[i] = NAN;
+#define SECTION_UNKNOWN(name) spec->given.name = NAN;
+    SECTION_GIVEN(SECTION_UNKNOWN)
+#undef SECTION_UNKNOWN
 }
 
 static section_spec spec_of(section_kind kind, double young, double shear_modulus)
@@ -189,6 +186,21 @@ static void override(double *value, double given)
 
 static status apply_given(const section_spec *s, section *out, fault *f)
 {
+    const struct {
+        const char *name;
+        double value;
+    } whole[] = {{"A", s->given.A}, {"Iy", s->given.Iy}, {"Iz", s->given.Iz}};
+    for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++)
+        if (!isnan(whole[i].value) && s->kind != SECTION_WALLS)
+            return fault_set(f, STATUS_REFUSED,
+                             "section: 'given: {%s}' is of thin walls; a section of that size has "
+                             "its own, or give 'constants'",
+                             whole[i].name);
+    override(&out->A, s->given.A);
+    override(&out->Iy, s->given.Iy);
+    override(&out->Iz, s->given.Iz);
+    if (!isnan(s->given.Iy) || !isnan(s->given.Iz))
+        out->Ip = out->Iy + out->Iz;
     override(&out->Iw, s->given.Iw);
     override(&out->ys, s->given.ys);
     override(&out->zs, s->given.zs);

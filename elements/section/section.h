@@ -56,6 +56,13 @@ typedef enum section_zero {
     SECTION_ZERO_WAGNER_TORQUE = 1 << 4
 } section_zero;
 
+/* Constants that a section may give in place of those that its shape has (a printed table's values,
+ * fillets that thin walls do not have). A, Iy and Iz are of walls only. */
+#define SECTION_GIVEN(X)                                                                           \
+    X(A)                                                                                           \
+    X(Iy)                                                                                          \
+    X(Iz) X(It) X(Ip) X(Iw) X(ys) X(zs) X(Dy) X(Dz) X(Dw) X(Dyz) X(Dyw) X(Dzw) X(wagner_torque)
+
 /* Section of a scene file; section_compute turns it into constants. */
 typedef struct section_spec {
     section_kind kind;
@@ -78,10 +85,11 @@ typedef struct section_spec {
     double diameter, wall_thickness; /* tube: outer diameter; half of it: a solid bar [m] */
     section constants; /* SECTION_CONSTANTS: taken as given; D or F must be given. SECTION_MATRICES:
                           stiffness and mass; no material */
-    /* Overrides applied after computing (a printed table's rounded values); NAN: keep what was
-     * computed. */
+    /* In place of what was computed; NAN: keep that. Ip that is not given stays Iy + Iz. */
     struct {
-        double Iw, ys, zs, Dy, Dz, Dw, Dyz, Dyw, Dzw, It, Ip, wagner_torque;
+#define SECTION_MEMBER(name) double name;
+        SECTION_GIVEN(SECTION_MEMBER)
+#undef SECTION_MEMBER
     } given;
 } section_spec;
 

@@ -20,18 +20,11 @@ static const char *given_once(const section_spec *p, const section_spec *q)
     const struct {
         const char *name;
         double p, q;
-    } given[] = {{"Iw", p->given.Iw, q->given.Iw},
-                 {"ys", p->given.ys, q->given.ys},
-                 {"zs", p->given.zs, q->given.zs},
-                 {"Dy", p->given.Dy, q->given.Dy},
-                 {"Dz", p->given.Dz, q->given.Dz},
-                 {"Dw", p->given.Dw, q->given.Dw},
-                 {"Dyz", p->given.Dyz, q->given.Dyz},
-                 {"Dyw", p->given.Dyw, q->given.Dyw},
-                 {"Dzw", p->given.Dzw, q->given.Dzw},
-                 {"It", p->given.It, q->given.It},
-                 {"Ip", p->given.Ip, q->given.Ip},
-                 {"wagner_torque", p->given.wagner_torque, q->given.wagner_torque}};
+    } given[] = {
+#define PAIR(name) {#name, p->given.name, q->given.name},
+        SECTION_GIVEN(PAIR)
+#undef PAIR
+    };
     for (size_t i = 0; i < sizeof given / sizeof given[0]; i++)
         if (isnan(given[i].p) != isnan(given[i].q))
             return given[i].name;
@@ -132,6 +125,10 @@ status section_taper_check(const section_spec *p, const section_spec *q,
                          "'%s' is given of its section at one end only; give it at both, or at "
                          "none",
                          given_once(p, q) != NULL ? given_once(p, q) : "sheet_warping");
+    if (p->given.A != q->given.A && !isnan(p->given.A))
+        return fault_set(f, STATUS_REFUSED,
+                         "its section changes from one rolled profile, or given A, to another, "
+                         "between which the constants are not known; give both by their sizes");
     if (p->kind == SECTION_WALLS)
         TRY(check_walls(p, q, f));
     return check_warping(p, q, ends, f);
@@ -146,18 +143,9 @@ static void blend(int count, double x, const double q[], double p[])
 
 static void blend_given(const section_spec *q, double x, section_spec *out)
 {
-    const struct {
-        double *p;
-        const double *q;
-    } given[] = {
-        {&out->given.Iw, &q->given.Iw},   {&out->given.ys, &q->given.ys},
-        {&out->given.zs, &q->given.zs},   {&out->given.Dy, &q->given.Dy},
-        {&out->given.Dz, &q->given.Dz},   {&out->given.Dw, &q->given.Dw},
-        {&out->given.Dyz, &q->given.Dyz}, {&out->given.Dyw, &q->given.Dyw},
-        {&out->given.Dzw, &q->given.Dzw}, {&out->given.It, &q->given.It},
-        {&out->given.Ip, &q->given.Ip},   {&out->given.wagner_torque, &q->given.wagner_torque}};
-    for (size_t i = 0; i < sizeof given / sizeof given[0]; i++)
-        blend(1, x, given[i].q, given[i].p);
+#define BLEND(name) blend(1, x, &q->given.name, &out->given.name);
+    SECTION_GIVEN(BLEND)
+#undef BLEND
 }
 
 static void blend_constants(const section *q, double x, section *out)

@@ -1,0 +1,207 @@
+"""Rolled sections by their name against what producers print of them (EN 10365 sections catalogue,
+ArcelorMittal 2021; EN 10210-2:2019 tables for hollow ones)."""
+import re
+
+from cases.format.test.scene_case import SceneCase, values
+
+# Name: A [cm^2], Iy, Iz [cm^4], It [cm^4], Iw [10^3 cm^6], as printed: three digits, or four.
+PRINTED = {
+    "IPE80": ("7.64", "80.1", "8.49", "0.70", "0.12"),
+    "IPE100": ("10.3", "171", "15.9", "1.20", "0.35"),
+    "IPE120": ("13.2", "318", "27.7", "1.74", "0.89"),
+    "IPE140": ("16.4", "541", "44.9", "2.45", "1.98"),
+    "IPE160": ("20.1", "869", "68.3", "3.60", "3.96"),
+    "IPE180": ("23.9", "1317", "101", "4.79", "7.43"),
+    "IPE200": ("28.5", "1943", "142", "6.98", "13.0"),
+    "IPE220": ("33.4", "2772", "205", "9.07", "22.7"),
+    "IPE240": ("39.1", "3892", "284", "12.9", "37.4"),
+    "IPE270": ("45.9", "5790", "420", "15.9", "70.6"),
+    "IPE300": ("53.8", "8356", "604", "20.1", "126"),
+    "IPE330": ("62.6", "11770", "788", "28.1", "199"),
+    "IPE360": ("72.7", "16270", "1043", "37.3", "314"),
+    "IPE400": ("84.5", "23130", "1318", "51.1", "490"),
+    "IPE450": ("98.8", "33740", "1676", "66.9", "791"),
+    "IPE500": ("116", "48200", "2142", "89.3", "1249"),
+    "IPE550": ("134", "67120", "2668", "123", "1884"),
+    "IPE600": ("156", "92080", "3387", "165", "2846"),
+    "HEA100": ("21.2", "349", "134", "5.24", "2.58"),
+    "HEA120": ("25.3", "606", "231", "5.99", "6.47"),
+    "HEA140": ("31.4", "1033", "389", "8.13", "15.1"),
+    "HEA160": ("38.8", "1673", "616", "12.2", "31.4"),
+    "HEA180": ("45.3", "2510", "925", "14.8", "60.2"),
+    "HEA200": ("53.8", "3692", "1336", "21.0", "108"),
+    "HEA220": ("64.3", "5410", "1955", "28.5", "193"),
+    "HEA240": ("76.8", "7763", "2769", "41.6", "328"),
+    "HEA260": ("86.8", "10450", "3668", "52.4", "516"),
+    "HEA280": ("97.3", "13670", "4763", "62.1", "785"),
+    "HEA300": ("112.5", "18260", "6310", "85.2", "1200"),
+    "HEA320": ("124.4", "22930", "6985", "108", "1512"),
+    "HEA340": ("133.5", "27690", "7436", "127", "1824"),
+    "HEA360": ("142.8", "33090", "7887", "149", "2177"),
+    "HEA400": ("159", "45070", "8564", "189", "2942"),
+    "HEA450": ("178", "63720", "9465", "244", "4148"),
+    "HEA500": ("197.5", "86970", "10370", "309", "5643"),
+    "HEA550": ("211.8", "111900", "10820", "352", "7189"),
+    "HEA600": ("226.5", "141200", "11270", "398", "8978"),
+    "HEB100": ("26.0", "450", "167", "9.25", "3.38"),
+    "HEB120": ("34.0", "864", "318", "13.8", "9.41"),
+    "HEB140": ("43.0", "1509", "550", "20.1", "22.5"),
+    "HEB160": ("54.3", "2492", "889", "31.2", "47.9"),
+    "HEB180": ("65.3", "3831", "1363", "42.2", "93.7"),
+    "HEB200": ("78.1", "5696", "2003", "59.3", "171"),
+    "HEB220": ("91.0", "8091", "2843", "76.6", "295"),
+    "HEB240": ("106", "11260", "3923", "103", "487"),
+    "HEB260": ("118.4", "14920", "5135", "124", "754"),
+    "HEB280": ("131.4", "19270", "6595", "144", "1130"),
+    "HEB300": ("149.1", "25170", "8563", "185", "1688"),
+    "HEB320": ("161.3", "30820", "9239", "225", "2069"),
+    "HEB340": ("170.9", "36660", "9690", "257", "2454"),
+    "HEB360": ("180.6", "43190", "10140", "292", "2883"),
+    "HEB400": ("197.8", "57680", "10820", "356", "3817"),
+    "HEB450": ("218", "79890", "11720", "440", "5258"),
+    "HEB500": ("238.6", "107200", "12620", "538", "7018"),
+    "HEB550": ("254.1", "136700", "13080", "600", "8856"),
+    "HEB600": ("270", "171000", "13530", "667", "10965"),
+    "SHS100x5": ("18.7", "279", "279", "439", None),
+    "RHS150x100x5": ("23.7", "739", "392", "807", None),
+    "CHS114.3x5": ("17.2", "257", "257", "514", None),
+}
+SCALE = (1e-4, 1e-8, 1e-8, 1e-8, 1e-9)
+UPN = ("UPN80", "UPN100", "UPN120", "UPN140", "UPN160", "UPN180", "UPN200", "UPN220", "UPN240",
+       "UPN260", "UPN280", "UPN300")
+SCENE = """beamwork: 1
+sections:
+{sections}
+nodes:
+  a: {{at: [0, 0, 0], hold: all}}
+  b: {{at: [1, 0, 0]}}
+members:
+  m: {{from: a, to: b, section: {first}, y: [0, 1, 0]}}
+loads:
+{loads}
+analyses: {{run: {{linear: {{}}}}}}
+quantities:
+  uz: {{displacement: {{analysis: run, node: b, component: uz}}}}
+  s: {{stress: {{analysis: run, member: m, measure: normal_max, where: 0}}}}
+"""
+CONSTANTS = ("A", "Iy", "Iz", "It", "Iw", "ys")
+
+
+def half_unit(printed):
+    """Half of the last printed place; integers of five digits or more are printed to four."""
+    digits = len(printed.replace(".", "").lstrip("0"))
+    if "." in printed:
+        return 0.5 * 10**-len(printed.split(".")[1])
+    return 0.5 * 10**max(0, digits - 4)
+
+
+def scene(sections, material="young: 210e9, shear_modulus: 81e9, density: 7850", loads=None):
+    """loads: of name and components; default: a force of the constants of each section."""
+    loads = loads or {
+        f"{name}_{k}": f"[{name}.{k}*1e12, 0, 0]" for name in sections for k in CONSTANTS
+    }
+    return SCENE.format(
+        sections="\n".join(f"  {name}: {{{text}, {material}}}" for name, text in sections.items()),
+        first=next(iter(sections)),
+        loads="\n".join(f"  {name}: {{force: {v}, on: b}}" for name, v in loads.items()))
+
+
+class ProfilesTest(SceneCase):
+
+    def constants(self, sections):
+        """Of each section, by their names."""
+        written = self.answered("scene", "--scene", self.scene(scene(sections))).stdout
+        found = re.findall(r"^  (\w+)_([A-Z]\w?|ys): \{force: \[([^,]*),", written, re.M)
+        out = {}
+        for name, key, value in found:
+            out.setdefault(name, {})[key] = float(value) * 1e-12
+        return out
+
+    def test_printed(self):
+        """Every printed digit of every size."""
+        names = {f"s{i}": name for i, name in enumerate(PRINTED)}
+        sections = {key: f"profile: {name}" for key, name in names.items()}
+        for first in range(0, len(names), 20):
+            some = dict(list(sections.items())[first:first + 20])
+            for key, got in self.constants(some).items():
+                name = names[key]
+                for constant, printed, scale in zip(CONSTANTS, PRINTED[name], SCALE):
+                    if printed is not None:
+                        self.assertLessEqual(
+                            abs(got[constant] / scale - float(printed)),
+                            half_unit(printed) * 1.001, f"{constant} of {name}: {got[constant]}")
+
+    def test_channels(self):
+        """Printed constants are near those of their walls, so that none is misprinted."""
+        sections = {name: f"profile: {name}" for name in UPN}
+        got = self.constants(sections)
+        written = self.answered("scene", "--scene", self.scene(scene(sections))).stdout
+        bare = {
+            name: re.search(rf"^  {name}: \{{(points.*?), given", written, re.M).group(1)
+            for name in UPN
+        }
+        walls = self.constants(bare)
+        bounds = {"A": 0.05, "Iy": 0.06, "Iz": 0.15, "It": 0.25, "Iw": 0.20, "ys": 0.2}
+        for name in UPN:
+            for constant, bound in bounds.items():
+                self.assertAlmostEqual(walls[name][constant] / got[name][constant], 1, delta=bound,
+                                       msg=f"{constant} of {name}")
+
+    def test_sizes_without_fillets(self):
+        """A T and angles are their walls; areas of sharp corners are exact."""
+        got = self.constants({
+            "t": "t: {depth: 0.1, flange: 0.1, flange_thickness: 0.01, web_thickness: 0.01}",
+            "l": "profile: L100x75x8",
+            "given": "profile: IPE200, given: {It: 7e-8}",
+        })
+        self.assertAlmostEqual(got["t"]["A"], 2e-3, delta=1e-12)
+        self.assertAlmostEqual(got["t"]["Iy"], 1e-3 * 0.1**2 / 12 + 2e-3 * 0.025**2, delta=1e-15)
+        self.assertAlmostEqual(got["t"]["Iz"], 0.01 * 0.1**3 / 12, delta=1e-15)
+        self.assertAlmostEqual(got["l"]["A"], 8e-3 * (0.1 + 0.075 - 8e-3), delta=1e-12)
+        self.assertEqual(got["given"]["It"], 7e-8)
+        self.assertAlmostEqual(got["given"]["A"], 28.48e-4, delta=5e-7)
+
+    def test_beam(self):
+        """Deflection and stress of a cantilever by the printed constants: P L^3/(3 E Iy), P L/Wel,
+        with Wel = 194.3 cm^3; all formulations that have it."""
+        text = scene({"beam": "profile: ipe 200"}, loads={"p": "[0, 0, 1000]"})
+        text += "omit: {shear: yes}\n"
+        for formulation in ("beamw_consistent", "geometrically_exact", "collocation"):
+            got = values(self.record("solve", "--scene", self.scene(text), "-n", 4, "-f",
+                                     formulation))
+            self.assertAlmostEqual(got["uz"] / (1000 / (3 * 210e9 * 1943e-8)), 1, delta=3e-4)
+            self.assertAlmostEqual(got["s"] / (1000 / 194.3e-6), 1, delta=1e-3)
+
+    def test_other_units(self):
+        """Sizes of a name are those of the norm in any unit of the file."""
+        text = scene({"beam": "profile: IPE200"}, loads={"p": "[0, 0, 1]"})
+        ours = values(self.record("solve", "--scene", self.scene(text), "-n", 2))["uz"]
+        text = text.replace("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa").replace(
+            "210e9, shear_modulus: 81e9, density: 7850", "210e3, shear_modulus: 81e3").replace(
+                "at: [1, 0, 0]", "at: [1000, 0, 0]")
+        other = values(self.record("solve", "--scene", self.scene(text), "-n", 2))["uz"]
+        self.assertAlmostEqual(other / ours, 1000, delta=1e-6)  # in mm
+
+    def test_refused(self):
+        for text, part in (
+                ("profile: IPE210", "no profile 'IPE210'; sizes of IPE are 80, 100, 120"),
+                ("profile: UPN70", "sizes of UPN are 80, 100"),
+                ("profile: W8x15", "no profile 'W8x15'; write IPE200"),
+                ("profile: SHS100x60", "no profile 'SHS100x60'"),
+                ("profile: SHS100x5x7", "no profile"),
+                ("profile: RHS100x5", "no profile"),
+                ("profile: CHS20x11", "no profile"),
+                ("profile: SHS1e400x5", "no profile"),
+                ("profile: L100x-5", "no profile"),
+                ("profile: IPE200x2", "no profile"),
+                ("profile: IPE200, tube: {diameter: 1, thickness: 0.1}", "profile"),
+                ("rectangle: {width: 0.1, thickness: 0.01}, given: {A: 1e-3}", "given: {A}"),
+        ):
+            with self.subTest(text):
+                self.refused(2, part, "scene", "--scene",
+                             self.scene(scene({"beam": text}, loads={"p": "[0, 0, 1]"})))
+
+    def test_taper_is_refused(self):
+        text = scene({"a": "profile: IPE200", "b": "profile: IPE300"}, loads={"p": "[0, 0, 1]"})
+        self.refused(2, "rolled profile", "scene", "--scene",
+                     self.scene(text.replace("section: a", "section: [a, b]")))
