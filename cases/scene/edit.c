@@ -91,6 +91,10 @@ static status reverse(scene *s, fault *f)
         const scene_release released = m->release[0]; /* about the same lines */
         m->release[0] = m->release[1];
         m->release[1] = released;
+        double beside[3];
+        memcpy(beside, m->offset[0], sizeof beside);
+        memcpy(m->offset[0], m->offset[1], sizeof beside);
+        memcpy(m->offset[1], beside, sizeof beside);
         entry_mirror(entry_member, m);
     }
     for (int i = 0; i < s->loads; i++)
@@ -209,19 +213,20 @@ static status split(scene *s, double fraction, fault *f)
 {
     const scene_member first = *scene_member_at(s, 0);
     const int loads = s->loads;
-    double between[3];
+    double between[3], start[3], chord[3];
     if (!(fraction > 0 && fraction < 1))
         return fault_set(
             f, STATUS_REFUSED,
             "a member cannot be split at %g of its length; give a fraction between 0 and 1",
             fraction);
+    scene_end(s, 0, 0, start);
+    scene_chord(s, 0, chord);
     for (int k = 0; k < 3; k++) {
         if (first.curvature[k] != 0)
             return fault_set(
                 f, STATUS_REFUSED,
                 "member 0: curved, only straight members are split; use more elements instead");
-        const double p = s->node[first.p].position[k], q = s->node[first.q].position[k];
-        between[k] = p + fraction * (q - p);
+        between[k] = start[k] + fraction * chord[k];
     }
     const int name = unused_name(s), middle = scene_add_node(s, between[0], between[1], between[2]);
     const int profile = section_between(s, &first, fraction);
@@ -233,11 +238,13 @@ static status split(scene *s, double fraction, fault *f)
     m->section = profile;
     m->warp_p = name;
     m->release[0].count = 0;
+    memset(m->offset[0], 0, sizeof m->offset[0]);
     m = scene_member_at(s, 0);
     m->q = middle;
     m->section_q = profile;
     m->warp_q = name;
     m->release[1].count = 0;
+    memset(m->offset[1], 0, sizeof m->offset[1]);
     for (int i = 0; i < loads; i++)
         if (scene_load_along(&s->load[i]) && s->load[i].where == 0)
             split_load(s, i, fraction, second);

@@ -66,6 +66,13 @@ static const entry_field release[] = {
      .usual = "[]"},
     {.name = NULL}};
 
+static const entry_field offset[] = {
+    {"from", ENTRY_DIRECTION, .count = 3, .unit = "m", .summary = "of the end at 'from'",
+     .usual = "[0, 0, 0]", ENTRY_IN(scene_member, offset[0])},
+    {"to", ENTRY_DIRECTION, .count = 3, .unit = "m", .summary = "of the end at 'to'",
+     .usual = "[0, 0, 0]", ENTRY_IN(scene_member, offset[1])},
+    {.name = NULL}};
+
 const entry_field entry_member[] = {
     {"from", ENTRY_NAME, .needed = 1, .summary = "node where its x axis begins",
      ENTRY_IN(scene_member, p), .of = SCENE_NODES},
@@ -83,7 +90,9 @@ const entry_field entry_member[] = {
      .usual = "[0, 0, 0]", ENTRY_IN(scene_member, curvature), .mirrors = "++-"},
     {"strain", ENTRY_VECTOR, .count = 3, .unit = "1", .summary = "initial elongation, shears",
      .usual = "[0, 0, 0]", ENTRY_IN(scene_member, strain)},
-    {.name = "offset", .kind = ENTRY_LATER},
+    {"offset", ENTRY_MAP, .below = offset,
+     .summary = "where its ends are, from the nodes, with which they move rigidly",
+     .left_out = "at the nodes"},
     {"release", ENTRY_MAP, .below = release,
      .summary = "what its ends do not pass on: hinges, slides", .left_out = "nothing"},
     {"damping", ENTRY_NUMBER, .unit = "s",

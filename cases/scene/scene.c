@@ -127,6 +127,27 @@ int scene_tapers(const scene *s)
     return 0;
 }
 
+void scene_end(const scene *s, int member, int end, double at[3])
+{
+    const scene_member *m = &s->member[member];
+    for (int k = 0; k < 3; k++)
+        at[k] = s->node[end ? m->q : m->p].position[k] + m->offset[end][k];
+}
+
+void scene_chord(const scene *s, int member, double chord[3])
+{
+    double p[3], q[3];
+    scene_end(s, member, 0, p);
+    scene_end(s, member, 1, q);
+    for (int k = 0; k < 3; k++)
+        chord[k] = q[k] - p[k];
+}
+
+int scene_is_beside(const scene_member *m, int end)
+{
+    return vec3_norm(m->offset[end]) > 0;
+}
+
 void scene_release_end(scene *s, int member, int end, int component)
 {
     scene_release *r = &scene_member_at(s, member)->release[end];

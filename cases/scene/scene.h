@@ -617,6 +617,8 @@ typedef struct scene_member {
     double strain[3];    /* initial elongation and shear strains that would leave no stress: heat, a
                             misfit */
     scene_release release[2]; /* at p, q */
+    double offset[2][3];      /* from the nodes p, q to its ends, which move with them rigidly;
+                                 undeformed, in fixed axes [m] */
     int divisions;            /* 0: the mesh's -n; else this many elements always */
     double damping; /* of motions: stresses gain damping x stiffness at rest x rates of the
                        strains [s] */
@@ -747,6 +749,11 @@ int scene_add_member(scene *s, int p, int q, int profile,
 /* Does its section change along it?  Does that of any member? */
 int scene_member_tapers(const scene_member *m);
 int scene_tapers(const scene *s);
+/* Where the end of a member (0 at p, 1 at q) is, and from its start to its end. */
+void scene_end(const scene *s, int member, int end, double at[3]);
+void scene_chord(const scene *s, int member, double chord[3]);
+/* Is an end of it beside its node? */
+int scene_is_beside(const scene_member *m, int end);
 /* The end of a member (0 at p, 1 at q) does not transmit this component. It is added to those of
  * earlier calls; more than SCENE_RELEASED are refused by scene_validate. */
 void scene_release_end(scene *s, int member, int end, int component);

@@ -31,8 +31,8 @@ static status check_member(const scene *s, int i, fault *f)
         return fault_set(f, STATUS_REFUSED, "%s: its section does not exist; add the section first",
                          scene_called(s, SCENE_MEMBERS, i).text);
     double d[3], length = 0, along = 0, across = 0;
+    scene_chord(s, i, d);
     for (int k = 0; k < 3; k++) {
-        d[k] = s->node[m->q].position[k] - s->node[m->p].position[k];
         length += d[k] * d[k];
         along += d[k] * m->y_axis[k];
         across += m->y_axis[k] * m->y_axis[k];

@@ -17,8 +17,7 @@ static int has_member_along(const scene *s, int node, const double direction[3])
             (m->p != node && m->q != node))
             continue;
         double d[3];
-        for (int k = 0; k < 3; k++)
-            d[k] = s->node[m->q].position[k] - s->node[m->p].position[k];
+        scene_chord(s, i, d);
         ends++;
         along |= vec3_norm(m->curvature) > 0 ||
                  fabs(vec3_dot(d, direction)) >= (1 - 1e-9) * vec3_norm(d) * vec3_norm(direction);
@@ -231,8 +230,7 @@ static void axes_of(const scene *s, int member, double R[9])
 {
     const scene_member *m = &s->member[member];
     double along[3];
-    for (int k = 0; k < 3; k++)
-        along[k] = s->node[m->q].position[k] - s->node[m->p].position[k];
+    scene_chord(s, member, along);
     rotation_triad(along, m->y_axis, R);
 }
 
@@ -271,6 +269,8 @@ static status check_member(const scene *s, int i, fault *f)
         return refuse(s, who, "its initial curvature leaves the plane", f);
     if (is_across(s, strain))
         return refuse(s, who, "its initial strain leaves the plane", f);
+    if (is_across(s, m->offset[0]) || is_across(s, m->offset[1]))
+        return refuse(s, who, "an end of it lies beside the plane", f);
     return check_release(s, i, R, f);
 }
 

@@ -102,8 +102,7 @@ static void add_end(const scene_member *m, const scene *s, int end, double P[9])
     const scene_release *r = &m->release[end];
     double axis[3][3], along[3], R[9];
     int count = 0;
-    for (int i = 0; i < 3; i++)
-        along[i] = s->node[m->q].position[i] - s->node[m->p].position[i];
+    scene_chord(s, (int)(m - s->member), along);
     rotation_triad(along, m->y_axis, R);
     for (int k = 0; k < r->count && vec3_norm(m->curvature) == 0; k++) {
         if (r->component[k] < SCENE_RX)
@@ -149,6 +148,9 @@ static int is_wide(const scene *s, int node)
     int wide = s->node[node].attached != SCENE_NONE;
     for (int i = 0; i < s->nodes; i++)
         wide |= s->node[i].attached == node;
+    for (int i = 0; i < 2 * s->members; i++)
+        wide |= (i % 2 ? s->member[i / 2].q : s->member[i / 2].p) == node &&
+                scene_is_beside(&s->member[i / 2], i % 2);
     return wide;
 }
 
@@ -279,12 +281,9 @@ static int frame_of(const scene *s, const scene_member *m, double x[3], double y
 {
     if (m->p < 0 || m->p >= s->nodes || m->q < 0 || m->q >= s->nodes)
         return 0;
-    const double *p = s->node[m->p].position, *q = s->node[m->q].position;
-    for (int k = 0; k < 3; k++) {
-        if (m->curvature[k] != 0)
-            return 0;
-        x[k] = q[k] - p[k];
-    }
+    if (vec3_norm(m->curvature) > 0)
+        return 0;
+    scene_chord(s, (int)(m - s->member), x);
     const double length = vec3_norm(x);
     if (!(length > 0))
         return 0;
@@ -410,6 +409,7 @@ static void find_places(const scene *s, warping_place *all)
             continue;
         all[node].ends++;
         all[node].sum += i;
+        all[node].tied |= scene_is_beside(&s->member[i / 2], i % 2);
         tie(s, all, node);
     }
     for (int i = 0; i < s->springs; i++) {

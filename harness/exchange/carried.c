@@ -65,6 +65,11 @@ static status check_member(const scene *s, int member, fault *f)
                          "%s: released ends are not written as solids; join it, and let a node "
                          "with a rotation of its own turn",
                          scene_called(s, SCENE_MEMBERS, member).text);
+    if (scene_is_beside(m, 0) || scene_is_beside(m, 1))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: ends beside their nodes are not written as solids; give the place of "
+                         "the end a node of its own (part_of)",
+                         scene_called(s, SCENE_MEMBERS, member).text);
     if (m->warp_p != SCENE_WARP_FIXED || m->warp_q != SCENE_WARP_FIXED)
         return fault_set(f, STATUS_REFUSED,
                          "%s: its ends warp, and rigid faces do not; say warping: fixed",

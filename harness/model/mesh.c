@@ -163,6 +163,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
               last = m->mesh.nodes - 1;
     const double straight[3] = {0, 0, 0};
     mesh_triad triad[ELEMENT_MAX_NODES];
+    double first[3] = {0}; /* where its line begins */
     el->member = member;
     el->nodes = m->mesh.nodes;
     for (int k = 0; k <= last; k++) {
@@ -184,13 +185,17 @@ static status add_element(model *m, const member_arc *along, int member, int num
             for (int i = 0; i < 3; i++)
                 v->vector_driver[i] = NONE;
         }
+        memcpy(position, v->position, sizeof position);
+        if (at_start || at_end)
+            scene_end(m->scene, member, at_end, position);
+        if (k == 0)
+            memcpy(first, position, sizeof first);
         if (k < last || curved)
             continue;
         /* Not curved: one triad along the chord. */
-        const double *p = m->mesh.vertex[el->vertex[0]].position;
         double y[3];
         for (int i = 0; i < 3; i++) {
-            between[i] = v->position[i] - p[i];
+            between[i] = position[i] - first[i];
             y[i] = triad[0][3 * i + 1] + triad[last][3 * i + 1];
         }
         if (rotation_triad(between, y, triad[0]) != 0)

@@ -21,12 +21,16 @@ typedef struct box {
     double low[3], high[3];
 } box;
 
-static void include(const scene *s, int node, char *reached, box *b)
+static void include(const scene *s, int member, char *reached, box *b)
 {
-    reached[node] = 1;
-    for (int k = 0; k < 3; k++) {
-        b->low[k] = fmin(b->low[k], s->node[node].position[k]);
-        b->high[k] = fmax(b->high[k], s->node[node].position[k]);
+    reached[s->member[member].p] = reached[s->member[member].q] = 1;
+    for (int end = 0; end < 2; end++) {
+        double at[3];
+        scene_end(s, member, end, at);
+        for (int k = 0; k < 3; k++) {
+            b->low[k] = fmin(b->low[k], at[k]);
+            b->high[k] = fmax(b->high[k], at[k]);
+        }
     }
 }
 
@@ -43,15 +47,14 @@ static double extent_of(const scene *s, int member, char *reached)
 {
     const scene_member *first = &s->member[member];
     box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    include(s, first->p, reached, &b);
-    include(s, first->q, reached, &b);
+    include(s, member, reached, &b);
     for (int grows = 1; grows;) {
         grows = 0;
         for (int i = 0; i < s->members; i++) {
             const scene_member *m = &s->member[i];
             if (!shares_section(m, first) || reached[m->p] == reached[m->q])
                 continue;
-            include(s, reached[m->p] ? m->q : m->p, reached, &b);
+            include(s, i, reached, &b);
             grows = 1;
         }
     }

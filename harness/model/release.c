@@ -65,10 +65,9 @@ status member_arc_of(const scene *s, int member, double axes_angle, member_arc *
 {
     const scene_member *m = &s->member[member];
     double chord[3], c[3], B[9], local[9];
-    for (int i = 0; i < 3; i++)
-        chord[i] = s->node[m->q].position[i] - s->node[m->p].position[i];
+    scene_chord(s, member, chord);
     const double distance = vec3_norm(chord);
-    memcpy(out->start, s->node[m->p].position, sizeof out->start);
+    scene_end(s, member, 0, out->start);
     memcpy(out->k, m->curvature, sizeof out->k);
     out->length = distance;
     if (vec3_norm(out->k) > 0)
@@ -104,12 +103,18 @@ void member_arc_at(const member_arc *a, double s, double position[3], double R[9
 
 enum { BALL = 3 }; /* turns without order */
 
+/* Has this end of a member a vertex of its own? */
+static int is_own(const scene_member *m, int end)
+{
+    return m->release[end].count > 0 || scene_is_beside(m, end);
+}
+
 int release_count(const scene *s)
 {
     int count = 0;
     for (int i = 0; i < s->members; i++)
         for (int end = 0; end < 2; end++)
-            count += s->member[i].release[end].count > 0;
+            count += is_own(&s->member[i], end);
     return count;
 }
 
@@ -126,8 +131,11 @@ static void add_end(model *m, int member, int end, const double R[9])
     r->node = node;
     m->mesh.vertex[vertex] = m->mesh.vertex[node]; /* its place, and what moves that */
     m->mesh.vertex[vertex].angles = 0;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++) {
         m->mesh.vertex[vertex].vector_driver[k] = NONE;
+        m->mesh.vertex[vertex].position[k] += sm->offset[end][k];
+        m->mesh.vertex[vertex].offset[k] += sm->offset[end][k];
+    }
     el->vertex[end ? el->nodes - 1 : 0] = vertex;
     for (int k = 0; k < what->count; k++) {
         const int c = what->component[k], normal = scene_normal(m->scene);
@@ -146,7 +154,7 @@ status release_build(model *m, fault *f)
         for (int end = 0; end < 2; end++) {
             member_arc axis;
             double position[3], R[9];
-            if (m->scene->member[i].release[end].count == 0)
+            if (!is_own(&m->scene->member[i], end))
                 continue;
             TRY(member_arc_of(m->scene, i, 0, &axis, f)); /* in the axes of the description */
             member_arc_at(&axis, end * axis.length, position, R);

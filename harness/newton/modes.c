@@ -133,8 +133,7 @@ static void fill_motion(const model *m, const scene *s, const double *u, int *in
         const section *p = model_section(m, sm->section), *q = model_section(m, sm->section_q);
         const double radius = (sqrt(p->Ip / p->A) + sqrt(q->Ip / q->A)) / 2;
         double d[3], R[9];
-        for (int i = 0; i < 3; i++)
-            d[i] = s->node[sm->q].position[i] - s->node[sm->p].position[i];
+        scene_chord(s, member, d);
         rotation_triad(d, sm->y_axis, R);
         const int count = model_member_vertices(m, member, index);
         for (int i = 0; i < count; i++, out->points++) {

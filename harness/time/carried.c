@@ -26,12 +26,14 @@ static void shift(double mass, const double moment[3], const double r[3], double
             tensor[3 * i + j] += (i == j ? mixed : 0) - r[i] * moment[j] - moment[i] * r[j];
 }
 
-/* What a vertex carries goes to the frame that moves it; a released end keeps its own. */
+/* What a vertex carries goes to the frame that moves it; an end that turns or slides by itself
+ * keeps its own. */
 static void take(const model *m, int vertex, double mass, const double moment[3],
                  const double tensor[9], carried_mass of[])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
-    const int released = vertex >= model_first_release(m);
+    const mesh_release *r = release_of(m, vertex);
+    const int released = r != NULL && r->turns + r->slides > 0;
     const double none[3] = {0, 0, 0}, *offset = released ? none : v->offset;
     carried_mass *to = &of[released ? vertex : v->body];
     double moved[9];

@@ -157,11 +157,15 @@ static void set_turns(const model *m, const mesh_element *el, const model_state 
         inertia_turns(m, s, model_vertex(m, el->vertex[k])->body, p->turn[k], p->rate[k]);
 }
 
-static void begin_parts(const mesh_element *el, const model_state *s, spread_parts *out)
+static void begin_parts(const model *m, const mesh_element *el, const model_state *s,
+                        spread_parts *out)
 {
     out->el = el;
     out->state = s;
     out->columns = el->columns;
+    out->wide = 0;
+    for (int k = 0; k < el->nodes; k++)
+        out->wide |= model_is_released(m, el->vertex[k]);
 }
 
 void spread_element(const model *m, int element, const model_state *s, const double v[],
@@ -171,7 +175,7 @@ void spread_element(const model *m, int element, const model_state *s, const dou
     moving_element e;
     double F[MOST];
     gather(m, el, s, v, a, &e);
-    begin_parts(el, s, out);
+    begin_parts(m, el, s, out);
     evaluate(m, element, e.x,
              &(inertia_output){.M = out->acceleration,
                                .rate = e.rate,
@@ -181,12 +185,6 @@ void spread_element(const model *m, int element, const model_state *s, const dou
                                .K = out->place});
     to_bodies(m, el, s, &e, F, out);
     set_turns(m, el, s, out);
-}
-
-/* One of an element that is released from a node. */
-static int is_wide(const spread_parts *p)
-{
-    return p->columns > NODE_COORDINATES * p->el->nodes;
 }
 
 static const double spread_one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -243,7 +241,7 @@ void spread_times(const model *m, const spread_parts *p, const double A[],
                   const spread_motion motion[], double out[])
 {
     const int columns = p->columns;
-    if (is_wide(p)) {
+    if (p->wide) {
         wide_times(m, p, A, motion, out);
         return;
     }
@@ -264,7 +262,7 @@ void spread_times(const model *m, const spread_parts *p, const double A[],
 void spread_rows(const spread_parts *p, double K[])
 {
     const int n = p->columns;
-    for (int at = 3; at < n && !is_wide(p); at += NODE_COORDINATES)
+    for (int at = 3; at < n && !p->wide; at += NODE_COORDINATES)
         for (int j = 0; j < n; j++) {
             const double column[3] = {K[n * at + j], K[n * (at + 1) + j], K[n * (at + 2) + j]};
             double turned[3];
@@ -281,7 +279,7 @@ void spread_masses(const model *m, int element, const model_state *s, spread_par
     const mesh_element *el = model_element(m, element);
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, s, el, x);
-    begin_parts(el, s, out);
+    begin_parts(m, el, s, out);
     evaluate(m, element, x, &(inertia_output){.M = out->acceleration, .rate = at_rest});
     for (int k = 0; k < el->nodes; k++)
         if (model_vertex(m, el->vertex[k])->body != el->vertex[k] &&

@@ -917,6 +917,7 @@ typedef struct spread_parts {
     const struct mesh_element *el;
     const model_state *state;
     int columns; /* coordinates of the element: 7 of each node, then those of released ends */
+    int wide;    /* 1: it has such an end, which may have no coordinate */
     double place[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], /* as inertia_parts */
         velocity[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
         acceleration[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];

@@ -480,6 +480,18 @@ static void cell(const scene_input *in, scene_column column, const element_type 
         obey(in, column, e, &with);
 }
 
+/* Two ways to say one thing have one answer. */
+static void alike(const char *name, const char *other, scene_column column, const element_type *e)
+{
+    static answer one, two;
+    const posed p = pose(name, column, 1), q = pose(other, column, 1);
+    solve(&p, e, &one);
+    solve(&q, e, &two);
+    const double off = apart(&one, &two);
+    gsl_test(one.outcome != two.outcome || !(off <= 1e-7), "%s: %s, %s: as %s (%g; %s; %s)",
+             e->name, scene_column_name[column], name, other, off, one.reason, two.reason);
+}
+
 /* An arm that stands in axes that turn goes on turning with what drives it: but for its mass, which
  * lies along the elements there and at the nodes here. */
 static void start_turning(const element_type *e)
@@ -530,6 +542,8 @@ int main(void)
             for (int c = 0; c < SCENE_COLUMNS && known; c++)
                 cell(in, (scene_column)c, e, walked);
         }
+        for (int c = 0; c < SCENE_COLUMNS; c++)
+            alike("offset of an end", "offset by bodies", (scene_column)c, e);
         start_turning(e);
     }
     gsl_test(walked[0] < 500 || walked[1] < 12 || walked[2] < 60, "%d used, %d refused, %d no part",

@@ -147,6 +147,14 @@ static void add(scene *s, const char *name)
         for (int i = 0; i < 6; i++)
             k[7 * i] = 1e4 * (i + 1);
         scene_add_spring(s, SCENE_NONE, TIP, k);
+    } else if (IS("offset of an end")) {
+        scene_member_at(s, 1)->offset[0][1] = 0.003;
+        scene_member_at(s, 1)->offset[1][2] = 0.02;
+    } else if (IS("offset by bodies")) { /* the same */
+        scene_member_at(s, 1)->p = scene_add_attached(s, MIDDLE, s->node[MIDDLE].position[0],
+                                                      s->node[MIDDLE].position[1] + 0.003, 0);
+        scene_member_at(s, 1)->q =
+            scene_add_attached(s, TIP, s->node[TIP].position[0], s->node[TIP].position[1], 0.02);
     } else if (IS("release")) {
         double k[36] = {[28] = 500, [35] = 400};
         scene_release_end(s, 1, 0, SCENE_RZ);
