@@ -119,7 +119,7 @@ ifndef RESULTS
 	@$(call is_newer,element-test) || $(MAKE) --no-print-directory lab-certificates >/dev/null
 	@$(call is_newer,stress) || $(MAKE) --no-print-directory stress >$(BUILD)/stress.txt
 endif
-	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) --beside $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) --imported $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
 docs: all library needs-docs ## the documentation as a site that opens from disk, into build/docs/index.html; with verdicts of the last verify
 	@rm -rf $(BUILD)/docs $(BUILD)/docs_trees

@@ -1,4 +1,4 @@
-"""python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--beside THEIRS.h5]
+"""python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--imported THEIRS.h5]
 [--sweep SWEEP.h5] -o FOLDER: the report as one self-contained folder of HTML and SVG. A sweep may
 stand in the place of results. With --film FILM.html in the place of -o FOLDER: a motion as one file
 that any browser plays from disk."""
@@ -18,10 +18,11 @@ def main():
     parser.add_argument("-k", dest="case", help="whose film, where the results hold several")
     parser.add_argument("--bench",
                         help="times of 'beamwork bench -o'; without it those of single runs")
-    parser.add_argument("--beside",
+    parser.add_argument("--imported",
                         action="append",
                         default=[],
-                        help="what other programs found, stored by 'beamwork import'")
+                        help="results of other programs, stored by 'beamwork import'")
+    parser.add_argument("--beside", action="append", dest="imported", help=argparse.SUPPRESS)
     parser.add_argument("--sweep", action="append", default=[],
                         help="what 'beamwork sweep -o' stored, beside the results")
     given = parser.parse_args()
@@ -31,7 +32,7 @@ def main():
                                                               [])])
     try:
         from reports import pages
-        count = pages.build(given.results, given.truths, given.folder, given.bench, given.beside,
+        count = pages.build(given.results, given.truths, given.folder, given.bench, given.imported,
                             given.sweep)
     except (data.Unreadable, OSError) as why:
         print(f"report: {why}", file=sys.stderr)

@@ -241,7 +241,7 @@ def verdicts_of(point, index):
 
 
 def causes_of(point):
-    """[(rule of the ledger, its cause)] of the verdicts of a point."""
+    """[(rule of the list of known deviations, its cause)] of the verdicts of a point."""
     return sorted({v.finding: v.cause for s in point.series for v in s.verdicts
                    if v.finding and not s.missing}.items())
 

@@ -257,7 +257,7 @@ def read_other_model(path, case, parameters, quantity):
 
 
 def read_rules(path):
-    """[{column: value}] of the ledger (reference/findings.csv) that the truths were packed with."""
+    """[{column: value}] of the list of known deviations (reference/findings.csv) that the truths were packed with."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
             columns = {name: column(values[()]) for name, values in file["findings"].items()}

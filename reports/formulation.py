@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import markdown
 
-from reports import answers, certificates, data, ledger, mathml, verdicts
+from reports import answers, certificates, data, deviations, mathml, verdicts
 from reports.answers import LEVELS
 from reports.case import page_of
 from reports.chart import Chart
@@ -152,7 +152,7 @@ def defaults(cases, key):
 
 
 def rules(rows, known, titles):
-    """The rules of the ledger that were shown: their verdicts, worst one and cases."""
+    """The rules of the list of known deviations that were shown: their verdicts, worst one and cases."""
     found = {}
     for row in rows:
         if row.verdict.finding:
@@ -164,7 +164,7 @@ def rules(rows, known, titles):
             # What a kept misprint repeats counts here, on its own page.
             counted = [verdicts.TallyRow(r.case, r.parameters, r.formulation, r.verdict,
                                          verdicts.OWN) for r in own]
-            out.append({**ledger.line(rule, counted, titles),
+            out.append({**deviations.line(rule, counted, titles),
                         "where": sorted({r.case for r in own})})
     return out
 
@@ -238,7 +238,7 @@ class Known:
     """What all pages take from, found once."""
 
     rows: list  # verdicts.TallyRow of every verdict
-    rules: list  # of the ledger
+    rules: list  # of the list of known deviations
     declared: dict  # formulation -> row of /declarations
     ways: dict  # all_ways
     titles: list  # of the errata
@@ -247,7 +247,7 @@ class Known:
 
 def gather(site):
     return Known(list(verdicts.rows(site.cases)), data.read_rules(site.truths),
-                 data.read_declarations(site.results), all_ways(site.cases), ledger.headings(),
+                 data.read_declarations(site.results), all_ways(site.cases), deviations.headings(),
                  certificates.names(site))
 
 

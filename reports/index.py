@@ -204,7 +204,7 @@ PLACES = (  # where to go next, as far as this site has it
     ("motions.html", "motions in time"),
     ("integrators.html", "integrators"),
     ("errata.html", "errata"),
-    ("ledger.html", "causes"),
+    ("deviations.html", "causes"),
     ("glossary.html", "glossary"),
 )
 FIGURE = (300, 165)  # axes, pixels

@@ -13,7 +13,7 @@ GROUPS = (
     ("Stability", ("stability.html",)),
     ("Motion", ("motions.html", "integrators.html")),
     ("Papers & errata", ("claims.html", "papers.html", "errata.html")),
-    ("Ledger", ("ledger.html", "causes.html")),
+    ("Deviations", ("deviations.html", "causes.html")),
     ("Glossary", ("glossary.html",)),
     ("About", ("environment.html", "checks.html", "convergence.html")),
 )

@@ -24,7 +24,7 @@ PAGES = (
     "answers_table",
     "profiles",
     "claims",
-    "ledger",
+    "deviations",
     "case",
     "explorer",
     "formulation",

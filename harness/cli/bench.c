@@ -45,7 +45,7 @@ static int answer(const command_line *l, void *request)
     if (r->of.scene_path != NULL && case_input_find(&r->of) == NULL)
         return r->of.refusal;
     if (r->error != NULL || r->solver.keep_all)
-        return message_fail(STATUS_REFUSED, "--error and --keep-all are of --against");
+        return message_fail(STATUS_REFUSED, "--error and --all-dofs are of --against");
     if (!is_named(r) && (r->of.set.count > 0 || r->meshes.count > 0))
         return message_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
     const status outcome = measure(r, &b, &f);
@@ -73,9 +73,9 @@ static const verb_option own[] = {
      "with --against: errors at which to compare, such as 1%,0.1% (default: those of 10, 1, 0.1 "
      "and 0.01 % that both reach)",
      IN(error)},
-    {"plant", 0, "PERCENT",
-     "make the other slower by that much, to see whether the comparison finds it", IN(plant),
-     .least = 0, .most = 1000},
+    {"inject-slowdown", 0, "PERCENT",
+     "add that percentage to the time of the other, to see whether the comparison finds it",
+     IN(slowdown), .least = 0, .most = 1000},
     {0}};
 static const verb_group shared[] = {
     SHARED(case, of),       SHARED(formulations, chosen), SHARED(meshes, meshes),

@@ -94,9 +94,11 @@ struct verb {
 /* The i-th option of a verb, in the order of its help; NULL behind the last. at: where its group is
  * in the request; NULL: not wanted. */
 const verb_option *verb_option_at(const verb *, int i, size_t *at);
-/* Parses a word: "--name=VALUE", by its whole name or a unique beginning of it; "-xyVALUE": the
- * first letter that takes a value, else the last. *value: NULL: not in this word. Returns NULL: the
- * letter at *value is no option, or *begun options begin so. */
+/* The name that an option had in version 0.2; NULL where it has not changed. */
+const char *verb_former_name(const verb_option *);
+/* Parses a word: "--name=VALUE", by its whole name, a former one or a unique beginning of it;
+ * "-xyVALUE": the first letter that takes a value, else the last. *value: NULL: not in this word.
+ * Returns NULL: the letter at *value is no option, or *begun options begin so. */
 const verb_option *verb_word(const verb *, const char *word, const char **value, int *begun);
 /* By its letter, also by one of former versions; NULL: none. */
 int verb_is_letter(const verb_option *, char letter);

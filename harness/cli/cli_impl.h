@@ -36,8 +36,8 @@ typedef struct bench_options {
     solver_options solver;
     const char *select, *output, *format, *error, *against;
     int jobs;
-    int dense; /* 1: the dense reference is timed too */
-    int plant; /* percentage of its time that is added to every run of the other */
+    int dense;    /* 1: the dense reference is timed too */
+    int slowdown; /* percentage of its time that is added to every run of the other */
 } bench_options;
 
 /* The exit code. */
@@ -52,7 +52,7 @@ typedef struct contestant {
     const char *argument[CONTESTANT_ARGUMENTS]; /* of the program, NULL-terminated */
     char elements[16];                          /* one of them */
     int repeats;                                /* in one lap */
-    double plant;                               /* share of its time added to every lap */
+    double slowdown;                            /* share of its time added to every lap */
     int counts;
     const schema_field *counted[SCHEMA_MOST_FIELDS]; /* size and work: what a cell counts */
     double count[SCHEMA_MOST_FIELDS];

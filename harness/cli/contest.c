@@ -45,7 +45,7 @@ static status measure(const duel *d, const bench_options *r, const bout *former,
         contestant_here(&m->one[i], r, &d->s.point[0].scene, &one->formulation,
                         one->mesh[m->at.mesh[i]]);
     }
-    m->one[1].plant = 0.01 * r->plant;
+    m->one[1].slowdown = 0.01 * r->slowdown;
     m->measured = 1;
     return contestant_compete(&m->one[0], &m->one[1], &m->answer, f);
 }
@@ -305,7 +305,7 @@ static status compete(const bench_options *r, const case_type *type, scene *s, f
     TRY(cell_scene(type, r->of.parameter, NULL, s, f));
     contestant_here(&a, r, s, &r->chosen.formulation[0], r->meshes.elements[0]);
     contestant_here(&b, r, s, &other, r->meshes.elements[r->meshes.count - 1]);
-    b.plant = 0.01 * r->plant;
+    b.slowdown = 0.01 * r->slowdown;
     TRY(contestant_compete(&a, &b, &answer, f));
     const sweep_point p = point_of(r, type, s);
     show_pair(r, &p, &a, &b, &answer);
@@ -336,9 +336,9 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
     if (is_program && (r->error != NULL || r->select != NULL))
         return fault_set(f, STATUS_REFUSED,
                          "another program is compared at equal n: leave --error and -k away");
-    if (is_program && (r->plant > 0 || r->meshes.count > 1))
+    if (is_program && (r->slowdown > 0 || r->meshes.count > 1))
         return fault_set(f, STATUS_REFUSED,
-                         "--plant and a second mesh require another formulation "
+                         "--inject-slowdown and a second mesh require another formulation "
                          "in the same program");
     if (r->meshes.count == 0 && !is_program)
         return against_error(r, type, f);

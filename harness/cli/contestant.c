@@ -49,7 +49,7 @@ static status lap_here(contestant *c, double *seconds, fault *f)
         if (outcome != STATUS_OK)
             return outcome;
     }
-    const double end = start + (1 + c->plant) * (clock_processor_seconds() - start);
+    const double end = start + (1 + c->slowdown) * (clock_processor_seconds() - start);
     do /* injected work */
         *seconds = clock_processor_seconds() - start;
     while (start + *seconds < end);
@@ -154,7 +154,7 @@ void contestant_elsewhere(contestant *c, const bench_options *r, const char *pro
         c->argument[n++] = "--scene";
     c->argument[n++] = r->of.scene_path != NULL ? r->of.scene_path : r->of.name;
     if (r->solver.keep_all)
-        c->argument[n++] = "--keep-all";
+        c->argument[n++] = "--all-dofs";
     for (int i = 0; i < r->of.set.count; i++) {
         c->argument[n++] = "--set";
         c->argument[n++] = r->of.set.text[i];

@@ -120,10 +120,10 @@ static const verb_group shared[] = {SHARED(output, output), SHARED(format, forma
 const verb verb_import = {
     "import",
     "FILE...",
-    "results of other programs, for 'verify --beside'",
+    "results of other programs, for 'verify --imported'",
     "Reads what other programs found of a case or scene: CSV with a declared header "
     "(harness/exchange/import.md). Names, units and parameters are checked, values converted; -o "
-    "FILE is of the same schema as results of verify, whose --beside takes it as one more "
+    "FILE is of the same schema as results of verify, whose --imported takes it as one more "
     "program. --format json: the mistakes of each file, for editors.",
     "beamwork import theirs.csv -o theirs.h5",
     shared,

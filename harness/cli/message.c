@@ -228,7 +228,8 @@ static int others_take(const verb *const *verbs, const char *word)
     for (; *verbs != NULL; verbs++)
         for (int i = 0; (*verbs)->answer != NULL && (o = verb_option_at(*verbs, i, NULL)) != NULL;
              i++)
-            if (strcmp(o->name, word) == 0)
+            if (strcmp(o->name, word) == 0 ||
+                (verb_former_name(o) != NULL && strcmp(verb_former_name(o), word) == 0))
                 return 1;
     return 0;
 }
@@ -252,6 +253,15 @@ static status refuse_word(const verb *v, const verb *const *verbs, const char *t
                      near != NULL ? "?" : "", v->name);
 }
 
+static void report_former(const verb_option *o, const char *word)
+{
+    const char *was = verb_former_name(o);
+    const size_t length = strcspn(word, "=");
+    if (was != NULL && length == strlen(was) + 2 && strncmp(word + 2, was, length - 2) == 0)
+        fprintf(stderr, "beamwork: --%s is --%s now; the old name goes with the next version\n",
+                was, o->name);
+}
+
 /* *more: 1 where the next argument is its value. */
 static status check_word(const verb *v, const verb *const *verbs, const char *word, int last,
                          int *more, fault *f)
@@ -268,6 +278,7 @@ static status check_word(const verb *v, const verb *const *verbs, const char *wo
         return refuse_word(v, verbs, word, begun, f);
     if (value != NULL && o->argument == NULL)
         return fault_set(f, STATUS_REFUSED, "--%s takes no value", o->name);
+    report_former(o, word);
     *more = value == NULL && o->argument != NULL && !verb_optional(o);
     return *more && last
                ? fault_set(f, STATUS_REFUSED, "--%s needs a value: %s", o->name, o->argument)
@@ -354,12 +365,15 @@ static error_t take(int key, char *value, struct argp_state *state)
     return 0;
 }
 
-/* The options as argp has them: letters are other names of an option. */
+/* The options as argp has them: letters and former names are other names of an option. */
 static int add_row(struct argp_option row[], int n, const verb_option *o, int index)
 {
+    const char *was = verb_former_name(o);
     row[n++] = (struct argp_option){o->name,     FIRST_KEY + index,
                                     o->argument, verb_optional(o) ? OPTION_ARG_OPTIONAL : 0,
                                     o->help,     0};
+    if (was != NULL)
+        row[n++] = (struct argp_option){.name = was, .flags = OPTION_ALIAS | OPTION_HIDDEN};
     for (int letter = '!'; letter <= '~'; letter++)
         if (verb_is_letter(o, (char)letter))
             row[n++] = (struct argp_option){

@@ -9,8 +9,8 @@ typedef struct motion_options {
     chosen_formulations chosen;
     mesh_list meshes;
     const char *output, *format, *json;
-    int jobs, verbose, no_errors;                        /* no_errors: without a reference */
-    text_list vary;                                      /* one parameter */
+    int jobs, verbose, conservation_only; /* conservation_only: without a reference */
+    text_list vary;                       /* one parameter */
     const char *integrators, *step_lengths, *tolerances; /* lists */
     const char *expected; /* table of verdicts, in the place of a case */
 } motion_options;
@@ -41,7 +41,7 @@ static status run(motion_options *r, motions *m, fault *f)
                             .integrators = r->integrators,
                             .steps = r->step_lengths,
                             .tolerances = r->tolerances,
-                            .no_errors = r->no_errors,
+                            .conservation_only = r->conservation_only,
                             .each = r->expected == NULL || r->verbose,
                             .cells = {.jobs = r->jobs,
                                       .time_limit = r->chosen.time_limit,
@@ -99,8 +99,9 @@ static const verb_option own[] = {
      "errors of a step by which it is chosen, of integrators that estimate it; a range goes by "
      "hundredths",
      IN(tolerances)},
-    {"no-errors", 0, NULL,
-     "no reference is computed, and no step is halved: energy and momenta alone", IN(no_errors)},
+    {"conservation-only", 0, NULL,
+     "only energy and momenta: no reference solution is computed, and no step is halved",
+     IN(conservation_only)},
     {"expected", 0, "FILE.csv", "verdicts that are expected, in the place of a case", IN(expected),
      .traits = OPTION_INPUT},
     {"verbose", 'v', NULL, "with --expected: every motion", IN(verbose), .traits = OPTION_ASIDE},
@@ -115,7 +116,8 @@ const verb verb_motion = {
     "integrators side by side: error of time, energy, momenta, cost",
     "Integrates a motion in time by several integrators with several steps or tolerances, and "
     "shows for each the error of time (against radau at 1e-10 on the same mesh), its order, what "
-    "becomes of energy and momenta, and what it costs. With --no-errors long motions of large "
+    "becomes of energy and momenta, and what it costs. With --conservation-only long motions of "
+    "large "
     "steps: does the energy grow, does a step fail? With --expected the verdicts of a table. Exit "
     "status: 0 as expected, 1 a verdict differs or no motion reaches its end, 2 refused, 3 nothing "
     "was run, 4 file, disk or memory.",

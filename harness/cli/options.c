@@ -15,19 +15,32 @@
 static const struct {
     char letter;
     const char *name;
-} former[] = {{'x', "element"},    {'F', "format"},     {'K', "keep-all"},       {'S', "steps"},
-              {'L', "time-limit"}, {'J', "json"},       {'U', "junit"},          {'c', "threshold"},
-              {'P', "shapes"},     {'V', "follow"},     {'y', "vary"},           {'d', "design"},
-              {'z', "points"},     {'r', "seed"},       {'g', "derive"},         {'R', "matrices"},
-              {'4', "ends"},       {'5', "restart"},    {'M', "markdown"},       {'A', "against"},
-              {'e', "error"},      {'t', "threads"},    {'D', "dense"},          {'X', "plant"},
-              {'T', "truths"},     {'W', "findings"},   {'Y', "scene"},          {'I', "built-in"},
-              {'B', "beside"},     {'m', "map"},        {'N', "doublings"},      {'0', "exit-zero"},
-              {'6', "tolerance"},  {'l', "tolerance"},  {'7', "not-worse-than"}, {'G', "gate"},
-              {'O', "to"},         {'H', "schema"},     {'E', "keys"},           {'Z', "shard"},
-              {'i', "into"},       {'b', "from"},       {'w', "partial"},        {'Q', "hash"},
-              {'p', "propose"},    {'u', "integrator"}, {'a', "step"},           {'3', "no-errors"},
+} former[] = {{'x', "element"},    {'F', "format"},         {'K', "all-dofs"},
+              {'S', "steps"},      {'L', "time-limit"},     {'J', "json"},
+              {'U', "junit"},      {'c', "threshold"},      {'P', "shapes"},
+              {'V', "follow"},     {'y', "vary"},           {'d', "design"},
+              {'z', "points"},     {'r', "seed"},           {'g', "compute-references"},
+              {'R', "matrices"},   {'4', "save-state"},     {'5', "restart"},
+              {'M', "markdown"},   {'A', "against"},        {'e', "error"},
+              {'t', "threads"},    {'D', "dense"},          {'X', "inject-slowdown"},
+              {'T', "truths"},     {'W', "deviations"},     {'Y', "scene"},
+              {'I', "built-in"},   {'B', "imported"},       {'m', "map"},
+              {'N', "refine"},     {'0', "exit-zero"},      {'6', "tolerance"},
+              {'l', "tolerance"},  {'7', "not-worse-than"}, {'G', "imported-must-pass"},
+              {'O', "to"},         {'H', "schema"},         {'E', "keys"},
+              {'Z', "shard"},      {'i', "into"},           {'b', "from"},
+              {'w', "partial"},    {'Q', "hash"},           {'p', "propose-deviations"},
+              {'u', "integrator"}, {'a', "step"},           {'3', "conservation-only"},
               {'1', "expected"}};
+
+/* Names of version 0.2; they are read until the next version and reported with the new ones. */
+static const struct {
+    const char *was, *name;
+} renamed[] = {{"keep-all", "all-dofs"},           {"beside", "imported"},
+               {"gate", "imported-must-pass"},     {"findings", "deviations"},
+               {"propose", "propose-deviations"},  {"doublings", "refine"},
+               {"plant", "inject-slowdown"},       {"derive", "compute-references"},
+               {"no-errors", "conservation-only"}, {"ends", "save-state"}};
 
 const verb_option verb_help[] = {{"help", 'h', NULL, "this list", .traits = OPTION_ASIDE},
                                  {"usage", 0, NULL, "the options in short", .traits = OPTION_ASIDE},
@@ -57,19 +70,38 @@ const verb_option *verb_option_at(const verb *v, int i, size_t *at)
     return o != NULL ? o : among(verb_help, &i);
 }
 
+const char *verb_former_name(const verb_option *o)
+{
+    for (size_t i = 0; i < sizeof renamed / sizeof renamed[0]; i++)
+        if (strcmp(renamed[i].name, o->name) == 0)
+            return renamed[i].was;
+    return NULL;
+}
+
+/* 2: `name` is the text of this length, 1: it begins with it, 0: neither. */
+static int match_name(const char *name, const char *text, size_t length)
+{
+    if (name == NULL || strncmp(name, text, length) != 0)
+        return 0;
+    return name[length] == '\0' ? 2 : 1;
+}
+
 static const verb_option *find_long(const verb *v, const char *name, size_t length, int *begun)
 {
     const verb_option *o, *found = NULL;
     *begun = 0;
-    for (int i = 0; (o = verb_option_at(v, i, NULL)) != NULL; i++)
-        if (strncmp(o->name, name, length) == 0) {
-            found = o;
-            ++*begun;
-            if (o->name[length] == '\0') {
-                *begun = 1;
-                break;
-            }
+    for (int i = 0; (o = verb_option_at(v, i, NULL)) != NULL; i++) {
+        const int now = match_name(o->name, name, length),
+                  was = match_name(verb_former_name(o), name, length);
+        if (now == 0 && was == 0)
+            continue;
+        found = o;
+        ++*begun;
+        if (now == 2 || was == 2) {
+            *begun = 1;
+            break;
         }
+    }
     return *begun == 1 ? found : NULL;
 }
 
@@ -285,11 +317,12 @@ static const verb_option reports[] = {
      .read = NULL},
     {"markdown", 0, "FILE", "summary as Markdown, for a pull request",
      offsetof(report_options, markdown), OPTION_OUTPUT, .read = NULL},
-    {"propose", 0, "FILE", "known deviations that new formulations would need, as rows (CSV)",
+    {"propose-deviations", 0, "FILE",
+     "known deviations that new formulations would need, as rows (CSV)",
      offsetof(report_options, propose), OPTION_OUTPUT, .read = NULL},
     {0}};
 static const verb_option solver[] = {
-    {"keep-all", 0, NULL, "keep all degrees of freedom: same answer, more work",
+    {"all-dofs", 0, NULL, "keep all degrees of freedom: same answer, more work",
      .member = offsetof(solver_options, keep_all)},
     {"threads", 0, "N",
      "threads that share the loop over elements (default 1); results are the same",

@@ -158,8 +158,8 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
     if (r->shapes > 0 || r->matrices != NULL || r->ends != NULL || r->restart != NULL ||
         r->select != NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "--follow gives curves of modes: leave -k, --shapes, --matrices, --ends "
-                         "and --restart");
+                         "--follow computes curves of modes only; remove -k, --shapes, --matrices, "
+                         "--save-state and --restart");
     TRY(range_of(r, type, &what, f));
     snprintf(name, sizeof name, "%.*s", (int)strcspn(r->follow, "="), r->follow);
     TRY(files_check(r->of.line, 0, own_tables_packed(&r->truths), f));
@@ -238,7 +238,8 @@ static status write_ends(const solve_request *r, const solution_request *what, c
         return STATUS_OK;
     if (s->series[0].cell[0].solve.ends > 0)
         return restart_write(r->ends, what, s, f);
-    fprintf(stderr, "beamwork: no motion came to its end: --ends %s is not written\n", r->ends);
+    fprintf(stderr, "beamwork: no motion came to its end: --save-state %s is not written\n",
+            r->ends);
     return STATUS_OK;
 }
 
@@ -322,11 +323,12 @@ static const verb_option own[] = {
      "also stiffness, mass and gyroscopic matrices about every state, as Matrix Market, with a "
      "table of their rows, into a new folder",
      IN(matrices), .traits = OPTION_OUTPUT | OPTION_FOLDER},
-    {"ends", 0, "FILE", "also store where motions in time stop (HDF5): --restart continues there",
-     IN(ends), .traits = OPTION_OUTPUT | OPTION_HDF5},
+    {"save-state", 0, "FILE",
+     "also store the last state of motions (HDF5): --restart continues there", IN(ends),
+     .traits = OPTION_OUTPUT | OPTION_HDF5},
     {"restart", 0, "FILE",
-     "continue where the motions of another run stopped, kept by its --ends: the same scene with "
-     "later stations, with the bits of one run where steps stay and end there",
+     "continue the motions of another run from its --save-state file: the same scene with later "
+     "stations; bit-for-bit as an uninterrupted run where the steps are the same",
      IN(restart), .traits = OPTION_INPUT},
     {0}};
 static const verb_group shared[] = {SHARED(case, of),           SHARED(formulations, chosen),
@@ -350,7 +352,7 @@ const verb verb_solve = {
     "beamwork solve elastica\n"
     "beamwork solve c_column -f beamw -n 8 --set section_data=printed\n"
     "beamwork solve c_column -k buckling_load\n"
-    "beamwork solve pendulum -f collocation -n 8 --set time=1 --ends pendulum.h5\n"
+    "beamwork solve pendulum -f collocation -n 8 --set time=1 --save-state pendulum.h5\n"
     "beamwork solve pendulum --set time=2 --restart pendulum.h5",
     shared,
     own,

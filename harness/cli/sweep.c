@@ -34,7 +34,7 @@ typedef struct sweeping {
     truths truths;
     ranges_output output;
     char batches[PATH_MAX]; /* folder */
-    char script[PATH_MAX];  /* of --derive */
+    char script[PATH_MAX];  /* of --compute-references */
     char partial[PATH_MAX]; /* output of --partial */
     identity_texts texts;
     shard_work all;
@@ -283,8 +283,9 @@ static const verb_option own[] = {
     {"points", 0, "N", "number of points of a design that is not a grid", IN(points), .least = 1,
      .most = 1000000000},
     {"seed", 0, "S", "of --design random (default 1)", IN(seed), .least = 0, .most = INT_MAX},
-    {"derive", 0, NULL,
-     "solve for truths where none is stored: about half a second for each point (a scene: 4 s)",
+    {"compute-references", 0, NULL,
+     "compute a reference value where none is stored: about half a second for each point (a "
+     "scene: 4 s)",
      IN(derive)},
     {"error", 0, "R", "error that is asked for (default 1%)", IN(error), .read = option_error},
     {"verbose", 'v', NULL, "also the least elements for each quantity", IN(verbose),
@@ -312,7 +313,8 @@ const verb verb_sweep = {
     "NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these values, or "
     "words of a choice. Several make a grid, the last one changing first. --design sobol, halton "
     "or random --points N: so many points in the box of --vary NAME=A..B (or A..B:log). Errors are "
-    "against a truth stored for the very point, with --derive against one that is solved for "
+    "against a truth stored for the very point, with --compute-references against one that is "
+    "solved for "
     "there, else against the limit that the meshes of all formulations of the same physics go to; "
     "points where that is not known to half of the error are reported. A point that has no scene, "
     "a "
@@ -321,7 +323,8 @@ const verb verb_sweep = {
     "FILE.worst; batches that are done are kept in FILE.batches until all are: the same command "
     "continues there. Exit status: 0 done, 2 refused, 4 file, disk or memory, 5 incomplete.",
     "beamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
-    "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --derive -o column.h5\n"
+    "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --compute-references -o "
+    "column.h5\n"
     "beamwork sweep snap_through --vary angle=0.1..0.6 --design sobol --points 200",
     shared,
     own,

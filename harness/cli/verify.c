@@ -13,14 +13,14 @@ typedef struct verify_request {
     report_options reports;
     shard_options shards;
     const char *select, *output;
-    text_list beside;   /* stored imports: compared programs of a run */
-    int gate;           /* 1: their verdicts count */
-    int exit_zero;      /* 1: verdicts do not change the exit status */
-    double tolerance;   /* in the place of those of the cases */
-    const char *former; /* results that this run may not be worse than */
-    int doublings;      /* of the finest mesh */
-    int shapes;         /* states of a path whose shapes are stored; 0: none */
-    int verbose;        /* every limit; shards.quiet: only what is unexpected */
+    text_list imported;     /* stored imports: compared programs of a run */
+    int imported_must_pass; /* 1: their verdicts affect the exit status */
+    int exit_zero;          /* 1: verdicts do not change the exit status */
+    double tolerance;       /* in the place of those of the cases */
+    const char *former;     /* results that this run may not be worse than */
+    int refine;             /* of the finest mesh */
+    int shapes;             /* states of a path whose shapes are stored; 0: none */
+    int verbose;            /* every limit; shards.quiet: only what is unexpected */
 } verify_request;
 
 enum { PICTURED_STATES = 5 };
@@ -82,10 +82,10 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
 }
 
 /* Adds other programs to the comparison; programs for no point of this run are reported. */
-static status add_beside(const char *path, int gates, sweep *s, fault *f)
+static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
 {
     import_left left;
-    TRY(import_store_read(path, gates, s, &left, f));
+    TRY(import_store_read(path, must_pass, s, &left, f));
     if (left.series == left.all)
         fprintf(stderr,
                 "beamwork: %s: nothing of it was run: it is of %s; select that with -k, or give "
@@ -110,10 +110,10 @@ typedef struct trial {
     spread_end end;        /* of shards, or of batches that are merged */
 } trial;
 
-static status add_all_beside(const verify_request *r, sweep *s, fault *f)
+static status add_all_imported(const verify_request *r, sweep *s, fault *f)
 {
-    for (int i = 0; i < r->beside.count; i++)
-        TRY(add_beside(r->beside.text[i], r->gate, s, f));
+    for (int i = 0; i < r->imported.count; i++)
+        TRY(add_imported(r->imported.text[i], r->imported_must_pass, s, f));
     return STATUS_OK;
 }
 
@@ -146,7 +146,7 @@ static status run_and_judge(const verify_request *r, const scenes *own,
         TRY(verification_work_run(&r->shards, request, &v->truths, &v->sweep, &v->end, f));
     if (v->end.ended)
         return STATUS_OK;
-    TRY(add_all_beside(r, &v->sweep, f));
+    TRY(add_all_imported(r, &v->sweep, f));
     TRY(verification_files_open(&v->files, &v->sweep, &v->judgement, f));
     if (asked)
         TRY(verification_judge(request, whole, &v->truths, &v->sweep, &v->judgement, f));
@@ -167,7 +167,7 @@ static status run(const verify_request *r, const scenes *own, trial *v, fault *f
                                    .share = 1,
                                    .time_limit = r->chosen.time_limit,
                                    .interruptible = 1,
-                                   .doublings = r->doublings,
+                                   .doublings = r->refine,
                                    .formulations = r->chosen.formulations,
                                    .formulation = r->chosen.formulation,
                                    .named = named_alone(&r->chosen),
@@ -233,21 +233,23 @@ static const verb_option own[] = {
      IN(scenes.scene), .traits = OPTION_REPEATS | OPTION_INPUT},
     {"built-in", 0, NULL, "the built-in cases in addition to those of --scene",
      IN(scenes.built_in)},
-    {"findings", 0, "FILE.csv",
-     "known deviations of your own in addition to those listed; may be repeated",
+    {"deviations", 0, "FILE.csv",
+     "table of your known deviations, in addition to those listed; may be repeated",
      IN(scenes.findings), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
-    {"beside", 0, "FILE",
-     "results of other programs, stored by 'beamwork import': no effect on the exit status; may be "
-     "repeated",
-     IN(beside), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
-    {"gate", 0, NULL, "verdicts of --beside affect the exit status too", IN(gate)},
+    {"imported", 0, "FILE",
+     "results of other programs, stored by 'beamwork import': shown, without effect on the exit "
+     "status; may be repeated",
+     IN(imported), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
+    {"imported-must-pass", 0, NULL, "verdicts of --imported affect the exit status too",
+     IN(imported_must_pass)},
     {"shapes", 0, "[STATES]",
      "store centre lines, sections and resultants of at most STATES states of a path (default: "
      "5), and 60 frames of a motion, evenly over its time",
      IN(shapes), .least = 1, .most = SHAPES_ALL},
-    {"doublings", 0, "N",
-     "N more meshes of each series, each with twice the elements: are the verdicts the same?",
-     IN(doublings), .least = 1, .most = 10},
+    {"refine", 0, "N",
+     "N more meshes of each series, each with twice the elements, to see whether the verdicts "
+     "change",
+     IN(refine), .least = 1, .most = 10},
     {"tolerance", 0, "R",
      "limits within R (1% or 0.01) of the reference value pass: in place of the tolerances of the "
      "cases, for any order of convergence",
@@ -274,12 +276,13 @@ const verb verb_verify = {
     "every formulation on every case, with verdicts against stored reference values",
     "Computes every formulation on every case and parameter point that has a reference value, and "
     "assigns verdicts. A formulation that -f names or --element loads affects the exit status: its "
-    "own known deviations apply (--findings; none by default), and the interface requirements are "
+    "own known deviations apply (--deviations; none by default), and the interface requirements "
+    "are "
     "checked first (element-test). A formulation of the tree that is not accepted yet affects it "
     "only where it is named. Exit status: 0 every verdict as expected; 1 a verdict differs, or an "
     "interface requirement is violated (undecided did not pass: it differs unless a known "
     "deviation "
-    "expects it; more meshes, --doublings, or a larger --tolerance may decide it); 2 invalid "
+    "expects it; more meshes, --refine, or a larger --tolerance may decide it); 2 invalid "
     "input; "
     "3 no verdict; 4 file, disk or memory; 5 interrupted (Ctrl-C, SIGTERM): finished verdicts are "
     "in files named .partial. With --exit-zero 0 instead of 1 and 3. With --shard K/N --into "

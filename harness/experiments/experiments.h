@@ -814,7 +814,7 @@ typedef struct motion_request {
     const formulation *formulation;
     int formulations, elements;                   /* elements 0: those of the case */
     const char *integrators, *steps, *tolerances; /* lists; NULL: the usual ones */
-    int no_errors;                                /* 1: without a reference */
+    int conservation_only;                        /* 1: without a reference */
     int each; /* 1: a line for each of them in what is for people, not only verdicts */
     sweep_request cells;
 } motion_request;

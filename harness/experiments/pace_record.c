@@ -387,8 +387,8 @@ static status plan_motions(const motion_request *r, motions *m, fault *f)
                            .parameter = r->parameter,
                            .elements = r->elements,
                            .method = m->method,
-                           .errors = !r->no_errors,
-                           .whole = r->no_errors};
+                           .errors = !r->conservation_only,
+                           .whole = r->conservation_only};
     TRY(pace_method_read_list(r->integrators != NULL ? r->integrators : pace_method_all,
                               PACE_LIST_MOST, m->method, &m->methods, f));
     q.methods = m->methods;

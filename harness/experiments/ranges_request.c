@@ -190,7 +190,7 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
         {kind[ROWS_LIMIT], alone ? "the limit from the same meshes, which shows convergence only"
                                  : "the limit of the meshes of all formulations of one theory"},
         {kind[ROWS_NONE],
-         "nothing: no limit is known to half of the error (finer -n, or --derive)"},
+         "nothing: no limit is known to half of the error (finer -n, or --compute-references)"},
         {kind[ROWS_DISPUTED], "nothing: limits of formulations disagree"}};
     size_t used = 0;
     int parts = 0;

@@ -14,7 +14,7 @@ status restart_possible(const scene *s, fault *f)
             return STATUS_OK;
     return fault_set(
         f, STATUS_REFUSED,
-        "the scene has no motion in time that --ends could store or --restart continue "
+        "the scene has no motion in time that --save-state could store or --restart continue "
         "from; remove them, or add an analysis 'motion'");
 }
 
@@ -36,7 +36,7 @@ static status check_chosen(const restart *r, const solution_request *of, fault *
             "the formulation and the elements that it began with",
             r->formulation, r->elements, of->formulation.key, of->elements);
     if (r->keep_all != of->keep_all)
-        return fault_set(f, STATUS_REFUSED, "--restart is of a run %s --keep-all: %s",
+        return fault_set(f, STATUS_REFUSED, "--restart is of a run %s --all-dofs: %s",
                          r->keep_all ? "with" : "without", r->keep_all ? "give it" : "remove it");
     return STATUS_OK;
 }
@@ -224,7 +224,8 @@ static double *take_values(const source *from, const char *name, long count)
 static status damaged(const source *from, fault *f)
 {
     return fault_set(f, STATUS_FAULT,
-                     "%.200s: not a file of --ends of this version; write it again", from->path);
+                     "%.200s: not a file of --save-state of this version; write it again",
+                     from->path);
 }
 
 static int whole(double x, double most)
@@ -325,7 +326,7 @@ status restart_text(const scene *s, char **out, fault *f)
     *out = NULL;
     return fault_set(f, STATUS_REFUSED,
                      "no scene file can say this scene, by which a continued motion is identified: "
-                     "leave --ends and --restart out");
+                     "remove --save-state and --restart");
 }
 
 /* Length of the line without its leading spaces, which are skipped. */

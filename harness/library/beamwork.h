@@ -83,11 +83,11 @@ BW_API void bw_scene_free(bw_scene *scene); /* NULL: nothing; its results stay *
 /* Solves one cell. formulation: as for -f ("beamw:mass=lumped"); NULL: chosen as `beamwork solve`
  * does. elements: of each member; 0: the coarsest mesh on which no value changes by more than
  * "error" from the one before; NOT_CONVERGED where the finest still does. options (NULL: none): a
- * JSON object with any of "keep_all" (true: all coordinates are kept), "steps" (initial number
- * between stations; the step size adapts), "shapes" (most states of a path whose shapes are kept;
- * for a motion so many instants, 60 where 5 or fewer are requested), "threads", "error" (default
- * 0.001). After NOT_CONVERGED, SINGULAR and NO_VALUE *out is a result all the same, with the values
- * that were found. */
+ * JSON object with any of "all_dofs" (true: no degree of freedom is eliminated), "steps" (initial
+ * number between stations; the step size adapts), "shapes" (most states of a path whose shapes are
+ * kept; for a motion so many instants, 60 where 5 or fewer are requested), "threads", "error"
+ * (default 0.001). After NOT_CONVERGED, SINGULAR and NO_VALUE *out is a result all the same, with
+ * the values that were found. */
 BW_API bw_status bw_solve(const bw_scene *scene, const char *formulation, int elements,
                           const char *options, bw_result **out, char **why);
 BW_API void bw_result_free(bw_result *result); /* NULL: nothing */
@@ -141,10 +141,11 @@ BW_API bw_status bw_converge(const bw_scene *scene, const char *formulations, co
                              const char *options, char **json, char **why);
 /* Verdicts, as `beamwork verify --json`. scene NULL: all built-in cases; else that scene's file at
  * its defaults and the points of its truths, or that case. select: as -k, NULL: all. results: an
- * HDF5 file to write, NULL: none. options: "jobs", "time_limit" ([s] of a cell, 120), "doublings",
- * "shapes", "stop", "tolerance" (relative, in place of those of the cases), "not_worse_than" (a
- * file of results: larger errors than there fail, and limits that moved). OK also where verdicts
- * differ from the expected ones: the document counts them ("unexpected"). */
+ * HDF5 file to write, NULL: none. options: "jobs", "time_limit" ([s] of a cell, 120), "refine"
+ * (more meshes of each series, each with twice the elements), "shapes", "stop", "tolerance"
+ * (relative, in place of those of the cases), "not_worse_than" (a file of results: larger errors
+ * than there fail, and limits that moved). OK also where verdicts differ from the expected ones:
+ * the document counts them ("unexpected"). */
 BW_API bw_status bw_verify(const bw_scene *scene, const char *formulations, const char *select,
                            const char *options, const char *results, char **json, char **why);
 

@@ -366,14 +366,16 @@ static status read_former(verify_trial *v, fault *f)
 static status verify_prepare(verify_trial *v, const char *names, const char *options, fault *f)
 {
     sweep_request *r = &v->request;
-    const call_option table[] = {{"jobs", OPTION_WHOLE, &r->jobs, 1, WORKERS_MOST},
-                                 {"time_limit", OPTION_WHOLE, &r->time_limit, 0, LONGEST},
-                                 {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS},
-                                 {"shapes", OPTION_WHOLE, &r->shapes, 0, PICTURES},
-                                 {"stop", OPTION_FILE, &r->stop, 1, INT_MAX},
-                                 {"tolerance", OPTION_SHARE, &r->tolerance, 0, 0},
-                                 {"not_worse_than", OPTION_WORDS, &v->former_path, 0, 0},
-                                 {.name = NULL}};
+    const call_option table[] = {
+        {"jobs", OPTION_WHOLE, &r->jobs, 1, WORKERS_MOST},
+        {"time_limit", OPTION_WHOLE, &r->time_limit, 0, LONGEST},
+        {"refine", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS},
+        {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS}, /* version 0.2 */
+        {"shapes", OPTION_WHOLE, &r->shapes, 0, PICTURES},
+        {"stop", OPTION_FILE, &r->stop, 1, INT_MAX},
+        {"tolerance", OPTION_SHARE, &r->tolerance, 0, 0},
+        {"not_worse_than", OPTION_WORDS, &v->former_path, 0, 0},
+        {.name = NULL}};
     file_place where;
     TRY(options_read(options, table, &v->kept, f));
     TRY(contestants_parse(names, v->formulation, &r->formulations, &r->named, f));

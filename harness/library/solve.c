@@ -17,12 +17,14 @@ enum { STEPS_MOST = 1000000 };
 
 static status read_options(const char *json, solution_request *out, fault *f)
 {
-    const call_option table[] = {{"keep_all", OPTION_SWITCH, &out->keep_all, 0, 1},
-                                 {"steps", OPTION_WHOLE, &out->steps, 1, STEPS_MOST},
-                                 {"shapes", OPTION_WHOLE, &out->shapes, 0, SHAPES_ALL},
-                                 {"threads", OPTION_WHOLE, &out->threads, 1, TEAM_MOST},
-                                 {"error", OPTION_SHARE, &out->error, 0, 0},
-                                 {.name = NULL}};
+    const call_option table[] = {
+        {"all_dofs", OPTION_SWITCH, &out->keep_all, 0, 1},
+        {"keep_all", OPTION_SWITCH, &out->keep_all, 0, 1}, /* version 0.2 */
+        {"steps", OPTION_WHOLE, &out->steps, 1, STEPS_MOST},
+        {"shapes", OPTION_WHOLE, &out->shapes, 0, SHAPES_ALL},
+        {"threads", OPTION_WHOLE, &out->threads, 1, TEAM_MOST},
+        {"error", OPTION_SHARE, &out->error, 0, 0},
+        {.name = NULL}};
     json_t *kept;
     const status outcome = options_read(json, table, &kept, f);
     json_decref(kept);

@@ -191,7 +191,7 @@ static void new_ones(const judgement *j, char *text, size_t size)
     else
         snprintf(text, size,
                  "without effect on the exit status: %d of %d %s %s not a pass and would need a "
-                 "known deviation (--propose FILE "
+                 "known deviation (--propose-deviations FILE "
                  "writes %s down)",
                  j->proposed, j->is_new,
                  j->is_new == 1 ? "verdict of a new formulation" : "verdicts of new formulations",

@@ -1305,7 +1305,7 @@ typedef struct dense_reference {
  * same); INFINITY: not measured. */
 double dense_reference_seconds(const dense_reference *b, long iterations);
 
-/* Repeated runs of a cell, as it is and with all degrees of freedom kept (--keep-all). */
+/* Repeated runs of a cell, as it is and with all degrees of freedom kept (--all-dofs). */
 typedef struct cell_timing {
     rounds_reading as_is, keep_all; /* rounds = 0: not measured */
     int free_keep_all;              /* unknowns when all are kept */

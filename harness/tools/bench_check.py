@@ -4,7 +4,7 @@ usage: bench_check.py PROGRAM [-o FILE]
 * 20 % of its own time is added to one of two equal contestants in one process: must be called
   slower, between 15 % and 25 %.
 * Nothing is added: must be undecided (one process, and two copies of the program).
-* Nothing is left out of one cell (--keep-all): more unknowns, so the work counts must differ; two
+* Nothing is left out of one cell (--all-dofs): more unknowns, so the work counts must differ; two
   equal runs must count the same.
 Each part is repeated; the outcome of every one is printed, and written as JSON for the report.
 """
@@ -48,11 +48,11 @@ def is_undecided(answer):
 def checks(program, folder):
     copy = shutil.copy(program, os.path.join(folder, "copy"))
     wrapper = pathlib.Path(folder) / "whole"
-    wrapper.write_text(f'#!/bin/sh\nexec "{os.path.abspath(program)}" "$@" --keep-all\n',
+    wrapper.write_text(f'#!/bin/sh\nexec "{os.path.abspath(program)}" "$@" --all-dofs\n',
                        encoding="utf-8")
     wrapper.chmod(0o755)
     for cell in CELLS:
-        slow = against(program, cell, cell[1], "--plant", "20")
+        slow = against(program, cell, cell[1], "--inject-slowdown", "20")
         found = slow["outcome"] == "slower" and 1.15 < slow["ratio"] < 1.25
         yield row("20 % injected, one process", cell, slow, found and not differing(slow))
         same = against(program, cell, cell[1])

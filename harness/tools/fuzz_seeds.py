@@ -77,7 +77,7 @@ def scenes():
 def library():
     """Behind the number of a call, its texts."""
     for seed in ("\0cases", "\0beamw:mass=lumped", "\1long=0.2", "\2beamw:newton=dense\n",
-                 '\2collocation:stages=5\n{"keep_all": true, "threads": 2, "shapes": 3}',
+                 '\2collocation:stages=5\n{"all_dofs": true, "threads": 2, "shapes": 3}',
                  '\3{"steps": 4, "keep_all": false}', "\4beamw collocation\n1,2,4",
                  '\4all\n{"jobs": 1}'):
         yield seed

@@ -142,7 +142,7 @@ class Small(ProgramTest):
 
 
 # The bar and the words: pages in their groups, words linked where the glossary has them.
-PAGES = [("index.html", "beamwork"), ("ledger.html", "ledger"), ("claims.html", "claims"),
+PAGES = [("index.html", "beamwork"), ("deviations.html", "deviations"), ("claims.html", "claims"),
          ("errata.html", "errata"), ("cases.html", "all cases"),
          ("environment.html", "environment"), ("a_new_page.html", "new")]
 
@@ -154,7 +154,7 @@ class Bar(unittest.TestCase):
 
     def test_groups(self):
         self.assertEqual([g.title for g in self.groups],
-                         ["beamwork", "Cases", "Papers & errata", "Ledger", "About"])
+                         ["beamwork", "Cases", "Papers & errata", "Deviations", "About"])
         self.assertEqual(self.groups[2].pages,
                          (("claims.html", "claims"), ("errata.html", "errata")))
 
@@ -295,8 +295,8 @@ class Pages(ProgramTest):
             shown = {r.verdict.finding for r in self.known.rows
                      if r.formulation == key and r.verdict.finding}
             for rule in shown:
-                self.assertIn(f'href="ledger.html#{rule}"', page, key)
-        self.assertIn("ledger.html#J66-shear", self.pages["beamw"])
+                self.assertIn(f'href="deviations.html#{rule}"', page, key)
+        self.assertIn("deviations.html#J66-shear", self.pages["beamw"])
 
     def test_equations_are_drawn(self):
         for key, page in self.pages.items():

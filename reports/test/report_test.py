@@ -113,7 +113,7 @@ class Report(ProgramTest):
                 "index.html",
                 "errata.html",
                 "claims.html",
-                "ledger.html",
+                "deviations.html",
                 "causes.html",
                 "papers.html",
                 "environment.html",
@@ -152,7 +152,7 @@ class Report(ProgramTest):
 
     def test_bar(self):
         """Short, and it says where the reader is: also on pages of cases and of formulations."""
-        for page, title in (("ledger.html", "Ledger"), ("warping_torsion.html", "Cases"),
+        for page, title in (("deviations.html", "Deviations"), ("warping_torsion.html", "Cases"),
                             ("formulation_beamw.html", "Formulations"), ("index.html", "beamwork")):
             text = (self.site / page).read_text(encoding="utf-8")
             bar = re.search('<nav class="bar" [^>]*>(.*?)</nav>', text, re.S).group(1)

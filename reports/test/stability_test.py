@@ -229,7 +229,7 @@ class Beside(ProgramTest):
         for done in (run("import", cls.place / "theirs.csv", "-o", cls.place / "theirs.h5"),
                      run("verify", "-k", "elastica/default", "-f", "beamw", "-f", "collocation",
                          "-o", cls.place / "ours.h5"),
-                     run("verify", "-k", "elastica/default", "-f", "beamw", "--beside",
+                     run("verify", "-k", "elastica/default", "-f", "beamw", "--imported",
                          cls.place / "theirs.h5", "-o", cls.place / "both.h5")):
             assert done.returncode == 0, done.stderr
 

@@ -1,11 +1,11 @@
-"""Verdicts and what reports say of them: causes, checks, the ledger and mechanisms."""
+"""Verdicts and what reports say of them: causes, checks, the list of known deviations and mechanisms."""
 import json
 import re
 import unittest
 
 from harness.tools.kit.program import ProgramTest, TRUTHS, drawn, run
 from reference import pack
-from reports import answers, checks, data, ledger, verdicts
+from reports import answers, checks, data, deviations, verdicts
 from reports.site import ROOT
 from reports.test.results import Site, case, series, verdict
 
@@ -94,18 +94,18 @@ class Causes(ProgramTest):
             ([instead], "gone with other"),
             ([experiment("without", False)], "none of these takes it away"),
         ):
-            self.assertEqual(ledger.verdict_of({"experiments": [finer, *last]}), words)
+            self.assertEqual(deviations.verdict_of({"experiments": [finer, *last]}), words)
         coarse = {"experiments": [experiment("finer", True, "more elements"), instead]}
-        self.assertIn("too coarse", ledger.verdict_of(coarse))
+        self.assertIn("too coarse", deviations.verdict_of(coarse))
 
     def test_page(self):
         site = Site(str(self.folder / "results.h5"), TRUTHS)
-        self.assertFalse(ledger.has_causes(site))
+        self.assertFalse(deviations.has_causes(site))
         studies = [{"finding": name, "experiments": []} for name in ("b", "a", "b")]
         record = {"minutes": 1, "not_run": 0, "studies": studies}
         (self.folder / "causes.json").write_text(json.dumps(record), encoding="utf-8")
-        self.assertTrue(ledger.has_causes(site))
-        ledger.write_causes(site)
+        self.assertTrue(deviations.has_causes(site))
+        deviations.write_causes(site)
         rules = site.pages["causes.html"]["rules"]
         self.assertEqual([(name, len(found)) for name, found in rules.items()], [("a", 1),
                                                                                  ("b", 2)])
@@ -170,7 +170,7 @@ class Checks(ProgramTest):
         self.assertEqual(by_case, [("one", [(4, 4), (2, 3)]), ("two", [(5, 6)])])
 
 
-# The page of the ledger: what a rule counts, what only repeats, how predictions are met.
+# The page of the list of known deviations: what a rule counts, what only repeats, how predictions are met.
 RULE = {
     "rule": "shear",
     "formulations": "sheet_third",
@@ -227,10 +227,10 @@ class Tally(unittest.TestCase):
         self.assertEqual(self.standings(sheet(1.5))["sheet_third", "C_zz"], verdicts.OWN)
 
 
-class Ledger(unittest.TestCase):
+class Deviations(unittest.TestCase):
 
     def contents(self, *rules):
-        return ledger.contents([sheet(1.5)], rules)
+        return deviations.contents([sheet(1.5)], rules)
 
     def test_line(self):
         (line, ) = self.contents(RULE)["lines"]
@@ -245,17 +245,17 @@ class Ledger(unittest.TestCase):
     def test_what_is_missed_or_open_is_not_met(self):
         kinds = ("biased", "wrong limit", "undecided", "low order")
         told = [known(str(i), kind, 0.01, predicted=1.02) for i, kind in enumerate(kinds)]
-        found = ledger.contents([case("c", series("k", told))], [RULE])["lines"][0]["met"]
+        found = deviations.contents([case("c", series("k", told))], [RULE])["lines"][0]["met"]
         self.assertEqual([found[name] for name in ("met", "missed", "open")], [0, 2, 2])
         self.assertAlmostEqual(found["largest"], 0.01 / 1.02)
-        found = ledger.contents([case("c", series("k", told[2:]))], [RULE])["lines"][0]["met"]
+        found = deviations.contents([case("c", series("k", told[2:]))], [RULE])["lines"][0]["met"]
         self.assertIsNone(found["farthest"])
 
     def test_what_is_left_open(self):
         """The distance from a derived limit, in parts of the truth; else that from the truth."""
         there = {"limit": 2.02, "truth": 2.0, "error": 0.01}
-        self.assertAlmostEqual(ledger.left(verdict("q", "biased", predicted=2.03, **there)), 0.005)
-        self.assertAlmostEqual(ledger.left(verdict("q", "biased", **there)), 0.01)
+        self.assertAlmostEqual(deviations.left(verdict("q", "biased", predicted=2.03, **there)), 0.005)
+        self.assertAlmostEqual(deviations.left(verdict("q", "biased", **there)), 0.01)
 
     def test_what_nobody_saw_is_there(self):
         line = self.contents(RULE, {**RULE, "rule": "other", "proof": "test_a"})["lines"][1]
@@ -268,24 +268,24 @@ class Ledger(unittest.TestCase):
 
     def test_proofs_lead_to_sections_that_exist(self):
         site = Site()
-        ledger.write_errata(site)
-        for title in ledger.headings():
-            link = ledger.link_of(f"reference/ERRATA.md, {title.lower()}", ledger.headings())
+        deviations.write_errata(site)
+        for title in deviations.headings():
+            link = deviations.link_of(f"reference/ERRATA.md, {title.lower()}", deviations.headings())
             self.assertIn(f'id="{link.partition("#")[2]}"', site.pages["errata.html"]["body"])
 
     def test_every_table_of_the_errata_is_one(self):
         """A table without an empty line above it would be read as prose."""
         text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
         site = Site()
-        ledger.write_errata(site)
+        deviations.write_errata(site)
         body = site.pages["errata.html"]["body"]
         self.assertEqual(body.count("<table>"), text.count("\n|---"))
 
     def test_the_packed_ledger_is_shown_whole(self):
         rules = data.read_rules(TRUTHS)
         site = Site(results="nowhere/results.h5", truths=TRUTHS)
-        ledger.write(site)
-        shown = [line["rule"] for line in site.pages["ledger.html"]["lines"]]
+        deviations.write(site)
+        shown = [line["rule"] for line in site.pages["deviations.html"]["lines"]]
         self.assertEqual(shown, [rule["rule"] for rule in rules])
 
     def test_the_columns_are_those_of_the_ledger(self):

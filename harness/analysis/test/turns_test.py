@@ -283,7 +283,7 @@ class Turns(ProgramTest):
             self.assertAlmostEqual(values["rx"], 20, delta=within, msg=integrator)
             self.assertAlmostEqual(values["most"], 20, delta=within, msg=integrator)
             ends = self.folder / f"{integrator}.h5"
-            self.answered("solve", "--scene", self.scene(SPINNING % ("1", integrator)), "-f", "collocation", "-n", 1, "--ends", ends)
+            self.answered("solve", "--scene", self.scene(SPINNING % ("1", integrator)), "-f", "collocation", "-n", 1, "--save-state", ends)
             values, _ = self.solved(SPINNING % ("1, 2", integrator), "collocation", 1, "--restart", ends)
             self.assertAlmostEqual(values["rx"], 20, delta=within, msg=integrator)
 

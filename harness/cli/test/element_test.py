@@ -42,7 +42,7 @@ class Example(Loaded):
         wrong = self.example(("c->young * c->Iy / l3", "1.01 * c->young * c->Iy / l3"))
         needed = self.folder / "needed.csv"
         out = self.answered("verify", "--element", wrong, "-f", "timoshenko", "-k",
-                            "tapered_cantilever/default", "--propose", needed, code=1).stdout
+                            "tapered_cantilever/default", "--propose-deviations", needed, code=1).stdout
         self.assertRegex(out, r"\nFAIL: \d+ verdicts? differs? from the expected")
         self.assertIn("deflection_z", needed.read_text(encoding="utf-8"))
         self.assertIn("wrong limit", needed.read_text(encoding="utf-8"))
@@ -64,7 +64,7 @@ class Kept(Loaded):
         link.symlink_to(mine)
         before = mine.read_bytes()
         small = ("verify", "-f", "beamw", "-k", "warping_torsion/default", "--element", mine)
-        for option in ("-o", "--json", "--junit", "--markdown", "--propose"):
+        for option in ("-o", "--json", "--junit", "--markdown", "--propose-deviations"):
             for place in (mine, link):
                 self.refused(2, (option, "which is read"), *small, option, place)
         for verb in (("solve", "elastica", "-f", "timoshenko", "-n", "2"),

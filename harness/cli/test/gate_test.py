@@ -254,7 +254,7 @@ class Gate(ProgramTest):
     def test_proposals(self):
         """What gates is proposed as findings all the same."""
         needed = self.folder / "needed.csv"
-        self.verified("stiffness", "--propose", needed)
+        self.verified("stiffness", "--propose-deviations", needed)
         self.assertGreater(len(needed.read_text(encoding="utf-8").splitlines()), 1)
 
     def check_report(self, files, outcome):

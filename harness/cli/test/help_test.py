@@ -64,7 +64,7 @@ class Misspelt(ProgramTest):
         self.refused(2, "begins several", "solve", "elastica", "--s", "3")
         self.refused(2, "--elements needs a value", "solve", "elastica", "-n")
         self.refused(2, "--elements needs a value", "solve", "elastica", "--elements")
-        self.refused(2, "--keep-all takes no value", "solve", "elastica", "--keep-all=1")
+        self.refused(2, "--all-dofs takes no value", "solve", "elastica", "--all-dofs=1")
 
     def test_values_are_no_options(self):
         """What stands behind an option that takes a value is that value, whatever it begins

@@ -374,7 +374,7 @@ class RestartTest(SceneCase):
         path, sets = self.scene(SWING), [f"--set={k}={v}" for k, v in changes.items()]
         ends = self.folder / "ends.h5"
         one = self.values(path, *MESH, *sets)
-        self.values(path, *MESH, *sets, "--set", f"end={stop}", "--ends", ends)
+        self.values(path, *MESH, *sets, "--set", f"end={stop}", "--save-state", ends)
         return one, self.values(path, *sets, "--restart", ends)
 
     def test_the_same_bits(self):
@@ -398,29 +398,29 @@ class RestartTest(SceneCase):
     def test_one_after_the_other(self):
         """From a restart to the next one."""
         path, ends = self.scene(SWING), [self.folder / f"{i}.h5" for i in range(3)]
-        self.values(path, *MESH, "--set", "end=0.5", "--ends", ends[0])
-        self.values(path, "--set", "end=1", "--restart", ends[0], "--ends", ends[1])
+        self.values(path, *MESH, "--set", "end=0.5", "--save-state", ends[0])
+        self.values(path, "--set", "end=1", "--restart", ends[0], "--save-state", ends[1])
         self.assertEqual(self.values(path, "--restart", ends[1]), self.values(path, *MESH))
 
     def test_refused(self):
         path, ends, cut = self.scene(SWING), self.folder / "ends.h5", self.folder / "cut.h5"
-        self.values(path, *MESH, "--set", "end=1", "--ends", ends)
+        self.values(path, *MESH, "--set", "end=1", "--save-state", ends)
         cut.write_bytes(ends.read_bytes()[:-100])
         again = ("solve", "--scene", path, "--restart", ends)
         for code, words, options in (
                 (2, "is at 1 s: give it a later one", (*again, "--set", "end=1")),
                 (2, "the elements that it began with", (*again, "-n", 4)),
                 (2, "the formulation and the elements", (*again, "-f", "collocation")),
-                (2, "without --keep-all", (*again, "--keep-all")),
+                (2, "without --all-dofs", (*again, "--all-dofs")),
                 (2, "integrator: conserving", (*again, "--set", "how=conserving")),
                 (2, "step: 0.01,", (*again, "--set", "step=0.01")),
                 (2, "mass: 0.31,", (*again, "--set", "mass=0.31")),
-                (2, "which is read", (*again, "--ends", ends)),
-                (2, "leave -k, --shapes, --matrices, --ends and", (*again, "--follow", "mass=0.1..0.2/2")),
+                (2, "which is read", (*again, "--save-state", ends)),
+                (2, "remove -k, --shapes, --matrices, --save-state and", (*again, "--follow", "mass=0.1..0.2/2")),
                 (2, "no motion in time", ("solve", "elastica", "--restart", ends)),
-                (2, "no motion in time", ("solve", "elastica", "--ends", self.folder / "none.h5")),
+                (2, "no motion in time", ("solve", "elastica", "--save-state", self.folder / "none.h5")),
                 (4, "cut short", ("solve", "--scene", path, "--restart", cut)),
-                (4, "not a file of --ends", ("solve", "--scene", path, "--restart", TRUTHS)),
+                (4, "not a file of --save-state", ("solve", "--scene", path, "--restart", TRUTHS)),
                 (4, "cannot be read", ("solve", "--scene", path, "--restart", self.folder / "none.h5"))):
             with self.subTest(words=words):
                 self.refused(code, words, *options)

@@ -108,6 +108,24 @@ class Tables(ProgramTest):
             self.assertIn(f"-{letter} is --{name} now", told)
         self.answered("solve", "warping_torsion", "-fbeamw", "-Kn2")
 
+    def test_former_names(self):
+        """Each is read, with one line that gives the new one; no help lists it."""
+        verbs = {name: verb for verb in EVERY_VERB for _, name in self.shown(verb)}
+        renamed = re.findall(r"\{\"([a-z-]+)\", \"([a-z-]+)\"\}", self.source("options"))
+        self.assertEqual(len(renamed), 10)
+        for was, name in renamed:
+            done = run(verbs[name], f"--{was}", "-h", env=HELP)
+            if "needs a value" in done.stderr or done.returncode != 0:
+                done = run(verbs[name], f"--{was}=1", "-h", env=HELP)
+            self.assertIn(f"--{was} is --{name} now", done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+            for verb in EVERY_VERB:
+                self.assertNotRegex(run(verb, "-h", env=HELP).stdout, rf"--{was}\b(?!-)")
+                self.assertNotRegex(run(verb, "--usage", env=HELP).stdout, rf"--{was}\b(?!-)")
+        self.answered("solve", "warping_torsion", "-fbeamw", "--keep-all", "-n2")
+        self.refused(2, "begins several options", "sweep", "elastica", "--de")  # design, derive
+        self.refused(2, "solve takes no --beside", "solve", "elastica", "--beside", "x.h5")
+
     def test_each_is_used(self):
         """By the verb that takes it; 'merge' passes all on."""
         everything = "".join(path.read_text(encoding="utf-8") for path in self.CLI.glob("*.c"))
@@ -282,7 +300,7 @@ class Refusals(ProgramTest):
                     "quantity, unit, elements, value\nw_over_L, 1, 4, 0.3\n")
         for text, words in ((table.read_text(encoding="utf-8"), ("compare", "FILE", results)),
                             (scene, ("solve", "--scene", "FILE")), (imported, ("import", "FILE", "-o", self.folder / "i.h5")),
-                            (columns["findings.csv"], ("verify", "-k", "=elastica", "-f", "beamw", "--findings", "FILE")),
+                            (columns["findings.csv"], ("verify", "-k", "=elastica", "-f", "beamw", "--deviations", "FILE")),
                             (columns["tables/elastica.csv"],
                              ("verify", "-k", "=elastica", "-f", "beamw", "--truths", "FILE"))):
             path = self.folder / ("marked.yaml" if text == scene else "marked.csv")

@@ -140,7 +140,7 @@ class Plane(ProgramTest):
     def test_keep_all(self):
         text = self.answered("scene", "elastica").stdout + "plane: xy\n"
         _, one = self.solved(text, n=4)
-        _, other = self.solved(text, "--keep-all", n=4)
+        _, other = self.solved(text, "--all-dofs", n=4)
         for name, value in one.items():
             self.assertLess(abs(other[name] / value - 1), 1e-9)
 
@@ -428,7 +428,7 @@ class NotAccepted(ProgramTest):
 
     def test_its_rules_are_proposed(self):
         needed = self.folder / "needed.csv"
-        self.verified("new", "--propose", needed)
+        self.verified("new", "--propose-deviations", needed)
         with open(needed, newline="", encoding="utf-8") as rows:
             rules = list(csv.DictReader(rows))
         self.assertEqual({(r["formulations"], r["cases"]) for r in rules},

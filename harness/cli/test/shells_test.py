@@ -21,7 +21,7 @@ LINES = {
     "so": ["solve"],
     "solve elas": ["solve", "elastica"],
     "solve elastica --form": ["solve", "elastica", "--form"],
-    "solve elastica --keep": ["solve", "elastica", "--keep-all"],
+    "solve elastica --all": ["solve", "elastica", "--all-dofs"],
     "solve elastica -f beamw_v": ["solve", "elastica", "-f", "beamw_vlasov"],
     "solve elastica -f beamw:ma": ["solve", "elastica", "-f", "beamw:mass="],
     "solve elastica -f beamw:mass=lum": ["solve", "elastica", "-f", "beamw:mass=lumped"],
@@ -185,7 +185,7 @@ class Completion(ProgramTest):
         self.assertEqual(self.offered("solve", "elastica", "--format", ""), ["text", "json", "csv"])
         self.assertEqual(self.offered("solve", "elastica", "--format=j"), ["--format=json"])
         self.assertEqual(self.offered("export", "elastica", "--to", ""), ["calculix"])
-        for words in (("solve", "--scene", ""), ("verify", "-o", ""), ("verify", "--beside="),
+        for words in (("solve", "--scene", ""), ("verify", "-o", ""), ("verify", "--imported="),
                       ("import", ""), ("compare", "one.h5", "")):
             self.assertEqual(set(self.offered(*words)), {":files"}, words)
         self.assertEqual(self.offered("solve", "--element", "e"), [":files", "exec:"])

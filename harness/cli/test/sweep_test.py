@@ -149,7 +149,7 @@ class References(ProgramTest):
 
     def test_derived_where_asked_for(self):
         kind, reference, error, _ = self.kinds("elastica", "--vary", "load=1,1.25", "-f", "beamw",
-                                               "-n", "8,16", "--derive", "-k", "w_over_L")
+                                               "-n", "8,16", "--compute-references", "-k", "w_over_L")
         self.assertEqual(kind, [["truth stored"], ["truth derived"]])
         told = run("truth", "elastica", "--set", "load=1.25").stdout
         self.assertIn(f"{reference[1, 0]:.12g}"[:12], told)

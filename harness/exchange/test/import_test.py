@@ -155,22 +155,22 @@ class Import(ProgramTest):
         )
         row, = self.stored("leaf_spring_guide")
         self.assertAlmostEqual(row["value"], 2850, delta=1e-9)
-        done = run("verify", "--scene", str(leaf), "-f", "beamw", "--beside",
-                   self.folder / "theirs.h5", "--gate")
+        done = run("verify", "--scene", str(leaf), "-f", "beamw", "--imported",
+                   self.folder / "theirs.h5", "--imported-must-pass")
         line, = [x for x in done.stdout.splitlines() if x.startswith("    CalculiX")]
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("no truth; +8.59 % from another model", line)
 
     def test_beside_informs_and_gates_where_asked(self):
         self.read(HEAD + COLUMNS + ROWS.replace("3.9", "4.9"))
-        beside = ("verify", "-k", SELECT, "-f", "collocation", "--beside",
+        beside = ("verify", "-k", SELECT, "-f", "collocation", "--imported",
                   self.folder / "theirs.h5")
-        informs, gates = run(*beside), run(*beside, "--gate")
+        informs, gates = run(*beside), run(*beside, "--imported-must-pass")
         for done in (informs, gates):
             self.assertIn("MBDyn 1.7.3, 3-node", done.stdout)
         self.assertEqual(informs.returncode, 0, informs.stderr)
         self.assertEqual(gates.returncode, 1, gates.stdout)
-        elsewhere = run("verify", "-k", "elastica/default", "-f", "collocation", "--beside",
+        elsewhere = run("verify", "-k", "elastica/default", "-f", "collocation", "--imported",
                         self.folder / "theirs.h5")
         self.assertEqual(elsewhere.returncode, 0)
         self.assertIn("theirs.h5: nothing of it was run: it is of sheet_cantilever/",
@@ -185,7 +185,7 @@ class Import(ProgramTest):
         (self.folder / "theirs.h5").rename(self.folder / "rivals.h5")
         self.read(HEAD + COLUMNS + ROWS)
         select = ("verify", "-k", SELECT, "-f", "collocation")
-        done = run(*select, "--beside", self.folder / "theirs.h5", "--beside",
+        done = run(*select, "--imported", self.folder / "theirs.h5", "--imported",
                    self.folder / "rivals.h5")
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in ("MBDyn 1.7.3, 3-node", "rival"):
@@ -194,11 +194,11 @@ class Import(ProgramTest):
             "rivals.h5: 1 of 2 series are of cases or parameters that were not run, the first elastica/default/rival",
             done.stderr)
         (self.folder / "copy.h5").write_bytes((self.folder / "theirs.h5").read_bytes())
-        self.refused(2, "is beside this run already; give it once", *select, "--beside",
-                     self.folder / "theirs.h5", "--beside", self.folder / "copy.h5")
-        self.refused(2, "is given twice; give it once", *select, "--beside",
-                     self.folder / "theirs.h5", "--beside", self.folder / "theirs.h5")
-        self.refused(2, "would replace", *select, "--beside", self.folder / "copy.h5", "--beside",
+        self.refused(2, "is beside this run already; give it once", *select, "--imported",
+                     self.folder / "theirs.h5", "--imported", self.folder / "copy.h5")
+        self.refused(2, "is given twice; give it once", *select, "--imported",
+                     self.folder / "theirs.h5", "--imported", self.folder / "theirs.h5")
+        self.refused(2, "would replace", *select, "--imported", self.folder / "copy.h5", "--imported",
                      self.folder / "theirs.h5", "-o", self.folder / "theirs.h5")
 
     def test_mistakes_as_json(self):
@@ -251,7 +251,7 @@ class Import(ProgramTest):
         whole = (self.folder / "theirs.h5").read_bytes()
         for name, data in (("cut.h5", whole[:-100]), ("none.h5", b"")):
             (self.folder / name).write_bytes(data)
-            done = run("verify", "-k", SELECT, "-f", "beamw", "--beside", self.folder / name)
+            done = run("verify", "-k", SELECT, "-f", "beamw", "--imported", self.folder / name)
             self.assertEqual(done.returncode, 4, done.stderr)
             self.assertIn(name, done.stderr)
 
@@ -271,7 +271,7 @@ class Import(ProgramTest):
         for name, value in (("u_x", 9.864219e-2 - 0.1), ("F_y", 3492.813), ("M_z", -172.2694)):
             self.assertAlmostEqual(found[name] / value, 1, delta=1e-12)
         done = run("verify", "-k", "sheet_cantilever and shear_factor and F_y", "-f", "collocation",
-                   "--beside", self.folder / "theirs.h5")
+                   "--imported", self.folder / "theirs.h5")
         self.assertIn("  F_y [N], truth 3492.6925", done.stdout)
         self.assertRegex(done.stdout, r"(?m)^    MBDyn.* 3492\.813 ")
 

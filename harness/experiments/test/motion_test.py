@@ -82,7 +82,7 @@ class Stability(ProgramTest):
 
     def test_trapezoidal_in_stiff_flight(self):
         case = *FLIGHT[:-1], "time=20"
-        record = self.record("motion", *case, "--vary", "stiffening=1,1e4", "--no-errors",
+        record = self.record("motion", *case, "--vary", "stiffening=1,1e4", "--conservation-only",
                              "--integrator", "trapezoidal,conserving", "--step", "0.2")
         points = record["runs"]
         self.assertEqual([(r["parameters"], r["integrator"]) for r in points],
@@ -98,7 +98,7 @@ class Stability(ProgramTest):
 
     def test_held_structures_have_no_fate(self):
         record = self.record("motion", "pendulum", "-f", "collocation", "-n", "2", "--set",
-                             "time=0.5", "--no-errors", "--integrator", "alpha", "--step", "0.01")
+                             "time=0.5", "--conservation-only", "--integrator", "alpha", "--step", "0.01")
         self.assertEqual(record["runs"][0]["outcome"], "")
 
 

@@ -74,7 +74,7 @@ static void options(void)
                                          {"{\"steps\": 0}", "from 1 to"},
                                          {"{\"steps\": 1.5}", "whole number"},
                                          {"{\"steps\": 99999999999}", "whole number"},
-                                         {"{\"keep_all\": 1}", "true or false"},
+                                         {"{\"all_dofs\": 1}", "true or false"},
                                          {"{\"steps\": 3, \"steps\": 4}", "duplicate"},
                                          {"[]", "object"},
                                          {"{", "line 1"},

@@ -77,7 +77,7 @@ class Bench(ProgramTest):
                           (*cell, "--against", "beamw", "--error", "1%"), (*cell, "--error", "1%"),
                           (*cell, "--against", "nonsense"),
                           (*cell, "--against", "beamw_first", "-o", "x.h5"),
-                          (*cell, "--against", "./x", "--plant", "20")):
+                          (*cell, "--against", "./x", "--inject-slowdown", "20")):
             self.refused(2, "", "bench", *arguments)
 
     def test_refused_errors(self):

@@ -170,21 +170,24 @@ static void single_ones(void)
     says(&r, "PASS: nothing that affects the exit status differs from what is expected; without "
              "effect on the exit status: "
              "1 of 2 verdicts "
-             "of new formulations is not a pass and would need a known deviation (--propose FILE "
+             "of new formulations is not a pass and would need a known deviation "
+             "(--propose-deviations FILE "
              "writes it "
              "down).");
     r.j.proposed = 2;
     says(&r, "PASS: nothing that affects the exit status differs from what is expected; without "
              "effect on the exit status: "
              "2 of 2 verdicts "
-             "of new formulations are not a pass and would need a known deviation (--propose FILE "
+             "of new formulations are not a pass and would need a known deviation "
+             "(--propose-deviations FILE "
              "writes them "
              "down).");
     r.j.is_new = r.j.proposed = 1;
     says(&r, "PASS: nothing that affects the exit status differs from what is expected; without "
              "effect on the exit status: "
              "1 of 1 verdict of "
-             "a new formulation is not a pass and would need a known deviation (--propose FILE "
+             "a new formulation is not a pass and would need a known deviation "
+             "(--propose-deviations FILE "
              "writes it "
              "down).");
     r.j.proposed = 0;

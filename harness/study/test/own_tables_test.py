@@ -74,7 +74,7 @@ class Own(ProgramTest):
 
     def proposed(self, element):
         needed = self.folder / "needed.csv"
-        self.verified(element, "--propose", needed, code=element != "right")
+        self.verified(element, "--propose-deviations", needed, code=element != "right")
         return needed
 
 
@@ -83,16 +83,16 @@ class Findings(Own):
     def test_what_is_proposed_explains(self):
         """A fault is red by an empty table, and explained by the rules that were proposed."""
         empty = self.write("empty.csv", RULES)
-        self.verified("right", "--findings", empty)
-        out = self.verified("wrong", "--findings", empty, code=1).stdout
+        self.verified("right", "--deviations", empty)
+        out = self.verified("wrong", "--deviations", empty, code=1).stdout
         self.assertIn("wrong limit, expected pass", out)
         self.assertNotIn("(new)", out)
         needed = self.proposed("wrong")
         with open(needed, newline="", encoding="utf-8") as rows:
             self.assertIn("wrong limit", {r["verdicts"] for r in csv.DictReader(rows)})
         self.refused(2, ("needed.csv:2:9", "no cause yet"), "verify", "--element",
-                     self.element["wrong"], "--findings", needed)
-        self.verified("wrong", "--findings", self.explained(needed))
+                     self.element["wrong"], "--deviations", needed)
+        self.verified("wrong", "--deviations", self.explained(needed))
 
     def test_beyond_the_largest_error(self):
         needed = self.explained(self.proposed("wrong"))
@@ -100,7 +100,7 @@ class Findings(Own):
         self.assertNotEqual(text, needed.read_text(encoding="utf-8"))
         small = self.folder / "small.csv"
         small.write_text(text, encoding="utf-8")
-        self.assertIn("of finding", self.verified("wrong", "--findings", small, code=1).stdout)
+        self.assertIn("of finding", self.verified("wrong", "--deviations", small, code=1).stdout)
 
     def test_a_rule_nobody_shows(self):
         """Told where all that it speaks of was run, with its place in the file."""
@@ -108,12 +108,12 @@ class Findings(Own):
         truths = self.write("t.csv", ROWS, self.dip(1))
         run = ("verify", "-f", "collocation", "--scene", self.scene(), "--truths", truths)
         path = self.write("f.csv", RULES, rule)
-        self.answered(*run, "--findings", path, "-k", "dip")  # of a part: it may lie outside
-        out = self.answered(*run, "--findings", path, code=1).stdout
+        self.answered(*run, "--deviations", path, "-k", "dip")  # of a part: it may lie outside
+        out = self.answered(*run, "--deviations", path, code=1).stdout
         self.assertIn(f"finding old ({path}:2) was not observed", " ".join(out.split()))
         for change in (("collocation", "collocation beamw"), ("leaf", "leaf elastica")):
             other = self.write("o.csv", RULES, rule.replace(*change))  # others may show it
-            self.answered(*run, "--findings", other)
+            self.answered(*run, "--deviations", other)
 
     def test_a_rule_nobody_shows_of_a_selected_case(self):
         """A case that is selected by its name alone is run as a whole."""
@@ -123,14 +123,14 @@ class Findings(Own):
                              ("tapered_cantilever/default", 0), ("elastica/default", 0),
                              ("tapered_cantilever and not deflection_y", 0)):
             with self.subTest(select=select):
-                out = self.verified("right", "--findings", path, what=("-k", select),
+                out = self.verified("right", "--deviations", path, what=("-k", select),
                                     code=code).stdout
                 self.assertEqual("finding old (" in " ".join(out.split()), code == 1)
 
     def test_several(self):
         files = [self.write("empty.csv", RULES), self.explained(self.proposed("wrong"))]
         for first, second in (files, files[::-1]):
-            self.verified("wrong", "--findings", first, "--findings", second)
+            self.verified("wrong", "--deviations", first, "--deviations", second)
 
     def test_refused(self):
         good = "a,timoshenko,elastica,,*,wrong limit,0.1,,cause,proof"
@@ -150,14 +150,14 @@ class Findings(Own):
                 (("2:1", "fields"), good + ",more"), (("2:1", "quotes"), good + '"')):
             with self.subTest(line=line):
                 self.refused(2, ("f.csv:", *words), "verify", "--element", self.element["right"],
-                             "--findings", self.write("f.csv", RULES, line))
-        self.refused(2, ("f.csv:1:1", "first line"), "verify", "--findings",
+                             "--deviations", self.write("f.csv", RULES, line))
+        self.refused(2, ("f.csv:1:1", "first line"), "verify", "--deviations",
                      self.write("f.csv", "rule,case"))
-        self.refused(2, ("2:2", "1 more"), "verify", "--findings", self.write(
+        self.refused(2, ("2:2", "1 more"), "verify", "--deviations", self.write(
             "f.csv", RULES, good, good.replace("a,", "b,", 1)))
-        self.refused(4, "cannot be read", "verify", "--findings", self.folder / "none.csv")
+        self.refused(4, "cannot be read", "verify", "--deviations", self.folder / "none.csv")
         path = self.write("f.csv", RULES)
-        self.refused(2, "is read", "verify", "--findings", path, "--propose", path)
+        self.refused(2, "is read", "verify", "--deviations", path, "--propose-deviations", path)
 
 
 class Repository(Own):
@@ -179,7 +179,7 @@ class Repository(Own):
                 encoding="utf-8")
             for line in lines if not planted else lines[::2]:
                 codes.append(self.called(line))
-                if "--propose" in line:
+                if "--propose-deviations" in line:
                     self.explained(self.folder / "findings.csv")
         self.assertEqual(codes, [0, 0, 0, 0, 1])
 

@@ -95,8 +95,8 @@ CLEAN = {
     "name.c": 'const char *key = "ledger"; int told;\n',
     "allowed.c": 'const char *t = "it is told"; /* words: ok (a test) */\n',
     "name.py": 'told = f"{told} is here"\n',
-    "page.md": "Run `make lab L=prices` and read `ledger.html`.\n",
-    "page.html": '<a href="ledger.html">list</a>{% for told in prices %}{{ told }}{% endfor %}\n',
+    "page.md": "Run `make lab L=prices` and read `prices.html`.\n",
+    "page.html": '<a href="prices.html">list</a>{% for told in prices %}{{ told }}{% endfor %}\n',
     "table.csv": "term,gate|gates|what is asked\n",
     "script.sh": "told=1\n",
 }

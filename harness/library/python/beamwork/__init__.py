@@ -72,6 +72,7 @@ def verify(*formulations, select=None, results=None, **options):
     select: words with and, or, not, as "c_column and not beamw_first"; None: all, minutes.
     results: an HDF5 file to write.  options: tolerance (relative; limits within it pass, in place
     of the tolerances of the cases), not_worse_than (results of a former run: errors of meshes that
-    are larger than there fail, and limits that moved), jobs, time_limit [s] of a cell, doublings, shapes,
+    are larger than there fail, and limits that moved), jobs, time_limit [s] of a cell, refine
+    (more meshes of each series, each with twice the elements), shapes,
     stop (a file descriptor: once it can be read, the work ends with TimeLimit)."""
     return _verified(None, formulations, select, results, options)

@@ -168,7 +168,7 @@ class Scene:
         formulation: as "beamw" or "beamw:mass=lumped"; None: one is chosen that offers all that is
         needed.  elements: of each member; None: the coarsest mesh at which no value
         changes by more than error (0.001) from the one before; NotConverged where the finest that
-        was tried still does.  options: error, keep_all, steps, shapes, threads, ... (see beamwork.h).
+        was tried still does.  options: error, all_dofs, steps, shapes, threads, ... (see beamwork.h).
 
         Raises Refused, NotConverged, Singular or Fault; error.result is what was found until then,
         or None. Ctrl-C raises KeyboardInterrupt when the solution has ended."""

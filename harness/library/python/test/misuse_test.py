@@ -272,7 +272,7 @@ class Processes(ModuleTest):
 
     def test_interrupt(self):
         """Ctrl-C ends verify and converge with their processes, and a solution when it is done."""
-        for call in ("bw.verify(doublings=3)", "while True: s.solve('collocation', 16)",
+        for call in ("bw.verify(refine=3)", "while True: s.solve('collocation', 16)",
                      "bw.Scene.case('hexapod').converge(meshes=[16, 32, 64])"):
             code = ("import beamwork as bw\ns = bw.Scene.case('sheet_cantilever')\n"
                     f"print('go', flush=True)\n{call}\n")

@@ -66,7 +66,7 @@ class Notebook(ModuleTest):
                                         "numpy.linalg.inv(numpy.eye(400) + 1)\n"
                                         "s = bw.Scene.case('elastica')\n"
                                         "assert s.verify('collocation', jobs=2).passed"), "ok")
-            long = client.execute("print('go'); bw.verify(doublings=3)")
+            long = client.execute("print('go'); bw.verify(refine=3)")
             while client.get_iopub_msg(timeout=60)["msg_type"] != "stream":
                 pass
             time.sleep(0.5)

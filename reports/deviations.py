@@ -1,4 +1,4 @@
-"""The ledger (reference/findings.csv): one line for each known cause, and what verdicts show."""
+"""The list of known deviations (reference/findings.csv): one line for each known cause, and what verdicts show."""
 import functools
 import math
 import re
@@ -10,7 +10,7 @@ from reports.checks import stored
 from reports.site import ROOT
 from reports.verdicts import AS_PREDICTED, OWN_LIMITS, SEVERITY, UNJUDGED, met
 
-NAVIGATION = [("ledger.html", "ledger"), ("errata.html", "errata")]
+NAVIGATION = [("deviations.html", "deviations"), ("errata.html", "errata")]
 
 
 def slug(title):
@@ -118,7 +118,7 @@ def contents(cases, rules):
 def write(site):
     studied = {s["finding"] for s in (stored(site, "causes.json") or {"studies": []})["studies"]}
     context = contents(site.cases, data.read_rules(site.truths))
-    site.write("ledger.html", "ledger.html", studied=studied, **context)
+    site.write("deviations.html", "deviations.html", studied=studied, **context)
 
 
 def navigation(site):
@@ -130,7 +130,7 @@ def tasks(site):
     return [functools.partial(page, site) for page in pages]
 
 
-# Experiments on the causes of the ledger, which `make lab L=causes` leaves beside the results.
+# Experiments on the causes of the list of known deviations, which `make lab L=causes` leaves beside the results.
 
 
 
