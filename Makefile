@@ -110,7 +110,7 @@ $(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
 
 # Has the experiment left its part in the results since the program was built?
 is_newer = PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports.experiments $(BUILD)/results.h5 $(1) $(PROGRAM)
-# RESULTS=FILE: results of one's own, as 'verify --shapes --scene my.yaml -o FILE' writes them, or a
+# RESULTS=FILE: your own results, as 'verify --shapes --scene my.yaml -o FILE' writes them, or a
 # sweep; SWEEP="FILE ...": sweeps beside the results.
 report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify, into build/report/index.html; of RESULTS=NAME.h5, also a sweep, into build/report_NAME/index.html; SWEEP=FILE beside it
 ifndef RESULTS
@@ -172,7 +172,7 @@ asan:
 tidy: needs-layout $(QUANTITIES)
 	@printf '%s\0' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) | xargs -0 -n 20 -P "$$(nproc)" sh -c 'clang-tidy-19 --quiet --warnings-as-errors="*" "$$@" -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION=\"\" -DBEAMWORK_RELEASED=\"\" -DBEAMWORK_COMMIT=\"\" -DBEAMWORK_CFLAGS=\"\" 2>/dev/null' tidy
 
-# Rewrites the C sources in the house's layout.
+# Rewrites the C sources in the project's layout.
 format: needs-layout
 	@git ls-files '*.c' '*.h' | xargs clang-format-19 -i
 

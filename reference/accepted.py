@@ -1,4 +1,4 @@
-"""Formulations that the project has accepted: their verdicts gate."""
+"""Formulations that the project has accepted: their verdicts affect the exit status."""
 import datetime
 import re
 

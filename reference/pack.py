@@ -1,4 +1,4 @@
-"""Packs the truth tables, the findings, the formulations that gate and the glossary into one HDF5 file that the driver reads.
+"""Packs the reference values, the known deviations, the accepted formulations and the glossary into one HDF5 file.
 
 usage: pack.py -o FILE     Layout: reference/README.md.  The file appears complete or not at all.
 """
@@ -132,7 +132,7 @@ def check_words(row, where, names):
 
 
 def truth_key(row):
-    """What tells a truth from all others; two programs must not derive the same exact value."""
+    """What distinguishes a reference value from all others; two programs must not derive the same exact value."""
     return tuple("" if name == "source" and row["kind"] == "exact" else repr(row[name]) if name == "at" else row[name]
                  for name in ("case", "hash", "formulation", "theory", "elements", "quantity", "at", "kind", "model", "convention", "source"))
 
@@ -161,7 +161,7 @@ def scene_names():
 
 
 def read_findings(path, defaults):
-    """Rules of the ledger: one for each cause, each readable in a line."""
+    """The list of known deviations: one entry for each cause, each readable in a line."""
     rows, seen = [], {}
     for number, row in read_csv(path, FINDING_COLUMNS):
         where = f"{path.name}:{number}"

@@ -1,16 +1,16 @@
-"""Which formulation, with how many elements, reaches a tolerance soonest: the answers that pages show.
+"""Which formulation, with how many elements, reaches a tolerance at the lowest cost: the answers that pages show.
 
 One rule, that of harness/study/study.h: n is the least mesh from which on the error of every mesh is
 within the level; formulations stand in the order of the cost of their counted work on that mesh, so
-that two runs say the same; those whose costs differ by less than prices are known tie; one that does
-not pass in what is asked is never the cheapest and stands beside. Measured times are shown. Variants
-that only repeat the formulation without their options are left out.
+that two runs say the same; those whose costs differ by less than the uncertainty of the
+cost model tie; one that does not pass in the requested quantity is never the cheapest, but is listed. Measured times are shown. Variants
+that only repeat the formulation without their options are not shown.
 
     found = answers.answer(point, quantity, level)    # quantity: a name, or ALL
     found.best       [Way] the cheapest one, and those within noise of it; empty: none
-    found.dearer     [Way] the other ones that pass, by cost
+    `found.dearer`   [Way] the other ones that pass, by cost
     found.defective  [Way] within the level too, but with a verdict that is not a pass, by cost
-    found.faster     [Way] of the dearer ones: measured faster than the cheapest in every round
+    found.faster     [Way] of the more expensive ones: measured faster than the cheapest in every round
     found.unranked   [Way] that pass and whose costs rank nothing (Way.unranked says why), by name
     found.missed     [key] not within the level on these meshes
     found.unjudged   [key] without a truth of their theory in all that is asked
@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from reports import data, verdicts as words
 
 ALL = "all quantities"
-NO_COSTS = "the results have no costs"  # files of before work was priced
+NO_COSTS = "the results have no costs"  # files from before there were cost coefficients
 SOUND = ("pass", *words.UNJUDGED)
 LEVELS = tuple(data.REACH)
 
@@ -31,12 +31,12 @@ class Way:
     """The least mesh from which on a formulation stays within a level."""
     key: str
     n: int
-    cost: float  # [s] of counted work, at the prices of the reference machine
+    cost: float  # [s] of counted work, with the cost coefficients of the reference machine
     clock: object  # data.Clock: measured
-    error: float  # of largest size of what is asked, on that mesh
+    error: float  # the largest one of the requested quantities, on that mesh
     worst: object  # data.Verdict: the worst of those that it takes
     defects: list  # verdicts of them that are not a pass
-    priced: bool = True  # by prices of its formulation, not by those of any
+    priced: bool = True  # with cost coefficients of its formulation, not the general ones
     unranked: str = ""  # why its cost ranks nothing; it has none then
 
     @property
@@ -217,11 +217,11 @@ def failures(point):
 
 
 def savings(point):
-    """[(series, mesh)] measured with nothing left out."""
+    """[(series, mesh)] measured with all degrees of freedom."""
     return [(s, m) for s in point.series for m in s.meshes if m.kept is not None]
 
 
-# The soonest way of every case to each level: what the heat map and the index show.
+# The way of every case to each level at the lowest cost: what the heat map and the index show.
 
 
 @dataclass

@@ -24,11 +24,11 @@ from reports.answers import LEVELS
 COLUMNS = ("case", "parameters", "quantity", "tolerance", "formulation", "n", "cost", "seconds",
            "error", "rank", "tie", "defect", "priced", "unranked")
 UNITS = {"cost": "s", "seconds": "s", "tolerance": "1", "error": "1"}
-ASKED = 4  # columns that say what is asked; the others are of each answer
+ASKED = 4  # columns of the request; the others are of each answer
 
 
 def asked_of(point):
-    """What is asked of a point: all quantities together, where there are several, and each."""
+    """Requests at a point: all quantities together, where there are several, and each."""
     names = answers.judged(point)
     return ([answers.ALL] if len(names) > 1 else []) + names
 
@@ -80,7 +80,7 @@ def as_json(found, about):
 
 
 def sentence(answer):
-    """An answer in words: the cheapest, who ties with it, who is wrong there."""
+    """An answer in words: the formulation of lowest cost, ties, and those that are wrong there."""
     def told(ways):
         return ", ".join(f"{w.key} n = {w.n}" for w in ways)
 

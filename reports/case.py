@@ -1,4 +1,4 @@
-"""A page for each case: its scene, what is asked, which formulation answers, one figure per
+"""A page for each case: its scene, the quantities, which formulation answers, one figure per
 question, the rest folded."""
 import functools
 import math
@@ -221,7 +221,7 @@ def cheapest_of(point):
 
 
 def limits_of(point):
-    """[(quantity, [(formulation, verdict)])] of what no truth speaks of."""
+    """[(quantity, [(formulation, verdict)])] of quantities without a reference value."""
     rows = {}
     for s in point.series:
         for v in s.verdicts:

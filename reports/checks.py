@@ -1,5 +1,5 @@
 """What was checked, and how often: truths by kind, cells judged, limits' uncertainties, the smallest
-faults that the gate notices, planted faults, executions with any bytes as input."""
+faults that `make verify` notices, injected faults, executions with any bytes as input."""
 import csv
 import functools
 import json
@@ -10,7 +10,7 @@ from reports.site import ROOT
 from reports.verdicts import count_verdicts
 
 NAVIGATION = [("checks.html", "checks"), ("environment.html", "environment")]
-# They have no limits of their own.
+# Their limits are the exact ones.
 CONSISTENT = ("beamw_consistent", "collocation", "geometrically_exact")
 
 
@@ -107,7 +107,7 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_environment, site)]
 
 
-# What the results were made with, how times were taken, and whether planted work was found.
+# What the results were made with, how times were taken, and whether injected delays were found.
 
 OUTCOME = ("outcome", "sentence")  # of the run, which the first page says
 # (command of make, files that it leaves beside the results, what they add)

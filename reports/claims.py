@@ -15,7 +15,7 @@ from reports.verdicts import OWN_LIMITS
 
 
 def peers_figure(site, ours, others, name):
-    """ours: [(key, meshes)], others: {program: [data.Mesh]}: errors against unknowns and time."""
+    """`ours`: [(key, meshes)], others: {program: [data.Mesh]}: errors against unknowns and time."""
     chart = Chart(2, (470, 260))
     labels = ("unknowns", "time of the solution [ms]; open marks: taken elsewhere")
     for quantity in ("C_xx", "C_zz"):
@@ -42,7 +42,7 @@ COLUMN_PAIR = ("beamw", "beamw_consistent")
 
 
 def column_words(verdict):
-    """A verdict with the size of its error where it has a limit of its own."""
+    """A verdict, with its error where the limit differs from the reference value."""
     own = verdict.verdict in OWN_LIMITS
     return f"{verdict.verdict} ({100 * verdict.error:+.3g} %)" if own else verdict.verdict
 
@@ -88,7 +88,7 @@ def column_section(site, case):
 
 
 NAVIGATION = [("claims.html", "claims"), ("papers.html", "papers")]
-PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # of sheet_cantilever: what reference/peers.csv speaks of
+PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # of sheet_cantilever: the model of reference/peers.csv
 SECTIONS = ("printed constants", "section_data=printed"), (
     "shear flow", "")  # of J Table 2: no single set gives all of its four entries
 TARGET = 0.01, 2e-4  # both errors of the peers' case within 1 %, in less than 0.2 ms of solving
@@ -231,7 +231,7 @@ CLAIMS = (("spherical_joint", "support_stiffness_max", "N 4.2: 68 % less time", 
 
 
 def headlines(site):
-    """(rows, cheapest): the two claims about time, and what reaches 1 % and 0.1 % soonest."""
+    """(rows, cheapest): the two claims about time, and the lowest cost within 1 % and 0.1 %."""
     look, dense = Lookup(site.cases), Lookup(baseline(site))
     rows, soonest = [], []
     for claim in CLAIMS:
@@ -298,7 +298,7 @@ def peers_section(site, case):
         return []
     return [(
         "Other programs on this case",
-        '<p>Errors of other programs, which were run elsewhere, are beside ours on the page of <a href="claims.html#peers">claims</a>.</p>'
+        '<p>Errors of other programs, which were run elsewhere, are compared with those of beamwork on the page of <a href="claims.html#peers">claims</a>.</p>'
     )]
 
 

@@ -303,7 +303,7 @@ def read_truth_counts(path):
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
 
 
-# Other programs' values (`beamwork import`) beside ours: kept apart, so that nothing that counts
+# Other programs' values (`beamwork import`) next to beamwork's: kept apart, so that nothing that counts
 # formulations counts them.
 
 

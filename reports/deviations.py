@@ -33,7 +33,7 @@ def link_of(proof, titles):
 
 
 def predictions(rows):
-    """How well predicted limits are met, missed where a limit of its own is another one, open where
+    """How well predicted limits are met, missed where the observed limit differs from them, open where
     the limit is not known well enough; None where none was derived."""
     told = [r for r in rows if math.isfinite(met(r.verdict))]
     if not told:

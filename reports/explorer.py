@@ -2,8 +2,8 @@
 
 The numbers of each case are a file of their own, data_CASE.js, loaded when the case is chosen:
 lists are texts of numbers between blanks, `-` where there is none. A text that is needed more than
-once stands in the list `w`, and its index where it is needed. Where a truth is known the values are
-left out: truth x (1 + error) gives them to seven digits."""
+once stands in the list `w`, and its index where it is needed. Where a reference value is known the values are
+not stored: reference x (1 + error) gives them to seven digits."""
 import collections
 import functools
 import json
@@ -35,7 +35,7 @@ def error_text(error):
 
 
 def follow(values, errors, truth):
-    """Are all values truth x (1 + error), as far as they are told?"""
+    """True where all finite values are truth x (1 + error)."""
     return truth != 0 and all(
         not math.isfinite(v) and not math.isfinite(e) or abs(truth * (1 + e) - v) <= 1e-9 * abs(v)
         for v, e in zip(values, errors))

@@ -9,7 +9,7 @@ the text, so that a figure follows the page into the dark; colours of formulatio
 Groups whose gid is `f|KEY` (style.py) carry data-f="KEY": what belongs to a formulation, and
 entries of legends data-l="KEY"; data-off names those that are not shown at first.
 `f|KEY|POINTS`
-names what site.points() was told of its marks, too. What has the gid `fixed` keeps its colours."""
+names the marks that were given to site.points(), too. What has the gid `fixed` keeps its colours."""
 import dataclasses
 import io
 import json
@@ -317,7 +317,7 @@ def tag_legends(figure):
 
 
 def image_of(figure, name, said, tight=True):
-    """The Image of a figure. said: what points() was told; tight: cut to what is drawn, which draws
+    """The Image of a figure. said: the arguments of points(); tight: cut to what is drawn, which draws
     it twice."""
     tag_legends(figure)
     out = io.StringIO()

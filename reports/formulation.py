@@ -316,7 +316,7 @@ def tasks(site):
 
 
 def counts(rows):
-    """{verdict: number} of rows that are judged, second names left out, from bad to good."""
+    """{verdict: number} of rows that have a verdict, without second names, from bad to good."""
     found = {}
     for row in rows:
         if row.standing != verdicts.ALIAS and row.verdict.verdict not in UNJUDGED:

@@ -1,4 +1,4 @@
-"""First page: on one screen what was found, whom to believe, and the answer for every case."""
+"""First page: on one screen the results, the verdicts, and the answer for every case."""
 import functools
 import math
 import re
@@ -135,7 +135,7 @@ def ahead(values):
 
 
 def of_speed(compared, rows):
-    """Who is near the best most often, who solves most; None where nothing is compared."""
+    """Formulations that are near the best most often, and that solve most; None where nothing is compared."""
     if not compared.any:
         return None
     known = [r for r in rows if math.isfinite(r.solved)]
@@ -221,7 +221,7 @@ def formulation_rows(cases):
 
 
 def table_of(case):
-    """[(what is asked, answers.Answer)] at the defaults: the first judged quantity, all together."""
+    """[(request, answers.Answer)] at the defaults: the first judged quantity, all together."""
     point = case.points[0]
     names = answers.judged(point)
     asked = [(names[0], names[0])] if names else []

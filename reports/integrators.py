@@ -20,7 +20,7 @@ STIFFENING = "stiffening"  # parameter of cases that says how many times as stif
 class Run:
     """One motion. error: of time alone; cost [s] of counted work; energy, momentum: largest
     relative change that nothing explains; fate: what became of it once nothing acts; large: of a map of
-    large steps, whose errors nobody wants."""
+    large steps, whose errors are not computed."""
 
     scheme: str
     step: float
@@ -234,8 +234,8 @@ def read(path):
     return Record(problems, found["verdicts"], *(compared_in(beside) or (problems, {}, [])), found)
 
 
-# Which integrator, with which step, is soonest within an error of time; and whether that can be
-# trusted. What a scheme needs for an error is told by `beamwork motion` itself.
+# Which integrator, with which step, has the lowest cost within an error of time; and whether that is
+# verified. `beamwork motion` itself reports what a scheme needs for an error.
 
 LEVELS = (1e-2, 1e-4, 1e-6)
 FACTORS = [10**(i / 12) for i in range(25)]  # of profiles: from 1 to 100
@@ -271,8 +271,8 @@ def by_case(problems):
 
 @dataclass(frozen=True)
 class Summary:
-    """Of a case with all formulations: wins {scheme: formulations in which it is soonest or as
-    soon}; best: the ways of the scheme that has most of them; keeping: the cheapest ways that
+    """Of a case with all formulations: wins {scheme: formulations in which it has the lowest cost or
+    ties}; best: the ways of the scheme that has most of them; keeping: the cheapest ways that
     keep energy to round-off, with their costs over the least."""
 
     wins: tuple
@@ -333,7 +333,7 @@ def doubt(problem, way):
 
 
 def wins(problems, level, noise=1.0):
-    """({scheme: problems in which it is soonest or as soon}, problems that any scheme reaches)."""
+    """({scheme: problems in which it has the lowest cost or ties}, problems that any scheme reaches)."""
     count, reached = {}, 0
     for problem in problems:
         found = answer(problem, level, noise)

@@ -1,5 +1,5 @@
-"""Integrators: which one, with which step, is soonest within an error of time, and can it be
-believed?  (of `beamwork motion`, and paces.json where there is one)"""
+"""Integrators: which one, with which step, has the lowest cost within an error of time, and
+whether that is verified  (of `beamwork motion`, and paces.json where there is one)"""
 import functools
 import math
 
@@ -25,7 +25,7 @@ def level_words(level):
 
 
 def soonest(problems, level, noise):
-    """`within 1 % alpha in 2 of 3`, without those that are soonest half as often as the first; of
+    """`within 1 % alpha in 2 of 3`, without those that have the lowest cost half as often as the first; of
     one problem with its step."""
     count, reached = integrators.wins(problems, level, noise)
     if not reached:
@@ -43,7 +43,7 @@ def soonest(problems, level, noise):
 
 
 def trust(problems, noise):
-    """Can the answers be believed?  Of the runs that are soonest."""
+    """Evidence for the answers: of the runs of lowest cost."""
     best = [(p, found.best) for p in problems
             for found in (integrators.answer(p, level, noise) for level in integrators.LEVELS)
             if found.best]
@@ -70,7 +70,7 @@ def first(problems, noise):
     if not told:
         return "No run of these results has an error of time."
     where = (f"{told[0].name}: lowest cost" if len(told) == 1 else
-             f"Of {len(told)} problems (a case with a formulation) soonest is")
+             f"Of {len(told)} problems (a case with a formulation) the lowest cost has")
     levels = "; ".join(soonest(told, level, noise) for level in integrators.LEVELS)
     return f"{where} {levels}. {trust(told, noise)}"
 
@@ -93,7 +93,7 @@ def keeping(found):
 
 
 def drift(ways):
-    """Of energy, of runs that are soonest."""
+    """Energy-balance errors of the runs of lowest cost."""
     known = [w.run.energy for w in ways if w.run.energy == w.run.energy]
     return f"energy drifts by {between(known, '{:.0e}')}" if known else ""
 
@@ -310,7 +310,7 @@ def noise_of(site):
 
 
 def rows_of(problems, noise):
-    """[(problem, {level: Answer})] of a table who is cheapest."""
+    """[(problem, {level: Answer})] of the table of lowest costs."""
     return [(p, {level: integrators.answer(p, level, noise) for level in integrators.LEVELS})
             for p in problems]
 
@@ -333,7 +333,7 @@ def maps_of(problems):
 
 
 def unmeasured(problems):
-    """Those of which errors were wanted and cannot be told."""
+    """Those whose errors were requested and are not known."""
     return [p for p in problems if p.reference and p.reference != integrators.NONE_WANTED]
 
 

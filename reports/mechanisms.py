@@ -59,7 +59,7 @@ def value_of(site, key, n, parameters):
 
 
 def comparison(site, cells):
-    """The published rows with ours. The published second-order element has no Wagner torque."""
+    """The published rows with those of beamwork. The published second-order element has no Wagner torque."""
     at = {(c.key, c.n): c for c in cells if c.case == "spherical_joint"}
     first = at.get(("sheet_third", 1))
     rows = []

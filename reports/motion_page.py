@@ -24,7 +24,7 @@ MOMENTA = {"P": ("px", "py", "pz"), "L": ("lx", "ly", "lz")}
 
 @dataclass
 class Motion:
-    """One motion. columns: {name: values}, the first row is of the begin."""
+    """One motion. columns: {name: values}, the first row is the start."""
 
     formulation: str
     elements: int
@@ -181,7 +181,7 @@ def sentence(motion, how):
 
 
 def between(values, form):
-    """`least to largest`, one where they are told alike."""
+    """`least to largest`; one value where both print the same."""
     least, most = form.format(min(values)), form.format(max(values))
     return least if least == most else f"{least} to {most}"
 

@@ -29,7 +29,7 @@ def largest(values, iterations):
 
 
 def singles(data):
-    """[(case, [(contestant, unit, {form: (largest, iterations)}, tried)])]"""
+    """[(case, [(formulation, unit, {form: (largest, iterations)}, tried)])]"""
     cases = {}
     for s in data["singles"]:
         row = (f"{s['formulation']}, n = {s['elements']}", s["unit"], {
@@ -41,13 +41,13 @@ def singles(data):
 
 
 def farther(data):
-    """(contestants, those for which the mixed form goes farther in one step, and less far)."""
+    """(formulations, those for which the mixed form goes farther in one step, and less far)."""
     best = [[largest(s["values"], s[form])[0] or 0 for form in FORMS] for s in data["singles"]]
     return len(best), sum(m > d for m, d in best), sum(m < d for m, d in best)
 
 
 def contests(data):
-    """[(case, [(contestant, first steps, {form: summary})])]"""
+    """[(case, [(formulation, first steps, {form: summary})])]"""
     cases = {}
     for c in data["contests"]:
         row = (f"{c['formulation']}, n = {c['elements']}", c["first_steps"], {

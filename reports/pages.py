@@ -7,8 +7,8 @@ and, if it has something for the pages of cases, def section(site, case), which 
 
 A page whose files depend on what is drawn also has def navigation(site), which returns more of them.
 
-A page that needs more than every result file holds also has def present(site): without its data it is left out
-of the site, of the bar (navigation.py) and of links (has_page in templates).
+A page that needs more than every result file holds also has def present(site): without its data it is omitted
+from the site, from the bar (navigation.py) and from links (has_page in templates).
 """
 import importlib
 import multiprocessing

@@ -86,7 +86,7 @@ def digits_of(point, quantity):
 
 
 def leading(point, quantity):
-    """(series to draw, further ones): at most MOST_CURVES. Kept misprints and options are left out
+    """(series to draw, further ones): at most MOST_CURVES. Kept misprints and options are dropped
     first (but options on the front of time and error are drawn), then what is least exact."""
     drawn = [s for s in point.series if finite(s, quantity)]
     front = {s.key for s, _ in answers.front(point, quantity)}
@@ -103,7 +103,7 @@ def leading(point, quantity):
 
 
 def telling(point, quantities):
-    """The first of these that tells most formulations from its truth on their coarsest mesh, where
+    """The first of these in which most formulations differ from the reference value on their coarsest mesh, where
     there is one; else the first."""
     def tells(quantity):
         least = max(digits_of(point, quantity) or 0, NEARLY)
@@ -128,7 +128,7 @@ def marks_of(site, point, series, quantity, meshes, errors="errors"):
 
 def draw_series(site, panel, point, series, quantity, where, errors="errors", told=True, **look):
     """The curve of a formulation. Marks below the truth's digits are open and lie on these digits,
-    on the grey ground. told: what was found is said of each mark."""
+    on the grey ground. `told`: each mark carries its values."""
     digits = digits_of(point, quantity) if errors == "errors" else None
     pairs = [(m, e) for m, e in finite(series, quantity, errors) if where(m) > 0]
     if not pairs:
@@ -200,7 +200,7 @@ SMALL = (250, 150)  # of one among many
 
 def errors_figure(site, point, quantity, shown, abscissae, name, told=True):
     """Error of one quantity against elements, time, unknowns or work, a panel for each that is
-    named. None when there is no error. told: marks say what was found."""
+    named. None when there is no error. `told`: marks carry their values."""
     if not any(finite(s, quantity) for s in [*shown, *point.others]):
         return None
     chart = Chart(len(abscissae), ONE if len(abscissae) == 1 else TWO)

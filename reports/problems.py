@@ -1,7 +1,7 @@
 """The problems that formulations are compared on, and what each of them pays to solve one.
 
 A problem is a quantity with an exact truth of the same model, at a parameter point of a case.
-Second names of the same entry are left out. Every case weighs the same, and inside a case every
+Second names of the same entry are not counted. Every case weighs the same, and inside a case every
 problem does: a case with 60 parameter points rules no more than one with a single point.
 
 A formulation has solved a problem to a level with its coarsest mesh whose error, and that of all
@@ -15,7 +15,7 @@ from reports import answers, verdicts
 from reports.verdicts import OWN_LIMITS, UNJUDGED
 
 COUNTS = {  # what a mesh is paid in
-    "cost": lambda mesh: mesh.cost,  # [s] counted work at the prices of the reference machine
+    "cost": lambda mesh: mesh.cost,  # [s] counted work, with the cost coefficients of the reference machine
     "unknowns": lambda mesh: max(1, mesh.free),
 }
 

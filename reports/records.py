@@ -16,7 +16,7 @@ class Clock:
 
 @dataclass
 class Kept:
-    """The same cell with nothing left out."""
+    """The same run with all degrees of freedom kept."""
     clock: Clock
     free: int
 
@@ -49,8 +49,8 @@ class Mesh:
     parts: dict = field(default_factory=dict)  # part of Newton's iterations -> seconds
     dense: Dense = None
     predictions: dict = field(default_factory=dict)  # quantity -> value of an analytic model
-    cost: float = math.nan  # [s] of counted work, at the prices of the reference machine
-    priced: bool = True  # by prices of its formulation, not by those of any
+    cost: float = math.nan  # [s] of counted work, with the cost coefficients of the reference machine
+    priced: bool = True  # with cost coefficients of its formulation, not the general ones
 
     @property
     def seconds(self):

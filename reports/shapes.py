@@ -222,9 +222,9 @@ def bodies(s, state, scale):
 # as in the still pictures; the words of the state say how much.
 
 WHOLE = 32767
-MOST_POINTS = 1300  # of all members; of more every second or third is left out
+MOST_POINTS = 1300  # of all members; of more every second or third is dropped
 MOST_FRAMED = 16_000  # of all frames of a motion together
-LEAST = 3  # points of a member that bends, before frames are left out
+LEAST = 3  # points of a member that bends, before frames are dropped
 
 
 def packed(values):

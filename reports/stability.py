@@ -1,4 +1,4 @@
-"""Stability: every formulation at every extreme, as a map, as curves of error against what is driven, and in numbers."""
+"""Stability: every formulation at every extreme, as a map, as curves of error against the parameter that is varied, and in numbers."""
 import functools
 import math
 
@@ -179,7 +179,7 @@ def largest(found, name):
 
 
 def draw_curve(site, extreme, keys, all_cells):
-    """Error against what is driven; a failure is a cross on the upper edge."""
+    """Error against the parameter that is varied; a failure is a cross on the upper edge."""
     low, high = min(extreme["values"]), max(extreme["values"])
     unit = "" if extreme["x_unit"] == "1" else f" [{extreme['x_unit']}]"
     chart = Chart(1, (540, 190))

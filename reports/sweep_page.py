@@ -14,13 +14,13 @@ from matplotlib.colors import to_hex
 from reports.chart import Chart
 from reports.sweep import answers, gather, maps
 
-# The figures of a sweep's page: maps of the elements that are needed, maps of who is the cheapest,
+# The figures of a sweep's page: maps of the elements that are needed, maps of the formulation of lowest cost,
 # curves of the error over one axis.
 
 MOST_DOTS = 400  # scattered points that are drawn one by one
 SLICES, WORDS = 4, 6  # maps side by side over a third axis of numbers, of words
 NARROW = 170  # width of a map that stands beside others, pixels
-TOLD = 0.01  # share of the points for which the cheapest one is told first
+TOLD = 0.01  # share of the points for which the cheapest one is listed first
 FLOOR = 1e-12  # of errors that are drawn
 
 
@@ -132,9 +132,9 @@ class Validity:
 
 
 class Winners:
-    """Who is the cheapest within the tolerance. images: [(Image, alt)]; shares: [(letter,
-    formulation, points won, mean cost there, s)], most first; ahead: those of them that are told
-    first; none: points where nobody is, of so many known; unranked: formulations without costs of
+    """The formulations of lowest cost within the tolerance. images: [(Image, alt)]; shares: [(letter,
+    formulation, points won, mean cost there, s)], most first; ahead: those of them that are listed
+    first; none: points without one, of the number with a reference; unranked: formulations without costs of
     counted work."""
 
     def __init__(self, sweep, found, axes):

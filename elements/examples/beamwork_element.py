@@ -13,7 +13,7 @@ last two axes. Functions (first argument: the kind of element that all N are):
   mass(kind, r, u, R, a)  -> M[N, 7 n, 7 n], optional: x' M x'/2 is the kinetic energy; x': velocity,
                           angular velocity (both in fixed axes) and rate of warping of each node.
                           The rest is made from it: frames that turn, motions in time
-                          (inertia="vibration": not these). Left out: the mass of all others
+                          (inertia="vibration": not these). Default: the mass of all others
 Derivatives of strain and mass are complex steps: they must take complex arrays and be analytic (no
 abs, norm, conj, comparison of values; rotation_vector and sinc below are). With gives="e" it is called
 with real arrays only and beamwork takes differences. Raise Refused(why) for what cannot be done.
@@ -339,7 +339,7 @@ def taken(functions, words):
 
 def serve(*functions, **words):
     """Answers until beamwork has no more requests: serve(prepare, strain, stress, force=..., ...),
-    words: keys of the protocol's first line; a function that is not needed is left out."""
+    words: keys of the protocol's first line; a function that is not needed may be omitted."""
     (functions, said), kinds = taken(functions, words), {}
     requests, to = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # print goes to standard error

@@ -19,7 +19,7 @@ DIGITS = 5e-7  # relative, of a printed number
 
 
 class Incomplete(Exception):
-    """The deck was not solved to its end, or is none of ours."""
+    """The deck was not solved to its end, or beamwork did not write it."""
 
 
 def printed(path):

@@ -1,10 +1,10 @@
-"""Is the bench to be believed?  Plants work of known size: does the comparison find it?
+"""Tests `bench`: injects delays of known size, which the comparison must find.
 
 usage: bench_check.py PROGRAM [-o FILE]
-* 20 % of its own time is added to one of two equal contestants in one process: must be called
+* 20 % of its own time is added to one of two equal formulations in one process: must be called
   slower, between 15 % and 25 %.
 * Nothing is added: must be undecided (one process, and two copies of the program).
-* Nothing is left out of one cell (--all-dofs): more unknowns, so the work counts must differ; two
+* One run keeps all degrees of freedom (--all-dofs): more unknowns, so the work counts must differ; two
   equal runs must count the same.
 Each part is repeated; the outcome of every one is printed, and written as JSON for the report.
 """
@@ -20,7 +20,7 @@ import tempfile
 CELLS = (("c_column", "beamw", 8), ("sheet_cantilever", "sheet_third", 2),
          ("elastica", "collocation", 2), ("moment_buckling", "beamw_consistent", 8))
 
-KEPT = ("shear_column", "beamw", 8)  # warping coordinates are left out
+KEPT = ("shear_column", "beamw", 8)  # warping coordinates are eliminated
 
 
 def against(program, cell, other, *more):

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""The smallest faults that the gate notices.
+"""The smallest faults that `make verify` notices.
 
-usage: blind_spots.py PLANTED VERIFY_JSON RESULTS_H5 FINDINGS_CSV -o BLIND_SPOTS_CSV -p PLANTED_FAULTS_CSV
+usage: blind_spots.py FAULTY VERIFY_JSON RESULTS_H5 FINDINGS_CSV -o BLIND_SPOTS_CSV -p PLANTED_FAULTS_CSV
 
-PLANTED is the program with a fault of 1e-3 in one constant of all elements, or in one kind of loads
+FAULTY is the program with a fault of 1e-3 in one constant of all elements, or in one kind of loads
 (plant.c).  For each constant its values on the two coarsest meshes beside those without the
 fault give the derivative of every limit.  VERIFY_JSON, of a run without a fault, has what a verdict
 allows the limit: the band that it may move in until another verdict is seen than the expected one
@@ -28,12 +28,12 @@ CONSTANTS = (
     "EA", "EIy", "EIz", "GIt", "EIw", "GAy", "GAz", "GAw", "wagner_torque", "mass", "rotary", "body",
     "body_inertia", "spring", "force", "moment", "distributed", "weight"
 )  # yapf: disable
-SIZE = 1e-3  # of the planted faults
+SIZE = 1e-3  # of the injected faults
 WANTED = 1e-3  # faults that no row may let pass without a reason
-LEAST = 1e-9  # faults that are told apart
+LEAST = 1e-9  # smallest difference of two faults
 SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # study/verdict.c; of a prediction; experiments/verification.c
 CHANGED = 1e-7  # of a value: less is taken for round-off and the steps of a motion
-NEAR = 1e-2  # of a limit: a value on coarse meshes that is farther off tells little of it
+NEAR = 1e-2  # of a limit: a value on coarse meshes that is farther off predicts it badly
 SOUND = 1e-3  # tolerance of a limit, cases/scene/scene.h
 UNJUDGED = ("skip", "other model", "refused", "diverged")
 CLOSELY = ("pass", "biased, as predicted", "wrong limit, as predicted")
@@ -80,7 +80,7 @@ def band_of(v, rules):
     if v["verdict"] == "pass":
         band = v["tolerance"] - doubt
         if v["truth_kind"] == "exact":
-            rest = v["tolerance"] - v["truth_uncertainty"] - SOUND * scale  # physics left out
+            rest = v["tolerance"] - v["truth_uncertainty"] - SOUND * scale  # omitted physics
             left_out = max(rest, 0) if v["omitted"] else 0
             band = min(band, SURELY * doubt + v["truth_uncertainty"] + left_out)
         return band, away

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""What each rule of the ledger allows, beside what was seen, and how its predicted limits were met.
+"""What each known deviation allows, what was observed, and how its derived limits were met.
 
 usage: bounds.py VERIFY_JSON FINDINGS_CSV [--loose]
 
 A rule's largest_error is the least of 1, 2 and 5 times a power of ten that no limit of its verdicts
 exceeds: in its distance from the derived limit where there is one, else from the truth, relative to
 the truth; empty where none of them has an error.  Where one of them has no derived limit it is the
-least of 1, 1.5, 2, 3, 4, 5 and 7 times a power of ten.  Status 1 where the ledger says anything else.
+least of 1, 1.5, 2, 3, 4, 5 and 7 times a power of ten.  Status 1 where the list of known deviations differs from it.
 It is loose where it is more than ten times what those with a derived limit show, or more than 1.5
 times what those without one do; --loose says that alone.  The digits are those of the limit that is
 farthest from its prediction, on the meshes of the verdict.
@@ -23,7 +23,7 @@ LOOSE, FINE_LOOSE = 10, 1.5  # so many times what is seen
 
 
 def bound_of(seen, steps=STEPS):
-    """The least of the steps times a power of ten that is not below; as the ledger writes it."""
+    """The least of the steps times a power of ten that is not below, as the list of known deviations writes it."""
     if seen is None:
         return ""
     power = math.floor(math.log10(seen))

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Experiments on the causes that the ledger names, for the report.
+"""Experiments on the causes of known deviations, for the report.
 
 usage: causes.py PROGRAM VERIFY_JSON -o FILE [--minutes M] [--rule RULE]...
 
-For each rule of the ledger and each case that it was seen in, the verdict whose limit is farthest
-from the truth is looked at again:
+For each known deviation and each case that it was observed in, the verdict whose limit is farthest
+from the reference value is examined again:
   finer      the same on more elements, up to 256;
   without    with one feature of the scene omitted (shear, trapeze, wagner, warping);
   instead    with a formulation that differs in one thing.
@@ -191,7 +191,7 @@ def is_gone(error, before):
 
 
 def study(laboratory, v):
-    """A verdict with its experiments, each with what is left of the error."""
+    """A verdict with its experiments, each with the remaining error."""
     done = experiments(laboratory, v)
     before = done[0]["error"] if done[0]["error"] is not None else v["error"]
     for e in done:

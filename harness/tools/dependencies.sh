@@ -1,5 +1,5 @@
 #!/bin/sh
-# Checks what one command needs, installs what is missing (as root, on Debian), or prints the one line that does.
+# Checks what one command needs, installs missing packages (as root, on Debian), or prints the line that does.
 # What only single tests use (chromium, gfortran, octave-cli, python3-vtk9) is asked for by .ci/run alone: else those tests are skipped by name.
 # usage: dependencies.sh build FLAGS.mk     the compiler's part: libraries; writes their flags
 #        dependencies.sh verify|report|docs|test|truths

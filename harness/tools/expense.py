@@ -22,7 +22,7 @@ WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "
         "radau_step", "explicit_step")
 FOLDS = 5
 ROUNDS = 15
-DEAR = 0.75  # relative errors count by cost^(1 - DEAR): dear cells more, cheap ones too
+DEAR = 0.75  # relative errors count by cost^0.25: expensive runs more, cheap ones too
 LARGE = 0.3  # of the logarithm: errors beyond it count less
 
 
@@ -91,14 +91,14 @@ def columns_of(cells):
 
 
 def predict(cells, prices, factors):
-    """[s]; prices [kinds, 2], factors {name: (once, element)}."""
+    """[s]; `prices`: cost coefficients [kinds, 2], factors {name: (once, element)}."""
     times, elements, names = columns_of(cells)
     factor = np.array([factors.get(name, (1.0, 1.0)) for name in names])
     return times @ prices[:, 0] * factor[:, 0] + times @ prices[:, 1] * elements * factor[:, 1]
 
 
 def fit(cells):
-    """Prices and factors in turn, by least squares of weighted errors, none below zero."""
+    """Cost coefficients and factors in turn, by least squares of weighted errors, none below zero."""
     times, elements, names = columns_of(cells)
     cost = np.array([c["cost"] for c in cells])
     factors = {name: (1.0, 1.0) for name in sorted(set(names))}

@@ -67,7 +67,7 @@ def runs(program, scratch):
 
 
 def scenes():
-    """Scenes that are read, and those with a planted mistake."""
+    """Valid scenes, and scenes with an injected mistake."""
     for path in sorted((ROOT / "cases/examples").glob("*.yaml")):
         yield path.read_bytes()
     for _, text in bad_scenes():

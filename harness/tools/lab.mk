@@ -32,7 +32,7 @@ lab-causes: all ## errors that the known deviations allow next to those seen; ex
 	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json -o $(BUILD)/causes.json
 	@$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv
 
-# Its status 1 says that a contract is broken, which the report tells.
+# Status 1: an interface requirement is violated; the report says which.
 lab-certificates: all ## holds every formulation against the interface, and measures what a paper should print; a second; its part of build/results.h5
 	@$(PROGRAM) element-test all -o $(BUILD)/results.h5 || [ $$? = 1 ]
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Rules of the house: an include points down only, nobody names what it must not know, and neither
-# files nor folders stand in circles.
+# Checks the layers of the code: an include points down only, no layer names what it must not know,
+# and neither files nor folders depend on each other in circles.
 # usage: layers.sh OBJECT...
 set -eu
 bad=0
@@ -53,7 +53,7 @@ for file in elements/*.c cases/*.c cases/*.yaml; do
         bad=1
     fi
 done
-# Reports call no program of the house, references share nothing with it.
+# Reports call no program of beamwork, references share no code with it.
 hits=$(grep -rnE 'ctypes|cffi|libbeamwork|subprocess|os\.system' reports --include='*.py' 2>/dev/null | grep -vE '/(test|kit)/' || true)
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- reports read files only|'; bad=1; }
 hits=$(grep -rnE 'ctypes|cffi|libbeamwork|build/beamwork|import (harness|reports|elements)' reference --include='*.py' 2>/dev/null || true)

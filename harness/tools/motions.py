@@ -1,9 +1,9 @@
-"""All stored values of motions in time against limits of meshes: each value, ours on the finest
-mesh, our limit and its uncertainty.
+"""All stored values of motions in time against limits of meshes: each value, beamwork's on the finest
+mesh, its limit and the uncertainty.
 
 usage: motions.py PROGRAM [CASE...] [--fine] [-o FILE.csv]     ends with status 1 where a limit is
-farther from its truth than the larger of the truth's uncertainty and its own.  Told besides: how
-many limits are known to no better than a hundredth of the largest value of their unit; --fine
+farther from its truth than the larger of the truth's uncertainty and its own.  It also counts the
+limits whose uncertainty exceeds a hundredth of the largest value of their unit; --fine
 takes finer ones, and longer.
 
 One integration for all instants of a structure: what the case asks for at one time, its scene

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Plants the faults of a list that mutate.py writes, one at a time, into a copy of the project. Those of physics must be noticed, with the right exit
+# Injects the faults of a list that mutate.py writes, one at a time, into a copy of the project. Those of physics must be noticed, with the right exit
 # status, by the narrowest check that should: a selection of 'verify', one test, or a deriving program.
 # Writes WORK.json and ends in one line: N killed, M survived. Survivors are listed.
 # usage: LIST=FILE [DRY=1] [FROM=WORD] [TIME=SECONDS] mutants.sh [WORK [WORD]]
@@ -98,7 +98,7 @@ generated() {
     built "$object" >"$work/log" 2>&1
 }
 
-# plant NAME FILE SED-EXPRESSION EXPECTED-STATUS CHECK...
+# `plant` NAME FILE SED-EXPRESSION EXPECTED-STATUS CHECK...
 plant() {
     name=$1 file=$2 change=$3 expected=$4
     shift 4

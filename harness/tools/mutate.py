@@ -1,15 +1,15 @@
-"""Faults to be planted, as a list for mutants.sh: made in C sources, or those of physics.
+"""Faults to be injected, as a list for mutants.sh: made in C sources, or those of physics.
 
 usage: mutate.py [A..B] [--count N]; A..B: on lines that these commits wrote and that still stand
        mutate.py --physics [FILE]; those of faults.csv
 
 What is made is one edit: it swaps an operator (+ -, * /, < <=, > >=, == !=, && ||), drops a sign,
 changes a constant or an index, negates a condition, leaves out a TRY or another call whose value
-nobody takes, or reports another status; at most one on a line. Which ones are taken hangs on the
+is not used, or reports another status; at most one on a line. Which ones are taken hangs on the
 texts of the file, the line and the edit alone: the same sources give the same faults, and what
 changes nearby changes nothing. Comments, strings, the preprocessor, types, sizes of arrays and of
-memory, and assertions stay as they are. Edits that nobody can see are in mutants_equivalent.csv,
-each with its reason, and left out.
+memory, and assertions stay as they are. Edits without an effect are in mutants_equivalent.csv,
+each with its reason, and are not made.
 """
 
 import argparse
@@ -40,7 +40,7 @@ NO_TYPES = {"return", "else", "case", "goto", "sizeof", "do"}
 NO_CALLS = NO_TYPES | {"if", "for", "while", "switch"}
 # What is called with a size of memory, or must hold.
 UNSEEN = re.compile(r"(\w*alloc|sizeof|assert|_Static_assert|memset|memcpy|memmove)$")
-# What is released or hinted at: only sanitizers see that it is left out.
+# Calls that release memory or give hints: only sanitizers notice that one is missing.
 RELEASED = re.compile(r"(\w*(free|alloc|close|end)|assert|_Static_assert)$")
 
 
@@ -232,7 +232,7 @@ def touched(commits, file):
 
 
 def equivalent():
-    """The reason of each fault that nobody can see, by file, function, line and edit."""
+    """The reason of each fault without an effect, by file, function, line and edit."""
     with open(ROOT / EQUIVALENT, encoding="utf-8", newline="") as file:
         return {(row["file"], row["function"], row["line"], row["edit"]): row["reason"]
                 for row in csv.DictReader(file)}
@@ -262,7 +262,7 @@ def chosen(count, span=None):
 BESIDE = {
     "harness/(cli|formulations|experiments|study|library|model|records)/|cases/format/":
         "harness/cli/(cli|outputs|asked|choice|list|converge|options|screen|defaults|help|examples"
-        "|printed|had|gate)",
+        "|printed|had|gate)",  # words: ok (name of a test)
     "harness/(records|terminal|study|experiments|cli)/":
         "harness/records/(compare|schema)|harness/study/(follow|digits|modes)"
         "|harness/analysis/shapes",

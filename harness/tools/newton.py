@@ -2,7 +2,7 @@
 """Runs Newton's method in its two forms side by side, and along the paths that need it most.
 
 usage: newton.py PROGRAM -o FILE      JSON for the report: "singles", targets tried in one step;
-"contests", one per case, formulation and first step, with both forms; "histories", the corrections
+`contests`, one comparison per case, formulation and first step, with both forms; "histories", the corrections
 and residuals of every iteration.
 """
 import argparse

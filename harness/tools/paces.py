@@ -8,7 +8,7 @@ only the rows whose case has it.
 Each row is one run of `beamwork motion`. The reference that it judges by, radau at 1e-10, is held
 against `explicit` (Runge-Kutta of order 8, which shares neither Newton nor a tangent with it) at
 two tolerances on the same mesh, once for each row where that is possible (column check: with which
-formulation). What is left between them falls with the tolerance as far as it is the error of
+formulation). The remaining difference falls with the tolerance as far as it is the error of
 `explicit`.
 """
 import argparse
@@ -78,7 +78,7 @@ def word_of(check):
 
 
 def soonest(tables):
-    """`radau 7, alpha 2`: with how many formulations a scheme is soonest within LEVEL."""
+    """`radau 7, alpha 2`: with how many formulations a scheme has the lowest cost within LEVEL."""
     count = {}
     for name in {r["formulation"] for r in tables["runs"]}:
         ways = [w for w in tables["reached"]

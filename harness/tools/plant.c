@@ -24,7 +24,7 @@ lumped_mass __wrap_lumped_of(const section *, unsigned, double);
 int __real_judgement_doubts(const sweep *, const truths *, int);
 int __wrap_judgement_doubts(const sweep *, const truths *, int);
 
-/* 1 + the size of this fault, where it is the planted one; else 1. */
+/* 1 + the size of this fault, where it is the injected one; else 1. */
 static double grown(const char *name)
 {
     const char *planted = getenv("BEAMWORK_PLANT");

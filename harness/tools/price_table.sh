@@ -1,5 +1,5 @@
 #!/bin/sh
-# Writes the table of prices (harness/study/study.h) from prices.csv.
+# Writes the table of cost coefficients (harness/study/study.h) from prices.csv.
 # usage: price_table.sh OUT.c prices.csv   Rewrites OUT.c only when it changes.
 set -eu
 mkdir -p "$(dirname "$1")"

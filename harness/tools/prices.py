@@ -1,7 +1,7 @@
-"""What counted work costs: prices of counts, fitted to measured times (`make lab L=prices`).
+"""Cost coefficients of counted work, fitted to measured times (`make lab L=prices`).
 
 The defaults of every case run several times, one process, the formulations in turn; the least time
-of a cell counts. Prices are fitted by least squares of relative errors, none below zero; large
+of a cell counts. Cost coefficients are fitted by least squares of relative errors, none below zero; large
 errors count less. How good they are is asked of cells that took no part: the cases in five groups,
 each predicted from the other four. The noise is the least ratio of two costs from which on nine of
 ten measured times of two formulations of a case stand in the same order.
@@ -25,7 +25,7 @@ OWN = ("element_kinds", "elements_total", "strain_evaluations", "stress_evaluati
        "inertia_evaluations", "geometric_evaluations")
 ANY = OWN + ("strain_evaluations*strains", "stress_evaluations*strains",
              "geometric_evaluations*strains")
-# Options that change the work of an element; of the others every formulation has one price.
+# Options that change the work of an element; with any other option a formulation has the same coefficients.
 OPTIONS = ("torsion", "stages", "nodes", "inside")
 VARIANTS = ("collocation:stages=3", "collocation:stages=4", "collocation:stages=6",
             "collocation:stages=7", "collocation:stages=8", "geometrically_exact:nodes=2",
@@ -37,7 +37,7 @@ STEP = 1.05  # of the ratios at which it is asked how often the order is right
 
 
 def name_of(key):
-    """The formulation with the options that have a price."""
+    """The formulation with the options that have their own cost coefficients."""
     name, _, options = key.partition(":")
     kept = [o for o in options.split(",") if o.partition("=")[0] in OPTIONS]
     return name + (":" + ",".join(kept) if kept else "")
@@ -92,7 +92,7 @@ def columns_of(cells, names):
 
 
 def fit(cells, names, fixed=None):
-    """{(formulation, count): seconds}; `fixed` prices are kept."""
+    """{(formulation, count): seconds}; `fixed` ones are kept."""
     found = columns_of(cells, names)
     fixed = fixed or {}
     known = sum((price * found.pop(k) for k, price in fixed.items() if k in found),
@@ -144,8 +144,8 @@ def noise_of(predicted, measured):
 
 
 def validate(cells, names):
-    """Predictions of every cell by prices fitted without its case; the same as of a formulation
-    without prices of its own."""
+    """Predictions of every cell by cost coefficients fitted without its case; the same as of a
+    formulation without coefficients of its own."""
     cases = sorted({c["case"] for c in cells})
     own, generic = np.zeros(len(cells)), np.zeros(len(cells))
     for fold in range(FOLDS):

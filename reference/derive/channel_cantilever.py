@@ -2,7 +2,7 @@
 
 The geometrically exact beam with eccentric shear centre and warping; root clamped and unable to warp, tip free to warp.  The
 end section is rigid, the force follows its point D (top of the web) or E (bottom).  Kept, as in J: shortening by twist and the
-part -2 ys of the Wagner moments; left out: the Wagner torque and, unless it is asked for, int y (y^2 + z^2) dA.  Shear in
+part -2 ys of the Wagner moments; omitted: the Wagner torque and, unless it is asked for, int y (y^2 + z^2) dA.  Shear in
 stability after Haringx.
 """
 import numpy as np

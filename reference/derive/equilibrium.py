@@ -9,7 +9,7 @@ Vibration: with y = (r, q, a, B) and p = (F, m0) of the equilibrium, and small u
 
 interpolated: a consistent mass takes the amplitude of warping along an element from its twist, psi = kx - w (1 - 6 x (1 - x)), w = kx - a,
 so that kx^2 + w^2/5 has the inertia of a^2 (J section 3.2 without flexible warping; J Eq. 66 makes w = -(n_y ky + n_z kz)).  Its momentum rho Iw
-(kx + w/5) adds to Mx, -rho Iw w/5 to B'; Mx changes kx in turn, which is left out: 1e-11 of a frequency.
+(kx + w/5) adds to Mx, -rho Iw w/5 to B'; Mx changes kx in turn, which is neglected: 1e-11 of a frequency.
 """
 import math
 

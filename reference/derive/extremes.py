@@ -142,7 +142,7 @@ def released():
 
 
 def steady():
-    """A body that turns about a principal axis goes on, by 2 rad/s with 3 kg m^2."""
+    """A body that turns about a principal axis keeps turning: 2 rad/s, 3 kg m^2."""
     at = f"spin=steady;time={{}};{rigid_body.ANY}"
     yield "rigid_body", at.format("*"), "w_z", mpf(2), "rad/s"
     yield "rigid_body", at.format("*"), "energy", mpf(6), "J"

@@ -59,7 +59,7 @@ class Frame:
         return one
 
     def turned(self, before):
-        """The arc goes on from here along the secant."""
+        """The arc continues from here along the secant."""
         self.way = self.place() - before.place()
         self.way, self.origin = self.way / np.linalg.norm(self.way), self.place()
         return self

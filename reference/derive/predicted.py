@@ -4,7 +4,7 @@ usage: predicted.py [--write] [CASE...]     derives reference/predicted/CASE.csv
 
 The beam that a formulation converges to (predicted_beam.py) takes the place
 of the exact one in the programs that derive exact values; predicted_column.py has the half-waves.
-What agrees with the exact value is no prediction and is left out.  shear_stability=*: these
+A value that agrees with the exact one is not listed as a prediction.  shear_stability=*: these
 formulations have one form of the second order, whatever theory a case asks for.
 """
 import pathlib

@@ -1,6 +1,6 @@
 """Linear vibration of a cantilever that a force at its tip held aside and that is let go:
 deflection
-of the tip over that at the begin.
+of the tip over that at t = 0.
 
 Bernoulli's beam, L = EI = rho A = 1: 12 sum cos(l_n^2 t)/l_n^4 with 1 + cos(l) cosh(l) = 0.
 
@@ -46,7 +46,7 @@ def bernoulli(t, modes):
 
 
 def with_body_modes(body, count):
-    """(root l, share of the begin) of the first modes: a root lies between those of the beam whose
+    """(root l, share of the initial deflection) of the first modes: a root lies between those of the beam whose
     tip is held and those of the one that carries nothing."""
 
     def both(x):
@@ -106,7 +106,7 @@ def flexibility():
 
 
 def timoshenko_modes(count=MODES):
-    """(angular frequency [rad/s], share of the begin) of the first modes."""
+    """(angular frequency [rad/s], share of the initial deflection) of the first modes."""
     found, omega, step = [], 1.0, 40.0
     last = _determinant(omega)
     while len(found) < count:

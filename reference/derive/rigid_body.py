@@ -1,6 +1,6 @@
 """A rigid body that tumbles free of forces, J = diag(1, 2, 3) kg m^2, body rates (0.5, 0.2, 2)
 rad/s
-at the begin, R = 1 there.
+at t = 0, R = 1 there.
 
 Rates: with T the energy and L the angular momentum, L^2 > 2 T J2, so that
   w1 = a1 cn, w2 = a2 sn, w3 = a3 dn of p t + u0, parameter m,

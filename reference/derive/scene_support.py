@@ -167,7 +167,7 @@ class Support:
 # What an end of a member does not pass on to its node: a joint (network.py) between them.
 #
 # The end is at r + R rho + R_end s, R_end = R exp(a_1 t_1) exp(a_2 t_2) with the node's body r, R; three turns have no order, R_end is free.
-# s: shifts along the turned end.  No load works on what is released: with the moment about the joint, mu + (R_end s) x f, it vanishes
+# s: shifts along the turned end.  No load works on the released motions: with the moment about the joint, mu + (R_end s) x f, it vanishes
 # along the axes of the turns, and f along the shifts.
 
 

@@ -196,7 +196,7 @@ def strains(q):
 
 
 def against_sheet():
-    """Differences (e1 .. e6 of N with shear less ours) for u = 0, and with u those from the factor l/l0 in the shear strain."""
+    """Differences (e1 .. e6 of N with shear less those derived here) for u = 0, and with u those from the factor l/l0 in the shear strain."""
     Phi = (Q(7, 5), Q(3, 8))
     inner, outer = [], []
     for q in directions():

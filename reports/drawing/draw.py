@@ -9,7 +9,7 @@ from reports.drawing.canvas import Canvas, INK, SOFT, STEEL, length
 # Main sizes of a structure and its axes.
 
 CLEAR = 13  # between a size and what is drawn [pt]
-SMALL = 0.02  # extents below this part of the largest are not told
+SMALL = 0.02  # extents below this part of the largest have no dimension
 
 
 def edges(low, high, axis):

@@ -8,7 +8,7 @@ from reports.drawing.scene import COMPONENTS
 
 ARROW, SHORT, RADIUS = 38, 20, 15  # [pt]
 ALONG = 9  # arrows of a load along a member
-MOST_MOTIONS = 4  # with their ranges; more are told in the list below the drawing
+MOST_MOTIONS = 4  # with their ranges; more are in the list below the drawing
 UNITS = {"force": "N", "moment": "N m", "distributed": "N/m", "distributed_moment": "N m/m",
          "gravity": "m/s²"}
 
@@ -61,7 +61,7 @@ def put_force(canvas, view, load, at, ways):
 def put_moment(canvas, view, load, at):
     line = arc(view, at, load.vector)
     canvas.arrow(line, LOAD, mark=load.name)
-    if np.ptp(line, axis=0).min() < 0.3 * RADIUS:  # seen from its edge: its axis tells more
+    if np.ptp(line, axis=0).min() < 0.3 * RADIUS:  # seen from its edge: its axis is clearer
         shaft = straight(view, at, load.vector, [], ARROW + 8)
         canvas.arrow(shaft, LOAD, 1.0, head=6)
         canvas.arrow(shaft[0] + 0.86 * (shaft - shaft[0]), LOAD, 1.0, head=6)
@@ -98,7 +98,7 @@ def put_within(canvas, view, load, line):
 
 
 def put_along(canvas, view, load, line, told):
-    """Arrows along a member, onto its line; a thin line joins their tails. told: words that stand
+    """Arrows along a member, onto its line; a thin line joins their tails. `told`: words that are
     there already."""
     parts = np.linspace(0.03, 0.97, ALONG)[:, None]
     begin, end = load.within or (0, 1)
@@ -151,7 +151,7 @@ def put_loads(canvas, view, scene, lines, into):
 
 
 def motions_of(scene, node):
-    """[(direction, is a turn, name of the motion)] of what is driven and does move."""
+    """[(direction, is a turn, name of the motion)] of the prescribed components that move."""
     out = [(np.eye(3)[COMPONENTS.index(c) % 3], c[0] == "r", motion)
            for c, motion in node.driven.items()]
     out += [(t.axis, True, t.angle) for t in node.turns if t.angle in scene.motions]

@@ -200,7 +200,7 @@ def put_ground(canvas, at, away):
 
 PLATE = 15  # half a side of a clamp's plate [pt]
 HATCHES = 9  # lines of a plate
-MOST_LETTERS = 4  # supports with letters; more are told in the list below the drawing
+MOST_LETTERS = 4  # supports with letters; more are in the list below the drawing
 
 
 def held_of(scene, node):

@@ -91,7 +91,7 @@ class Scene:
     motions: dict  # name -> (least, largest value), () of time, or None where it is unknown
     spin: Spin = None
     asked: set = field(default_factory=set)  # nodes that quantities are of
-    omitted: tuple = ()  # physics that is left out
+    omitted: tuple = ()  # omitted physics
 
 
 def numbers(values):

@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 from reports.sweep import boxes, gather, stored
 from reports.sweep.boxes import Box
 
-ENOUGH = 0.9  # of the largest range, with which fewer elements are told first
-FEWER = 0.15  # of the first one, from which a range of fewer elements is told
+ENOUGH = 0.9  # of the largest range, with which fewer elements are listed first
+FEWER = 0.15  # of the first one, from which a range of fewer elements is listed
 BEHIND = 0.95  # of the points of the next quantity, below which one decides
-WIDER = 1.01  # of the first one, for which a range of more elements is told, too
+WIDER = 1.01  # of the first one, for which a range of more elements is listed, too
 
 
 @dataclass
@@ -31,7 +31,7 @@ class Range:
 @dataclass
 class Answer:
     """of: ranges in all quantities by mesh; single: {quantity: the same}; first: the one that is
-    told first, None where there is none; fewer: one of fewer elements; wider: one of more;
+    listed first, None where there is none; fewer: one of fewer elements; wider: one of more;
     absent: it offers at no point what is needed; decided: the quantity that takes the most
     elements, empty where no single one does."""
 
@@ -55,7 +55,7 @@ class Answer:
             self.decided = reached[0][1]
 
     def choose(self):
-        """What is told first: nearly the widest range with the fewest elements."""
+        """Chooses the range that is listed first: nearly the widest range with the fewest elements."""
         most = max((r.good for r in self.of), default=0)
         if not most:
             return
@@ -70,7 +70,7 @@ class Answer:
         return [r for r in (self.first, self.fewer, self.wider) if r]
 
     def same(self):
-        """What answers have in common that are told together."""
+        """Key of answers that are printed together."""
         if not self.first:
             return self.absent, self.of[-1].reached
         return self.first.mesh, self.first.box.lattice, self.first.box.chosen
@@ -123,9 +123,9 @@ def of_sweep(sweep, found):
 
 @dataclass
 class Group:
-    """Answers of the same range with as many elements, told in one sentence. least: of those with
+    """Answers of the same range with as many elements, printed in one sentence. least: of those with
     the fewest points that hold; worst: [(formulation, exception)], the worst first; exceptions:
-    their number; fewer, wider: what all of them say, or None; more: some say what is not told."""
+    their number; fewer, wider: what all of them say, or None; more: some have further ranges that are not printed."""
 
     answers: list
 
@@ -212,7 +212,7 @@ def proven(rows):
 
 
 def references(sweep, found):
-    """[(quantity, {kind: points}, largest doubt, doubtful points, points without, Box of these)]"""
+    """[(quantity, {kind: points}, largest uncertainty, uncertain points, points without, Box of these)]"""
     rows = []
     for q, quantity in enumerate(sweep.quantities):
         kinds = {name: int(n) for name, n in zip(sweep.kinds, found.kinds[q])

@@ -185,9 +185,9 @@ class Gathered:
     measured. known: points with a reference [C, Q+1]. worst: largest error [C, F, Q+1, M], infinite
     without a solution, -1 where nothing is measured.
     wins, winner_cost: points where a formulation is the cheapest within the tolerance in all
-    quantities, or as cheap within what prices are known to, and the sum of what that costs, s
+    quantities, or ties within the uncertainty of the cost model, and the sum of what that costs, s
     [C, F]; unwon: points with a reference where none is. kinds: references by kind [Q, kinds];
-    doubt: largest relative one [Q]; doubtful: references whose doubt exceeds the tolerance [Q];
+    `doubt`: largest relative uncertainty [Q]; doubtful: references whose uncertainty exceeds the tolerance [Q];
     status: cells by outcome [F, M, S]; failed: least and largest value of each axis where an
     outcome occurs [F, S, 2, A]; points: all [C]; ranked: has a formulation costs of counted work at
     any point? [F]"""
@@ -278,7 +278,7 @@ def reached_in(sweep, piece, asked):
 
 
 def take_winners(into, sweep, piece, cell, asked, reached):
-    """Who is the cheapest within the tolerance in all quantities."""
+    """The formulation of lowest cost within the tolerance in all quantities."""
     into.ranked |= np.isfinite(piece.cost).any(axis=(0, 2))
     count = len(sweep.meshes)
     mesh = np.minimum(reached[:, :, -1], count - 1)
@@ -292,7 +292,7 @@ def take_winners(into, sweep, piece, cell, asked, reached):
 
 
 def take_outcomes(into, sweep, piece):
-    """Kinds of references, doubts, and what came of the cells."""
+    """Kinds of references, their uncertainties, and outcomes of the runs."""
     for k in range(len(sweep.kinds)):
         into.kinds[:, k] += (piece.kind == k).sum(axis=0)
     there = ~np.isin(piece.kind, sweep.without)
@@ -346,7 +346,7 @@ def of_sweep(sweep):
 
 @dataclass
 class Outlier:
-    """A point in a box that is not within. error: of the mesh that the box speaks of."""
+    """A point in a box that is not within. error: of the mesh of the box."""
 
     point: int
     at: np.ndarray

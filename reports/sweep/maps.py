@@ -200,7 +200,7 @@ class Map:
 
 
 def winners(wins, known, keys):
-    """(states, fill, sign) of who is the cheapest in fields; 2 k: formulation k at every point, 2
+    """(states, fill, sign) of the formulation of lowest cost in fields; 2 k: formulation k at every point, 2
     k + 1: at most of them. wins: [..., F]; known: points with a reference."""
     count = len(keys)
     best, most = wins.argmax(axis=-1), wins.max(axis=-1)

@@ -61,7 +61,7 @@ class Worst:
 
 @dataclass
 class Piece:
-    """Some consecutive points. at: [points, axes]; reference, doubt, kind: [points, quantities];
+    """Some consecutive points. at: [points, axes]; reference, its uncertainty `doubt`, kind: [points, quantities];
     value, error: [points, formulations, meshes, quantities], NaN where there is none; error is
     relative;
     status, cost [s]: [points, formulations, meshes]; least: elements from which on every mesh is

@@ -1,6 +1,6 @@
 /* Alters a good HDF5 file as the bytes say: links and attributes deleted, renamed, replaced by
  * others of another kind, type or shape, cycles. The result is a proper file, its checksum right,
- * with contents that nobody expects. (Damaged files are refused by their checksum.) */
+ * with unexpected contents. (Damaged files are refused by their checksum.) */
 #ifndef BEAMWORK_FUZZ_ALTER_H
 #define BEAMWORK_FUZZ_ALTER_H
 

@@ -1,4 +1,4 @@
-/* A results.h5 with contents that nobody expects (even first byte), or any bytes as one. */
+/* A results.h5 with unexpected contents (even first byte), or any bytes as one. */
 #include "harness/records/records.h"
 #include "harness/tools/fuzz/fuzz_alter.h"
 

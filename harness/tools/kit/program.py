@@ -54,7 +54,7 @@ def broken(record):
 
 
 def read_json(path):
-    """What a file of ours says."""
+    """Contents of a JSON file of beamwork."""
     return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
 
 

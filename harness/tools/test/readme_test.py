@@ -99,6 +99,7 @@ CLEAN = {
     "page.html": '<a href="prices.html">list</a>{% for told in prices %}{{ told }}{% endfor %}\n',
     "table.csv": "term,gate|gates|what is asked\n",
     "script.sh": "told=1\n",
+    "named.py": "x = 1  # `ours`: errors of these\n",
 }
 
 
@@ -115,10 +116,9 @@ class Words(unittest.TestCase):
                 self.assertEqual(list(words.hits(name, text)), [])
 
     def test_every_pattern_has_a_remedy(self):
-        for pattern, remedy, most in words.WORDS:
+        for pattern, remedy in words.WORDS:
             with self.subTest(pattern):
                 self.assertTrue(remedy)
-                self.assertGreaterEqual(most, 0)
 
     def test_exit_status(self):
         for name, (text, line, word) in TEXTS.items():

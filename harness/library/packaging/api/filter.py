@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A header of the house as doxygen reads it: comments before and behind a declaration document it.
+"""Rewrites a header so that doxygen takes comments before and after a declaration as its documentation.
 
 usage: filter.py HEADER
 """

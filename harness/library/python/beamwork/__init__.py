@@ -55,7 +55,7 @@ def formulations():
 
 
 def load(element):
-    """Loads a formulation of one's own, "./mine.so" or "exec:python3 my_beam.py"; its name. It
+    """Loads your formulation, "./mine.so" or "exec:python3 my_beam.py", and returns its name. It
     stays for the life of the process; a shared object runs inside it: where that crashes in solve,
     Python does."""
     return _text_of("formulation_load", _required(element, "element"))

@@ -49,7 +49,7 @@ class TimeLimit(Error):
 
 
 class NoValue(Error):
-    """What was asked for does not exist, as a critical load of a structure that has none."""
+    """The requested value does not exist, such as a critical load of a structure that has none."""
 
 
 _OF_STATUS = {1: NotConverged, 2: Singular, 3: Refused, 4: Fault, 5: TimeLimit, 6: NoValue}

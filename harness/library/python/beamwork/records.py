@@ -42,8 +42,8 @@ class Convergence(Records):
     truth), cost (of counted work, s), seconds_solve and all that the program writes of a cell.
 
     limits: Records of formulation, quantity, limit, limit_uncertainty, order, verdict, message.
-    answers: Records of formulation, elements, cost, rank: who reaches `level` soonest.
-    sentence: what it comes to.  document: all as `beamwork converge --format json` writes it."""
+    answers: Records of formulation, elements, cost, rank: by cost at the error `level`.
+    sentence: the conclusion.  document: all as `beamwork converge --format json` writes it."""
 
     def __init__(self, document):
         super().__init__()
@@ -72,8 +72,8 @@ class Verdicts(Records):
     Keys: case, parameters, formulation, quantity, verdict, expected, as_expected, message, limit,
     limit_uncertainty, truth, error (relative) and all that `verify --json` writes.
 
-    passed: the outcome of the run is "pass", as `verify` ends with status 0: something was judged, and nothing that
-    gates differs.  outcome: "pass", "fail" or "nothing was judged".  broken_contracts: formulations that break the
+    passed: the outcome of the run is "pass", as `verify` ends with status 0: there is a verdict, and none that affects
+    the exit status is unexpected.  outcome: "pass", "fail" or "nothing was judged".  broken_contracts: formulations that break the
     interface, and how.  unexpected: records that differ.  counts: {verdict: how many}.
     document: all as `beamwork verify --json` writes it."""
 

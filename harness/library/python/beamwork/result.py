@@ -162,9 +162,9 @@ class Result:
 
     @property
     def motion(self):
-        """Of a motion in time, {column: [steps + 1] array}, the begin and where each step ended:
+        """Returns {column: [steps + 1] array} of a motion in time: the start and the end of each step:
         time and step [s], iterations, rejected, error, kinetic, strain, work, dissipated and drift
-        [J] (drift: what is missing), px to pz [kg m/s], lx to lz [kg m^2/s]. {}: nothing moves.
+        [J] (drift: energy-balance error), px to pz [kg m/s], lx to lz [kg m^2/s]. {} without a motion.
         Read-only views of the result's own arrays."""
         found = {}
         with self._open().lock:

@@ -24,7 +24,7 @@ def verified(scene, formulations, select, results, options, lines=()):
 
 
 class Scene:
-    """A structure, its loads, and what is asked of it, as in a scene file; all values are SI.
+    """A structure, its loads and the requested quantities, as in a scene file; all values are SI.
 
     scene = Scene.case("c_column"), Scene.open("leaf.yaml"), Scene.text(yaml) or, built here,
 
@@ -186,7 +186,7 @@ class Scene:
 
     def converge(self, *formulations, meshes=None, **options):
         """The Convergence of formulations (none named: all that can) over meshes (None: the
-        scene's own): errors, limits with their uncertainty, orders, and who is soonest.
+        scene's own): errors, limits with their uncertainty, orders, and the formulations ranked by cost.
 
         options: error (0.01: what `answers` asks for), select ("C_zz or C_xx"), jobs (processes),
         stop (a file descriptor: once it can be read, TimeLimit)."""
