@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "cases/case.h"
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 
 enum { OMEGA, SLENDERNESS, HUB_RADIUS, AXIS, STIFFNESS_RATIO, STATIONS };
 enum { MODES = 3, LOWEST = 4, MOST_STATIONS = 200 };

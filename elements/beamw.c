@@ -1,7 +1,7 @@
 /* BEAMW as printed, misprints corrected.  Its modified modes do not see shear, so that they belong
  * to neither theory of shear in stability: it has one of its own and converges to neither
  * (reference/ERRATA.md). */
-#include "elements/beamw/prepare.h"
+#include "elements/beamw/variants.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {

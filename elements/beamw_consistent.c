@@ -1,11 +1,9 @@
 /* BEAMW repaired: the whole of D in the stiffness, strains that see uniform shear of any size
- * (elements/beamw/helicoidal.h), and modified modes from the strains of the Simo-Reissner beam over
- * the full linear solution (elements/beamw/modified.c); what bends, shears and warps inside the
+ * (elements/beamw/screw.h), and modified modes from the strains of the Simo-Reissner beam over
+ * the full linear solution (elements/beamw/condensed.c); what bends, shears and warps inside the
  * element are internal modes, condensed in equilibrium (elements/beamw/condensed.c). */
-#include "elements/beamw/helicoidal.h"
-#include "elements/beamw/inertia.h"
-#include "elements/beamw/lanes.h"
-#include "elements/beamw/prepare.h"
+#include "elements/beamw/screw.h"
+#include "elements/beamw/variants.h"
 
 static size_t data_size(const element_request *request)
 {

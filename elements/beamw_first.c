@@ -1,5 +1,5 @@
 /* BEAMW without its second-order terms: what they are worth is measured by leaving them out. */
-#include "elements/beamw/prepare.h"
+#include "elements/beamw/variants.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {

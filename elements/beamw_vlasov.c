@@ -1,5 +1,5 @@
 /* BEAMW with Phi = 0 whatever the section's shear rigidities: Vlasov's theory. */
-#include "elements/beamw/prepare.h"
+#include "elements/beamw/variants.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {

@@ -1,17 +1,16 @@
 /* The geometrically exact beam with warping solved inside the element, by Gauss collocation with
- * exact equilibrium of forces (elements/collocation/stages.h).  What the stages need is unknown of
- * the element itself, so that the mixed Newton iteration of the structure solves for it on the way.
+ * exact equilibrium of forces (elements/collocation/collocation.h).  What the stages need is
+ * unknown of the element itself, so that the mixed Newton iteration of the structure solves for it
+ * on the way.
  */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "elements/collocation/alone.h"
-#include "elements/collocation/lanes.h"
-#include "elements/collocation/prestress.h"
-#include "elements/field/field_mass.h"
-#include "elements/geometrically_exact/alone.h"
-#include "elements/math/larger.h"
+#include "elements/collocation/collocation.h"
+#include "elements/field/field.h"
+#include "elements/geometrically_exact/exact.h"
+#include "elements/math/scalar.h"
 #include "elements/shared/lanes.h"
 
 enum { OPTION_STAGES, FEWEST = 3, OUTER = EXACT_STAGES_OUTER };
@@ -36,7 +35,7 @@ static int stage_count(const double value[])
 }
 
 /* Statics: under dead forces along members too; 4 at large rotations under other loads along them.
- * Frequencies: field/field_mass.h.  Linear buckling: the inner unknowns are those of the element
+ * Frequencies: field/field.h.  Linear buckling: the inner unknowns are those of the element
  * without stress (elements/collocation/prestress.c). */
 static element_order order(element_analysis analysis, const double value[])
 {

@@ -200,7 +200,7 @@ typedef struct element_type {
      * sigma_i Q_i: zero. */
     void (*geometric)(const element_data *, const double sigma[], double G[]);
     /* frame NULL: the frame is at rest. Default (NULL): the mass of the displacement field that is
-     * exact without loads (field/field_mass.h), lumped for three nodes. */
+     * exact without loads (field/field.h), lumped for three nodes. */
     status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,
                       inertia_output *);
 
@@ -247,7 +247,7 @@ typedef struct element_type {
     void (*along)(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[]);
     /* Optional: 1: with these options `inertia` of two nodes at rest is that of the displacement
-     * field which is exact without loads (field/field_mass.h): frequencies are improved by what is
+     * field which is exact without loads (field/field.h): frequencies are improved by what is
      * inside of the element.  0: they are those of the mass matrix alone.  Of a type without
      * `inertia`: 1. */
     int (*mass_of_field)(const double options[]);

@@ -3,18 +3,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/field/field_mass.h"
-#include "elements/geometrically_exact/alone.h"
-#include "elements/geometrically_exact/lanes.h"
-#include "elements/geometrically_exact/stiffness.h"
-#include "elements/geometrically_exact/strain.h"
+#include "elements/field/field.h"
+#include "elements/geometrically_exact/exact.h"
 #include "elements/shared/lanes.h"
 
 enum { OPTION_NODES };
 
 /* Compliance of a plane across an element, which an axial force N takes for more than it is where N
  * times it is 1: the section's shear [1/N], which is the beam's, and the bending that stands in the
- * place of shear, l^2/12EI or l^2/60EI (stiffness.h), which is the mesh's. */
+ * place of shear, l^2/12EI or l^2/60EI (exact.h), which is the mesh's. */
 typedef struct across {
     double shear, bending;
 } across;

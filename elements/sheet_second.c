@@ -1,6 +1,6 @@
 /* The second-order element of N section 2, whose generalized strains leave the shear terms out:
  * with flexible shear it converges to a biased limit (reference/ERRATA.md, N 37). */
-#include "elements/sheet/second.h"
+#include "elements/sheet/sheet.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {

@@ -1,6 +1,6 @@
 /* The second-order element of N section 2 with the shear terms kept in the generalized strains:
  * fourth order, exact limit where shear strains and elongation are small. */
-#include "elements/sheet/second.h"
+#include "elements/sheet/sheet.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {

@@ -1,6 +1,6 @@
 /* The third-order element of N section 3 with the sign of u_y in N Eq. 49 corrected
  * (reference/ERRATA.md, N 49). */
-#include "elements/sheet/third.h"
+#include "elements/sheet/sheet.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {

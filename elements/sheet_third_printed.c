@@ -1,5 +1,5 @@
 /* The third-order element of N section 3 with the sign of u_y as printed in N Eq. 49. */
-#include "elements/sheet/third.h"
+#include "elements/sheet/sheet.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {

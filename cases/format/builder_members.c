@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "elements/section/taper.h"
+#include "elements/section/section.h"
 
 static int share(const fields *f, const document_node *name)
 {

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/section/taper.h"
+#include "elements/section/section.h"
 
 /* The same section seen from the other end, turned by pi about z: y' = -y, z' = z, and sectorial
  * coordinates change their sign with x. Face and axis turn together, so that Qy and Mw keep their

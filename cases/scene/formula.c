@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 
 enum { MOST = 256, DEEPEST = 32 };
 

@@ -608,7 +608,7 @@ typedef struct scene_release {
 typedef struct scene_member {
     int p, q;
     int section, section_q; /* at p and at q; between them it changes linearly in its numbers
-                               (elements/section/taper.h), each element has that of its middle */
+                               (elements/section/section.h), each element has that of its middle */
     double y_axis[3]; /* direction of the y axis in which the section is described (its part across
                          the member) */
     int warp_p, warp_q;  /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */

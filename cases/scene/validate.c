@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/section/matrices.h"
-#include "elements/section/taper.h"
+#include "elements/section/section.h"
 
 static status check_taper(const scene *s, int i, fault *f)
 {

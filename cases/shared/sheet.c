@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/quadrature.h"
+#include "elements/math/scalar.h"
 
 const parameter_type sheet_parameters[] = {
     [SHEET_LENGTH] = {"length", "m", 0.1, 1e-9, 1e6, NULL, "length of the sheet"},

@@ -1,12 +1,209 @@
-#include "elements/beamw/condensed.h"
-
+#include <stddef.h>
 #include <string.h>
 
 #include "elements/beamw/equilibrium.h"
+#include "elements/beamw/variants.h"
+#include "elements/math/dense.h"
+
+/* Quadratic parts of the modified modes, as products of linear functionals of e. */
+
+typedef struct term {
+    int mode, i, j; /* ebar_mode += c e_i e_j, counted from 1 as in the paper */
+    double c;
+} term;
+
+static void add_term(element_data *d, const term *t, double scale)
+{
+    double a[8] = {0}, b[8] = {0};
+    a[t->i - 1] = b[t->j - 1] = 1;
+    beamw_variants_add_product(d->Q[t->mode - 1], t->c * scale, a, b);
+}
+
+/* l0 times the bilinear part of J Eq. 66. */
+static const term eq66[] = {
+    {1, 3, 3, 2 / 30.0},  {1, 3, 4, 1 / 30.0},  {1, 4, 4, 2 / 30.0},  {1, 5, 5, 2 / 30.0},
+    {1, 5, 6, 1 / 30.0},  {1, 6, 6, 2 / 30.0},  {2, 4, 5, 1},         {2, 3, 6, -1},
+    {3, 2, 5, 1 / 10.0},  {3, 2, 6, 1 / 5.0},   {3, 5, 7, 1 / 10.0},  {3, 5, 8, -1 / 30.0},
+    {3, 6, 8, -1 / 30.0}, {4, 2, 5, -1 / 5.0},  {4, 2, 6, -1 / 10.0}, {4, 5, 7, 1 / 30.0},
+    {4, 6, 7, 1 / 30.0},  {4, 6, 8, -1 / 10.0}, {5, 2, 3, -1 / 10.0}, {5, 2, 4, -1 / 5.0},
+    {5, 3, 7, -1 / 10.0}, {5, 3, 8, 1 / 30.0},  {5, 4, 8, 1 / 30.0},  {6, 2, 3, 1 / 5.0},
+    {6, 2, 4, 1 / 10.0},  {6, 3, 7, -1 / 30.0}, {6, 4, 7, -1 / 30.0}, {6, 4, 8, 1 / 10.0},
+};
+
+void beamw_modified_printed(const section *c, unsigned features, element_data *d)
+{
+    const double l = d->l0, l3 = l * l * l;
+    for (size_t i = 0; i < sizeof eq66 / sizeof eq66[0]; i++)
+        add_term(d, &eq66[i], 1 / l);
+    const double e2[8] = {0, 1}, A[8] = {[6] = 0.5, [7] = -0.5},
+                 t[8] = {[1] = 1, [6] = -0.5, [7] = -0.5};
+    if (features & FEATURE_TRAPEZE) {
+        const double k = c->Ip / c->A / (2 * l3);
+        beamw_variants_add_product(d->Q[0], k, e2, e2);
+        beamw_variants_add_product(d->Q[0], k / 3, A, A);
+        beamw_variants_add_product(d->Q[0], k / 5, t, t);
+    }
+    beamw_variants_add_product(d->Q[0], -(c->ys * c->ys + c->zs * c->zs) / (10 * l3), e2, e2);
+}
+
+/* Which strains count.  Under a given stress the energy is right to third order when the strains of
+ * second order are taken over the linear solution and weighted with its stresses, e1 = int gx, e2 =
+ * l int kx, e3 = int [(l-s) ky - gz], e4 = int [s ky + gz], e5 = int [(l-s) kz + gy], e6 = int [s
+ * kz - gy]. Strains are those of the Simo-Reissner beam at the centroid (gamma, kappa); e7 and e8
+ * need nothing, since the amplitude at a node is the twist rate kx there less its warping shear,
+ * whatever the frame.  Which closed form holds for uniform moment and axial load follows: gamma
+ * turns with the section, so that stress resultants couple through the section's rotation
+ * (Haringx); the slope w' of the fibre (Engesser, J) enters only when the squares of the shear
+ * strains are added to gamma_x, as J's kinematics does (fibres_at below).  Proof and reduction to J
+ * Eq. 66: reference/derive/second_order.py. */
+
+enum { N = BEAMW_MODIFIED_VARIABLES, Z = BEAMW_STRAINS };
+
+/* Q += c (a b^T + b a^T). */
+static void add_product(double Q[N * N], double c, const double a[N], const double b[N])
+{
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            Q[N * i + j] += c * (a[i] * b[j] + b[i] * a[j]);
+}
+
+/* Linear fields of J section 3.2 at a point, as functionals of e and z: rotation of the section
+ * against the middle of the element, twist and bending rates [1/m], shear at the centroid,
+ * extension. */
+typedef struct point_fields {
+    double rotation[3][N], rate[3][N], shear_y[N], shear_z[N], extension[N];
+} point_fields;
+
+/* rotation = rate of change times x - 1/2 plus what bends or twists unevenly; shear is constant at
+ * the shear centre. */
+static void fields_at(const section *c, double l, double x, const beamw_twist *t,
+                      const beamw_stiffness_fields *s, point_fields *out)
+{
+    const double bubble = x * (1 - x), odd = 1 - 2 * x;
+    const beamw_twist_shapes shape = beamw_twist_at(t, x);
+    const double mean[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
+    for (int k = 0; k < N; k++) {
+        const int own = k >= Z; /* one of z: bending (y, z) and warping parts of h */
+        const double bend[3] = {0, k == Z + 1 ? -6 : 0, k == Z ? 6 : 0},
+                     tw = k == Z + 2 ? l * l : 0;
+        const double A = own ? 0 : s->A[k],
+                     g[2] = {own ? -(k == Z) : s->h[0][k], own ? -(k == Z + 1) : s->h[1][k]};
+        for (int i = 0; i < 3; i++) {
+            out->rotation[i][k] = mean[i][k] * (x - 0.5) + bend[i] * bubble;
+            out->rate[i][k] = (mean[i][k] + bend[i] * odd) / l;
+        }
+        const double uneven = (A * shape.odd + tw * shape.even) / (l * l);
+        out->rotation[0][k] += (A * shape.odd_integral + tw * shape.even_integral) / l;
+        out->rate[0][k] += uneven;
+        out->shear_y[k] = g[0] - t->lag[0] * uneven + c->zs * out->rate[0][k];
+        out->shear_z[k] = g[1] - t->lag[1] * uneven - c->ys * out->rate[0][k];
+        out->extension[k] = k == 0 ? 1 / l : 0;
+    }
+}
+
+/* Parts of second order of the strains of the Simo-Reissner beam, r' = R (e_x + gamma), R =
+ * exp(w~): with w the rotation, kappa = w' - 1/2 w x w',  gamma = u' - w x e_x + 1/2 w x (w x e_x)
+ * - w x u'. */
+typedef struct point_strains {
+    double gamma[3][N * N], kappa[3][N * N];
+} point_strains;
+
+static void strains_at(const point_fields *f, point_strains *out)
+{
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        add_product(out->kappa[i], -0.5, f->rotation[j], f->rate[k]);
+        add_product(out->kappa[i], 0.5, f->rotation[k], f->rate[j]);
+    }
+    add_product(out->gamma[0], 0.5, f->rotation[1], f->rotation[1]);
+    add_product(out->gamma[0], 0.5, f->rotation[2], f->rotation[2]);
+    add_product(out->gamma[0], 1, f->rotation[2], f->shear_y);
+    add_product(out->gamma[0], -1, f->rotation[1], f->shear_z);
+    add_product(out->gamma[1], -0.5, f->rotation[0], f->rotation[1]);
+    add_product(out->gamma[1], 1, f->rotation[0], f->shear_z);
+    add_product(out->gamma[1], -1, f->rotation[2], f->extension);
+    add_product(out->gamma[2], -0.5, f->rotation[0], f->rotation[2]);
+    add_product(out->gamma[2], -1, f->rotation[0], f->shear_y);
+    add_product(out->gamma[2], 1, f->rotation[1], f->extension);
+}
+
+/* Fibres elongate by gamma_x + z kappa_y - y kappa_z and half the square of how far they lean to
+ * the section's normal: all of it after Engesser, (shear_y - z kx, shear_z + y kx); after Haringx
+ * the part without shear, kx times the distance from the shear centre.  Its mean and first moments
+ * count. */
+static void fibres_at(const section *c, unsigned features, const point_fields *f,
+                      point_strains *out)
+{
+    const double *kx = f->rate[0];
+    if (features & FEATURE_HARINGX) {
+        add_product(out->gamma[0], (c->ys * c->ys + c->zs * c->zs) / 2, kx, kx);
+        add_product(out->kappa[1], -c->zs, kx, kx);
+        add_product(out->kappa[2], c->ys, kx, kx);
+    } else {
+        add_product(out->gamma[0], 0.5, f->shear_y, f->shear_y);
+        add_product(out->gamma[0], 0.5, f->shear_z, f->shear_z);
+        add_product(out->kappa[1], -1, f->shear_y, kx);
+        add_product(out->kappa[2], -1, f->shear_z, kx);
+    }
+    if (features & FEATURE_TRAPEZE)
+        add_product(out->gamma[0], c->Ip / c->A / 2, kx, kx);
+    if (features & FEATURE_WAGNER_MOMENTS) {
+        add_product(out->kappa[1], c->wagner_z / c->Iy / 2, kx, kx);
+        add_product(out->kappa[2], -c->wagner_y / c->Iz / 2, kx, kx);
+    }
+}
+
+void beamw_modified_consistent(const section *c, unsigned features, double l, const beamw_twist *t,
+                               const beamw_stiffness_fields *fields,
+                               double Q[BEAMW_MODIFIED][N * N])
+{
+    double x[BEAMW_TWIST_MAX_POINTS], w[BEAMW_TWIST_MAX_POINTS];
+    const int points = beamw_twist_points(t, 0, 1, x, w);
+    memset(Q, 0, BEAMW_MODIFIED * sizeof Q[0]);
+    for (int p = 0; p < points; p++) {
+        point_fields at;
+        point_strains strain;
+        fields_at(c, l, x[p], t, fields, &at);
+        strains_at(&at, &strain);
+        fibres_at(c, features, &at, &strain);
+        const double ds = w[p] * l, to_q = (1 - x[p]) * l, from_p = x[p] * l;
+        for (int i = 0; i < N * N; i++) {
+            Q[0][i] += ds * strain.gamma[0][i];
+            Q[1][i] += ds * l * strain.kappa[0][i];
+            Q[2][i] += ds * (to_q * strain.kappa[1][i] - strain.gamma[2][i]);
+            Q[3][i] += ds * (from_p * strain.kappa[1][i] + strain.gamma[2][i]);
+            Q[4][i] += ds * (to_q * strain.kappa[2][i] + strain.gamma[1][i]);
+            Q[5][i] += ds * (from_p * strain.kappa[2][i] - strain.gamma[1][i]);
+        }
+    }
+    /* The share of the helicoidal strains is in e already: -1/24 psi x (psi x U), what a straight
+     * chord is shorter than its arc. */
+    const double psi[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
+    add_product(Q[0], -l / 24, psi[1], psi[1]);
+    add_product(Q[0], -l / 24, psi[2], psi[2]);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        add_product(Q[sign < 0 ? 2 : 3], sign * l / 24, psi[0], psi[2]);
+        add_product(Q[sign < 0 ? 5 : 4], sign * l / 24, psi[0], psi[1]);
+    }
+}
+
+/* Q of e alone: T^T Q T, T = (1, hg). */
+void beamw_modified_reduce(const beamw_stiffness_fields *fields, double Q[BEAMW_MODIFIED][N * N],
+                           element_data *d)
+{
+    double T[N * BEAMW_STRAINS] = {0}, work[N * BEAMW_STRAINS];
+    for (int i = 0; i < BEAMW_STRAINS; i++) {
+        T[(BEAMW_STRAINS + 1) * i] = 1;
+        for (int k = 0; k < 3; k++)
+            T[BEAMW_STRAINS * (Z + k) + i] = fields->hg[k][i];
+    }
+    for (int k = 0; k < BEAMW_MODIFIED; k++)
+        dense_add_congruence(N, BEAMW_STRAINS, T, Q[k], d->Q[k], work);
+}
 
 enum {
     E = BEAMW_STRAINS,
-    N = BEAMW_MODIFIED_VARIABLES,
     M = BEAMW_MODIFIED,
     EVEN = BEAMW_CONDENSED_EVEN,
     ALL = BEAMW_CONDENSED_ALL

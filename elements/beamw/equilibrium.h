@@ -1,12 +1,258 @@
-/* The stress function of condensed internal modes (condensed.h), of one element or of several in
- * lanes. */
+/* The stress function of condensed internal modes (variants.h): the modes, their Hessian, their
+ * equilibrium. */
 #ifndef BEAMWORK_BEAMW_EQUILIBRIUM_H
 #define BEAMWORK_BEAMW_EQUILIBRIUM_H
 
 #include <float.h>
 #include <string.h>
 
-#include "elements/beamw/hessian.h"
+#include "elements/beamw/variants.h"
+#include "elements/math/dense.h"
+#include "elements/shared/lanes.h"
+
+/* Internal modes (variants.h) and what they are a function of: (u, h) of y = (e, z), with D the
+ * quadratic parts of its derivatives; of one element or of several in lanes. */
+
+enum {
+    BEAMW_INTERNAL_Y = BEAMW_MODIFIED_VARIABLES,
+    BEAMW_INTERNAL_Z = BEAMW_STRAINS,   /* where z begins */
+    BEAMW_INTERNAL_U = 4,               /* u whose derivatives change */
+    BEAMW_INTERNAL_H = BEAMW_INTERNAL_U /* row of h_y in D */
+};
+
+typedef struct beamw_internal {
+    real y[BEAMW_INTERNAL_Y], q[3];
+    real D[BEAMW_CONDENSED_ROWS * BEAMW_INTERNAL_Y + 1]; /* by rows; the last one counts nowhere */
+    real u[BEAMW_CONDENSED_EVEN], h[3];
+    real reach[3]; /* sum of the absolute terms of h, linear in e */
+} beamw_internal;
+
+/* Row r of D at z. */
+static inline const real *beamw_internal_inside(const beamw_internal *s, int r)
+{
+    return s->D + BEAMW_INTERNAL_Y * r + BEAMW_INTERNAL_Z;
+}
+
+/* D dz of the columns of z. */
+static inline void beamw_internal_along(const beamw_internal *s, const real dz[3],
+                                        real out[BEAMW_CONDENSED_ROWS])
+{
+    for (int r = 0; r < BEAMW_CONDENSED_ROWS; r++) {
+        const real *D = beamw_internal_inside(s, r);
+        out[r] += D[0] * dz[0] + D[1] * dz[1] + D[2] * dz[2];
+    }
+}
+
+/* Half of the quadratic parts into u and h. */
+static inline void beamw_internal_add_half(const beamw_condensed *d,
+                                           const real quadratic[BEAMW_CONDENSED_ROWS],
+                                           beamw_internal *s)
+{
+    enum { U = BEAMW_INTERNAL_U };
+    for (int r = 0; r < U; r++)
+        s->u[r] += quadratic[r] / 2;
+    for (int i = 0; i < 2; i++)
+        s->h[i] += quadratic[U + i] / 2;
+    s->h[2] += d->share * (quadratic[1] / 2);
+}
+
+/* Terms of z alone, of what z has moved by. */
+static inline void beamw_internal_add_own(const beamw_condensed *d, const real z[BEAMW_INTERNAL_Y],
+                                          beamw_internal *s)
+{
+    for (int t = d->own; t < d->terms; t++) {
+        const beamw_quadratic_term *of = &d->term[t];
+        s->D[of->to] += of->c * z[of->j];
+        s->D[of->mirrored] += of->c * z[of->i];
+    }
+}
+
+static inline void beamw_internal_linear(const beamw_condensed *d, beamw_internal *s)
+{
+    for (int r = 0; r < BEAMW_CONDENSED_EVEN; r++)
+        s->u[r] = real_of(0);
+    for (int i = 0; i < 3; i++)
+        s->h[i] = s->reach[i] = real_of(0);
+    for (int t = 0; t < d->linears; t++) {
+        const int row = d->linear[t].row;
+        const real part = d->linear[t].c * s->y[d->linear[t].i];
+        if (row < BEAMW_CONDENSED_EVEN) {
+            s->u[row] += part;
+        } else {
+            s->h[row - BEAMW_CONDENSED_EVEN] += part;
+            s->reach[row - BEAMW_CONDENSED_EVEN] += real_abs(part);
+        }
+    }
+}
+
+/* u, h and D of y; but for what z does to the columns of e. */
+static inline void beamw_internal_evaluate(const beamw_condensed *d, beamw_internal *s)
+{
+    enum { Y = BEAMW_INTERNAL_Y, Z = BEAMW_INTERNAL_Z };
+    real quadratic[BEAMW_CONDENSED_ROWS];
+    beamw_internal_linear(d, s);
+    for (int i = 0; i < BEAMW_CONDENSED_ROWS * Y; i++)
+        s->D[i] = real_of(0);
+    for (int t = 0; t < d->mixed; t++) {
+        const beamw_quadratic_term *of = &d->term[t];
+        s->D[of->to] += of->c * s->y[of->j];
+        s->D[of->mirrored] += of->c * s->y[of->i];
+    }
+    for (int t = d->mixed; t < d->own; t++)
+        s->D[d->term[t].mirrored] += d->term[t].c * s->y[d->term[t].i];
+    for (int r = 0; r < BEAMW_CONDENSED_ROWS; r++) {
+        quadratic[r] = s->D[Y * r] * s->y[0];
+        for (int i = 1; i < Z; i++)
+            quadratic[r] += s->D[Y * r + i] * s->y[i];
+    }
+    beamw_internal_along(s, s->y + Z, quadratic); /* e meets z, and z meets e ... */
+    beamw_internal_add_own(d, s->y, s);
+    beamw_internal_along(s, s->y + Z, quadratic); /* ... and itself */
+    beamw_internal_add_half(d, quadratic, s);
+}
+
+/* The same after z has moved by dz. */
+static inline void beamw_internal_move(const beamw_condensed *d, const real dz[3],
+                                       beamw_internal *s)
+{
+    enum { Z = BEAMW_INTERNAL_Z };
+    real quadratic[BEAMW_CONDENSED_ROWS], step[BEAMW_INTERNAL_Y];
+    for (int i = 0; i < 3; i++) {
+        step[Z + i] = dz[i];
+        s->y[Z + i] += dz[i];
+    }
+    for (int r = 0; r < BEAMW_CONDENSED_ROWS; r++)
+        quadratic[r] = real_of(0);
+    beamw_internal_along(s, dz, quadratic);
+    beamw_internal_add_own(d, step, s);
+    beamw_internal_along(s, dz, quadratic);
+    beamw_internal_add_half(d, quadratic, s);
+}
+
+/* Effect of z on the columns of e, once z is known. */
+static inline void beamw_internal_finish(const beamw_condensed *d, beamw_internal *s)
+{
+    for (int t = d->mixed; t < d->own; t++)
+        s->D[d->term[t].to] += d->term[t].c * s->y[d->term[t].j];
+}
+
+/* Quantities that the rows of D are dual to. */
+static inline void beamw_internal_weights(const beamw_condensed *d, const beamw_internal *s,
+                                          real w[BEAMW_CONDENSED_ROWS])
+{
+    for (int r = 0; r < BEAMW_INTERNAL_U; r++)
+        w[r] = d->k[r] * s->u[r];
+    w[1] += d->share * s->q[2];
+    w[BEAMW_INTERNAL_H] = s->q[0];
+    w[BEAMW_INTERNAL_H + 1] = s->q[1];
+}
+
+/* The Hessian of (z, q), [Kzz, G^T; G, -f] (variants.h).  G = dh/dz - 1 is near -1 in whatever
+ * state, and Kzz may have any sign, so that G goes first: dz = H (q + f dq), X dq = z - Kzz H q. */
+
+/* The Hessian and, once it is factorised, H = G^-1, H f and X^-1, X = G^T + Kzz H f. */
+typedef struct beamw_hessian {
+    real Kzz[9], G[9], H[9], Hf[9], inverse[9];
+    real_truth regular; /* neither G nor X is anywhere near a singular one; else by pivots */
+} beamw_hessian;
+
+/* dh/dz - 1 and Kzz. */
+static inline void beamw_hessian_evaluate(const beamw_condensed *d, const beamw_internal *s,
+                                          const real w[BEAMW_CONDENSED_ROWS], beamw_hessian *k)
+{
+    const real *D[BEAMW_CONDENSED_ROWS];
+    for (int r = 0; r < BEAMW_CONDENSED_ROWS; r++)
+        D[r] = beamw_internal_inside(s, r);
+    for (int i = 0; i < 3; i++)
+        for (int j = i; j < 3; j++) {
+            real sum = real_of(i == j ? d->Ka[i] : 0);
+            for (int r = 0; r < BEAMW_INTERNAL_U; r++)
+                sum += d->k[r] * D[r][i] * D[r][j];
+            k->Kzz[3 * i + j] = sum;
+        }
+    for (int t = d->own; t < d->terms; t++)
+        k->Kzz[d->term[t].entry] += d->term[t].c * w[d->term[t].row];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < i; j++)
+            k->Kzz[3 * i + j] = k->Kzz[3 * j + i];
+    for (int j = 0; j < 3; j++) {
+        k->G[j] = D[BEAMW_INTERNAL_H][j] - (j == 0);
+        k->G[3 + j] = D[BEAMW_INTERNAL_H + 1][j] - (j == 1);
+        k->G[6 + j] = d->share * D[1][j] - (j == 2);
+    }
+}
+
+/* inverse = A^-1 by cofactors, which the units of rows and columns do not matter to. Returns where
+ * A has a determinant below -1/10: G and X are -1 without stress or flexibility, and grow with it.
+ */
+static inline real_truth beamw_hessian_invert(const real A[9], real inverse[9])
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        for (int c = 0; c < 3; c++) {
+            const int d = (c + 1) % 3, e = (c + 2) % 3;
+            inverse[3 * c + i] = A[3 * j + d] * A[3 * k + e] - A[3 * j + e] * A[3 * k + d];
+        }
+    }
+    const real determinant = A[0] * inverse[0] + A[1] * inverse[3] + A[2] * inverse[6],
+               factor = 1 / determinant;
+    for (int i = 0; i < 9; i++)
+        inverse[i] *= factor;
+    return determinant < -0.1;
+}
+
+static inline void beamw_hessian_factorise(const beamw_condensed *d, beamw_hessian *k)
+{
+    real X[9];
+    k->regular = beamw_hessian_invert(k->G, k->H);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            k->Hf[3 * i + j] = k->H[3 * i] * d->f[j] + k->H[3 * i + 1] * d->f[3 + j] +
+                               k->H[3 * i + 2] * d->f[6 + j];
+    mat3_mul(k->Kzz, k->Hf, X);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            X[3 * i + j] += k->G[3 * j + i];
+    k->regular &= beamw_hessian_invert(X, k->inverse);
+}
+
+/* (dz, dq) = Hessian^-1 (z, q). */
+static inline void beamw_hessian_solve(const beamw_hessian *k, const real z[3], const real q[3],
+                                       real dz[3], real dq[3])
+{
+    real Hq[3], KHq[3], more[3];
+    mat3_mul_vec(k->H, q, Hq);
+    mat3_mul_vec(k->Kzz, Hq, KHq);
+    for (int i = 0; i < 3; i++)
+        KHq[i] = z[i] - KHq[i];
+    mat3_mul_vec(k->inverse, KHq, dq);
+    mat3_mul_vec(k->Hf, dq, more);
+    for (int i = 0; i < 3; i++)
+        dz[i] = Hq[i] + more[i];
+}
+
+/* The Hessian of one lane with pivots: solves for columns of right[6 x columns], in place.  Returns
+ * 0, or 1: it is singular. */
+static inline int beamw_hessian_pivoted(const beamw_condensed *d, const beamw_hessian *k, int lane,
+                                        int columns, double right[])
+{
+    enum { INNER = 6 };
+    double K[INNER * INNER];
+    int pivot[INNER];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            K[INNER * i + j] = real_lane(&k->Kzz[3 * i + j], lane);
+            K[INNER * (3 + i) + j] = K[INNER * j + 3 + i] = real_lane(&k->G[3 * i + j], lane);
+            K[INNER * (3 + i) + 3 + j] = -d->f[3 * i + j];
+        }
+    if (dense_lu(INNER, K, pivot) != 0)
+        return 1;
+    dense_lu_solve(INNER, columns, K, pivot, right);
+    return 0;
+}
+
+/* The stress function of condensed internal modes (variants.h), of one element or of several in
+ * lanes. */
 
 enum { BEAMW_EQUILIBRIUM_MOST = 30 }; /* iterations */
 

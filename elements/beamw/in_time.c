@@ -3,12 +3,11 @@
  *   y'' = lin(r'') + sum over nodes A f + sum over k (2 m_k' (nu_k . e)' + m_k (nu_k . e)''),
  *   f = part R a + sum over k (nu_k . e)/2 n_k,   A = w'~ + w~ w~,   e'' = J x'' + x'.H x',
  * with f fixed to a node that turns with w. */
-#include "elements/beamw/in_time.h"
+#include "elements/beamw/fields.h"
 
 #include <string.h>
 
 #include "elements/beamw/modes.h"
-#include "elements/beamw/modes_rates.h"
 #include "elements/math/dense.h"
 
 enum { N = MODES_COORDINATES, MODES = BEAMW_FIELD_MODES, NODES = 2, AXES = 3 };
@@ -18,7 +17,7 @@ typedef union row {
     part part[PARTS];
     double of[WIDE];
 } row;
-enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z }; /* as inertia_point.h has them */
+enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z }; /* as inertia.c has them */
 
 static const int turns[NODES] = {MODES_TP, MODES_TQ}, places[NODES] = {MODES_RP, MODES_RQ};
 

@@ -1,4 +1,171 @@
-/* Consistent mass.  The fields are those of J section 3.2 (shear functionals as in stiffness.h),
+#include <string.h>
+
+#include "elements/beamw/fields.h"
+#include "elements/beamw/modes.h"
+#include "elements/beamw/variants.h"
+#include "elements/math/dense.h"
+#include "elements/math/scalar.h"
+#include "elements/shared/masses.h"
+
+/* Moving vectors of the consistent mass at the points of quadrature. */
+
+enum { N = 14, RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
+enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */
+
+/* The element's state, and what the points gather for the second derivatives. */
+typedef struct beamw_inertia_state {
+    double vector[2][3][3]; /* node, direction: unit vectors */
+    double mean[3][3];      /* m_k */
+    double e[8], J[8 * N];
+    double s[8];       /* F . m_k of the functionals: stresses of the strains */
+    double turn[6][8]; /* d(F . m_k)/dtheta of p and q, with them */
+    const node_state *x;
+    const element_rotating_frame *frame;
+    inertia_output *out;
+} beamw_inertia_state;
+
+/* The functionals at a point: their values and gradients. */
+typedef struct beamw_inertia_values {
+    double x, mass; /* mass: weight */
+    const double (*field)[8];
+    double value[BEAMW_FIELDS], gradient[BEAMW_FIELDS][N];
+} beamw_inertia_values;
+
+enum { POSITION = -1, NOTHING = -2, TERMS = 2 };
+
+/* y = lin(a vector of the nodes) + sum sign m_k field. */
+typedef struct beamw_inertia_vector {
+    int director; /* unit vector, or one of the above */
+    int terms;
+    struct {
+        int k, field;
+        double sign;
+    } term[TERMS];
+} beamw_inertia_vector;
+
+/* What is not zero in the gradients of the strains: all modes but twist depend on where q is from
+ * p, two of four bending modes turn with each node. */
+static void gradient_of(const double J[8 * N], const double f[8], double out[N])
+{
+    for (int i = 0; i < 3; i++) {
+        const double *r = J + RQ + i, *p = J + TP + i, *q = J + TQ + i;
+        out[RQ + i] =
+            f[0] * r[0] + f[2] * r[2 * N] + f[3] * r[3 * N] + f[4] * r[4 * N] + f[5] * r[5 * N];
+        out[RP + i] = -out[RQ + i];
+        out[TP + i] = f[1] * p[N] + f[2] * p[2 * N] + f[4] * p[4 * N];
+        out[TQ + i] = f[1] * q[N] + f[3] * q[3 * N] + f[5] * q[5 * N];
+    }
+    out[AP] = f[6] * J[6 * N + AP];
+    out[AQ] = f[7] * J[7 * N + AQ];
+}
+
+static void beamw_inertia_values_at(const beamw_inertia_state *c, const beamw_spread *d, int g,
+                                    beamw_inertia_values *out)
+{
+    out->x = d->at[g];
+    out->mass = d->share * 2 * d->weight[g];
+    out->field = d->field[g];
+    for (int k = 0; k < BEAMW_FIELDS; k++) {
+        const double *field = d->field[g][k];
+        out->value[k] = 0;
+        for (int i = 0; i < 8; i++)
+            out->value[k] += field[i] * c->e[i];
+        gradient_of(c->J, field, out->gradient[k]);
+    }
+}
+
+/* dy/dx but for what turns with the nodes. */
+static void beamw_inertia_gradient(const beamw_inertia_state *c, const beamw_inertia_values *at,
+                                   const beamw_inertia_vector *y, double T[3 * N])
+{
+    static const double none[N] = {0};
+    const double *g[TERMS] = {at->gradient[y->term[0].field],
+                              y->terms > 1 ? at->gradient[y->term[1].field] : none};
+    for (int i = 0; i < 3; i++) {
+        const double m[TERMS] = {y->term[0].sign * c->mean[y->term[0].k][i],
+                                 y->term[1].sign * c->mean[y->term[1].k][i]};
+        const double p = (1 - at->x) + m[0] * g[0][RP + i], q = at->x + m[0] * g[0][RQ + i];
+        for (int j = 0; j < N; j++)
+            T[N * i + j] = m[0] * g[0][j] + m[1] * g[1][j];
+        if (y->director == POSITION) {
+            T[N * i + RP + i] = p + m[1] * g[1][RP + i];
+            T[N * i + RQ + i] = q + m[1] * g[1][RQ + i];
+        }
+    }
+}
+
+/* Position in the frame; and the vectors fixed to the nodes, with their weights. */
+static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inertia_values *at,
+                                const beamw_inertia_vector *y, double r[3], double fixed[2][3])
+{
+    const double weight[2] = {1 - at->x, at->x};
+    for (int i = 0; i < 3; i++) {
+        r[i] = 0;
+        for (int node = 0; node < 2; node++) {
+            fixed[node][i] = 0;
+            if (y->director >= 0) {
+                fixed[node][i] = weight[node] * c->vector[node][y->director][i];
+                r[i] += fixed[node][i];
+            } else if (y->director == POSITION && c->frame != NULL) {
+                r[i] += weight[node] * (c->x[node].r[i] - c->frame->centre[i]);
+            }
+        }
+        for (int k = 0; k < y->terms; k++) {
+            const double amplitude = y->term[k].sign * at->value[y->term[k].field];
+            r[i] += c->mean[y->term[k].k][i] * amplitude;
+            for (int node = 0; node < 2; node++)
+                fixed[node][i] += amplitude / 2 * c->vector[node][y->term[k].k][i];
+        }
+    }
+}
+
+/* Functionals of the strains that the consistent mass is made of: see inertia.c. */
+
+enum { BEAMW_CUBIC_POINTS = 4 };
+
+static void functionals_at(const section *c, double l, const beamw_stiffness_fields *s, double x,
+                           double field[BEAMW_FIELDS][8])
+{
+    const double e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
+    const double bend_y[8] = {0, 0, 1 - x, -x},
+                 bend_z[8] = {0, 0, 0, 0, 1 - x, -x}; /* slope of the chord less lin(theta) */
+    const double b = x * (1 - x), cubic = b * (1 - 2 * x), db = 1 - 2 * x, dcubic = 1 - 6 * b;
+    for (int k = 0; k < 8; k++) {
+        const double chi_x = (b * s->A[k] - cubic * s->tw[k]) / l;
+        field[CHI_X][k] = chi_x;
+        field[NU_Y][k] = c->zs * chi_x - b / 2 * sum_z[k] - l * cubic * s->hg[0][k];
+        field[NU_Z][k] = -c->ys * chi_x + b / 2 * sum_y[k] - l * cubic * s->hg[1][k];
+        field[CHI_Z][k] = (bend_z[k] - db / 2 * sum_z[k]) / l - c->zs * e2[k] / (l * l) -
+                          dcubic * s->hg[0][k] - s->g[0][k];
+        field[CHI_Y][k] = (bend_y[k] - db / 2 * sum_y[k]) / l - c->ys * e2[k] / (l * l) +
+                          dcubic * s->hg[1][k] + s->g[1][k];
+        field[PSI][k] = (e2[k] + db * s->A[k] - dcubic * s->tw[k]) / (l * l) - s->g[2][k];
+    }
+}
+
+void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_kind kind,
+                           const beamw_stiffness_fields *fields, element_data *d)
+{
+    beamw_spread *s = &d->spread;
+    s->lumped = lumped_of(c, features, d->l0 / 2);
+    static const double share[] = {
+        [BEAMW_INERTIA_LUMPED] = 0, [BEAMW_INERTIA_CONSISTENT] = 1, [BEAMW_INERTIA_AVERAGED] = 0.5};
+    s->share = share[kind];
+    quadrature_points(BEAMW_CUBIC_POINTS, s->at, s->weight); /* exact for the square of a cubic */
+    s->l0 = d->l0;
+    s->points = BEAMW_CUBIC_POINTS;
+    if (s->share > 0)
+        for (int g = 0; g < s->points; g++) {
+            functionals_at(c, d->l0, fields, s->at[g], s->field[g]);
+            if (!(features & FEATURE_WARPING))
+                for (int k = 0; k < BEAMW_FIELDS; k++) { /* uniform torsion: e7 and e8 follow e2 */
+                    s->field[g][k][1] += s->field[g][k][6] + s->field[g][k][7];
+                    s->field[g][k][6] = s->field[g][k][7] = 0;
+                }
+        }
+}
+
+/* Consistent mass.  The fields are those of J section 3.2 (shear functionals as in fields.h),
  *
  *   x = s/l, c = x (1 - x),
  *   v_s = chord - [(e5+e6)/2 c + l hg_y c (1-2x)],
@@ -17,14 +184,6 @@
  * and the displacement of warping a m_x, which are linear in e and in vectors fixed to the nodes:
  * their first two derivatives are exact, and so is what derives from the kinetic energy. The error
  * of the centrifugal force in the fields' second order vanishes with the fourth power of l. */
-#include "elements/beamw/inertia.h"
-
-#include <string.h>
-
-#include "elements/beamw/in_time.h"
-#include "elements/beamw/inertia_point.h"
-#include "elements/beamw/modes.h"
-#include "elements/math/dense.h"
 
 static const beamw_inertia_vector position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU_Z, 1}}},
                                   director[3] = {{0, 2, {{1, CHI_Z, 1}, {2, CHI_Y, -1}}},

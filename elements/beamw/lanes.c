@@ -1,11 +1,10 @@
 #define LANES 4
-#include "elements/beamw/lanes.h"
+#include "elements/beamw/variants.h"
 
 #include "elements/beamw/equilibrium.h"
-#include "elements/beamw/helicoidal.h"
 #include "elements/beamw/modes.h"
 #include "elements/beamw/modified_stress.h"
-#include "elements/beamw/prepare.h"
+#include "elements/beamw/screw.h"
 
 static const lanes_sizes sizes = {.nodes = 2, .strains = BEAMW_STRAINS};
 

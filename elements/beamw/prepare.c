@@ -1,10 +1,7 @@
-#include "elements/beamw/prepare.h"
+#include "elements/beamw/variants.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "elements/beamw/inertia.h"
-#include "elements/beamw/modified.h"
 
 enum { OPTION_MASS, OPTION_TORSION, OPTION_INSIDE };
 

@@ -6,6 +6,8 @@
 #ifndef BEAMWORK_BEAMW_SCREW_H
 #define BEAMWORK_BEAMW_SCREW_H
 
+#include <string.h>
+
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "elements/shared/lanes.h"
@@ -135,6 +137,290 @@ static inline void beamw_screw_of(double l0, const node_real x[2], screw *w)
             w->T[3 * i + j] = nu[0] * coupling / 2 + bent * w->a[j];
             w->V[3 * i + j] = (i == j ? mu[0] : real_of(0)) + nu[0] * w->a[i] * w->a[j];
         }
+    }
+}
+
+/* First derivatives of a screw with respect to the nodes' coordinates.  Along a path of constant
+ * spatial velocities and spins, in the axes of the middle: v of q against p, s the mean of the
+ * nodes' spins and delta their difference.  The middle turns with w = s - tau/2 a x delta and
+ * dpsi/dt = V^-1 delta,  dD/dt = v - w x D,  d(v, s, delta)/dt = -w x (v, s, delta). */
+
+enum { SCREW_COORDINATES = 2 * NODE_COORDINATES };
+enum { SCREW_RP = 0, SCREW_TP = 3, SCREW_AP = 6, SCREW_RQ = 7, SCREW_TQ = 10, SCREW_AQ = 13 };
+
+/* Work conjugates of the rates: f . dU/dt + t . dpsi/dt = g . v + mean . s + difference . delta. */
+typedef struct screw_work {
+    real g[3], t[3], m[3]; /* dual to D, to psi; m = D x g = -mean */
+    real p[3];             /* V^-1 t */
+    real difference[3];
+} screw_work;
+
+/* The rest of it from g and t. */
+static inline void beamw_screw_rates_complete(const screw *w, screw_work *k)
+{
+    real side[3];
+    vec3_cross(w->D, k->g, k->m);
+    mat3_mul_vec(w->V, k->t, k->p);
+    vec3_cross(k->m, w->a, side);
+    for (int i = 0; i < 3; i++)
+        k->difference[i] = k->p[i] + w->f[SCREW_TAU] / 2 * side[i];
+}
+
+/* Work of forces f and moments. */
+static inline void beamw_screw_rates_work(const screw *w, const real f[3], const real moment[3],
+                                          screw_work *k)
+{
+    mat3_mul_vec(w->V, f, k->g); /* symmetric */
+    mat3_transpose_mul_vec(w->T, f, k->t);
+    for (int i = 0; i < 3; i++)
+        k->t[i] += moment[i];
+    beamw_screw_rates_complete(w, k);
+}
+
+/* Gradients in fixed axes: of U with respect to v, s and delta, by columns; that of psi with
+ * respect to delta is that of U with respect to v. */
+typedef struct screw_gradient {
+    real v[9], s[9], delta[9];
+} screw_gradient;
+
+static inline void beamw_screw_rates_gradient(const screw *w, screw_gradient *out)
+{
+    real mean[9], difference[9];
+    for (int i = 0; i < 3; i++) {
+        screw_work k; /* of a unit force */
+        memcpy(k.g, w->V + 3 * i, sizeof k.g);
+        memcpy(k.t, w->T + 3 * i, sizeof k.t);
+        beamw_screw_rates_complete(w, &k);
+        for (int j = 0; j < 3; j++) {
+            mean[3 * j + i] = -k.m[j];
+            difference[3 * j + i] = k.difference[j];
+        }
+    }
+    mat3_mul(w->R, w->V, out->v);
+    mat3_mul(w->R, mean, out->s);
+    mat3_mul(w->R, difference, out->delta);
+}
+
+/* A row: sign of the gradient of U_translation and `part` of l0 times that of psi_rotation. */
+static inline void beamw_screw_rates_row(const screw_gradient *g, int translation, double sign,
+                                         int rotation, double part, real row[SCREW_COORDINATES])
+{
+    for (int i = 0; i < 3; i++) {
+        const real force = sign * g->v[3 * i + translation],
+                   mean = sign / 2 * g->s[3 * i + translation],
+                   difference =
+                       sign * g->delta[3 * i + translation] + part * g->v[3 * i + rotation];
+        row[SCREW_RP + i] = -force;
+        row[SCREW_RQ + i] = force;
+        row[SCREW_TP + i] = mean - difference;
+        row[SCREW_TQ + i] = mean + difference;
+    }
+    row[SCREW_AP] = row[SCREW_AQ] = real_of(0);
+}
+
+/* Second derivatives of a screw with respect to the nodes' coordinates, in the exponential chart:
+ * symmetric forms in (v, s, delta) above, in the axes of the middle first, then fixed.
+ */
+
+/* v meets v in nothing; in s as g turns. ss and dd are symmetric. */
+typedef struct screw_form {
+    real vd[9], ss[9], sd[9], dd[9];
+} screw_form;
+
+/* Second derivatives of f . U with respect to (D, psi): bent [psi, psi], mixed [psi, D]. */
+static inline void beamw_screw_forms_translation(const screw *w, const real f[3], real bent[9],
+                                                 real mixed[9])
+{
+    const real *a = w->a, *nu = w->f + SCREW_NU;
+    const real square = vec3_dot(a, a), fD = vec3_dot(f, w->D), fa = vec3_dot(f, a),
+               across = fa * w->along - square * fD;
+    real coupled[3], aside[3];
+    for (int i = 0; i < 3; i++) {
+        coupled[i] = f[i] * w->along + w->D[i] * fa - 2 * a[i] * fD;
+        aside[i] = nu[1] * (a[i] * fa - square * f[i]) - nu[0] * f[i];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            real even = nu[0] / 4 * (f[i] * w->D[j] + w->D[i] * f[j]) +
+                        nu[1] / 2 * (a[i] * coupled[j] + coupled[i] * a[j]) +
+                        nu[2] * across * a[i] * a[j],
+                 odd = nu[0] / 2 * f[i] * a[j] + a[i] * aside[j];
+            if (i == j) {
+                even += nu[1] / 2 * across - nu[0] / 2 * fD;
+                odd += nu[0] / 2 * fa;
+            }
+            bent[3 * i + j] = even;
+            mixed[3 * i + j] = odd;
+        }
+}
+
+/* In v, w and delta; the blocks of w stand where those of s will. */
+static inline void beamw_screw_forms_middle(const screw *w, const screw_work *k, const real f[3],
+                                            screw_form *out)
+{
+    real bent[9], mixed[9], VM[9], VB[9], side[3];
+    const real *mu = w->f + SCREW_MU, *nu = w->f + SCREW_NU, *tau = w->f + SCREW_TAU, *a = w->a,
+               *p = k->p;
+    const real moment[9] = {real_of(0), -p[2], p[1], p[2],      real_of(0),
+                            -p[0],      -p[1], p[0], real_of(0)};
+    beamw_screw_forms_translation(w, f, bent, mixed);
+    mat3_mul(w->V, mixed, VM);
+    mat3_mul(w->V, bent, VB);
+    mat3_mul(VB, w->V, out->dd);
+    vec3_cross(k->m, a, side);
+    const real gD = vec3_dot(k->g, w->D), ma = vec3_dot(k->m, a), ta = vec3_dot(k->t, a);
+    const real c1 = (tau[1] + tau[0] * nu[0] / 2) / 4, c2 = (mu[1] + nu[0] * mu[0] / 2) / 2,
+               c3 = ta * (nu[1] + nu[0] * nu[0]), c4 = ta * nu[0] * mu[0] / 2;
+    real reach[3];
+    for (int j = 0; j < 3; j++)
+        reach[j] = c1 * side[j] + c2 * k->t[j] + c3 / 2 * a[j];
+    for (int i = 0; i < 3; i++) {
+        real VMD[3]; /* VM D~ */
+        vec3_cross(VM + 3 * i, w->D, VMD);
+        for (int j = 0; j < 3; j++) {
+            const int at = 3 * i + j, mirrored = 3 * j + i, same = i == j;
+            out->vd[mirrored] = VM[at];
+            out->ss[at] = (k->g[i] * w->D[j] + w->D[i] * k->g[j]) / 2;
+            out->sd[mirrored] = VMD[j] + (moment[mirrored] - tau[0] / 2 * k->m[j] * a[i]) / 2;
+            out->dd[at] += a[i] * reach[j] + reach[i] * a[j];
+            if (same) {
+                out->ss[at] -= gD;
+                out->sd[at] += tau[0] / 4 * ma;
+                out->dd[at] += c4;
+            }
+        }
+    }
+}
+
+/* w = s + C delta, C = -tau/2 a~. */
+static inline void beamw_screw_forms_nodes(const screw *w, const screw_work *work, screw_form *k)
+{
+    real c[3], ssC[9], Csd[9];
+    for (int i = 0; i < 3; i++)
+        c[i] = -w->f[SCREW_TAU] / 2 * w->a[i];
+    const real gc = vec3_dot(work->g, c);
+    for (int i = 0; i < 3; i++) {
+        vec3_cross(k->ss + 3 * i, c, ssC + 3 * i); /* rows of ss c~ */
+        for (int j = 0; j < 3; j++)                /* vs c~ = -g~ c~ */
+            k->vd[3 * i + j] -= c[i] * work->g[j];
+        k->vd[4 * i] += gc;
+    }
+    for (int j = 0; j < 3; j++) { /* C^T (sd + ss C/2) = -c~ .., by columns */
+        const real column[3] = {k->sd[j] + ssC[j] / 2, k->sd[3 + j] + ssC[3 + j] / 2,
+                                k->sd[6 + j] + ssC[6 + j] / 2};
+        real turned[3];
+        vec3_cross(column, c, turned);
+        for (int i = 0; i < 3; i++)
+            Csd[3 * i + j] = turned[i];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            k->sd[3 * i + j] += ssC[3 * i + j];
+            k->dd[3 * i + j] += Csd[3 * i + j] + Csd[3 * j + i];
+        }
+}
+
+/* R A R^T. */
+static inline void beamw_screw_forms_turn(const real R[9], real A[9])
+{
+    real RA[9];
+    mat3_mul(R, A, RA);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            A[3 * i + j] = vec3_dot(RA + 3 * i, R + 3 * j);
+}
+
+static inline void beamw_screw_forms_nodal(const screw *w, const screw_work *work, screw_form *k,
+                                           real H[SCREW_COORDINATES * SCREW_COORDINATES])
+{
+    enum { N = SCREW_COORDINATES, RP = SCREW_RP, TP = SCREW_TP, RQ = SCREW_RQ, TQ = SCREW_TQ };
+    real g[3], ss[9], dd[9];
+    beamw_screw_forms_turn(w->R, k->vd);
+    beamw_screw_forms_turn(w->R, k->ss);
+    beamw_screw_forms_turn(w->R, k->sd);
+    beamw_screw_forms_turn(w->R, k->dd);
+    mat3_mul_vec(w->R, work->g, g);
+    const real vs[9] = {real_of(0), g[2] / 2, -g[1] / 2, -g[2] / 2, real_of(0),
+                        g[0] / 2,   g[1] / 2, -g[0] / 2, real_of(0)};
+    for (int i = 0; i < N * N; i++)
+        H[i] = real_of(0);
+    for (int i = 0; i < 9; i++) {
+        ss[i] = k->ss[i] / 4;
+        dd[i] = k->dd[i];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int at = 3 * i + j, mirrored = 3 * j + i;
+            const real even = ss[at] + dd[at], odd = (k->sd[at] + k->sd[mirrored]) / 2;
+            const real across = ss[at] - dd[at] + (k->sd[at] - k->sd[mirrored]) / 2;
+            const real toward_p = vs[at] - k->vd[at], toward_q = vs[at] + k->vd[at];
+            H[(TP + i) * N + TP + j] = even - odd;
+            H[(TQ + i) * N + TQ + j] = even + odd;
+            H[(TP + i) * N + TQ + j] = H[(TQ + j) * N + TP + i] = across;
+            H[(RQ + i) * N + TP + j] = H[(TP + j) * N + RQ + i] = toward_p;
+            H[(RQ + i) * N + TQ + j] = H[(TQ + j) * N + RQ + i] = toward_q;
+            H[(RP + i) * N + TP + j] = H[(TP + j) * N + RP + i] = -toward_p;
+            H[(RP + i) * N + TQ + j] = H[(TQ + j) * N + RP + i] = -toward_q;
+        }
+}
+
+/* H [14 x 14]: second derivatives of f . U + moment . psi. */
+static inline void beamw_screw_forms_second(const screw *w, const real f[3], const real moment[3],
+                                            real H[SCREW_COORDINATES * SCREW_COORDINATES])
+{
+    screw_work k;
+    screw_form second;
+    beamw_screw_rates_work(w, f, moment, &k);
+    beamw_screw_forms_middle(w, &k, f, &second);
+    beamw_screw_forms_nodes(w, &k, &second);
+    beamw_screw_forms_nodal(w, &k, &second, H);
+}
+
+/* Helicoidal strains, those of a beam with uniform strains: the screw displacement that takes node
+ * p and its triad to node q, with the rotation vector psi and the translation U along the way, in
+ * axes that turn on it, e1 = U_x - l0,  e2 = l0 psi_x,  e3, e4 = l0 psi_y/2 -+ U_z,  e5, e6 = l0
+ * psi_z/2 +- U_y,  e7, e8 = l0^2 a. They are J Eq. 7 to first order and the same for p and q
+ * exchanged.  Uniform strains of any size are measured exactly, U = l0 (e_x + gamma), psi = l0
+ * kappa; J's sines of angles to the chord are not when sections shear. */
+
+/* e1 .. e6: sign U_translation + part psi_rotation l0. */
+static const struct {
+    int translation, rotation;
+    double sign, part;
+} beamw_helicoidal_strain[] = {{0, 0, 1, 0},   {0, 0, 0, 1},   {2, 1, -1, 0.5},
+                               {2, 1, 1, 0.5}, {1, 2, 1, 0.5}, {1, 2, -1, 0.5}};
+enum { BEAMW_HELICOIDAL_ALONG = 6 };
+
+/* As element_type.strain, of one element or of several in lanes; l0 [m]: its length at rest. */
+static inline void beamw_helicoidal_evaluate(double l0, const node_real x[2], strain_real *out)
+{
+    enum { N = SCREW_COORDINATES };
+    screw w;
+    beamw_screw_of(l0, x, &w);
+    if (out->e != NULL) {
+        for (int k = 0; k < BEAMW_HELICOIDAL_ALONG; k++)
+            out->e[k] =
+                beamw_helicoidal_strain[k].sign * w.U[beamw_helicoidal_strain[k].translation] +
+                beamw_helicoidal_strain[k].part * 2 * l0 * w.a[beamw_helicoidal_strain[k].rotation];
+        out->e[6] = l0 * l0 * x[0].a;
+        out->e[7] = l0 * l0 * x[1].a;
+    }
+    if (out->J != NULL) {
+        screw_gradient g;
+        beamw_screw_rates_gradient(&w, &g);
+        for (int k = 0; k < BEAMW_HELICOIDAL_ALONG; k++)
+            beamw_screw_rates_row(&g, beamw_helicoidal_strain[k].translation,
+                                  beamw_helicoidal_strain[k].sign,
+                                  beamw_helicoidal_strain[k].rotation,
+                                  beamw_helicoidal_strain[k].part * l0, out->J + N * k);
+        for (int i = 0; i < 2 * N; i++)
+            out->J[6 * N + i] = real_of(0);
+        out->J[6 * N + SCREW_AP] = out->J[7 * N + SCREW_AQ] = real_of(l0 * l0);
+    }
+    if (out->s != NULL && out->H != NULL) {
+        const real *s = out->s, f[3] = {s[0], s[4] - s[5], s[3] - s[2]};
+        const real t[3] = {l0 * s[1], l0 / 2 * (s[2] + s[3]), l0 / 2 * (s[4] + s[5])};
+        beamw_screw_forms_second(&w, f, t, out->H);
     }
 }
 

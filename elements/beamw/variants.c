@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "elements/beamw/lanes.h"
 #include "elements/beamw/modes.h"
 #include "elements/beamw/modified_stress.h"
 

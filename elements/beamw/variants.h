@@ -1,11 +1,38 @@
-/* The stress function that every BEAMW variant shares: energy 1/2 ebar^T S ebar of modified modes
- * ebar_i = e_i + 1/2 e^T Q_i e (J Eqs. 62-66).  A variant says only what S and Q are. */
+/* The BEAMW variants: their data, modified and condensed modes, preparation, and several elements
+ * at once. */
 #ifndef BEAMWORK_BEAMW_VARIANTS_H
 #define BEAMWORK_BEAMW_VARIANTS_H
 
-#include "elements/beamw/quadratic.h"
-#include "elements/beamw/spread.h"
+#include "elements/beamw/fields.h"
 #include "elements/element.h"
+#include "elements/shared/lanes.h"
+
+/* Quadratic parts of functions of the strains as lists of what is not zero. */
+
+/* d2(row)/dy_i dy_j = c, i <= j. */
+typedef struct beamw_quadratic_term {
+    double c;
+    short row, i, j;
+    short to, mirrored; /* where c y_j and c y_i belong in the rows' derivatives, row-major; behind
+                           them: nowhere, since i = j */
+    short entry;        /* of a matrix of second derivatives */
+} beamw_quadratic_term;
+
+/* Term of row `row` of `rows`, with n variables. */
+static inline beamw_quadratic_term beamw_quadratic_of(double c, int rows, int n, int row, int i,
+                                                      int j, int entry)
+{
+    return (beamw_quadratic_term){.c = c,
+                                  .row = (short)row,
+                                  .i = (short)i,
+                                  .j = (short)j,
+                                  .to = (short)(n * row + i),
+                                  .mirrored = (short)(i == j ? n * rows : n * row + j),
+                                  .entry = (short)entry};
+}
+
+/* The stress function that every BEAMW variant shares: energy 1/2 ebar^T S ebar of modified modes
+ * ebar_i = e_i + 1/2 e^T Q_i e (J Eqs. 62-66).  A variant says only what S and Q are. */
 
 enum {
     BEAMW_STRAINS = 8,
@@ -47,5 +74,156 @@ void beamw_variants_stress_many(int count, const element_data *const data[],
                                 const double *const e[], const double *const inner[],
                                 stress_output out[], status outcome[]);
 void beamw_variants_geometric(const element_data *d, const double sigma[], double G[]);
+
+/* Second-order modified modes: which Q_i a BEAMW variant has. */
+
+/* J Eq. 66 as printed: for Phi = 0 and the shear centre at the centroid consistent, otherwise not.
+ */
+void beamw_modified_printed(const section *c, unsigned features, element_data *d);
+
+enum {
+    BEAMW_MODIFIED_VARIABLES = BEAMW_STRAINS + 3
+}; /* e, and z: the parts of h [3] that are bending (y, z) and warping */
+
+/* From the full shear interpolation: consistent with shear and eccentricity (reference/ERRATA.md),
+ * either theory of shear in stability, with the monosymmetric Wagner moments where asked for.  ebar
+ * = e + 1/2 y^T Q y, y = (e, z). */
+void beamw_modified_consistent(
+    const section *c, unsigned features, double l0, const beamw_twist *t,
+    const beamw_stiffness_fields *fields,
+    double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES]);
+
+/* The same with z = hg, as in the unstressed element: Q of e alone. */
+void beamw_modified_reduce(
+    const beamw_stiffness_fields *fields,
+    double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES], element_data *d);
+
+/* A stress function of condensed internal modes, which follow the stress: bending, shear and
+ * warping share the antisymmetric deformation h as equilibrium of the stressed element asks,
+ * instead of as in the unstressed one.  With z the bending and warping part of h, energy =
+ * stationary over z and q of  1/2 sum_r k_r u_r^2 + 1/2 z^T Ka z + q . (h - z) - 1/2 q^T F q/(G l),
+ * where u = (e1, e2, e3 + e4, e5 + e6, (e7 - e8)/2) and h are those of ebar = e + 1/2 (e, z)^T Q
+ * (e, z).  q is dual to h: F = 0 does no harm. */
+
+enum {
+    BEAMW_CONDENSED_EVEN = 5,
+    BEAMW_CONDENSED_ALL = BEAMW_CONDENSED_EVEN + 3,
+    BEAMW_CONDENSED_ROWS = 6, /* u1 .. u4, h_y, h_z: u5 is linear, h_w follows u2 */
+    BEAMW_CONDENSED_TERMS =
+        BEAMW_CONDENSED_ROWS * BEAMW_MODIFIED_VARIABLES * (BEAMW_MODIFIED_VARIABLES + 1) / 2
+};
+
+/* c e_i of a row of (u, h). */
+typedef struct beamw_condensed_linear {
+    double c;
+    short row, i;
+} beamw_condensed_linear;
+
+typedef struct beamw_condensed {
+    double k[BEAMW_CONDENSED_EVEN];            /* [N/m] */
+    double Ka[3];                              /* [N m, N m, N m^3] */
+    double f[3 * 3];                           /* F/(G l) */
+    double hg[3 * BEAMW_STRAINS];              /* z = hg e without stress */
+    double share;                              /* of the quadratic part of u2 in h_w [1/m^2] */
+    double odd[BEAMW_STRAINS * BEAMW_STRAINS]; /* d2/de2 of 1/2 k5 u5^2 [N/m] */
+    int linears;                               /* (u, h), rows as in k and behind them, of e */
+    beamw_condensed_linear linear[BEAMW_CONDENSED_ALL * BEAMW_STRAINS];
+    int mixed, own, terms; /* of e alone, for an entry of [8 x 8]; of e_i, z_j from `mixed`, of (j,
+                              i) in [3 x 8]; of z alone from `own`, of [3 x 3] */
+    beamw_quadratic_term term[BEAMW_CONDENSED_TERMS];
+} beamw_condensed;
+
+/* Q as of beamw_modified_consistent; warping 0: e7 = e8 = e2, nothing warps. */
+void beamw_condensed_prepare(
+    const section *c, double l0, int shear, int warping, const beamw_twist *t,
+    const beamw_stiffness_fields *fields,
+    double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES],
+    beamw_condensed *out);
+
+/* As element_type.stress; NOT_CONVERGED where the internal modes have no equilibrium. */
+status beamw_condensed_stress(const beamw_condensed *d, const double e[BEAMW_STRAINS],
+                              stress_output *out);
+
+/* Inertia of the two-node beam: lumped at the nodes (J Eq. 73), consistent with the linear fields
+ * of J section 3.2 in the element's deformed state, or the mean of both.  What a frame that turns
+ * does to it derives from the same kinetic energy. */
+
+typedef enum beamw_inertia_kind {
+    BEAMW_INERTIA_LUMPED,
+    BEAMW_INERTIA_CONSISTENT,
+    BEAMW_INERTIA_AVERAGED
+} beamw_inertia_kind;
+
+/* Fills lumped, field and share.  Without FEATURE_ROTARY_INERTIA only translations and the polar
+ * moment of the twist count, so that the matrix is singular in the other rotations and in the
+ * warping.  fields: NULL for lumped. */
+void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_kind kind,
+                           const beamw_stiffness_fields *fields, element_data *d);
+
+status beamw_inertia_of(const element_data *d, const node_state x[],
+                        const element_rotating_frame *frame, inertia_output *out);
+
+/* Strains and stresses of several BEAMW elements at once, the bits of one element at a time; of
+ * each two, the second for processors with AVX2 (elements/math/real.h). Members of element_type. */
+
+typedef void beamw_lanes_strains(int count, const element_data *const data[], const node_state x[],
+                                 strain_output out[]);
+typedef void beamw_lanes_stresses(int count, const element_data *const data[],
+                                  const double *const e[], const double *const inner[],
+                                  stress_output out[], status outcome[]);
+beamw_lanes_strains beamw_lanes_modes_plain, beamw_lanes_modes_avx2;
+beamw_lanes_strains beamw_lanes_helicoidal_plain, beamw_lanes_helicoidal_avx2;
+beamw_lanes_stresses beamw_lanes_modified_plain, beamw_lanes_modified_avx2;
+/* Stresses of beamw_prepare_consistent, following or not. */
+beamw_lanes_stresses beamw_lanes_consistent_plain, beamw_lanes_consistent_avx2;
+
+/* Common preparation of the BEAMW variants: a stiffness, modified modes and a mass are chosen. */
+
+typedef enum beamw_prepare_modes {
+    BEAMW_PREPARE_FIRST_ORDER, /* ebar = e */
+    BEAMW_PREPARE_PRINTED      /* J Eq. 66 */
+} beamw_prepare_modes;
+
+/* Without FEATURE_SHEAR in the request the stiffness is shear-rigid, whatever `shear` says. */
+status beamw_prepare_variant(const element_request *request, beamw_stiffness_shear shear,
+                             beamw_prepare_modes modes, element_data *out, fault *f);
+
+/* beamw_modified_consistent; `variant` is first, so that a pointer to the whole is one to it. */
+typedef struct beamw_consistent_data {
+    element_data variant;
+    int condensed;
+    beamw_condensed internal;
+} beamw_consistent_data;
+
+static inline const beamw_consistent_data *beamw_prepare_whole(const element_data *d)
+{
+    return (const beamw_consistent_data *)(const void *)d;
+}
+
+status beamw_prepare_consistent(const element_request *request, beamw_consistent_data *out,
+                                fault *f);
+
+/* The option of beamw_prepare_variant, and those that beamw_prepare_consistent has beside it. */
+extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
+/* Common to all of them. */
+int beamw_prepare_mass_of_field(const double options[]);
+element_order beamw_prepare_order(element_analysis, const double options[]);
+/* element_type.judged of both. */
+extern const unsigned beamw_prepare_judged[];
+
+/* In an element_type: what those that beamw_prepare_variant prepares have; and what they offer
+ * beside theories of shear. */
+#define BEAMW_VARIANT_TYPE                                                                         \
+    .family = "beamw", .abi = ELEMENT_ABI, .limits = LIMIT_QUARTER_TURN | LIMIT_EIGHTH_TWIST,      \
+    .options = {beamw_prepare_mass}, .judged = beamw_prepare_judged,                               \
+    .data_size = beamw_variants_data_size, .strain = beamw_variants_strain,                        \
+    .stress = beamw_variants_stress, .geometric = beamw_variants_geometric,                        \
+    .strain_many = beamw_variants_strain_many, .stress_many = beamw_variants_stress_many,          \
+    .lanes = LANES_TOGETHER, .inertia = beamw_inertia_of, .spreads = 1,                            \
+    .mass_of_field = beamw_prepare_mass_of_field, .order = beamw_prepare_order
+enum {
+    BEAMW_OFFERS = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
+                   FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA
+};
 
 #endif

@@ -1,7 +1,6 @@
-#include "elements/collocation/alone.h"
+#include "elements/collocation/collocation.h"
 
 #include "elements/collocation/collocated.h"
-#include "elements/collocation/loaded.h"
 
 status REAL_NAMED(exact_alone_stress)(const exact_stages *s, const double e[], const double inner[],
                                       stress_output *out)

@@ -1,12 +1,11 @@
-#include "elements/collocation/along.h"
+#include "elements/collocation/collocation.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "elements/collocation/collocated.h"
-#include "elements/collocation/prestress.h"
-#include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 
 enum { POINTS = ELEMENT_ALONG_POINTS, FINE = 20, X = 2 * NODE_COORDINATES, TURN = 3 };
 

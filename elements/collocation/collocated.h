@@ -1,12 +1,44 @@
-/* Stresses of collocation elements: the energy's derivatives at the unknowns' present values, and
- * the elimination of the unknowns.  In lanes (real.h). */
-#ifndef BEAMWORK_EXACT_COLLOCATED_H
-#define BEAMWORK_EXACT_COLLOCATED_H
+/* The variables of a collocation element in the order of collocation.h: its unknowns F and x of the
+ * inner nodes, then the strains v, 2 X, a_p, a_q. */
+#ifndef BEAMWORK_COLLOCATION_COLLOCATED_H
+#define BEAMWORK_COLLOCATION_COLLOCATED_H
 
 #include <math.h>
 
+#include "elements/collocation/collocation.h"
 #include "elements/collocation/sums.h"
-#include "elements/collocation/variables.h"
+
+enum { EXACT_VARIABLES_BLOCKS = EXACT_BLOCKS_MAX * (EXACT_BLOCKS_MAX + 1) / 2 };
+
+/* Place in the blocks of sums.h of variable i, or of 1, which follows the last, and of the three
+ * parameters of a load, which follow 1: its block, and in it `component`. */
+static inline int exact_variables_block(int stages, int i, int *component)
+{
+    const int outer = i - 3 * stages;
+    *component = i % 3;
+    if (outer < 0)
+        return i < 3 ? stages - 1 : i / 3 - 1;
+    *component = outer % 3;
+    if (outer < 6)
+        return outer < 3 ? stages + 1 : stages;
+    return stages + outer / 3;
+}
+
+/* The symmetric matrix A of the blocks [n x n], n variables. */
+void exact_variables_matrix(int stages, double A[][9], int n, double matrix[]);
+
+/* The elimination of the unknowns with exchange of rows, where that of sums.h would lose digits:
+ * blocks of the strains, of 1 and what follows (columns together) in S, X [unknowns/3][9] of each
+ * of their block columns; 0, or the failing pivot. */
+int exact_variables_eliminate(int stages, int columns, double A[][9], double S[][9],
+                              double X[][EXACT_STAGES_MAX][9]);
+
+/* Change of x and x' at point i that goes with a change of all variables. */
+void exact_variables_change(const exact_stages *s, int i, const double change[], double x[3],
+                            double slope[3]);
+
+/* Stresses of collocation elements: the energy's derivatives at the unknowns' present values, and
+ * the elimination of the unknowns.  In lanes (real.h). */
 
 /* X of 2 X, v, (a_p, a_q, 1), and of the turn of loads along. */
 typedef struct exact_collocated {
@@ -14,8 +46,8 @@ typedef struct exact_collocated {
         X[4][EXACT_STAGES_MAX][9];
 } exact_collocated;
 
-/* Loads along the element (along.h): their contribution to F at the points, its derivative by three
- * parameters, and the derivative of the energy by it, which is filled. */
+/* Loads along the element (collocation.h): their contribution to F at the points, its derivative by
+ * three parameters, and the derivative of the energy by it, which is filled. */
 typedef struct exact_collocated_load {
     real force[EXACT_STAGES_MAX][3], column[EXACT_STAGES_MAX][9], moved[EXACT_STAGES_MAX][3];
 } exact_collocated_load;
@@ -186,6 +218,93 @@ static inline void exact_collocated_stress(const exact_stages *s, int run, const
         exact_collocated_run(USUAL, s, run, e, inner, out, outcome);
     else
         exact_collocated_run(s->stages, s, run, e, inner, out, outcome);
+}
+
+/* Stresses of collocation elements under loads along them (collocation.h).  In lanes (real.h). */
+
+static inline void exact_loaded_write(int stages, const exact_stages *s, const exact_along *a,
+                                      const exact_along_frame *at, exact_collocated *w,
+                                      const exact_collocated_load *load, int lane,
+                                      along_output *out)
+{
+    enum { OUTER = EXACT_STAGES_OUTER, TURN = OUTER + 1 };
+    const double unit = s->c.energy, l0 = s->line.l0;
+    double moved[EXACT_STAGES_MAX][3];
+    exact_collocated_write(
+        stages, s, w, lane,
+        &(stress_output){.sigma = out->sigma, .C = out->C, .memory = out->memory});
+    for (int k = 0; k < stages; k++)
+        for (int i = 0; i < 3; i++)
+            moved[k][i] = real_lane(&load->moved[k][i], lane);
+    for (int j = 0; j < 3; j++) {
+        out->moment[j] = unit * exact_collocated_entry(stages, w, OUTER, TURN + j, lane);
+        for (int i = 0; i < OUTER; i++)
+            out->mixed[3 * i + j] =
+                unit / l0 * exact_collocated_entry(stages, w, i, TURN + j, lane);
+        for (int i = 0; i < 3; i++)
+            out->second[3 * i + j] =
+                unit * exact_collocated_entry(stages, w, TURN + i, TURN + j, lane);
+    }
+    for (int i = 0; i < stages && out->followed != NULL; i++) { /* F, the last block, comes first */
+        double *rows = &out->followed[(i < stages - 1 ? i + 1 : 0) * 9];
+        for (int j = 0; j < 9; j++)
+            rows[j] = -real_lane(&w->X[3][i][j], lane);
+    }
+    exact_along_finish(s, a, at, moved, out);
+}
+
+/* Evaluates with `stages` points. */
+static inline __attribute__((always_inline)) void
+exact_loaded_run(int stages, const exact_stages *s, const exact_along *a, int run,
+                 const node_state x[], along_output out[], status outcome[])
+{
+    real scaled[EXACT_STAGES_OUTER], unknown[EXACT_STAGES_UNKNOWNS];
+    exact_along_frame at[LANES];
+    exact_collocated_load load;
+    exact_collocated w;
+    for (int lane = 0; lane < LANES; lane++) {
+        const int of = lane < run ? lane : run - 1;
+        for (int i = 0; i < EXACT_STAGES_OUTER; i++)
+            real_put(&scaled[i], lane, out[of].e[i] / s->line.l0);
+        for (int i = 0; i < 3 * stages; i++)
+            real_put(&unknown[i], lane, out[of].inner[i]);
+        if (lane < run)
+            exact_along_frame_of(s, a, x + 2 * of, out[of].force, &at[of]);
+        for (int k = 0; k < stages; k++) {
+            double column[9];
+            exact_along_column(at[of].xi[k], column);
+            for (int i = 0; i < 3; i++)
+                real_put(&load.force[k][i], lane, at[of].xi[k][i]);
+            for (int i = 0; i < 9; i++)
+                real_put(&load.column[k][i], lane, column[i]);
+        }
+    }
+    exact_collocated_evaluate(stages, s, scaled, unknown, &load, w.A);
+    exact_blocks_eliminate(stages, stages + 4, stages + 1, w.A, w.V, w.d);
+    if (out[0].memory != NULL)
+        for (int J = 0; J < 4; J++)
+            exact_blocks_solve(stages, stages + 1, stages + J, w.V, w.X[J]);
+    for (int lane = 0; lane < run; lane++) {
+        if (!exact_blocks_definite(stages, w.A, w.d, lane) &&
+            exact_collocated_exchange(stages, EXACT_STAGES_OUTER + 4, lane, &w) != 0) {
+            outcome[lane] = STATUS_SINGULAR;
+            continue;
+        }
+        exact_loaded_write(stages, s, a, &at[lane], &w, &load, lane, &out[lane]);
+        const double energy = real_lane(&w.A[exact_blocks_at(stages + 2, stages + 2)][8], lane);
+        outcome[lane] = isfinite(energy) ? STATUS_OK : STATUS_NOT_CONVERGED;
+    }
+}
+
+/* Evaluates `run` elements of one kind, at most LANES; as element_type.along. */
+static inline void exact_loaded_along(const exact_stages *s, const exact_along *a, int run,
+                                      const node_state x[], along_output out[], status outcome[])
+{
+    enum { USUAL = 5 };
+    if (s->stages == USUAL)
+        exact_loaded_run(USUAL, s, a, run, x, out, outcome);
+    else
+        exact_loaded_run(s->stages, s, a, run, x, out, outcome);
 }
 
 #endif

@@ -1,8 +1,7 @@
 #define LANES 4
-#include "elements/collocation/lanes.h"
+#include "elements/collocation/collocation.h"
 
 #include "elements/collocation/collocated.h"
-#include "elements/collocation/loaded.h"
 #include "elements/geometrically_exact/deformed.h"
 #include "elements/shared/lanes.h"
 

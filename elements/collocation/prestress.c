@@ -5,7 +5,7 @@
  * they do without stress: the error of a critical load is of fourth order in the length of an
  * element, and of second where shear is flexible (c_column: 0.052, 0.0033, 0.00021 % rigid in
  * shear, 1.26, 0.31, 0.078 % with n = 4, 8, 16). */
-#include "elements/collocation/prestress.h"
+#include "elements/collocation/collocation.h"
 
 #include <string.h>
 

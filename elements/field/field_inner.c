@@ -1,4 +1,4 @@
-/* B of field_mass.h.  Resultants about the centroid: with forces q, moments mu and bimoments b per
+/* B of field.h.  Resultants about the centroid: with forces q, moments mu and bimoments b per
  * length
  *   N' = -q_x,  Qy' = -q_y,  Qz' = -q_z,  Mx' = -mu_x,  My' = Qz - mu_y,  Mz' = -Qy - mu_z,
  *   Mw = -W' - b,
@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "elements/beamw/modes.h"
-#include "elements/field/field_mass.h"
+#include "elements/field/field.h"
 #include "elements/math/dense.h"
-#include "elements/math/quadrature.h"
+#include "elements/math/scalar.h"
 
 enum { N = FIELD_INNER };
 enum { NX, QY, QZ, MX, MY, MZ, W, MW, RESULTANTS };

@@ -7,7 +7,7 @@
 #include "elements/beamw/modes.h"
 #include "elements/field/field.h"
 #include "elements/math/dense.h"
-#include "elements/shared/moving.h"
+#include "elements/shared/masses.h"
 
 enum {
     MOST = ELEMENT_MAX_COORDINATES,

@@ -1,4 +1,4 @@
-#include "elements/geometrically_exact/alone.h"
+#include "elements/geometrically_exact/exact.h"
 
 #include "elements/geometrically_exact/deformed.h"
 

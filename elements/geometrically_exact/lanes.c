@@ -1,5 +1,5 @@
 #define LANES 4
-#include "elements/geometrically_exact/lanes.h"
+#include "elements/geometrically_exact/exact.h"
 
 #include "elements/geometrically_exact/deformed.h"
 #include "elements/geometrically_exact/stressed.h"

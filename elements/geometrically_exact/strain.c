@@ -1,12 +1,44 @@
-#include "elements/geometrically_exact/strain.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "elements/geometrically_exact/deformed.h"
-#include "elements/geometrically_exact/line.h"
-#include "elements/math/arc.h"
-#include "elements/math/quadrature.h"
+#include "elements/geometrically_exact/exact.h"
+#include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
+
+void exact_line_lagrange(int n, const double p[], double x, double L[], double dL[])
+{
+    for (int k = 0; k < n; k++) {
+        double value = 1, slope = 0;
+        for (int j = 0; j < n; j++) {
+            if (j == k)
+                continue;
+            slope = (slope * (x - p[j]) + value) / (p[k] - p[j]);
+            value *= (x - p[j]) / (p[k] - p[j]);
+        }
+        L[k] = value;
+        if (dL != 0)
+            dL[k] = slope;
+    }
+}
+
+void exact_measure_angle(double t, double m[3])
+{
+    if (t < 0.01) { /* atan(y)/y = sum (-t)^k/(2 k + 1) */
+        double power = 1;
+        m[0] = m[1] = m[2] = 0;
+        for (int k = 0; k < 10; k++) {
+            m[0] += power / (2 * k + 1);
+            m[1] -= power * (k + 1) / (2 * k + 3);
+            m[2] += power * (k + 1) * (k + 2) / (2 * k + 5);
+            power *= -t;
+        }
+        return;
+    }
+    m[0] = atan(sqrt(t)) / sqrt(t);
+    m[1] = (1 / (1 + t) - m[0]) / (2 * t);
+    m[2] = (-1 / ((1 + t) * (1 + t)) - 3 * m[1]) / (2 * t);
+}
 
 /* R^T r' and measures of rotation at the points, of nodes along the arc without stress. */
 static void observe_rest(exact_strain_line *line, const double rotation_vector[3],

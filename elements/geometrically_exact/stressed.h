@@ -1,10 +1,10 @@
-/* Stresses of the energy of stiffness.h.  In lanes (real.h). */
+/* Stresses of the energy of exact.h.  In lanes (real.h). */
 #ifndef BEAMWORK_EXACT_STRESSED_H
 #define BEAMWORK_EXACT_STRESSED_H
 
 #include <string.h>
 
-#include "elements/geometrically_exact/stiffness.h"
+#include "elements/geometrically_exact/exact.h"
 #include "elements/math/real.h"
 
 /* Per lane: stresses, energy, and what C is more than S in rows of the strains that twist. */

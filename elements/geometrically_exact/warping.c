@@ -1,11 +1,10 @@
-#include "elements/geometrically_exact/warping.h"
+#include "elements/geometrically_exact/exact.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "elements/geometrically_exact/line.h"
 #include "elements/math/dense.h"
-#include "elements/math/quadrature.h"
+#include "elements/math/scalar.h"
 
 enum {
     STAGES = EXACT_WARPING_MAX_STAGES,

@@ -1,4 +1,4 @@
-#include "elements/math/congruence.h"
+#include "elements/math/dense.h"
 
 #include <string.h>
 

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/math/congruence.h"
 #include "elements/math/real.h"
 
 enum { WIDEST = 14 };

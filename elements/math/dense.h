@@ -1,7 +1,7 @@
 /* Small dense algebra: vectors of 3, matrices of known small size, row-major.
  * Nothing here allocates.  Sizes that grow with a mesh belong to harness/numerics/numerics.h. */
-#ifndef BEAMWORK_DENSE_H
-#define BEAMWORK_DENSE_H
+#ifndef BEAMWORK_MATH_DENSE_H
+#define BEAMWORK_MATH_DENSE_H
 
 #include "elements/math/vec3.h"
 
@@ -30,5 +30,14 @@ int dense_lu(int n, double *A, int pivot[]);
 int dense_lu_regular(int n, double *A, int pivot[]);
 /* Solves A X = B in place with the factors of dense_lu, B(n x m). */
 void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B);
+
+/* K += J^T S J with sums along rows in registers: the bits of plain loops, in the same order. */
+
+enum { CONGRUENCE_WIDEST = 24 };
+
+/* K(n x n) += J^T S J with J(m x n), S(m x m); m and n at most CONGRUENCE_WIDEST. The second is for
+ * processors with AVX2: real.h. */
+void congruence_add_plain(int m, int n, const double *J, const double *S, double *K);
+void congruence_add_avx2(int m, int n, const double *J, const double *S, double *K);
 
 #endif

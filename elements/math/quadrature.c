@@ -1,4 +1,4 @@
-#include "elements/math/quadrature.h"
+#include "elements/math/scalar.h"
 
 #include <assert.h>
 #include <gsl/gsl_integration.h>

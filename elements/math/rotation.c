@@ -1,10 +1,12 @@
-/* Finite rotations by unit quaternions. Half-angle formulas throughout: sinc keeps the exponential
- * exact near 0, atan2 keeps the logarithm exact near 0 and near pi. */
 #include "elements/math/rotation.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "elements/math/dense.h"
+
+/* Finite rotations by unit quaternions. Half-angle formulas throughout: sinc keeps the exponential
+ * exact near 0, atan2 keeps the logarithm exact near 0 and near pi. */
 
 void rotation_identity(double q[4])
 {
@@ -122,4 +124,54 @@ int rotation_triad(const double x[3], const double y[3], double R[9])
         R[3 * i + 2] = z[i];
     }
     return 0;
+}
+
+void arc_at(const double rotation[3], const double e[3], double x, double r[3], double q[4])
+{
+    const double part[3] = {rotation[0] * x, rotation[1] * x, rotation[2] * x};
+    const double w = vec3_norm(part), half = sin(w / 2);
+    /* (1 - cos w)/w^2 and (w - sin w)/w^3 */
+    const double a = w < 1e-4 ? 0.5 - w * w / 24 : 2 * half * half / (w * w);
+    const double b =
+        w < 0.3 ? (1 - w * w / 20 * (1 - w * w / 42 * (1 - w * w / 72 * (1 - w * w / 110)))) / 6
+                : (w - sin(w)) / (w * w * w);
+    double once[3], twice[3];
+    vec3_cross(part, e, once);
+    vec3_cross(part, once, twice);
+    for (int i = 0; i < 3; i++)
+        r[i] = x * (e[i] + a * once[i] + b * twice[i]);
+    rotation_exp(part, q);
+}
+
+void offset_force(const double rho[3], double force[6])
+{
+    double moment[3];
+    vec3_cross(rho, force, moment);
+    for (int i = 0; i < 3; i++)
+        force[3 + i] += moment[i];
+}
+
+/* Rotation columns += translation columns times -rho~, then the same for rows: K <- A^T K A. */
+void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[])
+{
+    for (int i = 0; i < n; i++) {
+        double moment[3];
+        vec3_cross(rho, &K[i * n + at], moment);
+        for (int c = 0; c < 3; c++)
+            K[i * n + at + 3 + c] += moment[c];
+    }
+    for (int j = 0; j < n; j++) {
+        const double column[3] = {K[at * n + j], K[(at + 1) * n + j], K[(at + 2) * n + j]};
+        double moment[3];
+        vec3_cross(rho, column, moment);
+        for (int c = 0; c < 3; c++)
+            K[(at + 3 + c) * n + j] += moment[c];
+    }
+    if (force == NULL)
+        return;
+    const double dot = vec3_dot(force, rho);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            K[(at + 3 + i) * n + at + 3 + j] +=
+                (force[i] * rho[j] + rho[i] * force[j]) / 2 - (i == j ? dot : 0);
 }

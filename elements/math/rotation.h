@@ -4,8 +4,8 @@
  * Rotation increments are spatial: R <- exp(phi~) R, that is
  * q <- rotation_exp(phi) o q.  Every function is accurate to a few eps for
  * every angle, near 0 and near pi included. */
-#ifndef BEAMWORK_ROTATION_H
-#define BEAMWORK_ROTATION_H
+#ifndef BEAMWORK_MATH_ROTATION_H
+#define BEAMWORK_MATH_ROTATION_H
 
 void rotation_identity(double q[4]);
 void rotation_exp(const double phi[3], double q[4]); /* phi [rad] */
@@ -37,5 +37,21 @@ void rotation_between(const double from[4], const double to[4], double phi[3]);
 /* The triad whose x axis points along `x` and whose y axis is the part of `y` across it.
  * Returns 0, or -1 if x is zero or y is parallel to it. */
 int rotation_triad(const double x[3], const double y[3], double R[9]);
+
+/* An arc along which the triad turns steadily. */
+
+/* rotation [rad]: of the whole arc, its constant torsion and curvature times its length.  In the
+ * axes at its start q = exp(x rotation~) and r = int_0^x exp(t rotation~) e dt, 0 <= x <= 1; e:
+ * direction of the axis in the triad that turns with it, (1, 0, 0) but for initial strains. */
+void arc_at(const double rotation[3], const double e[3], double x, double r[3], double q[4]);
+
+/* From a point to the one that moves it rigidly.  Offset rho: dr = dr_b + theta x rho.  Second
+ * derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho) I. */
+
+/* force[6: force, moment] of the point becomes that of the body. */
+void offset_force(const double rho[3], double force[6]);
+/* K[n x n] of coordinates of which the point's begin at `at`: K <- A^T K A, and the second
+ * derivatives of the potential's gradient `force` on the point; NULL: without these. */
+void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[]);
 
 #endif

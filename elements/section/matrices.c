@@ -1,4 +1,4 @@
-#include "elements/section/matrices.h"
+#include "elements/section/section.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/pi.h"
-#include "elements/section/matrices.h"
+#include "elements/math/scalar.h"
 #include "elements/section/walls.h"
 
 void section_spec_init(section_spec *spec)

@@ -3,8 +3,8 @@
  * Axes: x along the line of centroids, y and z principal.  A section is given
  * by straight thin walls (open, or with closed cells), as a solid rectangle, as a round tube, by
  * its numbers, or by two matrices. */
-#ifndef BEAMWORK_SECTION_H
-#define BEAMWORK_SECTION_H
+#ifndef BEAMWORK_SECTION_SECTION_H
+#define BEAMWORK_SECTION_SECTION_H
 
 #include "elements/shared/status.h"
 
@@ -31,7 +31,7 @@ typedef struct section {
     double F[9]; /* D^-1, kept because it exists when D would be infinite (F = 0: shear-rigid) */
     double axes_angle;              /* beta [rad]: principal y axis from the wall y axis */
     double centroid[2];             /* in wall coordinates [m] */
-    int matrices;                   /* 1: a section by its matrices (matrices.h) */
+    int matrices;                   /* 1: a section by its matrices */
     double stiffness[36], mass[36]; /* of that; else zero */
     double asymmetry; /* of them as they were given, in parts of the diagonal: the mean is taken */
     int rectangle;    /* 1: a solid rectangle with the sizes below */
@@ -111,5 +111,50 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
  * sizes, a cell too many, disconnected walls, a point used by no wall, D not positive definite, G
  * or E not positive, nan. */
 status section_compute(const section_spec *spec, section *out, fault *f);
+
+/* Sections by their matrices: with the strains of the Simo-Reissner beam along the member's line,
+ *   (N, Qy, Qz, Mx, My, Mz) = C (gx, gy, gz, kx, ky, kz),
+ * and with the velocity of the line and the angular velocity in the section's axes v = (vx, vy, vz,
+ * wx, wy, wz) the kinetic energy 1/2 v . M v per length (Hodges, Nonlinear Composite Beam Theory,
+ * 2006, chapters 4 and 5).  Row-major.
+ *
+ * What else a section has follows for the orders of size and for formulations that know constants
+ * only: with E = G = 1 Pa, A = C_11, Iy = C_55, Iz = C_66, It = C_44, shear rigidities C_22 and
+ * C_33; nothing warps, the centroid is on the line. */
+
+/* Largest asymmetry of matrices that were measured or printed, in parts of the diagonal. */
+#define SECTION_MATRICES_SYMMETRIC 1e-6
+
+/* Fills a zeroed section.  REFUSED: C not symmetric or not positive definite; M not that of a
+ * slice: mass m, centre (0, cy, cz), a moment of inertia about the centre that is not negative, M =
+ * [m 1, -m c~; m c~, J]. What is symmetric, or a slice, within SECTION_MATRICES_SYMMETRIC becomes
+ * so. */
+status section_matrices(const section_spec *spec, section *out, fault *f);
+
+/* Is there more in the matrices than constants have?  Anything off the diagonal of C; where inertia
+ * matters, anything off that of M, and moments of inertia J other than those of a section of one
+ * material, where they are asked for, or other than Jxx. */
+int section_matrices_couple(const section *c, int inertia, int rotary);
+
+/* Centre of mass [m]; (0, 0, 0) without mass. */
+void section_matrices_centre(const section *c, double centre[3]);
+
+/* Sections that change along a member: from one description to another of the same form, linearly
+ * in its numbers.
+ *
+ * Every cross-section is that of a prismatic member with the section there, its centroid on the
+ * member's line: the shear stresses due to the taper itself are omitted, as usual in beam
+ * theory. */
+
+/* May one description change into the other?  REFUSED: another form (rectangle, walls that hang
+ * together in another way, D in one and F in the other ...), and, where the section warps, a shear
+ * centre that moves, walls that do not stay in their planes, closed cells that are not the same:
+ * the sectorial coordinate of a fibre would change along the member, which couples its warping with
+ * torsion in a way that no prismatic piece has. ends: what the two come to. */
+status section_taper_check(const section_spec *p, const section_spec *q,
+                           const section *const ends[2], fault *f);
+
+/* The description at x in [0, 1] from p to q. */
+void section_taper_at(const section_spec *p, const section_spec *q, double x, section_spec *out);
 
 #endif

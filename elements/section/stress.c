@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
-#include "elements/section/flow.h"
+#include "elements/math/scalar.h"
 #include "elements/section/walls.h"
 
 enum { PER_QY, PER_QZ, PER_WARPING, PER_TWIST };

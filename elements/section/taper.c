@@ -1,4 +1,4 @@
-#include "elements/section/taper.h"
+#include "elements/section/section.h"
 
 #include <math.h>
 #include <stddef.h>

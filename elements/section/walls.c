@@ -1,13 +1,219 @@
-/* Constants of a section of straight thin walls, open or with closed cells: sectorial coordinate,
- * shear centre. Every integrand along a wall is a polynomial of degree five at most, for which
- * three Gauss points are exact. */
 #include "elements/section/walls.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-#include "elements/section/flow.h"
+#include "elements/math/dense.h"
+#include "elements/math/scalar.h"
+
+double tree_wall_length(const section_spec *s, int w)
+{
+    const double *p = s->point[s->wall[w].from], *q = s->point[s->wall[w].to];
+    return hypot(q[0] - p[0], q[1] - p[1]);
+}
+
+/* Entries of `t` that reach a point; the walls that close cells are put behind them. */
+static status connect(const section_spec *s, section_tree *t, fault *f)
+{
+    int reached[SECTION_MAX_POINTS] = {0}, used[SECTION_MAX_WALLS] = {0}, count = 0;
+    int closing[SECTION_MAX_WALLS];
+    reached[0] = 1;
+    for (int grown = 1; grown;) {
+        grown = 0;
+        for (int w = 0; w < s->walls; w++) {
+            const int a = s->wall[w].from, b = s->wall[w].to;
+            if (used[w] || (!reached[a] && !reached[b]))
+                continue;
+            used[w] = grown = 1;
+            if (reached[a] && reached[b]) {
+                if (t->cells == s->cells)
+                    return fault_set(f, STATUS_REFUSED,
+                                     "section: wall %d (points %d-%d) closes a cell; %s", w, a, b,
+                                     s->cells > 0 ? "give the number of cells that the walls close"
+                                                  : "open it, or give the number of cells");
+                closing[t->cells++] = w;
+                continue;
+            }
+            t->wall[count] = w;
+            t->near[count] = reached[a] ? a : b;
+            t->far[count] = reached[a] ? b : a;
+            reached[t->far[count]] = 1;
+            count++;
+        }
+    }
+    for (int w = 0; w < s->walls; w++)
+        if (!used[w])
+            return fault_set(f, STATUS_REFUSED,
+                             "section: wall %d (points %d-%d) is not connected to wall 0; join the "
+                             "walls at shared points",
+                             w, s->wall[w].from, s->wall[w].to);
+    for (int p = 0; p < s->points; p++)
+        if (!reached[p])
+            return fault_set(f, STATUS_REFUSED, "section: point %d belongs to no wall; remove it",
+                             p);
+    for (int c = 0; c < t->cells; c++) {
+        t->wall[count + c] = closing[c];
+        t->near[count + c] = s->wall[closing[c]].from;
+        t->far[count + c] = s->wall[closing[c]].to;
+    }
+    return STATUS_OK;
+}
+
+/* Adds the way from a point to the root, times `sign`, to a cell. */
+static void walk_to_root(const section_spec *s, section_tree *t, int c, int point, int sign)
+{
+    for (int k = s->walls - t->cells - 1; k >= 0; k--)
+        if (t->far[k] == point) {
+            const int forward = s->wall[t->wall[k]].from == point;
+            t->round[c][t->wall[k]] += (signed char)(forward ? sign : -sign);
+            point = t->near[k];
+        }
+}
+
+status tree_grow(const section_spec *s, section_tree *t, fault *f)
+{
+    memset(t, 0, sizeof *t);
+    TRY(connect(s, t, f));
+    if (t->cells < s->cells)
+        return fault_set(f, STATUS_REFUSED,
+                         "section: the walls close %d of the %d cells; correct the number or close "
+                         "them at shared points",
+                         t->cells, s->cells);
+    for (int c = 0; c < t->cells; c++) {
+        const int k = s->walls - t->cells + c;
+        t->round[c][t->wall[k]] = 1;
+        walk_to_root(s, t, c, t->far[k], 1);
+        walk_to_root(s, t, c, t->near[k], -1);
+    }
+    return STATUS_OK;
+}
+
+void tree_flow(const section_spec *s, const section_tree *t, const double jump[], double flow[])
+{
+    /* sum over the cells d of (oint_c,d ds/t) x_d = oint_c: symmetric, positive definite */
+    double matrix[SECTION_MAX_WALLS * SECTION_MAX_WALLS], x[SECTION_MAX_WALLS];
+    const int n = t->cells;
+    for (int w = 0; w < s->walls; w++)
+        flow[w] = 0;
+    if (n == 0)
+        return;
+    for (int c = 0; c < n; c++) {
+        x[c] = 0;
+        for (int d = 0; d < n; d++)
+            matrix[c * n + d] = 0;
+        for (int w = 0; w < s->walls; w++) {
+            x[c] += t->round[c][w] * jump[w];
+            for (int d = 0; d < n; d++)
+                matrix[c * n + d] +=
+                    t->round[c][w] * t->round[d][w] * tree_wall_length(s, w) / s->wall[w].thickness;
+        }
+    }
+    dense_cholesky(n, matrix);
+    dense_cholesky_solve(n, 1, matrix, x);
+    for (int w = 0; w < s->walls; w++)
+        for (int c = 0; c < n; c++)
+            flow[w] += t->round[c][w] * x[c];
+}
+
+flow_rule flow_rule_of_three(void)
+{
+    flow_rule rule;
+    quadrature_points(FLOW_GAUSS, rule.x, rule.w);
+    return rule;
+}
+
+double flow_along(const section_spec *s, int w, const double value[], double x)
+{
+    return (1 - x) * value[s->wall[w].from] + x * value[s->wall[w].to];
+}
+
+flow_frame flow_frame_of(const section_spec *s, int w, const double y[], const double z[])
+{
+    const int a = s->wall[w].from, b = s->wall[w].to;
+    const double length = tree_wall_length(s, w), ty = (y[b] - y[a]) / length,
+                 tz = (z[b] - z[a]) / length;
+    return (flow_frame){length, ty, tz, tz, -ty};
+}
+
+double flow_moment(const section_spec *s, const section_tree *t, const double *value[3],
+                   const flow_moments *q, int k, int i, double x)
+{
+    const double h = s->wall[t->wall[k]].thickness, length = tree_wall_length(s, t->wall[k]);
+    const int near = t->near[k], far = t->far[k];
+    return q[k].start[i] +
+           h * length * (x * value[i][far] + x * x / 2 * (value[i][near] - value[i][far]));
+}
+
+/* The walls are taken from the free ends towards the root, so that the moments of everything beyond
+ * are known.  Cells are cut where the walls that close them end; what flows across the cuts then
+ * makes the warping one-valued. */
+void flow_first_moments(const section_spec *s, const section_tree *t, const double *value[3],
+                        flow_moments q[])
+{
+    const flow_rule rule = flow_rule_of_three();
+    double beyond[SECTION_MAX_POINTS][3] = {{0}};
+    const int branches = s->walls - t->cells;
+    for (int k = s->walls - 1; k >= 0; k--) {
+        const int w = t->wall[k], near = t->near[k], far = t->far[k];
+        const double h = s->wall[w].thickness, length = tree_wall_length(s, w);
+        for (int i = 0; i < 3; i++) {
+            q[k].start[i] = k < branches ? beyond[far][i] : 0;
+            beyond[near][i] += q[k].start[i] + h * length * (value[i][far] + value[i][near]) / 2;
+        }
+    }
+    if (t->cells == 0)
+        return;
+    for (int i = 0; i < 3; i++) {
+        double jump[SECTION_MAX_WALLS] = {0}, flow[SECTION_MAX_WALLS];
+        for (int k = 0; k < s->walls; k++) {
+            const int w = t->wall[k], sign = s->wall[w].from == t->far[k] ? 1 : -1;
+            for (int g = 0; g < FLOW_GAUSS; g++)
+                jump[w] -= sign * rule.w[g] * tree_wall_length(s, w) / s->wall[w].thickness *
+                           flow_moment(s, t, value, q, k, i, rule.x[g]);
+        }
+        tree_flow(s, t, jump, flow);
+        for (int k = 0; k < s->walls; k++)
+            q[k].start[i] += (s->wall[t->wall[k]].from == t->far[k] ? 1 : -1) * flow[t->wall[k]];
+    }
+}
+
+void flow_compliance(const section_spec *s, const section_tree *t, const double *value[3],
+                     const double pole[2], double sum[9])
+{
+    const flow_rule rule = flow_rule_of_three();
+    flow_moments q[SECTION_MAX_WALLS];
+    flow_first_moments(s, t, value, q);
+    for (int k = s->walls - 1; k >= 0; k--) {
+        const int w = t->wall[k];
+        const double h = s->wall[w].thickness, length = tree_wall_length(s, w);
+        for (int g = 0; g < FLOW_GAUSS; g++) {
+            const double ds = rule.w[g] * length;
+            double S[3];
+            for (int i = 0; i < 3; i++)
+                S[i] = flow_moment(s, t, value, q, k, i, rule.x[g]);
+            for (int i = 0; i < 3; i++)
+                for (int j = 0; j < 3; j++)
+                    sum[3 * i + j] += ds * S[i] * S[j] / h;
+        }
+        if (!s->thickness_terms)
+            continue;
+        const flow_frame n = flow_frame_of(s, w, value[0], value[1]);
+        for (int g = 0; g < FLOW_GAUSS; g++) {
+            const double yk = flow_along(s, w, value[0], rule.x[g]),
+                         zk = flow_along(s, w, value[1], rule.x[g]);
+            const double r = (yk - pole[0]) * n.ty + (zk - pole[1]) * n.tz,
+                         slope[3] = {n.ny, n.nz, -r};
+            for (int i = 0; i < 3; i++)
+                for (int j = 0; j < 3; j++)
+                    sum[3 * i + j] += rule.w[g] * n.length * pow(h, 5) / 120 * slope[i] * slope[j];
+        }
+    }
+}
+
+/* Constants of a section of straight thin walls, open or with closed cells: sectorial coordinate,
+ * shear centre. Every integrand along a wall is a polynomial of degree five at most, for which
+ * three Gauss points are exact. */
 
 enum { ROOT = 0 };
 

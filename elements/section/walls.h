@@ -1,8 +1,82 @@
-/* Sections of straight thin walls: one of the ways to fill a section. */
+/* Sections of straight thin walls: how the walls hang together: a spanning tree of their mid-lines,
+ * and the walls that close cells.
+ *
+ * A flow that is constant around each cell and zero elsewhere is what equilibrium leaves open;
+ * compatibility of the warping, oint flow/t ds = given, decides it (Bredt 1896; Vlasov, Thin-walled
+ * elastic beams, 1961, chapter 4). */
 #ifndef BEAMWORK_SECTION_WALLS_H
 #define BEAMWORK_SECTION_WALLS_H
 
-#include "elements/section/tree.h"
+#include "elements/section/section.h"
+
+/* Root: point 0.  The first walls - cells entries are the tree, from the root outwards; each entry
+ * behind closes a cell. */
+typedef struct section_tree {
+    int wall[SECTION_MAX_WALLS]; /* wall of an entry */
+    int near[SECTION_MAX_WALLS],
+        far[SECTION_MAX_WALLS]; /* its point nearer the root, and the other */
+    int cells;
+    /* [cell][wall]: 1 where the cell runs through the wall from `from` to `to`, -1 against it, 0
+     * not at all */
+    signed char round[SECTION_MAX_WALLS][SECTION_MAX_WALLS];
+} section_tree;
+
+/* REFUSED: a wall that closes more cells than the section has, fewer cells, disconnected walls, an
+ * unused point. */
+status tree_grow(const section_spec *s, section_tree *t, fault *f);
+
+/* flow[walls], from `from` to `to`: constant around each cell, with oint flow/t ds = oint d(jump)
+ * where jump[walls] is what the wall contributes.  All zero in an open section. */
+void tree_flow(const section_spec *s, const section_tree *t, const double jump[], double flow[]);
+
+double tree_wall_length(const section_spec *s, int w); /* [m] */
+
+/* Shear flow of a section of thin walls, by equilibrium from the free ends and, around cells, by
+ * compatibility.
+ *
+ * With normal stress that is linear in y, z and omega along the member, q = -sum over i of Q_i
+ * S_i/I_i with the first moments S of y, z and omega (J Eq. 27), Q = (Qy, Qz, Mw), I = (Iz, Iy,
+ * Iw). */
+
+enum { FLOW_GAUSS = 3 }; /* exact for the polynomials of degree five that occur */
+
+typedef struct flow_rule {
+    double x[FLOW_GAUSS], w[FLOW_GAUSS]; /* on [0, 1] */
+} flow_rule;
+
+flow_rule flow_rule_of_three(void);
+
+/* Value at x in [0, 1] of a function that is linear along the wall, from its values at the points.
+ */
+double flow_along(const section_spec *s, int w, const double value[], double x);
+
+/* Directions of a wall: t along it, n = (tz, -ty) its normal. */
+typedef struct flow_frame {
+    double length, ty, tz, ny, nz;
+} flow_frame;
+
+flow_frame flow_frame_of(const section_spec *s, int w, const double y[], const double z[]);
+
+/* First moments of y, z and omega at the far point of a wall, with what the cells add [m^3, m^3,
+ * m^4]. */
+typedef struct flow_moments {
+    double start[3];
+} flow_moments;
+
+/* q[walls], in the order of the tree; value: y, z and omega at the points. */
+void flow_first_moments(const section_spec *s, const section_tree *t, const double *value[3],
+                        flow_moments q[]);
+/* Moment i of wall t->wall[k] at x in [0, 1] from its far to its near point, positive towards the
+ * latter. */
+double flow_moment(const section_spec *s, const section_tree *t, const double *value[3],
+                   const flow_moments q[], int k, int i, double x);
+
+/* Adds int S_i S_j/t ds, plus the share across the thickness about the shear centre `pole`, to sum.
+ * value: y, z and omega at the points. */
+void flow_compliance(const section_spec *s, const section_tree *t, const double *value[3],
+                     const double pole[2], double sum[9]);
+
+/* Sections of straight thin walls: one of the ways to fill a section. */
 
 /* Mid-lines in principal axes about the centroid, values at the points. */
 typedef struct walls_lines {

@@ -1,7 +1,7 @@
 /* Section constants made dimensionless with the length l0 of an element and one of its bending
  * stiffnesses, and only those of the physics that is asked for. */
-#ifndef BEAMWORK_BEAM_CONSTANTS_H
-#define BEAMWORK_BEAM_CONSTANTS_H
+#ifndef BEAMWORK_SHARED_BEAM_CONSTANTS_H
+#define BEAMWORK_SHARED_BEAM_CONSTANTS_H
 
 #include "elements/element.h"
 
@@ -17,7 +17,7 @@ typedef struct beam_constants {
     double initial[3]; /* strains gx, gy, gz without stress */
     int warping;
     int coupled;  /* 1: of a section by its matrices; only what follows, energy, initial and warping
-                     = 0 count (beam_coupled.h) */
+                     = 0 count */
     double C[36]; /* (N, Q, M) = C (gamma, kappa) */
     double mixed[36]; /* (M, -gamma) = mixed (kappa, N) */
 } beam_constants;
@@ -31,5 +31,17 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
               FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX |                   \
               FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |               \
               FEATURE_ROTARY_INERTIA | FEATURE_COUPLED
+
+/* Sections by their matrices (elements/section/section.h), dimensionless: the stiffness C of
+ * (gamma, kappa), and the same with gamma expressed by the force. */
+
+/* C and mixed of out; EI [N m^2]: the unit. */
+status beam_coupled_of(const section *profile, double l0, double EI, beam_constants *out, fault *f);
+
+/* Inverse of a symmetric positive definite matrix [n x n], n <= 6; 0, or the failing pivot. */
+int beam_coupled_inverse(int n, const double A[], double inverse[]);
+
+/* Says that a matrix of an element of that length [m] could not be inverted. */
+status beam_coupled_too_stiff(double length, fault *f);
 
 #endif

@@ -1,8 +1,16 @@
-/* Words of a list "a|b|c", and the nearest one to a misspelt word. */
-#ifndef BEAMWORK_CHOICE_H
-#define BEAMWORK_CHOICE_H
+/* Words and numbers that a user writes. */
+#ifndef BEAMWORK_SHARED_CHOICE_H
+#define BEAMWORK_SHARED_CHOICE_H
 
 #include "elements/shared/status.h"
+
+/* Numbers that a user writes. */
+
+/* The number that `text` begins with; *end: behind it. 0: there is none, or a double does not hold
+ * it: it is infinite, or so small (below 2.2e-308) that it would become zero or lose digits. */
+int number_read(const char *text, const char **end, double *out);
+
+/* Words of a list "a|b|c", and the nearest one to a misspelt word. */
 
 /* Index of `word` in "a|b|c", or -1. */
 int choice_index(const char *choices, const char *word);

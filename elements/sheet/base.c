@@ -1,10 +1,71 @@
-#include "elements/sheet/base.h"
-
 #include <math.h>
 #include <string.h>
 
-#include "elements/sheet/elastic.h"
-#include "elements/sheet/fields.h"
+#include "elements/math/dense.h"
+#include "elements/math/scalar.h"
+#include "elements/sheet/potential.h"
+#include "elements/sheet/sheet.h"
+
+enum { N = SHEET_STRAINS };
+
+double sheet_elastic_phi_y(const section *c, double l0)
+{
+    return 12 * c->young * c->Iz * c->F[0] / (c->shear_modulus * l0 * l0);
+}
+
+double sheet_elastic_phi_z(const section *c, double l0)
+{
+    return 12 * c->young * c->Iy * c->F[4] / (c->shear_modulus * l0 * l0);
+}
+
+/* (4 + Phi)/(1 + Phi) = 1 + 3/(1 + Phi), (-2 + Phi)/(1 + Phi) = 1 - 3/(1 + Phi): N Eqs. 35, 36. */
+static void bending_stiffness(double EI, double l0, double Phi, int at, double S[N * N])
+{
+    const double k = EI / (l0 * l0 * l0), antisymmetric = 3 / (1 + Phi);
+    S[N * at + at] = S[N * (at + 1) + at + 1] = k * (1 + antisymmetric);
+    S[N * at + at + 1] = S[N * (at + 1) + at] = k * (1 - antisymmetric);
+}
+
+void sheet_elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z,
+                             double S[N * N])
+{
+    static const int torsion[3] = {1, 6, 7};
+    static const double saint_venant[3][3] = {{36, -3, -3}, {-3, 4, -1}, {-3, -1, 4}};
+    static const double warping[3][3] = {{12, -6, -6}, {-6, 4, 2}, {-6, 2, 4}};
+    const double l3 = l0 * l0 * l0, GJ = c->shear_modulus * c->It / (30 * l3),
+                 EIw = c->young * c->Iw / (l3 * l0 * l0);
+    memset(S, 0, N * N * sizeof(double));
+    S[0] = c->young * c->A / l0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            S[N * torsion[i] + torsion[j]] = GJ * saint_venant[i][j] + EIw * warping[i][j];
+    bending_stiffness(c->young * c->Iy, l0, Phi_z, 2, S);
+    bending_stiffness(c->young * c->Iz, l0, Phi_y, 4, S);
+}
+
+status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f)
+{
+    const double l0 = request->length,
+                 stiffness = request->section->young * request->section->wagner_torque;
+    double x[SHEET_WAGNER_POINTS], w[SHEET_WAGNER_POINTS];
+    memset(out, 0, sizeof *out);
+    out->active = (request->features & FEATURE_WAGNER_TORQUE) != 0 && stiffness != 0;
+    if (!out->active)
+        return STATUS_OK;
+    if ((request->features & FEATURE_CURVATURE) && request->curvature[0] != 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "initial torsion %g 1/m: the Wagner torque is known without it only; "
+                         "leave one of them out",
+                         request->curvature[0]);
+    quadrature_points(SHEET_WAGNER_POINTS, x, w);
+    for (int i = 0; i < SHEET_WAGNER_POINTS; i++) {
+        out->weight[i] = stiffness * w[i] * l0;
+        out->rate[i][0] = 6 * x[i] * (1 - x[i]) / (l0 * l0);
+        out->rate[i][1] = (1 - x[i]) * (1 - 3 * x[i]) / (l0 * l0);
+        out->rate[i][2] = x[i] * (3 * x[i] - 2) / (l0 * l0);
+    }
+    return STATUS_OK;
+}
 
 static const sheet_base_data *data_of(const element_data *d)
 {
@@ -63,4 +124,37 @@ int sheet_base_mass_of_field(const double options[])
 {
     (void)options;
     return 1;
+}
+
+size_t sheet_second_data_size(const element_request *request)
+{
+    (void)request;
+    return sizeof(sheet_base_data);
+}
+
+status sheet_second_prepare(const element_request *request, sheet_base_shear shear,
+                            element_data *out, fault *f)
+{
+    return sheet_base_prepare(request, shear, (sheet_base_data *)(void *)out, f);
+}
+
+status sheet_second_stress(const element_data *d, const double e[], const double inner[],
+                           stress_output *out)
+{
+    (void)inner;
+    sheet_linear_stress((const sheet_base_data *)(const void *)d, e, out);
+    return STATUS_OK;
+}
+
+void sheet_second_stress_many(int count, const element_data *const data[], const double *const e[],
+                              const double *const inner[], stress_output out[], status outcome[])
+{
+    REAL_CHOSEN(sheet_lanes_second)(count, data, e, inner, out, outcome);
+}
+
+void sheet_second_equations_many(int count, const element_data *const data[], const node_state x[],
+                                 const double *const e[], const double *const inner[],
+                                 const double *const s[], equations_output out[], status outcome[])
+{
+    REAL_CHOSEN(sheet_lanes_second_equations)(count, data, x, e, inner, s, out, outcome);
 }

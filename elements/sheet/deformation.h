@@ -1,11 +1,248 @@
-/* The deformation function of a table of strains, with its derivatives, of one element or of
- * several in lanes: with E = de/dq, R = dq/d(rates) and T the rates of the nodes' coordinates, J =
- * E R T and sum s_i d2e_i/dx2 = T^T [R^T (sum s_i Q_i) R + sum_k t_k q_k''] T, t = E^T s. */
+/* First and second derivatives of the local coordinates, with respect to eleven rates along a path
+ * of constant velocity and constant spatial spin: in frame axes the relative velocity v of q
+ * against p, the spins P and Q of the nodes, and the rates of the two warping amplitudes.
+ *
+ * With w_F the spin of the frame, a vector fixed in space has the rate a x w_F in frame axes.  The
+ * chord gives w_F,y = -v_z/l and w_F,z = v_y/l; that p does not twist against the frame gives
+ * w_F,x.  Only the entries that are not zero are kept: which these are is the same in all states.
+ */
 #ifndef BEAMWORK_SHEET_DEFORMATION_H
 #define BEAMWORK_SHEET_DEFORMATION_H
 
-#include "elements/sheet/rates.h"
-#include "elements/sheet/strains.h"
+#include <string.h>
+
+#include "elements/sheet/sheet.h"
+
+enum {
+    SHEET_RATE_V = 0,
+    SHEET_RATE_P = 3,
+    SHEET_RATE_Q = 6,
+    SHEET_RATE_TURNS = 9,
+    SHEET_RATE_WP = 9,
+    SHEET_RATE_WQ,
+    SHEET_RATES
+};
+
+/* Rates that turn q against the frame about x and z: v_y, P_x, P_z, Q_x, Q_z. */
+enum { SHEET_RATE_MIXED = 5 };
+static const int sheet_rates_mixed[SHEET_RATE_MIXED] = {
+    SHEET_RATE_V + 1, SHEET_RATE_P, SHEET_RATE_P + 2, SHEET_RATE_Q, SHEET_RATE_Q + 2};
+
+/* dq/dt as rows over the rates. */
+typedef struct sheet_rates {
+    real inverse, lean;            /* 1/l and tan(yp)/l: parts of w_F */
+    real across[SHEET_RATE_MIXED]; /* cos(yq) w_x - sin(yq) w_z, w = Q - w_F */
+    real px[SHEET_RATE_MIXED], zq[SHEET_RATE_MIXED];
+    real yq[SHEET_RATE_MIXED]; /* beside v_z/l and Q_y */
+    real zp_v, zp_p;           /* over v_y and P_z; u is v_x, yp is P_y + v_z/l */
+} sheet_rates;
+
+static inline void sheet_rates_of(const sheet_local_state *s, sheet_rates *out)
+{
+    const real inverse = 1 / s->l, lean = s->tan_yp / s->l, one = real_of(1), none = real_of(0);
+    const real x[SHEET_RATE_MIXED] = {-lean, -one, s->tan_yp, one, none};
+    const real z[SHEET_RATE_MIXED] = {-inverse, none, none, none, one};
+    out->inverse = inverse;
+    out->lean = lean;
+    out->zp_v = s->sec_yp * -inverse;
+    out->zp_p = s->sec_yp;
+    for (int j = 0; j < SHEET_RATE_MIXED; j++) {
+        out->across[j] = s->cos_yq * x[j] - s->sin_yq * z[j];
+        out->zq[j] = s->sin_yq * x[j] + s->cos_yq * z[j];
+        out->px[j] = s->sec_zq * out->across[j];
+        out->yq[j] = -(s->tan_zq * out->across[j]);
+    }
+}
+
+/* a[11] = e[8] dq/d(rates). */
+static inline void sheet_rates_chain(const sheet_rates *r, const real e[SHEET_LOCAL_COORDINATES],
+                                     real a[SHEET_RATES])
+{
+    const real px = e[SHEET_LOCAL_PX], yp = e[SHEET_LOCAL_YP], yq = e[SHEET_LOCAL_YQ],
+               zp = e[SHEET_LOCAL_ZP], zq = e[SHEET_LOCAL_ZQ];
+    a[SHEET_RATE_V] = e[SHEET_LOCAL_U];
+    a[SHEET_RATE_V + 1] = px * r->px[0] + yq * r->yq[0] + zp * r->zp_v + zq * r->zq[0];
+    a[SHEET_RATE_V + 2] = yp * r->inverse + yq * r->inverse;
+    a[SHEET_RATE_P] = px * r->px[1] + yq * r->yq[1] + zq * r->zq[1];
+    a[SHEET_RATE_P + 1] = yp;
+    a[SHEET_RATE_P + 2] = px * r->px[2] + yq * r->yq[2] + zp * r->zp_p + zq * r->zq[2];
+    a[SHEET_RATE_Q] = px * r->px[3] + yq * r->yq[3] + zq * r->zq[3];
+    a[SHEET_RATE_Q + 1] = yq;
+    a[SHEET_RATE_Q + 2] = px * r->px[4] + yq * r->yq[4] + zq * r->zq[4];
+    a[SHEET_RATE_WP] = e[SHEET_LOCAL_WP];
+    a[SHEET_RATE_WQ] = e[SHEET_LOCAL_WQ];
+}
+
+/* The blocks of a form in v, P, Q that are used: those on the diagonal and below. */
+static inline int sheet_rates_used(int i, int j)
+{
+    return j / 3 <= i / 3;
+}
+
+/* H[11 x 11] = R^T Q R as far as it is used, Q[8 x 8] symmetric, without u. */
+static inline void sheet_rates_congruence(const sheet_rates *r, const real Q[],
+                                          real H[SHEET_RATES * SHEET_RATES])
+{
+    enum { N = SHEET_LOCAL_COORDINATES };
+    real QR[N][SHEET_RATES];
+    for (int k = SHEET_LOCAL_PX; k < N; k++)
+        sheet_rates_chain(r, Q + N * k, QR[k]);
+    const real *px = QR[SHEET_LOCAL_PX], *yp = QR[SHEET_LOCAL_YP], *yq = QR[SHEET_LOCAL_YQ],
+               *zp = QR[SHEET_LOCAL_ZP], *zq = QR[SHEET_LOCAL_ZQ];
+    for (int j = 0; j < SHEET_RATE_TURNS; j++) {
+        H[SHEET_RATES * SHEET_RATE_V + j] = real_of(0);
+        H[SHEET_RATES * (SHEET_RATE_V + 1) + j] =
+            r->px[0] * px[j] + r->yq[0] * yq[j] + r->zp_v * zp[j] + r->zq[0] * zq[j];
+        H[SHEET_RATES * (SHEET_RATE_V + 2) + j] = r->inverse * yp[j] + r->inverse * yq[j];
+        H[SHEET_RATES * SHEET_RATE_P + j] = r->px[1] * px[j] + r->yq[1] * yq[j] + r->zq[1] * zq[j];
+        H[SHEET_RATES * (SHEET_RATE_P + 1) + j] = yp[j];
+        H[SHEET_RATES * (SHEET_RATE_P + 2) + j] =
+            r->px[2] * px[j] + r->yq[2] * yq[j] + r->zp_p * zp[j] + r->zq[2] * zq[j];
+        H[SHEET_RATES * SHEET_RATE_Q + j] = r->px[3] * px[j] + r->yq[3] * yq[j] + r->zq[3] * zq[j];
+        H[SHEET_RATES * (SHEET_RATE_Q + 1) + j] = yq[j];
+        H[SHEET_RATES * (SHEET_RATE_Q + 2) + j] =
+            r->px[4] * px[j] + r->yq[4] * yq[j] + r->zq[4] * zq[j];
+    }
+    memcpy(H + SHEET_RATES * SHEET_RATE_WP, QR[SHEET_LOCAL_WP], 2 * sizeof QR[0]);
+}
+
+/* Weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from those of dw/dt and
+ * d(bend)/dt, bend = P_z - w_F,z. */
+static inline void sheet_rates_weights(const sheet_local_state *s,
+                                       const real t[SHEET_LOCAL_COORDINATES],
+                                       const real relative[3], real bend, real g[SHEET_RATE_TURNS])
+{
+    const real about_z = bend + s->tan_yp * relative[0];
+    g[SHEET_RATE_V] = t[SHEET_LOCAL_U];
+    g[SHEET_RATE_V + 1] = -(about_z + relative[2]) / s->l;
+    g[SHEET_RATE_V + 2] = (t[SHEET_LOCAL_YP] + relative[1]) / s->l;
+    g[SHEET_RATE_P] = -relative[0];
+    g[SHEET_RATE_P + 1] = t[SHEET_LOCAL_YP];
+    g[SHEET_RATE_P + 2] = about_z;
+    for (int i = 0; i < 3; i++)
+        g[SHEET_RATE_Q + i] = relative[i];
+}
+
+/* A = sum of w_F,i and row i of g x a for a = v, P, Q: vectors turn with the frame, g . (a x w_F) =
+ * w_F . (g x a); and lengths change: d(1/l)/dt = -v_x/l^2 in v_y/l and v_z/l. */
+static inline void sheet_rates_turn(const sheet_local_state *s, const sheet_rates *r,
+                                    const real g[SHEET_RATE_TURNS],
+                                    real A[SHEET_RATE_TURNS][SHEET_RATE_TURNS])
+{
+    for (int b = 0; b < SHEET_RATE_TURNS; b += 3) {
+        const real *c = g + b;
+        A[SHEET_RATE_V + 1][b] = r->inverse * -c[1];
+        A[SHEET_RATE_V + 1][b + 1] = r->lean * -c[2] + r->inverse * c[0];
+        A[SHEET_RATE_V + 1][b + 2] = r->lean * c[1];
+        A[SHEET_RATE_V + 2][b] = -r->inverse * c[2];
+        A[SHEET_RATE_V + 2][b + 2] = -r->inverse * -c[0];
+        A[SHEET_RATE_P][b + 1] = -c[2];
+        A[SHEET_RATE_P][b + 2] = c[1];
+        A[SHEET_RATE_P + 2][b + 1] = -s->tan_yp * -c[2];
+        A[SHEET_RATE_P + 2][b + 2] = -s->tan_yp * c[1];
+    }
+    A[SHEET_RATE_V][SHEET_RATE_V + 1] = -(g[SHEET_RATE_V + 1] / s->l);
+    A[SHEET_RATE_V][SHEET_RATE_V + 2] = -(g[SHEET_RATE_V + 2] / s->l);
+}
+
+/* H[11 x 11] += sum_k t_k d2q_k/dt2 as a symmetric form in the rates, as far as it is used. */
+static inline void sheet_rates_add_second(const sheet_local_state *s, const sheet_rates *r,
+                                          const real t[SHEET_LOCAL_COORDINATES],
+                                          real H[SHEET_RATES * SHEET_RATES])
+{
+    /* weights of d(across)/dt, d(bend)/dt and dw/dt */
+    const real across = t[SHEET_LOCAL_PX] * s->sec_zq - t[SHEET_LOCAL_YQ] * s->tan_zq,
+               bend = t[SHEET_LOCAL_ZP] * s->sec_yp;
+    const real relative[3] = {t[SHEET_LOCAL_ZQ] * s->sin_yq + across * s->cos_yq, t[SHEET_LOCAL_YQ],
+                              t[SHEET_LOCAL_ZQ] * s->cos_yq - across * s->sin_yq};
+    real g[SHEET_RATE_TURNS], A[SHEET_RATE_TURNS][SHEET_RATE_TURNS];
+    memset(A, 0, sizeof A);
+    sheet_rates_weights(s, t, relative, bend, g);
+    sheet_rates_turn(s, r, g, A);
+    /* d(1/cos yp)/dt in zp, d(tan yp)/dt in w_x: bend times yp' */
+    const real yp = bend * s->tan_yp + relative[0] * s->sec_yp * s->sec_yp, yp_v = yp * -r->inverse;
+    A[SHEET_RATE_P + 2][SHEET_RATE_P + 1] += yp;
+    A[SHEET_RATE_P + 2][SHEET_RATE_V + 2] += yp * r->inverse;
+    A[SHEET_RATE_V + 1][SHEET_RATE_P + 1] += yp_v;
+    A[SHEET_RATE_V + 1][SHEET_RATE_V + 2] += yp_v * r->inverse;
+    /* d(across)/dt = .. - yq' zq', d(zq')/dt = .. + yq' across; d(1/cos zq)/dt in px, d(tan zq)/dt
+     * in yq */
+    const real zq = (t[SHEET_LOCAL_PX] * s->tan_zq - t[SHEET_LOCAL_YQ] * s->sec_zq) * s->sec_zq;
+    for (int j = 0; j < SHEET_RATE_MIXED; j++) {
+        const int column = sheet_rates_mixed[j];
+        const real both = t[SHEET_LOCAL_ZQ] * r->across[j] - across * r->zq[j];
+        A[SHEET_RATE_V + 2][column] += r->inverse * both;
+        A[SHEET_RATE_Q + 1][column] += both;
+        for (int i = 0; i < SHEET_RATE_MIXED; i++) {
+            real *a = &A[sheet_rates_mixed[i]][column];
+            *a += r->yq[i] * both;
+            *a += zq * r->zq[i] * r->across[j];
+        }
+    }
+    for (int i = 0; i < SHEET_RATE_TURNS; i++)
+        for (int j = 0; j < SHEET_RATE_TURNS; j++)
+            if (sheet_rates_used(i, j))
+                H[SHEET_RATES * i + j] += (A[i][j] + A[j][i]) / 2;
+}
+
+/* From rates to the coordinates of the nodes: a row of J[14] = a[11] d(rates)/dx. */
+static inline void sheet_rates_nodal_row(const sheet_local_state *s, const real a[SHEET_RATES],
+                                         real row[SHEET_LOCAL_NODAL])
+{
+    mat3_mul_vec(s->F, a + SHEET_RATE_V, row + NODE_COORDINATES);
+    mat3_mul_vec(s->F, a + SHEET_RATE_P, row + 3);
+    mat3_mul_vec(s->F, a + SHEET_RATE_Q, row + NODE_COORDINATES + 3);
+    for (int k = 0; k < 3; k++)
+        row[k] = -row[NODE_COORDINATES + k];
+    row[6] = a[SHEET_RATE_WP];
+    row[NODE_COORDINATES + 6] = a[SHEET_RATE_WQ];
+}
+
+/* K(row + i, column + j) = K(column + j, row + i) = B_ij. */
+static inline void sheet_rates_put(int row, int column, int negative, const real B[9],
+                                   real K[SHEET_LOCAL_NODAL * SHEET_LOCAL_NODAL])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            K[SHEET_LOCAL_NODAL * (row + i) + column + j] =
+                K[SHEET_LOCAL_NODAL * (column + j) + row + i] =
+                    negative ? -B[3 * i + j] : B[3 * i + j];
+}
+
+/* K[14 x 14] = the form H[11 x 11] in the coordinates of the nodes. */
+static inline void sheet_rates_nodal_form(const sheet_local_state *s,
+                                          const real H[SHEET_RATES * SHEET_RATES],
+                                          real K[SHEET_LOCAL_NODAL * SHEET_LOCAL_NODAL])
+{
+    static const int place[3] = {7, 3, 10}; /* of v, P, Q; v is minus the motion of p too */
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b <= a; b++) {
+            real block[9], half[9], turned[9];
+            for (int i = 0; i < 3; i++) /* F B F^T = (F (F B)^T)^T */
+                for (int j = 0; j < 3; j++)
+                    block[3 * i + j] = H[SHEET_RATES * (3 * a + i) + 3 * b + j];
+            mat3_mul(s->F, block, half);
+            for (int i = 0; i < 3; i++)
+                for (int j = 0; j < 3; j++)
+                    turned[3 * i + j] = vec3_dot(half + 3 * i, s->F + 3 * j);
+            sheet_rates_put(place[a], place[b], 0, turned, K);
+            if (b == 0)
+                sheet_rates_put(place[a], 0, 1, turned, K);
+            if (a == 0)
+                sheet_rates_put(0, 0, 0, turned, K);
+        }
+    for (int k = 0; k < 2; k++) {
+        real row[SHEET_LOCAL_NODAL];
+        sheet_rates_nodal_row(s, H + SHEET_RATES * (SHEET_RATE_WP + k), row);
+        for (int j = 0; j < SHEET_LOCAL_NODAL; j++)
+            K[SHEET_LOCAL_NODAL * (6 + NODE_COORDINATES * k) + j] =
+                K[SHEET_LOCAL_NODAL * j + 6 + NODE_COORDINATES * k] = row[j];
+    }
+}
+
+/* The deformation function of a table of strains, with its derivatives, of one element or of
+ * several in lanes: with E = de/dq, R = dq/d(rates) and T the rates of the nodes' coordinates, J =
+ * E R T and sum s_i d2e_i/dx2 = T^T [R^T (sum s_i Q_i) R + sum_k t_k q_k''] T, t = E^T s. */
 
 /* E[8 x 8] = de/dq at q, e[8]. */
 static inline void sheet_deformation_gradient(const sheet_strains_table *m,

@@ -1,11 +1,9 @@
 #define LANES 4
-#include "elements/sheet/lanes.h"
+#include "elements/sheet/sheet.h"
 
-#include "elements/shared/lanes_equations.h"
-#include "elements/sheet/base.h"
+#include "elements/shared/lanes.h"
 #include "elements/sheet/deformation.h"
-#include "elements/sheet/inverse.h"
-#include "elements/sheet/linear.h"
+#include "elements/sheet/potential.h"
 
 static const lanes_sizes sizes = {.nodes = 2, .strains = SHEET_STRAINS, .relative = 1};
 

@@ -4,7 +4,10 @@
 #ifndef BEAMWORK_SHEET_POTENTIAL_H
 #define BEAMWORK_SHEET_POTENTIAL_H
 
-#include "elements/sheet/local.h"
+#include <string.h>
+
+#include "elements/math/real_dense.h"
+#include "elements/sheet/sheet.h"
 
 enum { SHEET_STRESSES = 6 };
 
@@ -37,5 +40,350 @@ status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_L
 status sheet_potential_third(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                              const double dx[SHEET_LOCAL_COORDINATES],
                              double T[SHEET_LOCAL_COORDINATES * SHEET_LOCAL_COORDINATES]);
+
+/* The potential at its stationary stresses with two derivatives, of one element or of several in
+ * lanes.  Written as products of v = (1, x), it is a sum over the few terms that are not zero;
+ * these are the same in all states. */
+
+enum { SHEET_STATIONARY_V = 1 + SHEET_LOCAL_COORDINATES };
+
+/* Everything at one x: v = (1, x), Cholesky factor of A, s = A^-1 b, W_i,a = d(b_i - (A s)_i)/dv_a
+ * at fixed s, whose index 0 is no variable and not used. */
+typedef struct sheet_stationary {
+    real v[SHEET_STATIONARY_V], L[SHEET_STRESSES * SHEET_STRESSES], b[SHEET_STRESSES],
+        s[SHEET_STRESSES], W[SHEET_STRESSES][SHEET_STATIONARY_V];
+} sheet_stationary;
+
+static inline void sheet_stationary_add_A(const sheet_potential *p, sheet_stationary *at)
+{
+    const real *v = at->v;
+    for (int k = 0; k < p->linear_A; k++)
+        at->L[SHEET_STRESSES * p->A[k].i + p->A[k].j] += p->A[k].c;
+    for (int k = p->linear_A; k < p->quadratic_A; k++)
+        at->L[SHEET_STRESSES * p->A[k].i + p->A[k].j] += p->A[k].c * v[p->A[k].b];
+    for (int k = p->quadratic_A; k < p->terms_A; k++) {
+        const sheet_potential_term *t = &p->A[k];
+        at->L[SHEET_STRESSES * t->i + t->j] += t->c * v[t->a] * v[t->b];
+    }
+}
+
+static inline void sheet_stationary_add_b(const sheet_potential *p, sheet_stationary *at)
+{
+    const real *v = at->v;
+    for (int k = 0; k < p->linear_b; k++)
+        at->b[p->b[k].i] += p->b[k].c;
+    for (int k = p->linear_b; k < p->quadratic_b; k++) {
+        const sheet_potential_term *t = &p->b[k];
+        at->b[t->i] += t->c * v[t->b];
+        at->W[t->i][t->b] += t->c;
+    }
+    for (int k = p->quadratic_b; k < p->terms_b; k++) {
+        const sheet_potential_term *t = &p->b[k];
+        const real ca = t->c * v[t->a];
+        at->b[t->i] += ca * v[t->b];
+        at->W[t->i][t->b] += ca;
+        at->W[t->i][t->a] += t->c * v[t->b];
+    }
+}
+
+/* Returns where A is positive definite. */
+static inline real_truth sheet_stationary_solve(const sheet_potential *p,
+                                                const real x[SHEET_LOCAL_COORDINATES],
+                                                sheet_stationary *at)
+{
+    memset(at, 0, sizeof *at);
+    at->v[0] = real_of(1);
+    memcpy(at->v + 1, x, SHEET_LOCAL_COORDINATES * sizeof *x);
+    sheet_stationary_add_A(p, at);
+    sheet_stationary_add_b(p, at);
+    const real_truth good = real_cholesky(SHEET_STRESSES, at->L);
+    memcpy(at->s, at->b, sizeof at->s);
+    real_cholesky_solve(SHEET_STRESSES, at->L, at->s);
+    return good;
+}
+
+/* g_a += 1/2 s.W_a */
+static inline void sheet_stationary_add_half_work(const sheet_stationary *at,
+                                                  real g[SHEET_STATIONARY_V])
+{
+    for (int i = 0; i < SHEET_STRESSES; i++) {
+        const real half = at->s[i] / 2;
+        for (int a = 1; a < SHEET_STATIONARY_V; a++)
+            g[a] += half * at->W[i][a];
+    }
+}
+
+/* Terms of P at fixed stresses: g += d(P0 + b.s - s^T A s/2)/dv, h += its second derivatives with
+ * row <= column; W completed.  s.b,a - s^T A,a s/2 is half of s.W_a before and after A,a s is taken
+ * from W.  Index 0 is no variable: its entries are not used. */
+static inline void sheet_stationary_add_explicit(const sheet_potential *p, sheet_stationary *at,
+                                                 real g[SHEET_STATIONARY_V], real h[])
+{
+    enum { V = SHEET_STATIONARY_V };
+    const real *v = at->v, *s = at->s;
+    sheet_stationary_add_half_work(at, g);
+    for (int k = p->linear_P0; k < p->terms_P0; k++) {
+        const sheet_potential_term *t = &p->P0[k];
+        g[t->a] += t->c * v[t->b];
+        g[t->b] += t->c * v[t->a];
+        h[V * t->a + t->b] += t->a == t->b ? 2 * t->c : t->c;
+    }
+    for (int k = p->quadratic_b; k < p->terms_b; k++) {
+        const sheet_potential_term *t = &p->b[k];
+        h[V * t->a + t->b] += (t->a == t->b ? 2 : 1) * t->c * s[t->i];
+    }
+    for (int k = p->linear_A; k < p->quadratic_A; k++) {
+        const sheet_potential_term *t = &p->A[k];
+        at->W[t->i][t->b] -= t->c * s[t->j];
+        if (t->i != t->j)
+            at->W[t->j][t->b] -= t->c * s[t->i];
+    }
+    for (int k = p->quadratic_A; k < p->terms_A; k++) {
+        const sheet_potential_term *t = &p->A[k];
+        const double c = t->i == t->j ? t->c / 2 : t->c;
+        const real ci = c * s[t->i], cj = c * s[t->j];
+        at->W[t->i][t->a] -= cj * v[t->b];
+        at->W[t->j][t->a] -= ci * v[t->b];
+        at->W[t->i][t->b] -= cj * v[t->a];
+        at->W[t->j][t->b] -= ci * v[t->a];
+        h[V * t->a + t->b] -= (t->a == t->b ? 2 : 1) * ci * s[t->j];
+    }
+    sheet_stationary_add_half_work(at, g);
+}
+
+/* Rows of L^-1 W: their products are W^T A^-1 W. */
+static inline void sheet_stationary_forward(sheet_stationary *at)
+{
+    for (int i = 0; i < SHEET_STRESSES; i++)
+        for (int a = 1; a < SHEET_STATIONARY_V; a++) {
+            real sum = at->W[i][a];
+            for (int k = 0; k < i; k++)
+                sum -= at->L[SHEET_STRESSES * i + k] * at->W[k][a];
+            at->W[i][a] = sum / at->L[(SHEET_STRESSES + 1) * i];
+        }
+}
+
+static inline real sheet_stationary_value(const sheet_potential *p, const sheet_stationary *at)
+{
+    real P = real_of(0);
+    for (int k = 0; k < p->terms_P0; k++)
+        P += p->P0[k].c * at->v[p->P0[k].a] * at->v[p->P0[k].b];
+    for (int i = 0; i < SHEET_STRESSES; i++)
+        P += at->b[i] * at->s[i] / 2;
+    return P;
+}
+
+/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not wanted.  Returns where A is positive
+ * definite; where it is nowhere, nothing is written.
+ * P,k = P0,k + s.b,k - s^T A,k s/2,
+ * P,kl = P0,kl + s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l s). */
+static inline real_truth sheet_stationary_evaluate(const sheet_potential *p,
+                                                   const real x[SHEET_LOCAL_COORDINATES], real *P,
+                                                   real *gradient, real *hessian)
+{
+    enum { N = SHEET_LOCAL_COORDINATES, V = SHEET_STATIONARY_V };
+    sheet_stationary at;
+    real g[V], h[V * V];
+    const real_truth good = sheet_stationary_solve(p, x, &at);
+    if (!real_any(good))
+        return good;
+    if (P != NULL)
+        *P = sheet_stationary_value(p, &at);
+    if (gradient == NULL && hessian == NULL)
+        return good;
+    memset(g, 0, sizeof g);
+    memset(h, 0, sizeof h);
+    sheet_stationary_add_explicit(p, &at, g, h);
+    if (gradient != NULL)
+        memcpy(gradient, g + 1, N * sizeof *g);
+    if (hessian == NULL)
+        return good;
+    sheet_stationary_forward(&at);
+    for (int a = 1; a < V; a++)
+        for (int b = a; b < V; b++) {
+            real sum = h[V * a + b];
+            for (int i = 0; i < SHEET_STRESSES; i++)
+                sum += at.W[i][a] * at.W[i][b];
+            hessian[N * (a - 1) + b - 1] = hessian[N * (b - 1) + a - 1] = sum;
+        }
+    return good;
+}
+
+/* The stress function of the third-order elements in the generalized strains, of one element or of
+ * several in lanes: N Eqs. 58-65, x = scale e + 1/2 e^T X e inverts the deformation function to
+ * second order.  Of X only u and the angles about y have terms: u products of e5 and e6, the angles
+ * products of one of these and e2, e7 or e8. */
+
+enum { SHEET_INVERSE_CURVED = 3, SHEET_INVERSE_BENT = 2, SHEET_INVERSE_TWISTED = 3 };
+
+/* Local coordinates whose inverse is quadratic (N Eqs. 58, 60, 61), and the strains, from 0, in
+ * their products. */
+static const int sheet_inverse_curved[SHEET_INVERSE_CURVED] = {SHEET_LOCAL_U, SHEET_LOCAL_YP,
+                                                               SHEET_LOCAL_YQ},
+                 sheet_inverse_bent[SHEET_INVERSE_BENT] = {4, 5},
+                 sheet_inverse_twisted[SHEET_INVERSE_TWISTED] = {1, 6, 7};
+
+typedef struct sheet_inverse_data {
+    sheet_base_data base;
+    sheet_potential potential;
+    double bending; /* L^2/EIz [1/N] */
+    double scale[SHEET_STRAINS];
+    double X[SHEET_INVERSE_CURVED][SHEET_STRAINS * SHEET_STRAINS];
+    /* Potential and stress of N Eq. 52 in the stress-free element; they are subtracted. */
+    double rest_energy, rest_stress[SHEET_STRAINS]; /* [J], [N] */
+} sheet_inverse_data;
+
+static inline const sheet_inverse_data *sheet_inverse_of(const element_data *d)
+{
+    return (const sheet_inverse_data *)(const void *)d;
+}
+
+/* The rows X e that dx/de has beside its diagonal, and 1/2 e^T X e; entries that are zero are not
+ * written. */
+static inline void sheet_inverse_row(const double X[SHEET_STRAINS * SHEET_STRAINS], int angle,
+                                     const real e[SHEET_STRAINS], real row[SHEET_STRAINS])
+{
+    const int *bent = sheet_inverse_bent, *twisted = sheet_inverse_twisted;
+    for (int i = 0; i < SHEET_INVERSE_BENT; i++) {
+        const double *c = X + SHEET_STRAINS * bent[i];
+        row[bent[i]] = angle ? c[twisted[0]] * e[twisted[0]] + c[twisted[1]] * e[twisted[1]] +
+                                   c[twisted[2]] * e[twisted[2]]
+                             : c[bent[0]] * e[bent[0]] + c[bent[1]] * e[bent[1]];
+    }
+    for (int i = 0; i < SHEET_INVERSE_TWISTED && angle; i++) {
+        const double *c = X + SHEET_STRAINS * twisted[i];
+        row[twisted[i]] = c[bent[0]] * e[bent[0]] + c[bent[1]] * e[bent[1]];
+    }
+}
+
+/* x(e), of strains counted from the undeformed arc. */
+static inline void sheet_inverse_point(const sheet_inverse_data *d, const real e[SHEET_STRAINS],
+                                       real x[SHEET_STRAINS],
+                                       real row[SHEET_INVERSE_CURVED][SHEET_STRAINS])
+{
+    static const int angle_strains[] = {1, 4, 5, 6, 7};
+    real whole[SHEET_STRAINS];
+    for (int k = 0; k < SHEET_STRAINS; k++) {
+        whole[k] = e[k] + d->base.table.rest[k];
+        x[k] = d->scale[k] * whole[k];
+    }
+    for (int r = 0; r < SHEET_INVERSE_CURVED; r++)
+        sheet_inverse_row(d->X[r], r > 0, whole, row[r]);
+    for (int k = 0; k < SHEET_INVERSE_BENT; k++)
+        x[SHEET_LOCAL_U] += row[0][sheet_inverse_bent[k]] * whole[sheet_inverse_bent[k]] / 2;
+    for (int r = 1; r < SHEET_INVERSE_CURVED; r++)
+        for (int k = 0; k < 5; k++)
+            x[sheet_inverse_curved[r]] += row[r][angle_strains[k]] * whole[angle_strains[k]] / 2;
+}
+
+/* a (dx/de) in place, a[8]. */
+static inline void sheet_inverse_multiply(const sheet_inverse_data *d,
+                                          real row[SHEET_INVERSE_CURVED][SHEET_STRAINS],
+                                          real a[SHEET_STRAINS])
+{
+    const real u = a[SHEET_LOCAL_U], yp = a[SHEET_LOCAL_YP], yq = a[SHEET_LOCAL_YQ];
+    for (int k = 0; k < SHEET_STRAINS; k++)
+        a[k] = a[k] * d->scale[k];
+    for (int k = 0; k < SHEET_INVERSE_BENT; k++) {
+        const int i = sheet_inverse_bent[k];
+        a[i] = a[i] + u * row[0][i] + yp * row[1][i] + yq * row[2][i];
+    }
+    for (int k = 0; k < SHEET_INVERSE_TWISTED; k++) {
+        const int i = sheet_inverse_twisted[k];
+        a[i] = a[i] + yp * row[1][i] + yq * row[2][i];
+    }
+}
+
+/* C = (dx/de)^T h (dx/de) + sum_k g_k d2x_k/de2, h symmetric. */
+static inline void sheet_inverse_second(const sheet_inverse_data *d,
+                                        real row[SHEET_INVERSE_CURVED][SHEET_STRAINS],
+                                        const real g[SHEET_STRAINS], const real h[], real C[])
+{
+    enum { N = SHEET_STRAINS };
+    real half[N * N];
+    memcpy(half, h, sizeof half);
+    for (int i = 0; i < N; i++)
+        sheet_inverse_multiply(d, row, half + N * i);
+    for (int i = 0; i < N; i++) {
+        for (int j = 0; j < N; j++)
+            C[N * i + j] = half[N * j + i];
+        sheet_inverse_multiply(d, row, C + N * i);
+    }
+    for (int i = 0; i < SHEET_INVERSE_BENT; i++) {
+        const int a = sheet_inverse_bent[i];
+        for (int j = 0; j < SHEET_INVERSE_BENT; j++) {
+            const int k = N * a + sheet_inverse_bent[j];
+            C[k] += g[SHEET_LOCAL_U] * d->X[0][k];
+        }
+        for (int j = 0; j < SHEET_INVERSE_TWISTED; j++) {
+            const int b = sheet_inverse_twisted[j];
+            for (int r = 1; r < SHEET_INVERSE_CURVED; r++) {
+                C[N * a + b] += g[sheet_inverse_curved[r]] * d->X[r][N * a + b];
+                C[N * b + a] += g[sheet_inverse_curved[r]] * d->X[r][N * b + a];
+            }
+        }
+    }
+}
+
+/* As element_type.stress.  Returns where it can be evaluated; where it is nowhere, nothing is
+ * written. */
+static inline real_truth sheet_inverse_stress(const sheet_inverse_data *d,
+                                              const real e[SHEET_STRAINS], stress_real *out)
+{
+    enum { N = SHEET_STRAINS };
+    real x[N], row[SHEET_INVERSE_CURVED][N], g[N], h[N * N];
+    const int first = out->sigma != NULL || out->C != NULL;
+    sheet_inverse_point(d, e, x, row);
+    const real_truth good = sheet_stationary_evaluate(&d->potential, x, out->energy,
+                                                      first ? g : NULL, out->C != NULL ? h : NULL);
+    if (!real_any(good))
+        return good;
+    if (out->sigma != NULL) {
+        memcpy(out->sigma, g, sizeof g);
+        sheet_inverse_multiply(d, row, out->sigma);
+        for (int k = 0; k < N; k++)
+            out->sigma[k] -= d->rest_stress[k];
+    }
+    if (out->energy != NULL) {
+        *out->energy -= d->rest_energy;
+        for (int k = 0; k < N; k++)
+            *out->energy -= d->rest_stress[k] * e[k];
+    }
+    if (out->C != NULL)
+        sheet_inverse_second(d, row, g, h, out->C);
+    if (out->residual != NULL)
+        *out->residual = real_of(0);
+    sheet_wagner_add(&d->base.wagner, e, out->energy, out->sigma, out->C);
+    return good;
+}
+
+/* The stress function of the second-order elements, linear but for the Wagner torque, of one
+ * element or of several in lanes. */
+
+/* As element_type.stress. */
+static inline void sheet_linear_stress(const sheet_base_data *d, const real e[SHEET_STRAINS],
+                                       stress_real *out)
+{
+    enum { N = SHEET_STRAINS };
+    real sigma[N];
+    for (int i = 0; i < N; i++) {
+        sigma[i] = real_of(0);
+        for (int j = 0; j < N; j++)
+            sigma[i] += d->S[N * i + j] * e[j];
+    }
+    if (out->energy != NULL) {
+        *out->energy = real_of(0);
+        for (int i = 0; i < N; i++)
+            *out->energy += sigma[i] * e[i] / 2;
+    }
+    if (out->sigma != NULL)
+        memcpy(out->sigma, sigma, sizeof sigma);
+    if (out->C != NULL)
+        for (int i = 0; i < N * N; i++)
+            out->C[i] = real_of(d->S[i]);
+    if (out->residual != NULL)
+        *out->residual = real_of(0);
+    sheet_wagner_add(&d->wagner, e, out->energy, out->sigma, out->C);
+}
 
 #endif

@@ -1,11 +1,10 @@
-#include "elements/sheet/third.h"
+#include "elements/sheet/sheet.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/sheet/fields.h"
-#include "elements/sheet/inverse.h"
+#include "elements/sheet/potential.h"
 
 enum { N = SHEET_STRAINS, CURVED = SHEET_INVERSE_CURVED };
 

@@ -1,8 +1,8 @@
-#include "elements/sheet/torsion.h"
+#include "elements/sheet/sheet.h"
 
 #include <math.h>
 
-#include "elements/math/quadrature.h"
+#include "elements/math/scalar.h"
 
 enum { COEFFICIENTS = SHEET_TORSION_DEGREE + 1, POINTS = 16, LOADS = SHEET_TORSION_MODES + 2 };
 

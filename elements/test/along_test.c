@@ -6,15 +6,11 @@
 #include <string.h>
 
 #include "elements/element.h"
-#include "elements/math/arc.h"
 #include "elements/math/dense.h"
-#include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 #include "elements/math/vec3.h"
-#include "elements/test/nodes.h"
-#include "elements/test/random.h"
-#include "elements/test/sections.h"
-#include "elements/test/worst.h"
+#include "elements/test/kit.h"
 
 extern const element_type element_collocation;
 

@@ -10,7 +10,7 @@
 
 #include "elements/element.h"
 #include "elements/math/dense.h"
-#include "elements/test/nodes.h"
+#include "elements/test/kit.h"
 
 enum {
     CHAIN_MAX_ELEMENTS = 40,

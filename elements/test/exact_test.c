@@ -8,8 +8,7 @@
 #include "elements/math/rotation.h"
 #include "elements/test/chain.h"
 #include "elements/test/check_values.h"
-#include "elements/test/sections.h"
-#include "elements/test/worst.h"
+#include "elements/test/kit.h"
 
 extern const element_type element_geometrically_exact, element_collocation;
 

@@ -7,15 +7,12 @@
 
 #include "elements/element.h"
 #include "elements/field/field.h"
-#include "elements/field/field_mass.h"
 #include "elements/math/dense.h"
 #include "elements/shared/status.h"
 #include "elements/sheet/potential.h"
-#include "elements/sheet/torsion.h"
+#include "elements/sheet/sheet.h"
 #include "elements/test/bimoment_values.h"
-#include "elements/test/nodes.h"
-#include "elements/test/random.h"
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 
 enum { N = ELEMENT_MAX_COORDINATES, LOADS = 3, MOMENT = 1, FOLLOWER = 2, ARM = 4, KINDS = 8 };
 static const double l0 = 0.8;
@@ -262,7 +259,7 @@ static void field_tests(void)
     fixed_ends();
 }
 
-/* What the mass inside of an element adds to its frequencies (elements/field/field_mass.h): every
+/* What the mass inside of an element adds to its frequencies (elements/field/field.h): every
  * entry against the exact dynamic stiffness of uniform beams. */
 
 static const double inner_l0 = 0.8;

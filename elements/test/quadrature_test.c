@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "elements/math/quadrature.h"
+#include "elements/math/scalar.h"
 
 enum { MOST = QUADRATURE_MAX_POINTS, THREADS = 8 };
 

@@ -5,9 +5,8 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
-#include "elements/math/quadrature.h"
-#include "elements/test/sections.h"
+#include "elements/math/scalar.h"
+#include "elements/test/kit.h"
 
 /* One wall of length h and thickness t whose middle is at (y, z), turned by `angle` from the y
  * axis. */

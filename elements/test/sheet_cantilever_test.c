@@ -10,9 +10,8 @@
 #include "elements/element.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "elements/sheet/strains.h"
-#include "elements/test/nodes.h"
-#include "elements/test/sections.h"
+#include "elements/sheet/sheet.h"
+#include "elements/test/kit.h"
 
 extern const element_type element_sheet_second, element_sheet_second_consistent,
     element_sheet_third, element_sheet_third_printed;

@@ -7,14 +7,11 @@
 
 #include "elements/collocation/collocated.h"
 #include "elements/element.h"
-#include "elements/geometrically_exact/line.h"
-#include "elements/geometrically_exact/warping.h"
-#include "elements/math/congruence.h"
-#include "elements/math/quadrature.h"
+#include "elements/geometrically_exact/exact.h"
+#include "elements/math/dense.h"
 #include "elements/math/real.h"
-#include "elements/test/random.h"
-#include "elements/test/sections.h"
-#include "elements/test/worst.h"
+#include "elements/math/scalar.h"
+#include "elements/test/kit.h"
 
 extern const element_type element_beamw, element_beamw_first, element_beamw_vlasov,
     element_sheet_second, element_sheet_second_consistent;

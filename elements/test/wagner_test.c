@@ -6,12 +6,11 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
-#include "elements/math/quadrature.h"
+#include "elements/math/scalar.h"
+#include "elements/section/section.h"
 #include "elements/section/stress.h"
-#include "elements/section/taper.h"
 #include "elements/section/walls.h"
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 
 typedef struct wagner_shape {
     const char *name;

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
 static int least(int a, int b)

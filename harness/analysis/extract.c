@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 

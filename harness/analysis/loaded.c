@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
 enum { MAX_STATES = 60, POINTS = 3 };

@@ -71,7 +71,7 @@ static void stiffness_product(void *context, const double mode[], double y[])
 
 /* Eigenvalue of a mode x with x^T (K + shift M) x = 1: the positive root of
  *   x^T K x = lambda x^T M x + lambda^2 x^T B x
- * with what is inside of the elements (field/field_mass.h), but not under stress: that acts there
+ * with what is inside of the elements (field/field.h), but not under stress: that acts there
  * too. What is a rounding error of the shift moves as a rigid body. */
 static double eigenvalue(modal_forms *about, double mu, const double mode[])
 {

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 
 enum { DIMENSIONS = 3 }; /* m, kg, s */
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/quadrature.h"
+#include "elements/math/scalar.h"
 #include "harness/analysis/analysis.h"
 #include "harness/model/model.h"
 

@@ -5,7 +5,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
 claim *claims_open(claims *c, const char *name, double allowed)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/shared/number.h"
+#include "elements/shared/choice.h"
 
 const char *design_name(design_kind kind)
 {

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 
 const measured_group measured_groups[MEASURED_GROUPS] = {
     {"states", "uniform and linear states of a cantilever: error with 1 element, 4 unequal ones",

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/shared/number.h"
+#include "elements/shared/choice.h"
 
 enum {
     STATIONS_OF_ERROR = 20,

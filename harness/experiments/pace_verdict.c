@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/shared/number.h"
+#include "elements/shared/choice.h"
 
 /* Of a decimal logarithm: the same, but for a factor of two. */
 static const double same_decade = 0.3;

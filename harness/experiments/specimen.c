@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/math/arc.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/formulations/adapted.h"

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "elements/element.h"
-#include "elements/field/field_mass.h"
+#include "elements/field/field.h"
 
 struct element_data {
     const element_type *given;

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "elements/shared/choice.h"
-#include "elements/shared/number.h"
 
 /* Copies one word without its quotes; returns what follows it, NULL: a quote does not end. */
 static const char *take(const char *from, char **to)

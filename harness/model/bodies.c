@@ -15,7 +15,7 @@
 
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
-#include "elements/math/offset.h"
+#include "elements/math/rotation.h"
 
 enum { N = NODE_COORDINATES };
 
@@ -332,7 +332,7 @@ void discrete_node_force(const model *m, const model_state *s, const element_rot
 }
 
 /* Element coordinates (dr, dphi, da per vertex) -> coordinates of the bodies that move them, in
- * place. Offset: elements/math/offset.h. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x
+ * place. Offset: elements/math/rotation.h. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x
  * b_j dt_i dt_j (Baker-Campbell-Hausdorff). */
 
 static void sequence_force(int angles, double b[3][3], double force[7])

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "elements/section/taper.h"
+#include "elements/section/section.h"
 
 /* A place of a member at which pieces meet. */
 typedef struct division_cut {

@@ -5,7 +5,7 @@
 
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
-#include "elements/section/matrices.h"
+#include "elements/section/section.h"
 #include "elements/section/walls.h"
 
 int features_eccentric(const section *c)

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 
 void kinematics_position(const model *m, const model_state *s, int index, double r[3])
 {

@@ -8,10 +8,10 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "elements/field/field_mass.h"
+#include "elements/field/field.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "elements/shared/lumped.h"
+#include "elements/shared/masses.h"
 
 /* Of a sequence's next angle; any length. */
 static void add_axis(const double axis[3], mesh_vertex *v)

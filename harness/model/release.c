@@ -5,9 +5,8 @@
 
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
-#include "elements/math/larger.h"
-#include "elements/math/offset.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 
 /* int_0^s exp(t k~) e_x dt in the triad at p. */
 static void chord_of(const double k[3], double s, double c[3])

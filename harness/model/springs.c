@@ -6,8 +6,8 @@
 
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
-#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 
 const char turns_lost[] =
     "on a full turn about a changing axis its rotation vector loses its direction; use smaller "

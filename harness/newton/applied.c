@@ -6,8 +6,8 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "elements/section/matrices.h"
-#include "elements/shared/lumped.h"
+#include "elements/section/section.h"
+#include "elements/shared/masses.h"
 
 double applied_factor(const equations *eq, const scene_load *load, double path)
 {

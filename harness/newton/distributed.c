@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
-#include "elements/section/matrices.h"
+#include "elements/math/scalar.h"
+#include "elements/section/section.h"
 
 int distributed_spreads(const equations *eq, const scene_load *load)
 {

@@ -4,7 +4,7 @@
 
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
-#include "elements/section/taper.h"
+#include "elements/section/section.h"
 
 /* Loads along the member that a vertex of it takes are taken off. */
 typedef struct share {

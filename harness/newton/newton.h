@@ -1351,7 +1351,7 @@ status rotating_frame_inertia(const equations *, const model_state *, double pat
 int rotating_frame_lumps(const equations *);
 
 /* x^T B x of the undeformed structure, x[free + driven]: what the mass inside of elements adds to a
- * mode, k = lambda m + lambda^2 b (field/field_mass.h). */
+ * mode, k = lambda m + lambda^2 b (field/field.h). */
 double rotating_frame_inner(const model *, const double x[]);
 /* B itself, with the pattern of a symmetric K. 0: no element has it, and it is zero. */
 int rotating_frame_inner_matrix(const equations *, sparse *out);

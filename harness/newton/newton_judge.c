@@ -8,9 +8,8 @@
 
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
-#include "elements/math/larger.h"
-#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 
 /* Largest of two corrections after another (those of the geometrically exact element settle at
  * 3e-11 of 1000 elements, 6e-9 of 40 000) ... */

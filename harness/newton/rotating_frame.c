@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "elements/field/field_mass.h"
+#include "elements/field/field.h"
 #include "elements/math/dense.h"
 
 int rotating_frame_lumps(const equations *eq)

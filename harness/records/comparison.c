@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/shared/number.h"
+#include "elements/shared/choice.h"
 
 const comparison_limits comparison_limits_default = {0.01, RESULTS_FLOOR, 0.02};
 

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 
 enum { RING = 24 }; /* sides of a tube */
 

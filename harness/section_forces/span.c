@@ -4,10 +4,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/pi.h"
-#include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
-#include "elements/shared/beam_coupled.h"
+#include "elements/math/scalar.h"
+#include "elements/shared/beam_constants.h"
 
 enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
 static const double span_enough = 1e-12, tolerable = 1e-7; /* of strains times the length */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 
 /* Frequencies whose shapes are not their own: relative distance. */
 static const double alike = 1e-6;

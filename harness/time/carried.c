@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/math/vec3.h"
-#include "elements/shared/lumped.h"
+#include "elements/shared/masses.h"
 
 /* Tensor of a mass at r: mass (r.r 1 - r r^T). */
 static void add_point(double mass, const double r[3], double tensor[9])

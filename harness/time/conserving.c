@@ -7,7 +7,7 @@
 
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
-#include "elements/math/larger.h"
+#include "elements/math/scalar.h"
 #include "elements/math/vec3.h"
 
 enum { LEAST_ITERATIONS = 3 };

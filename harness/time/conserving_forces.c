@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/larger.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 #include "elements/math/vec3.h"
 
 enum { N = ELEMENT_MAX_COORDINATES, M = DEFORMABLE_STRAINS };

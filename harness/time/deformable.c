@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "elements/math/vec3.h"
-#include "elements/shared/lumped.h"
+#include "elements/shared/masses.h"
 
 int deformable_count(const conserving *s)
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/math/larger.h"
+#include "elements/math/scalar.h"
 #include "harness/numerics/numerics.h"
 
 enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/math/larger.h"
+#include "elements/math/scalar.h"
 
 /* What an iteration of the stages works on. */
 typedef struct radau_solution {

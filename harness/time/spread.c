@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/offset.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 

@@ -12,7 +12,7 @@
 
 #include "cases/case.h"
 #include "elements/element.h"
-#include "elements/shared/lumped.h"
+#include "elements/shared/masses.h"
 #include "harness/study/study.h"
 
 status __real_adapters_complete(const element_type *, const double[], element_type *, fault *);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cases/format/format_impl.h"
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 
 /* The text as a value that begins in line 3, column 10. */
 static document_node text_node(const char *text)

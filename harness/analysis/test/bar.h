@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/tools/kit/ask.h"
 
 enum { WANTED = 4, ELEMENTS = 16 };

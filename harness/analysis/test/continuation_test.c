@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
-#include "elements/test/sections.h"
+#include "elements/math/scalar.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 #include "harness/tools/kit/cells.h"

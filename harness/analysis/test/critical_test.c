@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/analysis/test/bar.h"
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/accepted.h"

@@ -10,11 +10,9 @@
 
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
-#include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
-#include "elements/test/random.h"
-#include "elements/test/sections.h"
-#include "elements/test/worst.h"
+#include "elements/math/scalar.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/analysis/test/hinged.h"
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/accepted.h"

@@ -5,7 +5,7 @@
 
 #include <gsl/gsl_test.h>
 
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 #include "harness/tools/kit/cells.h"

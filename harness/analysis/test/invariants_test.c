@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/test/worst.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 

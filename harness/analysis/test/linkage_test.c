@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 #include "harness/analysis/test/hinged.h"
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/scenes.h"

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 #include "harness/tools/kit/ask.h"
 
 enum { ROOT, MIDDLE, TIP, BESIDE, LATER };

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "cases/case.h"
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 #include "harness/tools/kit/scenes.h"

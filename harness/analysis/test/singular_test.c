@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 #include "harness/analysis/test/moves.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"

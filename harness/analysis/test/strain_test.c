@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
-#include "elements/test/sections.h"
+#include "elements/math/scalar.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 #include "harness/tools/kit/scenes.h"

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 #include "harness/analysis/analysis_impl.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"

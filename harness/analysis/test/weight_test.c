@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 #include "harness/tools/kit/scenes.h"

@@ -3,7 +3,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include "elements/test/random.h"
+#include "elements/test/kit.h"
 #include "harness/experiments/test/number_work.h"
 
 static void one_folder(void)

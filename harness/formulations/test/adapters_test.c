@@ -6,9 +6,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/test/nodes.h"
-#include "elements/test/random.h"
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 
 enum { M = ELEMENT_MAX_STRAINS, N = ELEMENT_MAX_COORDINATES };

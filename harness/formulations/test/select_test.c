@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "elements/test/random.h"
+#include "elements/test/kit.h"
 
 enum { LONGEST = 4000, EXPRESSIONS = 4000 };
 static const char *const words[] = {"hexapod", "c_column/default", "beamw", "and_or"};

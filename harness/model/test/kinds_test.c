@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "elements/math/rotation.h"
-#include "elements/section/taper.h"
+#include "elements/section/section.h"
 #include "harness/analysis/analysis.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model_impl.h"

@@ -6,10 +6,8 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "elements/shared/lumped.h"
-#include "elements/test/nodes.h"
-#include "elements/test/random.h"
-#include "elements/test/worst.h"
+#include "elements/shared/masses.h"
+#include "elements/test/kit.h"
 #include "harness/experiments/experiments.h"
 #include "harness/model/model.h"
 

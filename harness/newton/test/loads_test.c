@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"

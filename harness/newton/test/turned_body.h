@@ -9,7 +9,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/numerics/numerics_impl.h"
 #include "harness/numerics/test/eigen_problems.h"
 

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_TEST_EIGEN_PROBLEMS_H
 #define BEAMWORK_TEST_EIGEN_PROBLEMS_H
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/numerics/numerics.h"
 #include "harness/numerics/test/matrices.h"
 

@@ -11,7 +11,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/real.h"
-#include "elements/test/random.h"
+#include "elements/test/kit.h"
 #include "harness/numerics/numerics_impl.h"
 #include "harness/numerics/test/matrices.h"
 

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "elements/math/pi.h"
-#include "elements/test/random.h"
+#include "elements/math/scalar.h"
+#include "elements/test/kit.h"
 #include "harness/numerics/numerics.h"
 
 /* Sparse form of A[n x n]: nonzero entries, and the diagonal in any case. */

@@ -9,8 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "elements/test/random.h"
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 #include "harness/records/records_impl.h"
 #include "harness/records/test/folder.h"
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/test/random.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study_impl.h"
 

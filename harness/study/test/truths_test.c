@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "elements/test/random.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 #include "harness/study/test/truths_file.h"

@@ -31,7 +31,7 @@ static int add_profile(scene *s, double stiffening)
 
 static int add_motion(scene *s, scene_mass mass, scene_scheme scheme, double step, double end)
 {
-    const int motion = moving_add(s, scheme, step, end);
+    const int motion = motion_added(s, scheme, step, end);
     s->analysis[motion].of.motion.mass = mass;
     return motion;
 }
@@ -280,7 +280,7 @@ static double drift(const case_type *type, scene_scheme scheme, double step, dou
     scene s;
     answer a;
     moving_case(type, "", &s);
-    const int motion = moving_add(&s, scheme, step, end);
+    const int motion = motion_added(&s, scheme, step, end);
     moving_range(&s, "drift", motion, SCENE_DRIFT);
     moving_range(&s, "energy", motion, SCENE_ENERGY);
     moving_range(&s, "work", motion, SCENE_WORK);
@@ -366,7 +366,7 @@ static void momentum(const case_type *type, const char *parameters, double (*imp
             answer a;
             moving_case(type, parameters, &s);
             const double h = 0.05;
-            const int motion = moving_add(&s, scheme[i], h, end[k]);
+            const int motion = motion_added(&s, scheme[i], h, end[k]);
             for (int j = 0; j < 3; j++)
                 scene_add_quantity(&s, (const char *const[]){"px", "py", "pz"}[j], "kg m/s", motion,
                                    scene_balance_of(SCENE_PX + j));
@@ -430,7 +430,7 @@ static swing take(const formulation *with, scene_scheme by, double stiffening, d
     fault f = {""};
     snprintf(parameters, sizeof parameters, "stiffening=%g", stiffening);
     moving_case(&case_pendulum, parameters, &s);
-    moving_add(&s, by, step, steps * step);
+    motion_added(&s, by, step, steps * step);
     memset(&options, 0, sizeof options);
     memset(&result, 0, sizeof result);
     const model_request wanted = {

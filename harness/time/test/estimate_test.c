@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "elements/math/dense.h"
-#include "elements/test/worst.h"
+#include "elements/test/kit.h"
 #include "harness/model/model.h"
 #include "harness/time/test/flying.h"
 #include "harness/time/test/moving.h"
@@ -380,7 +380,7 @@ extern const case_type case_free_flight_space;
 static void throw_rod(scene *s, scene_scheme by, const scene_alpha *alpha)
 {
     moving_case(&case_free_flight_space, "", s);
-    const int motion = moving_add(s, by, 0.05, 1);
+    const int motion = motion_added(s, by, 0.05, 1);
     moving_unload(s);
     s->analysis[motion].of.motion.alpha = *alpha;
     s->analysis[motion].of.motion.start = (scene_start){.spin = {0.3, 1, 2}};
@@ -474,7 +474,7 @@ static void impulse(scene_scheme by)
     scene s;
     answer a;
     moving_case(&case_free_flight_space, "", &s);
-    const int motion = moving_add(&s, by, 0.07, 6);
+    const int motion = motion_added(&s, by, 0.07, 6);
     scene_add_quantity(&s, "px", "1", motion, scene_balance_of(SCENE_PX));
     scene_add_quantity(&s, "py", "1", motion, scene_balance_of(SCENE_PY));
     ask_scene(&s, &element_geometrically_exact, NULL, 3, &a);

@@ -10,7 +10,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "elements/test/worst.h"
+#include "elements/test/kit.h"
 #include "harness/time/time_impl.h"
 #include "harness/tools/kit/cells.h"
 #include "harness/tools/kit/scenes.h"

@@ -2,7 +2,7 @@
  * sequences of angles, released ends, warping) are the change of momenta and of kinetic energy
  * along a motion; kinetic energy is that of all masses one by one. */
 #include "elements/math/rotation.h"
-#include "elements/test/worst.h"
+#include "elements/test/kit.h"
 #include "harness/model/model.h"
 #include "harness/time/test/masses.h"
 #include "harness/time/time_impl.h"

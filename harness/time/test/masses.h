@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "elements/math/vec3.h"
-#include "elements/test/random.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/time/time_impl.h"

@@ -3,7 +3,7 @@
  * not looked at; a small motion has the frequency of its mode. */
 #include <math.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/analysis/test/hinged.h"
 #include "harness/time/test/moving.h"
 #include "harness/tools/kit/accepted.h"

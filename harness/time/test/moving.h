@@ -40,7 +40,7 @@ static inline void moving_unload(scene *s)
 }
 
 /* A motion to `end` [s] with stations at equal distances. */
-static inline int moving_add(scene *s, scene_scheme by, double step, double end)
+static inline int motion_added(scene *s, scene_scheme by, double step, double end)
 {
     double path[MOVING_STATIONS];
     for (int i = 0; i < MOVING_STATIONS; i++)

@@ -4,7 +4,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "elements/math/vec3.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
@@ -23,7 +23,7 @@ static void throw_rod(scene *s, scene_scheme by)
 {
     moving_case(&case_free_flight_space, "", s);
     scene_member_at(s, 0)->damping = by <= SCENE_ALPHA || by == SCENE_RADAU ? 1e-3 : 0;
-    moving_add(s, by, 0.05, 1);
+    motion_added(s, by, 0.05, 1);
 }
 
 /* Two rods with a joint and a spring across it, on a base that shakes. */
@@ -208,7 +208,7 @@ static void take(const element_type *type, scene_scheme with, double damping, co
     scene s;
     int root;
     const int member = leaf(&s, damping, by, &root);
-    const int motion = moving_add(&s, with, step, 0.1);
+    const int motion = motion_added(&s, with, step, 0.1);
     moving_range(&s, "drift", motion, SCENE_DRIFT);
     moving_range(&s, "energy", motion, SCENE_ENERGY);
     scene_add_quantity(&s, "reaction", "N m", motion, scene_reaction(root, SCENE_RY));
@@ -292,7 +292,7 @@ static void launch_there(const char *then, double least, double most)
     int root;
     double before[4], after[4], r[3];
     leaf(&s, 1e-3, &back, &root);
-    moving_add(&s, SCENE_RADAU, 0.0005, 0.1);
+    motion_added(&s, SCENE_RADAU, 0.0005, 0.1);
     gsl_test(flying_begin(&s, &element_geometrically_exact, 4, &f) != STATUS_OK, "begins: %s",
              f.why.text);
     for (int i = 0; i < steps; i++) /* on the instant, or the load is that behind it */

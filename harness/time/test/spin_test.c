@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "cases/scene/scene.h"
-#include "elements/test/sections.h"
+#include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/model/test/turned_end.h"

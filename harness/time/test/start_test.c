@@ -4,7 +4,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/time/test/moving.h"
 #include "harness/tools/kit/scenes.h"
 

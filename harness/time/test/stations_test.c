@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 #include "harness/tools/kit/scenes.h"
 
 #define STATIONS_SWUNG "harness/time/test/swung.yaml"

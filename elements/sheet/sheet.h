@@ -1,0 +1,325 @@
+/* Sheet flexures: local coordinates, strains, stiffness, torsion and Wagner torque, the common
+ * base, elements of second and third order. */
+#ifndef BEAMWORK_SHEET_SHEET_H
+#define BEAMWORK_SHEET_SHEET_H
+
+#include "elements/element.h"
+#include "elements/field/field.h"
+#include "elements/math/vec3.h"
+#include "elements/shared/lanes.h"
+#include "elements/shared/status.h"
+
+/* Local coordinates of a two-node beam that is simply supported in its own frame (N Eqs. 12, 40,
+ * 42).
+ *
+ * The frame F = (n, j, k): n from p to q, j across n and the z axis of p, k = n x j.  In it the
+ * nodes' triads are F^T R^p = Ry(yp) Rz(zp) and F^T R^q = Ry(yq) Rz(zq) Rx(px).
+ *
+ * Derivatives are taken with respect to eleven rates along a path of constant velocity and constant
+ * spatial spin: in frame axes the relative velocity v of q against p, the spins P and Q of the
+ * nodes, and the rates of the two warping amplitudes. */
+
+/* u elongation [m]; angles [rad] of N, x twist, y and z bending; W warping amplitudes [rad/m] */
+enum {
+    SHEET_LOCAL_U,
+    SHEET_LOCAL_PX,
+    SHEET_LOCAL_YP,
+    SHEET_LOCAL_YQ,
+    SHEET_LOCAL_ZP,
+    SHEET_LOCAL_ZQ,
+    SHEET_LOCAL_WP,
+    SHEET_LOCAL_WQ,
+    SHEET_LOCAL_COORDINATES
+};
+enum { SHEET_LOCAL_NODAL = 2 * NODE_COORDINATES };
+
+typedef struct sheet_local_state {
+    real q[SHEET_LOCAL_COORDINATES];
+    real F[9]; /* columns n j k */
+    real l;    /* present distance of the nodes [m] */
+    real tan_yp, sec_yp, cos_yq, sin_yq, tan_zq, sec_zq;
+} sheet_local_state;
+
+/* chord: initial distance of the nodes [m], from which the elongation is counted.  F^T R^p =
+ * Ry(yp) Rz(zp), whose first row is n seen from p, and F^T R^q = Ry(yq) Rz(zq) Rx(px). */
+static inline void sheet_local_of(double chord, const node_real x[2], sheet_local_state *out)
+{
+    const real *p = x[0].R, *q = x[1].R;
+    real d[3], moved[3], D[3], F[3][3], M[9];
+    for (int i = 0; i < 3; i++) {
+        d[i] = x[1].r[i] - x[0].r[i];
+        moved[i] = x[1].u[i] - x[0].u[i];
+    }
+    mat3_transpose_mul_vec(p, d, D);
+    const real l = real_sqrt(vec3_dot(d, d)), h = real_sqrt(D[0] * D[0] + D[1] * D[1]);
+    for (int i = 0; i < 3; i++) {
+        F[0][i] = d[i] / l;
+        F[1][i] = (p[3 * i + 1] * D[0] - p[3 * i] * D[1]) / h;
+    }
+    vec3_cross(F[0], F[1], F[2]);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            out->F[3 * i + k] = F[k][i];
+    mat3_transpose_mul(out->F, q, M);
+    const real m = real_sqrt(M[0] * M[0] + M[6] * M[6]);
+    out->l = l;
+    out->q[SHEET_LOCAL_U] = vec3_elongation(d, moved, chord);
+    out->q[SHEET_LOCAL_YP] = real_atan2(D[2], h);
+    out->q[SHEET_LOCAL_ZP] = real_atan2(-D[1], D[0]);
+    out->q[SHEET_LOCAL_YQ] = real_atan2(-M[6], M[0]);
+    out->q[SHEET_LOCAL_ZQ] = real_atan2(M[3], m);
+    out->q[SHEET_LOCAL_PX] = real_atan2(-M[5], M[4]);
+    out->q[SHEET_LOCAL_WP] = x[0].a;
+    out->q[SHEET_LOCAL_WQ] = x[1].a;
+    out->tan_yp = D[2] / h;
+    out->sec_yp = l / h;
+    out->cos_yq = M[0] / m;
+    out->sin_yq = -M[6] / m;
+    out->tan_zq = M[3] / m;
+    out->sec_zq = 1 / m;
+}
+
+/* The linear solution between the nodes as linear functionals of the local coordinates (N Eqs.
+ * 14-19). */
+
+/* Each row[8]: value = row . q.  Primes are d/ds. */
+typedef struct sheet_fields {
+    double uy[SHEET_LOCAL_COORDINATES], duy[SHEET_LOCAL_COORDINATES],
+        duz[SHEET_LOCAL_COORDINATES]; /* u_y [m], u_y', u_z' */
+    double phi_x[SHEET_LOCAL_COORDINATES],
+        dphi_x[SHEET_LOCAL_COORDINATES]; /* phi_x [rad], phi_x' [rad/m] */
+    double phi_y[SHEET_LOCAL_COORDINATES], dphi_y[SHEET_LOCAL_COORDINATES];
+    double phi_z[SHEET_LOCAL_COORDINATES], dphi_z[SHEET_LOCAL_COORDINATES];
+} sheet_fields;
+
+/* 1: phi_x is cubic (N Eq. 19); 0: where nothing warps or no amplitude is asked for it is linear.
+ */
+int sheet_fields_warp(const element_request *request);
+
+/* At s = x l0.  Phi_y, Phi_z: N Eq. 18.  warp: as sheet_fields_warp says. */
+sheet_fields sheet_fields_at(double l0, double x, double Phi_y, double Phi_z, int warp);
+
+/* Deformation functions of N's elements: eight generalized strains, quadratic in the local
+ * coordinates, e_i = (Lambda q)_i + 1/2 q^T Q_i q (N Eq. 37), less those of the element free of
+ * stress: its nodes along an arc of constant torsion and curvature, initial elongation and shear
+ * included.  (The linear initial stresses of N Eq. 52 are not free of stress there:
+ * reference/ERRATA.md.) */
+
+enum {
+    SHEET_STRAINS = 8,
+    SHEET_STRAINS_LISTED = 6,
+    SHEET_STRAINS_TERMS = SHEET_STRAINS_LISTED * 36
+};
+
+typedef struct sheet_strains_table {
+    double chord;   /* of the undeformed arc [m] */
+    double torsion; /* initial: amplitudes of the nodes are twist rates beyond it [rad/m] */
+    double rest[SHEET_STRAINS]; /* of the element free of stress, which the strains are less [m] */
+    double Lambda[SHEET_STRAINS * SHEET_LOCAL_COORDINATES]; /* [m per coordinate] */
+    int terms; /* Q_i jk and Q_i kj, j <= k, that are not zero; Q_7 = Q_8 = Q_2 are not listed */
+    struct {
+        double c;
+        int i, j, k;
+    } term[SHEET_STRAINS_TERMS];
+} sheet_strains_table;
+
+/* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, where
+ * shear is omitted; the section's own: consistent with shear (derived here). Features: warping,
+ * trapeze. */
+status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
+                             sheet_strains_table *out, fault *f);
+
+/* Counts the strains from the element free of stress. */
+void sheet_strains_set_rest(const element_request *request, sheet_strains_table *out);
+
+/* As element_type.strain. */
+void sheet_strains_evaluate(const sheet_strains_table *table, const node_state x[2],
+                            strain_output *out);
+
+/* Stiffness of the linear solution (N Eqs. 33-36). */
+
+/* Shear parameters Phi_y, Phi_z of N Eq. 18; 0 for a section that is rigid in shear. */
+double sheet_elastic_phi_y(const section *c, double l0);
+double sheet_elastic_phi_z(const section *c, double l0);
+
+/* S[8 x 8] [N/m]. */
+void sheet_elastic_stiffness(const section *c, double l0, double Phi_y, double Phi_z,
+                             double S[SHEET_STRAINS * SHEET_STRAINS]);
+
+/* Nonuniform torsion of an element (N Eq. 51), in x = s/L with lambda = L sqrt(GJ/EIw).
+ *
+ * A torque t(x) beside which the twist rate vanishes at both ends twists by kappa = (lambda^2/GJ)
+ * g, lambda^2 g - g'' = t, g(0) = g(1) = 0; its bimoment is L g' (N App. B, with M_x as given).
+ * Twist rates Wp, Wq of the ends without torque are kappa = Wp h_p + Wq h_q, h_q = sinh(lambda
+ * x)/sinh(lambda), h_p(x) = h_q(1 - x).
+ *
+ * Integrated by parts, the Hellinger-Reissner potential of N Eq. 44 needs the bimoment only in the
+ * integrals below, in which nothing cancels, neither for lambda -> 0 nor for lambda -> inf. */
+
+enum { SHEET_TORSION_DEGREE = 3, SHEET_TORSION_MODES = 5 };
+enum { SHEET_TORSION_PX, SHEET_TORSION_WP, SHEET_TORSION_WQ, SHEET_TORSION_TWISTS };
+
+typedef struct sheet_torsion_integrals {
+    double compliance[SHEET_TORSION_MODES]
+                     [SHEET_TORSION_MODES]; /* lambda^2 int t_k g_l dx, symmetric */
+    /* int t_k (phi' - h) dx: twist rate per px/L, Wp, Wq in N Eq. 19 less that of the ends without
+     * torque */
+    double work[SHEET_TORSION_MODES][SHEET_TORSION_TWISTS];
+    double same, other; /* h_p against itself and against h_q in int (lambda^2 h h + h' h') dx */
+} sheet_torsion_integrals;
+
+/* Torque modes t_k(x) = sum_i t[k][i] x^i, whole numbers.  lambda INFINITY: nothing warps, the
+ * twist of phi_x is uniform. */
+void sheet_torsion_integrate(double lambda,
+                             const double t[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1],
+                             sheet_torsion_integrals *out);
+
+/* Wagner torque: the energy int E c kx^4 ds of a twisted wide section (N Eqs. 45, 46), kx as N
+ * Eq. 26. */
+
+enum { SHEET_WAGNER_POINTS = 5, SHEET_WAGNER_STRAINS = 3 }; /* degree 8: exact */
+
+typedef struct sheet_wagner_term {
+    int active;
+    double weight[SHEET_WAGNER_POINTS];                     /* E c ds [N m^5] */
+    double rate[SHEET_WAGNER_POINTS][SHEET_WAGNER_STRAINS]; /* kx per e2, e7, e8 [1/m^2] */
+} sheet_wagner_term;
+
+/* Inactive without FEATURE_WAGNER_TORQUE; refuses initial torsion beside it. */
+status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f);
+
+/* Adds to energy[1], sigma[8], C[8 x 8], of one element or of several in lanes; NULL: not wanted.
+ */
+static inline void sheet_wagner_add(const sheet_wagner_term *w, const real e[SHEET_STRAINS],
+                                    real *energy, real *sigma, real *C)
+{
+    static const int strain_of[SHEET_WAGNER_STRAINS] = {1, 6, 7};
+    if (!w->active)
+        return;
+    for (int i = 0; i < SHEET_WAGNER_POINTS; i++) {
+        const double *rate = w->rate[i];
+        const real kx = rate[0] * e[1] + rate[1] * e[6] + rate[2] * e[7],
+                   square = w->weight[i] * kx * kx;
+        if (energy != NULL)
+            *energy += square * kx * kx;
+        for (int k = 0; k < SHEET_WAGNER_STRAINS; k++) {
+            if (sigma != NULL)
+                sigma[strain_of[k]] += 4 * square * kx * rate[k];
+            for (int m = 0; m < SHEET_WAGNER_STRAINS && C != NULL; m++)
+                C[SHEET_STRAINS * strain_of[k] + strain_of[m]] += 12 * square * rate[k] * rate[m];
+        }
+    }
+}
+
+/* Strains and stresses of several sheet elements at once, the bits of one element at a time; of
+ * each two, the second for processors with AVX2 (elements/math/real.h). Members of element_type. */
+
+typedef void sheet_lanes_strains(int count, const element_data *const data[], const node_state x[],
+                                 strain_output out[]);
+sheet_lanes_strains sheet_lanes_strain_plain, sheet_lanes_strain_avx2;
+
+typedef void sheet_lanes_stresses(int count, const element_data *const data[],
+                                  const double *const e[], const double *const inner[],
+                                  stress_output out[], status outcome[]);
+sheet_lanes_stresses sheet_lanes_second_plain, sheet_lanes_second_avx2;
+sheet_lanes_stresses sheet_lanes_third_plain, sheet_lanes_third_avx2;
+
+typedef void sheet_lanes_equations(int count, const element_data *const data[],
+                                   const node_state x[], const double *const e[],
+                                   const double *const inner[], const double *const s[],
+                                   equations_output out[], status outcome[]);
+sheet_lanes_equations sheet_lanes_second_equations_plain, sheet_lanes_second_equations_avx2;
+sheet_lanes_equations sheet_lanes_third_equations_plain, sheet_lanes_third_equations_avx2;
+
+/* Common base of the sheet-flexure formulations: generalized strains, linear stiffness, Wagner
+ * torque and mass. */
+
+typedef enum sheet_base_shear {
+    SHEET_BASE_PRINTED,   /* N Eq. 37: shear is omitted from the strains */
+    SHEET_BASE_CONSISTENT /* the same integrals of the whole linear solution (derived here) */
+} sheet_base_shear;
+
+typedef struct sheet_base_data {
+    double S[SHEET_STRAINS * SHEET_STRAINS]; /* N Eqs. 33-36 [N/m] */
+    field_mass mass;
+    sheet_strains_table table;
+    sheet_wagner_term wagner;
+} sheet_base_data;
+
+/* Features and restrictions that are common to all of them. */
+enum {
+    SHEET_BASE_OFFERS = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE |
+                        FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA |
+                        FEATURE_CURVATURE,
+    SHEET_BASE_LIMITS =
+        LIMIT_DOUBLY_SYMMETRIC | LIMIT_ORDER_DEPENDENT | LIMIT_QUARTER_TURN | LIMIT_WARPING_RIGID
+};
+
+status sheet_base_prepare(const element_request *request, sheet_base_shear shear,
+                          sheet_base_data *out, fault *f);
+
+/* Members of element_type; the data begin with sheet_base_data. */
+void sheet_base_strain(const element_data *d, const node_state x[], strain_output *out);
+void sheet_base_strain_many(int count, const element_data *const data[], const node_state x[],
+                            strain_output out[]);
+status sheet_base_inertia(const element_data *d, const node_state x[],
+                          const element_rotating_frame *frame, inertia_output *out);
+int sheet_base_mass_of_field(const double options[]);
+element_order sheet_base_order(element_analysis, const double options[]);
+
+/* In an element_type: what every sheet element has; and those whose strains see no shear. */
+#define SHEET_BASE_TYPE                                                                            \
+    .family = "sheet", .abi = ELEMENT_ABI, .order = sheet_base_order, .strain = sheet_base_strain, \
+    .inertia = sheet_base_inertia, .spreads = 1, .mass_of_field = sheet_base_mass_of_field,        \
+    .lanes = LANES_TOGETHER, .strain_many = sheet_base_strain_many
+#define SHEET_BASE_WITHOUT_SHEAR                                                                   \
+    .offers = SHEET_BASE_OFFERS, .shear_theories = SHEAR_OWN,                                      \
+    .own_theory = "N Eq. 37: generalized strains that see no shear (reference/ERRATA.md, N 37)"
+
+/* Second-order elements of N sections 2.3-2.4: quadratic deformation function, linear stress
+ * function (N Eqs. 33-36). */
+
+size_t sheet_second_data_size(const element_request *request);
+status sheet_second_prepare(const element_request *request, sheet_base_shear shear,
+                            element_data *out, fault *f);
+status sheet_second_stress(const element_data *d, const double e[], const double inner[],
+                           stress_output *out);
+void sheet_second_stress_many(int count, const element_data *const data[], const double *const e[],
+                              const double *const inner[], stress_output out[], status outcome[]);
+void sheet_second_equations_many(int count, const element_data *const data[], const node_state x[],
+                                 const double *const e[], const double *const inner[],
+                                 const double *const s[], equations_output out[], status outcome[]);
+
+/* In an element_type. */
+#define SHEET_SECOND_TYPE                                                                          \
+    SHEET_BASE_TYPE, .limits = SHEET_BASE_LIMITS, .data_size = sheet_second_data_size,             \
+        .stress = sheet_second_stress, .stress_many = sheet_second_stress_many,                    \
+        .equations_many = sheet_second_equations_many
+
+/* Third-order elements of N section 3: the deformation function of the second-order one, and a
+ * stress function from the Hellinger-Reissner potential P = P0 + 1/2 b^T A^-1 b, whose coefficients
+ * are integrated once per section and length. */
+
+size_t sheet_third_data_size(const element_request *request);
+/* printed: 1 takes the sign of u_y as printed in N Eq. 49. */
+status sheet_third_prepare(const element_request *request, int printed, element_data *out,
+                           fault *f);
+status sheet_third_stress(const element_data *d, const double e[], const double inner[],
+                          stress_output *out);
+void sheet_third_stress_many(int count, const element_data *const data[], const double *const e[],
+                             const double *const inner[], stress_output out[], status outcome[]);
+void sheet_third_equations_many(int count, const element_data *const data[], const node_state x[],
+                                const double *const e[], const double *const inner[],
+                                const double *const s[], equations_output out[], status outcome[]);
+void sheet_third_geometric(const element_data *d, const double sigma[], double G[]);
+double sheet_third_tension(const element_data *d, const double sigma[]);
+
+/* In an element_type. */
+#define SHEET_THIRD_TYPE                                                                           \
+    SHEET_BASE_TYPE, SHEET_BASE_WITHOUT_SHEAR,                                                     \
+        .limits = SHEET_BASE_LIMITS | LIMIT_FLAT_ARC | LIMIT_TENSION, .lacks = LACKS_SHEAR_Y,      \
+        .lacks_by = "N Eq. 50", .data_size = sheet_third_data_size, .stress = sheet_third_stress,  \
+        .stress_many = sheet_third_stress_many, .equations_many = sheet_third_equations_many,      \
+        .geometric = sheet_third_geometric, .tension = sheet_third_tension
+
+#endif
