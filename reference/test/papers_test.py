@@ -132,8 +132,8 @@ class Equations(unittest.TestCase):
                 self.assertTrue(name.split(".")[1].startswith("test_"), r)
 
     def test_what_is_not_defined_is_noticed(self):
-        self.assertFalse(defines(ROOT / "elements/beamw/stiffness.c", "beamw_stiffness"))
-        self.assertFalse(defines(ROOT / "elements/beamw/modified.h", "beamw_modified_printed"))
+        self.assertFalse(defines(ROOT / "elements/beamw/fields.c", "beamw_stiffness"))
+        self.assertFalse(defines(ROOT / "elements/beamw/variants.h", "beamw_modified_printed"))
         self.assertFalse(defines(REFERENCE / "test/papers_test.py", "Papers.test_files_and_functions"))
 
 
