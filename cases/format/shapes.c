@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "cases/format/format_impl.h"
-#include "elements/math/pi.h"
+#include "elements/math/scalar.h"
 
 static void add_point(section_spec *spec, double y, double z)
 {
