@@ -62,7 +62,8 @@ typedef struct ask_tally {
     char refusal[FAULT_TEXT]; /* the last refusal and its question */
 } ask_tally;
 
-/* Counts the answer; returns 1 where there is one, else 0. `what` (printf style) names the question in failures. */
+/* Counts the answer; returns 1 where there is one, else 0. `what` (printf style) names the question
+ * in failures. */
 int ask_count(ask_tally *, const answer *, const char *what, ...)
     __attribute__((format(printf, 3, 4)));
 /* Fails when an answer failed, when more were refused than allowed, and when no value was found
