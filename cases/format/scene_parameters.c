@@ -276,7 +276,14 @@ static void read_plane(builder *b)
 
 static void read_meshes(builder *b)
 {
-    static const int usual[] = {1, 2, 4, 8};
+    int usual[] = {1, 2, 4, 8}, least = 1; /* elements that show every imperfection */
+    for (int i = 0; i < b->scene->members; i++) {
+        const scene_member *m = &b->scene->member[i];
+        if ((m->bow[0] != 0 || m->bow[1] != 0) && 2 * m->half_waves > least)
+            least = 2 * m->half_waves;
+    }
+    for (int i = 0; i < 4; i++)
+        usual[i] *= least;
     double *value;
     int mesh[SCENE_MESHES];
     const document_node *said = document_find(b->root, "meshes"),

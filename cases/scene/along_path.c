@@ -188,6 +188,7 @@ LOAD(staying, along_path_factor(l, 0) != 0)
     }
 MEMBER(strain, vec3_norm(m->strain) > 0)
 MEMBER(curvature, vec3_norm(m->curvature) > 0)
+MEMBER(imperfection, m->bow[0] != 0 || m->bow[1] != 0)
 MEMBER(taper, scene_member_tapers(m))
 MEMBER(offset, scene_is_beside(m, 0) || scene_is_beside(m, 1))
 MEMBER(release, m->release[0].count + m->release[1].count > 0)
@@ -291,6 +292,7 @@ const scene_input scene_inputs[] = {
     {"load that stays", "uuuuu-uu-uuu", NULL, has_staying},
     {"strain of a member", "uuuuuuuuuuuu", NULL, has_strain},
     {"initial curvature", "uuuuuuuuuuuu", NULL, has_curvature},
+    {"imperfection", "uuuuuuuuuuuu", NULL, has_imperfection},
     {"taper", "uuuuuuuuuuuu", NULL, has_taper},
     {"section by its matrices", "uuuuuuuuuuuu", NULL, has_matrices},
     {"spring", "uuuuuuuuuuuu", NULL, has_spring},

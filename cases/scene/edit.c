@@ -82,6 +82,8 @@ static status reverse(scene *s, fault *f)
                              "%s: initially twisted, its y axis at the other end is not known "
                              "here; leave its order of nodes",
                              scene_called(s, SCENE_MEMBERS, i).text);
+        for (int k = 0; k < 2 && m->half_waves > 0 && m->half_waves % 2 == 0; k++)
+            m->bow[k] = -m->bow[k];
         m->p = m->q;
         m->q = p;
         m->section = m->section_q;
@@ -222,7 +224,7 @@ static status split(scene *s, double fraction, fault *f)
     scene_end(s, 0, 0, start);
     scene_chord(s, 0, chord);
     for (int k = 0; k < 3; k++) {
-        if (first.curvature[k] != 0)
+        if (first.curvature[k] != 0 || first.bow[0] != 0 || first.bow[1] != 0)
             return fault_set(
                 f, STATUS_REFUSED,
                 "member 0: curved, only straight members are split; use more elements instead");

@@ -73,6 +73,13 @@ static const entry_field offset[] = {
      .usual = "[0, 0, 0]", ENTRY_IN(scene_member, offset[1])},
     {.name = NULL}};
 
+static const entry_field imperfection[] = {
+    {"amplitude", ENTRY_VECTOR, .needed = 1, .count = 2, .unit = "m",
+     .summary = "along the section's y and z axes", ENTRY_IN(scene_member, bow), .mirrors = "-+"},
+    {"half_waves", ENTRY_WHOLE, .summary = "of a sine between its ends", .usual = "1",
+     ENTRY_IN(scene_member, half_waves), .least = 1, .most = 1000},
+    {.name = NULL}};
+
 const entry_field entry_member[] = {
     {"from", ENTRY_NAME, .needed = 1, .summary = "node where its x axis begins",
      ENTRY_IN(scene_member, p), .of = SCENE_NODES},
@@ -93,6 +100,8 @@ const entry_field entry_member[] = {
     {"offset", ENTRY_MAP, .below = offset,
      .summary = "where its ends are, from the nodes, with which they move rigidly",
      .left_out = "at the nodes"},
+    {"imperfection", ENTRY_MAP, .below = imperfection,
+     .summary = "initial shape beside its line, free of stress", .left_out = "none"},
     {"release", ENTRY_MAP, .below = release,
      .summary = "what its ends do not pass on: hinges, slides", .left_out = "nothing"},
     {"damping", ENTRY_NUMBER, .unit = "s",

@@ -111,6 +111,7 @@ int scene_add_member(scene *s, int p, int q, int profile, const double y_axis[3]
     m->section = m->section_q = profile;
     memcpy(m->y_axis, y_axis, sizeof m->y_axis);
     m->warp_p = m->warp_q = SCENE_WARP_FREE;
+    m->half_waves = 1;
     return i;
 }
 

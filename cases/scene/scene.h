@@ -614,8 +614,11 @@ typedef struct scene_member {
     int warp_p, warp_q;  /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
     double curvature[3]; /* initial torsion, curvatures about local y and z [1/m]; position of
                             interior nodes follows the arc */
-    double strain[3];    /* initial elongation and shear strains that would leave no stress: heat, a
-                            misfit */
+    double bow[2];    /* amplitude of its initial shape beside its line, along y and z [m], free of
+                         stress: bow sin(half_waves pi s/length) */
+    int half_waves;   /* >= 1 */
+    double strain[3]; /* initial elongation and shear strains that would leave no stress: heat, a
+                         misfit */
     scene_release release[2]; /* at p, q */
     double offset[2][3];      /* from the nodes p, q to its ends, which move with them rigidly;
                                  undeformed, in fixed axes [m] */

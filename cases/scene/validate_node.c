@@ -261,12 +261,15 @@ static status check_member(const scene *s, int i, fault *f)
 {
     const scene_member *m = &s->member[i];
     const scene_words who = scene_called(s, SCENE_MEMBERS, i);
-    double R[9], curvature[3], strain[3];
+    double R[9], curvature[3], strain[3], bow[3];
     axes_of(s, i, R);
+    to_fixed(R, (const double[3]){0, m->bow[0], m->bow[1]}, bow);
     to_fixed(R, m->curvature, curvature);
     to_fixed(R, m->strain, strain);
     if (is_beside(s, curvature))
         return refuse(s, who, "its initial curvature leaves the plane", f);
+    if (is_across(s, bow))
+        return refuse(s, who, "its imperfection leaves the plane", f);
     if (is_across(s, strain))
         return refuse(s, who, "its initial strain leaves the plane", f);
     if (is_across(s, m->offset[0]) || is_across(s, m->offset[1]))

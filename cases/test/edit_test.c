@@ -358,7 +358,7 @@ static void is_compared(void)
 static void is_in_range(void)
 {
     const scene s = {.nodes = 2};
-    scene_member m = {.p = 0, .q = 1, .damping = 1};
+    scene_member m = {.p = 0, .q = 1, .damping = 1, .half_waves = 1};
     fault f = {""};
     gsl_test(entry_check(&s, entry_member, &m, &f) != STATUS_OK, "in range");
     m.divisions = -3;

@@ -49,7 +49,7 @@ static status check_member(const scene *s, int member, fault *f)
 {
     const scene_member *m = &s->member[member];
     const int end[2] = {m->p, m->q};
-    if (!is_zero(m->curvature) || !is_zero(m->strain))
+    if (!is_zero(m->curvature) || !is_zero(m->strain) || m->bow[0] != 0 || m->bow[1] != 0)
         return fault_set(
             f, STATUS_REFUSED,
             "%s: curved or strained before it is loaded, which is not written as solid",

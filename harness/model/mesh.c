@@ -11,6 +11,7 @@
 #include "elements/field/field.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 #include "elements/shared/masses.h"
 
 /* Of a sequence's next angle; any length. */
@@ -146,6 +147,29 @@ static mesh_triad *keep_triads(model *m, mesh_triad triad[])
     return next;
 }
 
+/* An element between two points of a bow, as the arc that turns as far as it does; chord: between
+ * them, and the triad along that.  Of a bow on a straight member. */
+static member_arc arc_of_bow(const member_arc *a, const double ends[2], const double start[3],
+                             double chord, const double triad[9])
+{
+    const double size = hypot(a->bow[0], a->bow[1]), wave = a->half_waves * PI / a->length,
+                 half = (atan(size * wave * cos(wave * ends[1])) -
+                         atan(size * wave * cos(wave * ends[0]))) /
+                        2;
+    member_arc out = {.length = half != 0 ? chord * half / sin(half) : chord};
+    const double axis[3] = {0, -a->bow[1] / size, a->bow[0] / size};
+    double back[3], q[4], turned[9];
+    for (int i = 0; i < 3; i++) {
+        out.start[i] = start[i];
+        out.k[i] = 2 * half / out.length * axis[i];
+        back[i] = -half * axis[i];
+    }
+    rotation_exp(back, q);
+    rotation_matrix(q, turned);
+    mat3_mul(triad, turned, out.R);
+    return out;
+}
+
 /* The vertices of one element along an arc: positions, triads, warping comes later. */
 static status add_element(model *m, const member_arc *along, int member, int number,
                           int inner_vertex, fault *f)
@@ -154,14 +178,14 @@ static status add_element(model *m, const member_arc *along, int member, int num
     const scene_member *sm = &m->scene->member[member];
     const int profile = profile_at(m, member, number), n = division_elements(&m->division, member),
               each = m->division.each[member];
-    double ends[2];
+    double ends[2], at[ELEMENT_MAX_NODES];
     const int in_piece = division_piece(&m->division, member, number, ends);
     member_arc here;
     TRY(arc_of_element(m, member, profile, along, &here, f));
     const member_arc *a = &here;
-    const int curved = (m->mesh.type->offers & FEATURE_CURVATURE) && vec3_norm(a->k) > 0,
-              last = m->mesh.nodes - 1;
-    const double straight[3] = {0, 0, 0};
+    const int bowed = a->bow[0] != 0 || a->bow[1] != 0, bends = vec3_norm(a->k) > 0,
+              curves = (m->mesh.type->offers & FEATURE_CURVATURE) != 0,
+              curved = curves && bends && !bowed, last = m->mesh.nodes - 1;
     mesh_triad triad[ELEMENT_MAX_NODES];
     double first[3] = {0}; /* where its line begins */
     el->member = member;
@@ -175,10 +199,9 @@ static status add_element(model *m, const member_arc *along, int member, int num
             el->vertex[k] = sm->q;
         mesh_vertex *v = &m->mesh.vertex[el->vertex[k]];
         double position[3], between[3];
-        member_arc_at(a,
-                      a->length * ends[0] +
-                          a->length * (ends[1] - ends[0]) * (in_piece * last + k) / (each * last),
-                      position, triad[k]);
+        at[k] = a->length * ends[0] +
+                a->length * (ends[1] - ends[0]) * (in_piece * last + k) / (each * last);
+        member_arc_at(a, at[k], position, triad[k]);
         if (!at_start && !at_end) {
             v->body = el->vertex[k];
             memcpy(v->position, position, sizeof position);
@@ -192,7 +215,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
             memcpy(first, position, sizeof first);
         if (k < last || curved)
             continue;
-        /* Not curved: one triad along the chord. */
+        /* Not curved, or not all along alike: one triad along the chord. */
         double y[3];
         for (int i = 0; i < 3; i++) {
             between[i] = position[i] - first[i];
@@ -203,10 +226,27 @@ static status add_element(model *m, const member_arc *along, int member, int num
                              scene_called(m->scene, SCENE_MEMBERS, member).text);
         for (int i = 1; i <= last && i < ELEMENT_MAX_NODES; i++)
             memcpy(triad[i], triad[0], sizeof triad[0]);
+        member_arc arc = {.length = vec3_norm(between)};
+        if (bowed) {
+            const int arcs = curves && !bends;
+            if (arcs)
+                arc =
+                    arc_of_bow(a, (const double[2]){at[0], at[last]}, first, arc.length, triad[0]);
+            else {
+                memcpy(arc.start, first, sizeof arc.start);
+                memcpy(arc.R, triad[0], sizeof arc.R);
+            }
+            for (int j = 0; j <= last; j++) {
+                double place[3];
+                member_arc_at(&arc, arc.length * j / last, place, triad[j]);
+                if (j > 0 && j < last)
+                    memcpy(m->mesh.vertex[el->vertex[j]].position, place, sizeof place);
+            }
+        }
         m->mesh.elements++;
         el->triad = keep_triads(m, triad);
-        return kind_of(m, sm, profile, vec3_norm(between), 4 * DBL_EPSILON * vec3_norm(position),
-                       straight, &el->kind, f);
+        return kind_of(m, sm, profile, arc.length, 4 * DBL_EPSILON * vec3_norm(position), arc.k,
+                       &el->kind, f);
     }
     m->mesh.elements++;
     el->triad = keep_triads(m, triad);
@@ -373,6 +413,12 @@ status mesh_build(model *m, fault *f)
         member_arc a;
         TRY(member_arc_of(s, member, m->section[s->member[member].section].axes_angle, &a, f));
         m->mesh.first_element[member] = m->mesh.elements;
+        if ((a.bow[0] != 0 || a.bow[1] != 0) && n < 2 * a.half_waves)
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: %d elements do not show an imperfection of %d half waves; give "
+                             "at least %d",
+                             scene_called(s, SCENE_MEMBERS, member).text, n, a.half_waves,
+                             2 * a.half_waves);
         for (int i = 0; i < n; i++)
             TRY(add_element(m, &a, member, i, inner_vertex, f));
         inner_vertex += n * (m->mesh.nodes - 1) - 1;

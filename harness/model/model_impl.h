@@ -20,11 +20,13 @@ typedef struct member_arc {
     double length;         /* along the arc [m] */
     double start[3], R[9]; /* position and triad at p */
     double k[3];           /* [1/m] */
+    double bow[2];         /* beside that, in its axes: bow sin(half_waves pi s/length) [m] */
+    int half_waves;
 } member_arc;
 
 /* axes_angle [rad]: of its section. REFUSED: no arc of its curvature joins its ends. */
 status member_arc_of(const scene *s, int member, double axes_angle, member_arc *out, fault *f);
-/* Position and triad at the abscissa s [m]. */
+/* Position, and triad without the bow, at the abscissa s [m]. */
 void member_arc_at(const member_arc *a, double s, double position[3], double R[9]);
 
 /* Inside of a model, for harness/model alone. */

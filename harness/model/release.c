@@ -38,6 +38,9 @@ static void turn_to_principal(double angle, member_arc *a)
         a->R[i + 1] = c * y + d * a->R[i + 2];
         a->R[i + 2] = c * a->R[i + 2] - d * y;
     }
+    const double by = a->bow[0];
+    a->bow[0] = c * by + d * a->bow[1];
+    a->bow[1] = c * a->bow[1] - d * by;
     a->k[1] = c * ky + d * a->k[2];
     a->k[2] = c * a->k[2] - d * ky;
 }
@@ -68,6 +71,8 @@ status member_arc_of(const scene *s, int member, double axes_angle, member_arc *
     const double distance = vec3_norm(chord);
     scene_end(s, member, 0, out->start);
     memcpy(out->k, m->curvature, sizeof out->k);
+    memcpy(out->bow, m->bow, sizeof out->bow);
+    out->half_waves = m->half_waves;
     out->length = distance;
     if (vec3_norm(out->k) > 0)
         TRY(find_length(s, member, distance, out, f));
@@ -98,6 +103,11 @@ void member_arc_at(const member_arc *a, double s, double position[3], double R[9
     rotation_exp(rotation_vector, q);
     rotation_matrix(q, along);
     mat3_mul(a->R, along, R);
+    if (a->bow[0] == 0 && a->bow[1] == 0)
+        return;
+    const double wave = sin(a->half_waves * PI * s / a->length);
+    for (int i = 0; i < 3; i++)
+        position[i] += wave * (a->bow[0] * R[3 * i + 1] + a->bow[1] * R[3 * i + 2]);
 }
 
 enum { BALL = 3 }; /* turns without order */
