@@ -258,25 +258,42 @@ static void turn_stiffness(const placement *placed, double K[36])
             K[6 * i + j] = (turned[6 * i + j] + turned[6 * j + i]) / 2;
 }
 
+/* Six numbers, or a matrix, of a spring; 0: the key is not there. */
+static int spring_matrix(builder *b, const fields *f, const char *key, double out[36])
+{
+    double *given;
+    const document_node *at = document_find(f->map, key);
+    if (at == NULL)
+        return 0;
+    const int count = fields_values(f, key, &given);
+    if (count == 36)
+        memcpy(out, given, 36 * sizeof *out);
+    if (count == 6)
+        for (int k = 0; k < 6; k++)
+            out[7 * k] = given[k];
+    if (count != 6 && count != 36)
+        document_mistake(b->mistakes, at, 0, "%s: %d numbers; give six, or the 36 of a matrix", key,
+                         count);
+    else
+        turn_stiffness(f->placed, out);
+    return 1;
+}
+
 void builder_springs(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_SPRINGS].count; i++) {
         const fields f = fields_of(b, &b->list[SCENE_SPRINGS].entry[i]);
-        double *given, stiffness[36] = {0};
-        const int count = fields_values(&f, "stiffness", &given);
-        if (count == 36)
-            memcpy(stiffness, given, sizeof stiffness);
-        if (count == 6)
-            for (int k = 0; k < 6; k++)
-                stiffness[7 * k] = given[k];
-        if (count != 6 && count != 36)
-            document_mistake(b->mistakes, document_find(f.map, "stiffness"), 0,
-                             "stiffness: %d numbers; give six, or the 36 of a matrix", count);
-        else
-            turn_stiffness(f.placed, stiffness);
+        double stiffness[36] = {0}, damping[36] = {0};
+        const int stiff = spring_matrix(b, &f, "stiffness", stiffness),
+                  damps = spring_matrix(b, &f, "damping", damping);
+        if (!stiff && !damps)
+            document_mistake(b->mistakes, f.map, 0,
+                             "neither stiffness nor damping; give one, or both");
         const int index = scene_add_spring(b->scene, SCENE_NONE, SCENE_NONE, stiffness);
         builder_call(b, SCENE_SPRINGS, index, i);
-        if (index >= 0)
-            fields_read(&f, entry_spring, &b->scene->spring[index]);
+        if (index < 0)
+            continue;
+        scene_damp_spring(b->scene, index, damping);
+        fields_read(&f, entry_spring, &b->scene->spring[index]);
     }
 }

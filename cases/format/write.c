@@ -223,6 +223,14 @@ static void write_stiffness(writer *w, const void *entry)
     write_values_matrix(w, ((const scene_spring *)entry)->stiffness);
 }
 
+static void write_damping(writer *w, const void *entry)
+{
+    if (!scene_spring_damps(entry))
+        return;
+    write_values_key(w, "damping");
+    write_values_matrix(w, ((const scene_spring *)entry)->damping);
+}
+
 static void write_scaled(writer *w, const char *text, double scale)
 {
     if (scale == 0 || scale == 1) {
@@ -318,7 +326,8 @@ void write_structure(writer *w)
                                        {"warping", write_warping},
                                        {"release", write_release},
                                        {NULL, NULL}};
-    static const write_own spring[] = {{"stiffness", write_stiffness}, {NULL, NULL}};
+    static const write_own spring[] = {
+        {"stiffness", write_stiffness}, {"damping", write_damping}, {NULL, NULL}};
     static const write_own driver[] = {{"path", write_known}, {NULL, NULL}};
     static const write_own load[] = {{"force", write_vector},
                                      {"on", write_on},

@@ -212,10 +212,23 @@ NODE(inertia, n->body.inertia[0] + n->body.inertia[1] + n->body.inertia[2] > 0)
 NODE(tied, n->attached != SCENE_NONE)
 NODE(fork, n->rotation == SCENE_ROTATION_FORK)
 
+static int has_dashpot(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    for (int i = 0; i < s->springs; i++)
+        if (scene_spring_damps(&s->spring[i]))
+            return called(s, SCENE_SPRINGS, i, who, size);
+    return 0;
+}
+
 static int has_spring(const scene *s, int analysis, char *who, int size)
 {
     (void)analysis;
-    return s->springs > 0 && called(s, SCENE_SPRINGS, 0, who, size);
+    for (int i = 0; i < s->springs; i++)
+        for (int k = 0; k < 36; k++)
+            if (s->spring[i].stiffness[k] != 0)
+                return called(s, SCENE_SPRINGS, i, who, size);
+    return 0;
 }
 
 /* A warping that the ends of two members have as one. */
@@ -308,6 +321,7 @@ const scene_input scene_inputs[] = {
     {"velocity at the start", "-----------u", NULL, has_start},
     {"axes that turn", "-uu-u--x-uuu", no_spin, has_spin},
     {"damping", "----i--i---u", NULL, has_damping},
+    {"dashpot", "----i--i---u", NULL, has_dashpot},
     {NULL, "", NULL, NULL}};
 
 scene_column scene_column_of(const scene *s, int analysis)

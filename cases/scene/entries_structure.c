@@ -118,8 +118,13 @@ const entry_field entry_spring[] = {
      ENTRY_IN(scene_spring, p), .of = SCENE_NODES},
     {"to", ENTRY_NAME, .needed = 1, .summary = "node at its other end", ENTRY_IN(scene_spring, q),
      .of = SCENE_NODES},
-    {"stiffness", ENTRY_NUMBERS, .needed = 1,
-     .summary = "of ux, uy, uz [N/m], rx, ry, rz [N m]: six, or the 36 of a symmetric matrix"},
+    {"stiffness", ENTRY_NUMBERS,
+     .summary = "of ux, uy, uz [N/m], rx, ry, rz [N m]: six, or the 36 of a symmetric matrix",
+     .left_out = "none: needed without damping"},
+    {"damping", ENTRY_NUMBERS,
+     .summary = "of a dashpot: forces by the rates of the same, ux, uy, uz [N s/m], rx, ry, rz "
+                "[N m s]: six, or 36",
+     .left_out = "none"},
     {.name = NULL}};
 
 static const entry_field condition[] = {

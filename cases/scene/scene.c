@@ -157,6 +157,21 @@ void scene_release_end(scene *s, int member, int end, int component)
     r->count++;
 }
 
+void scene_damp_spring(scene *s, int spring, const double damping[36])
+{
+    scene_spring *p = &s->spring[spring];
+    memcpy(p->damping, damping, sizeof p->damping);
+    p->damping_asymmetry = dense_symmetrise(6, p->damping);
+}
+
+int scene_spring_damps(const scene_spring *p)
+{
+    for (int k = 0; k < 36; k++)
+        if (p->damping[k] != 0)
+            return 1;
+    return 0;
+}
+
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36])
 {
     const int i = scene_grow(s, &s->spring, &s->springs, sizeof *s->spring);

@@ -636,6 +636,9 @@ typedef struct scene_spring {
     int p, q;             /* p: SCENE_NONE: the ground */
     double stiffness[36]; /* K, symmetric, row-major [N/m, N, N m] */
     double asymmetry;     /* of K as it was given, in parts of its diagonal: the mean is taken */
+    double damping[36];   /* of motions: forces gain damping x rates of d; symmetric [N s/m, N s,
+                             N m s] */
+    double damping_asymmetry; /* likewise */
     char name[SCENE_NAME];
 } scene_spring;
 
@@ -761,6 +764,9 @@ int scene_is_beside(const scene_member *m, int end);
  * earlier calls; more than SCENE_RELEASED are refused by scene_validate. */
 void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
+/* Makes it a dashpot too. */
+void scene_damp_spring(scene *s, int spring, const double damping[36]);
+int scene_spring_damps(const scene_spring *);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],
                      const double value[]);
 /* A driver by a function of time, to be given in pieces. */

@@ -86,8 +86,10 @@ static status scale_drivers(scene *s, double x, fault *f)
 
 static void scale_spring(scene_spring *p, double x)
 {
-    for (int i = 0; i < 36; i++)
+    for (int i = 0; i < 36; i++) {
         p->stiffness[i] *= pow(x, (i / 6 >= 3) + (i % 6 >= 3) - 1);
+        p->damping[i] *= pow(x, (i / 6 >= 3) + (i % 6 >= 3) - 1);
+    }
 }
 
 static void scale_load(scene_load *load, entry_base base, double times)
@@ -190,8 +192,10 @@ void scene_change_force(scene *s, double y)
         }
     }
     for (int i = 0; i < s->springs; i++)
-        for (int k = 0; k < 36; k++)
+        for (int k = 0; k < 36; k++) {
             s->spring[i].stiffness[k] *= y;
+            s->spring[i].damping[k] *= y;
+        }
 }
 
 /* Largest size of a section that is described by sizes; 0: none is. */

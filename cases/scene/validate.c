@@ -89,6 +89,11 @@ static status check_spring(const scene *s, int i, fault *f)
                          "%s: its stiffness is not symmetric, or gives energy away; give six "
                          "numbers that are not negative, or such a matrix",
                          scene_called(s, SCENE_SPRINGS, i).text);
+    if (!(p->damping_asymmetry <= SECTION_MATRICES_SYMMETRIC) || !is_stiffness(p->damping))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: its damping is not symmetric, or gives energy to a motion; give six "
+                         "numbers that are not negative, or such a matrix",
+                         scene_called(s, SCENE_SPRINGS, i).text);
     return STATUS_OK;
 }
 

@@ -205,7 +205,8 @@ static int turn_matters(const scene *s, int node)
         const scene_spring *spring = &s->spring[i];
         matters |= spring->p == node; /* with which its axes turn */
         for (int k = 0; k < 36 && spring->q == node; k++)
-            matters |= (k / 6 >= SCENE_RX || k % 6 >= SCENE_RX) && spring->stiffness[k] != 0;
+            matters |= (k / 6 >= SCENE_RX || k % 6 >= SCENE_RX) &&
+                       (spring->stiffness[k] != 0 || spring->damping[k] != 0);
     }
     return matters;
 }

@@ -186,32 +186,67 @@ typedef struct spring_state {
     double e[SPRING_STRAINS], sigma[SPRING_STRAINS], J[SPRING_STRAINS * X], H[X * X];
 } spring_state;
 
+static int number_of(const model *m, const mesh_discrete *d)
+{
+    return (int)(d->spring - m->scene->spring);
+}
+
+static const mesh_discrete *numbered(const model *m, int spring)
+{
+    return &m->mesh.discrete[m->mesh.discretes - m->mesh.springs + spring];
+}
+
+/* sigma += damping x rate */
+static void damp(const scene_spring *p, const double rate[], double sigma[])
+{
+    double more[SPRING_STRAINS];
+    dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, p->damping, rate, more);
+    for (int k = 0; k < SPRING_STRAINS; k++)
+        sigma[k] += more[k];
+}
+
+/* r NULL: nothing moves. */
 static void spring_at(const model *m, const model_state *s, const mesh_discrete *d,
-                      spring_state *out)
+                      const spring_rates *r, spring_state *out)
 {
     node_state x[ELEMENT_MAX_NODES];
-    const double *turn = turns_of_spring(m, s, (int)(d->spring - m->scene->spring));
+    const int i = number_of(m, d);
+    const double *turn = turns_of_spring(m, s, i);
     kinematics_gather(m, s, &d->el, x);
     spring_strain(d->el.nodes, x, turn, &(strain_output){.e = out->e, .J = out->J});
     dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, out->e, out->sigma);
+    if (r != NULL) {
+        double rate[SPRING_STRAINS];
+        for (int k = 0; k < SPRING_STRAINS; k++)
+            rate[k] = r->known[SPRING_STRAINS * i + k] +
+                      r->g * (out->e[k] - r->from[SPRING_STRAINS * i + k]);
+        damp(d->spring, rate, out->sigma);
+    }
     spring_strain(d->el.nodes, x, turn, &(strain_output){.s = out->sigma, .H = out->H});
 }
 
 /* Force and tangent at the nodes themselves; material: with J^T S J of springs. */
 static void evaluate(const model *m, const model_state *s, const mesh_discrete *d,
-                     const element_rotating_frame *frame, int material, double force[], double K[])
+                     const element_rotating_frame *frame, const spring_rates *r, int material,
+                     double force[], double K[])
 {
     const int n = NODE_COORDINATES * d->el.nodes;
     node_state x[ELEMENT_MAX_NODES];
     if (d->spring != NULL) {
         spring_state p;
         double work[SPRING_STRAINS * X];
-        spring_at(m, s, d, &p);
+        spring_at(m, s, d, r, &p);
         memset(force, 0, (size_t)n * sizeof *force);
         dense_add_transpose_mul(n, SPRING_STRAINS, 1, p.J, p.sigma, force);
         memcpy(K, p.H, (size_t)(n * n) * sizeof *K);
         if (material)
             dense_add_congruence(SPRING_STRAINS, n, p.J, d->spring->stiffness, K, work);
+        if (material && r != NULL && r->g != 0) {
+            double C[SPRING_STRAINS * SPRING_STRAINS];
+            for (int k = 0; k < SPRING_STRAINS * SPRING_STRAINS; k++)
+                C[k] = r->g * d->spring->damping[k];
+            dense_add_congruence(SPRING_STRAINS, n, p.J, C, K, work);
+        }
         return;
     }
     kinematics_gather(m, s, &d->el, x);
@@ -222,18 +257,19 @@ static void evaluate(const model *m, const model_state *s, const mesh_discrete *
 
 /* Force and tangent in model coordinates. */
 static void eliminated(const model *m, const model_state *s, const mesh_discrete *d,
-                       const element_rotating_frame *frame, int material, double force[],
-                       double K[])
+                       const element_rotating_frame *frame, const spring_rates *r, int material,
+                       double force[], double K[])
 {
-    evaluate(m, s, d, frame, material, force, K);
+    evaluate(m, s, d, frame, r, material, force, K);
     eliminate_matrix(m, s, &d->el, force, K);
     eliminate_forces(m, s, &d->el, force);
 }
 
 void discrete_equations(const model *m, const model_state *s, const mesh_discrete *d,
-                        const element_rotating_frame *frame, double force[], double K[])
+                        const element_rotating_frame *frame, const spring_rates *r, double force[],
+                        double K[])
 {
-    eliminated(m, s, d, frame, 1, force, K);
+    eliminated(m, s, d, frame, r, 1, force, K);
 }
 
 void discrete_inertia(const model *m, const model_state *s, const element_rotating_frame *frame,
@@ -261,7 +297,7 @@ void discrete_material_product(const model *m, const model_state *s, const doubl
         const int n = NODE_COORDINATES * d->el.nodes;
         double local[X], e[SPRING_STRAINS], sigma[SPRING_STRAINS], force[X] = {0};
         spring_state p;
-        spring_at(m, s, d, &p);
+        spring_at(m, s, d, NULL, &p);
         kinematics_local(m, s, &d->el, x, local);
         dense_mul_vec(SPRING_STRAINS, n, p.J, local, e);
         dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, e, sigma);
@@ -276,7 +312,7 @@ void discrete_geometric(const model *m, const model_state *s, const element_rota
 {
     for (int i = 0; i < m->mesh.discretes; i++) {
         double force[X], K[X * X];
-        eliminated(m, s, &m->mesh.discrete[i], frame, 0, force, K);
+        eliminated(m, s, &m->mesh.discrete[i], frame, NULL, 0, force, K);
         assemble_discrete(&m->mesh.discrete[i].el, K, out);
     }
 }
@@ -289,7 +325,7 @@ double discrete_material_rounding(const model *m, const model_state *s, const do
         const int n = NODE_COORDINATES * d->el.nodes;
         double local[X], e[SPRING_STRAINS], sigma[SPRING_STRAINS];
         spring_state p;
-        spring_at(m, s, d, &p);
+        spring_at(m, s, d, NULL, &p);
         kinematics_local(m, s, &d->el, x, local);
         dense_mul_vec(SPRING_STRAINS, n, p.J, local, e);
         dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, e, sigma);
@@ -305,10 +341,26 @@ double discrete_stored(const model *m, const model_state *s)
     double sum = 0;
     for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
         spring_state p;
-        spring_at(m, s, &m->mesh.discrete[i], &p);
+        spring_at(m, s, &m->mesh.discrete[i], NULL, &p);
         sum += dense_dot(SPRING_STRAINS, p.e, p.sigma) / 2;
     }
     return sum;
+}
+
+/* F += the forces at those of its nodes that move with `node`. */
+static void add_at_node(const model *m, const model_state *s, const mesh_discrete *d,
+                        double force[], int node, double F[6])
+{
+    for (int k = 0; k < d->el.nodes; k++) {
+        double *at = force + (ptrdiff_t)NODE_COORDINATES * k, rho[3];
+        if (m->mesh.vertex[d->el.vertex[k]].body != node)
+            continue;
+        kinematics_offset(m, s, d->el.vertex[k], rho);
+        if (d->el.vertex[k] != node)
+            offset_force(rho, at);
+        for (int c = 0; c < 6; c++)
+            F[c] += at[c];
+    }
 }
 
 void discrete_node_force(const model *m, const model_state *s, const element_rotating_frame *frame,
@@ -317,18 +369,115 @@ void discrete_node_force(const model *m, const model_state *s, const element_rot
     for (int i = 0; i < m->mesh.discretes; i++) {
         const mesh_discrete *d = &m->mesh.discrete[i];
         double force[X], K[X * X];
-        evaluate(m, s, d, frame, 1, force, K);
-        for (int k = 0; k < d->el.nodes; k++) {
-            double *at = force + NODE_COORDINATES * k, rho[3];
-            if (m->mesh.vertex[d->el.vertex[k]].body != node)
-                continue;
-            kinematics_offset(m, s, d->el.vertex[k], rho);
-            if (d->el.vertex[k] != node)
-                offset_force(rho, at);
-            for (int c = 0; c < 6; c++)
-                F[c] += at[c];
-        }
+        evaluate(m, s, d, frame, NULL, 1, force, K);
+        add_at_node(m, s, d, force, node, F);
     }
+}
+
+void dashpots_deformations(const model *m, const model_state *s, double d[])
+{
+    for (int i = 0; i < m->mesh.springs; i++) {
+        spring_state p;
+        spring_at(m, s, numbered(m, i), NULL, &p);
+        memcpy(d + (ptrdiff_t)SPRING_STRAINS * i, p.e, sizeof p.e);
+    }
+}
+
+void dashpots_rates(const model *m, const model_state *s, const double dx[], double rate[])
+{
+    for (int i = 0; i < m->mesh.springs; i++) {
+        const mesh_discrete *d = numbered(m, i);
+        double local[X];
+        spring_state p;
+        spring_at(m, s, d, NULL, &p);
+        kinematics_local(m, s, &d->el, dx, local);
+        dense_mul_vec(SPRING_STRAINS, NODE_COORDINATES * d->el.nodes, p.J, local,
+                      rate + (ptrdiff_t)SPRING_STRAINS * i);
+    }
+}
+
+double dashpots_power(const model *m, const double rate[])
+{
+    double sum = 0;
+    for (int i = 0; i < m->mesh.springs; i++)
+        sum += dense_quadratic(SPRING_STRAINS, m->scene->spring[i].damping,
+                               rate + (ptrdiff_t)SPRING_STRAINS * i);
+    return sum;
+}
+
+/* At its nodes. */
+static void force_of(const model *m, const model_state *s, int spring, const double rate[],
+                     double force[])
+{
+    const mesh_discrete *d = numbered(m, spring);
+    const int n = NODE_COORDINATES * d->el.nodes;
+    double sigma[SPRING_STRAINS] = {0};
+    spring_state p;
+    spring_at(m, s, d, NULL, &p);
+    damp(d->spring, rate + (ptrdiff_t)SPRING_STRAINS * spring, sigma);
+    memset(force, 0, (size_t)n * sizeof *force);
+    dense_add_transpose_mul(n, SPRING_STRAINS, 1, p.J, sigma, force);
+}
+
+void dashpots_add_forces(const model *m, const model_state *s, const double rate[], double out[])
+{
+    for (int i = 0; i < m->mesh.springs; i++) {
+        double force[X];
+        force_of(m, s, i, rate, force);
+        eliminate_forces(m, s, &numbered(m, i)->el, force);
+        assemble_vector(&numbered(m, i)->el, force, out);
+    }
+}
+
+void dashpots_node_force(const model *m, const model_state *s, const double rate[], int node,
+                         double F[6])
+{
+    for (int i = 0; i < m->mesh.springs; i++) {
+        double force[X];
+        force_of(m, s, i, rate, force);
+        add_at_node(m, s, numbered(m, i), force, node, F);
+    }
+}
+
+void dashpots_matrix(const model *m, const model_state *s, sparse *C)
+{
+    for (int i = 0; i < m->mesh.springs; i++) {
+        const mesh_discrete *d = numbered(m, i);
+        double K[X * X] = {0}, work[SPRING_STRAINS * X];
+        spring_state p;
+        spring_at(m, s, d, NULL, &p);
+        dense_add_congruence(SPRING_STRAINS, NODE_COORDINATES * d->el.nodes, p.J,
+                             d->spring->damping, K, work);
+        eliminate_matrix(m, s, &d->el, NULL, K);
+        assemble_discrete(&d->el, K, C);
+    }
+}
+
+void dashpots_strains(const model *m, const model_state *s, int spring, double d[], double J[])
+{
+    const mesh_element *el = &numbered(m, spring)->el;
+    spring_state p;
+    spring_at(m, s, numbered(m, spring), NULL, &p);
+    memcpy(d, p.e, sizeof p.e);
+    memcpy(J, p.J, (size_t)(SPRING_STRAINS * el->columns) * sizeof *J);
+    for (int k = 0; k < SPRING_STRAINS; k++)
+        eliminate_forces(m, s, el, J + (ptrdiff_t)k * el->columns);
+}
+
+void dashpots_stressed(const model *m, const model_state *s, int spring, const double sigma[],
+                       double force[], double K[])
+{
+    const mesh_discrete *d = numbered(m, spring);
+    const int n = NODE_COORDINATES * d->el.nodes;
+    double J[SPRING_STRAINS * X];
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, s, &d->el, x);
+    spring_strain(d->el.nodes, x, turns_of_spring(m, s, spring),
+                  &(strain_output){.J = J, .s = sigma, .H = K});
+    memset(force, 0, (size_t)n * sizeof *force);
+    dense_add_transpose_mul(n, SPRING_STRAINS, 1, J, sigma, force);
+    eliminate_matrix(m, s, &d->el, force, K);
+    eliminate_forces(m, s, &d->el, force);
 }
 
 /* Element coordinates (dr, dphi, da per vertex) -> coordinates of the bodies that move them, in

@@ -68,6 +68,28 @@ static status allocate(model *m, fault *f)
     return kinematics_state_alloc(m, &m->rest, f);
 }
 
+/* Does an analysis move by its rates? */
+static int has_rates(const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_MOTION || scene_inputs_flutter(s, i))
+            return 1;
+    return 0;
+}
+
+static status note_dashpots(model *m, fault *f)
+{
+    const scene *s = m->scene;
+    for (int i = 0; i < s->springs && !has_rates(s); i++)
+        if (scene_spring_damps(&s->spring[i]))
+            return coordinates_note_left_out(m, f,
+                                             "damping of %s%s: in no analysis of the scene it has "
+                                             "a part; ask for a motion",
+                                             scene_called(s, SCENE_SPRINGS, i).text,
+                                             s->springs > i + 1 ? " and others" : "");
+    return STATUS_OK;
+}
+
 /* Matrices whose mean with their transpose is taken, and turns that nothing meets. */
 static status note_means(model *m, fault *f)
 {
@@ -93,7 +115,7 @@ static status note_means(model *m, fault *f)
                                           "its diagonal: the mean is taken",
                                           scene_called(s, SCENE_SPRINGS, i).text,
                                           s->spring[i].asymmetry));
-    return STATUS_OK;
+    return note_dashpots(m, f);
 }
 
 static status divide(model *m, fault *f)

@@ -235,6 +235,12 @@ typedef struct mesh_discrete {
     mesh_triad triad[ELEMENT_MAX_NODES];
 } mesh_discrete;
 
+/* Rates of the deformations of all springs, known + g (d - from); both [6 x springs]. */
+typedef struct spring_rates {
+    double g;
+    const double *known, *from;
+} spring_rates;
+
 /* Data that identical elements share. */
 typedef struct mesh_kind {
     int section;
@@ -424,9 +430,10 @@ static inline int slot_along(const model *m)
 
 status discrete_build(model *, fault *);
 /* Internal less centrifugal force (of the frame in that state) [7 nodes] and its tangent [7 nodes x
- * 7 nodes] in a state, in model coordinates. */
+ * 7 nodes] in a state, in model coordinates. Rates: of dashpots; NULL: nothing moves. */
 void discrete_equations(const model *, const model_state *, const mesh_discrete *,
-                        const element_rotating_frame *, double force[], double K[]);
+                        const element_rotating_frame *, const spring_rates *, double force[],
+                        double K[]);
 /* M, G += theirs (rotating_frame_inertia); G NULL: not wanted. */
 void discrete_inertia(const model *, const model_state *, const element_rotating_frame *, sparse *M,
                       sparse *G);
@@ -437,6 +444,23 @@ void discrete_geometric(const model *, const model_state *, const element_rotati
                         sparse *out);
 /* What rounding may change in x^T of the first. */
 double discrete_material_rounding(const model *, const model_state *, const double x[]);
+/* Dashpots: deformations of all springs [6 x springs], and their rates at increments dx[free +
+ * driven] in a unit of time; the power that dashpots take at these [W], what they take of the
+ * coordinates (out[free + driven] +=) and on a node's frame (F[6] +=), and C += of small motions.
+ */
+void dashpots_deformations(const model *, const model_state *, double d[]);
+void dashpots_rates(const model *, const model_state *, const double dx[], double rate[]);
+double dashpots_power(const model *, const double rate[]);
+void dashpots_add_forces(const model *, const model_state *, const double rate[], double out[]);
+void dashpots_node_force(const model *, const model_state *, const double rate[], int node,
+                         double F[6]);
+void dashpots_matrix(const model *, const model_state *, sparse *C);
+/* Of one spring: its deformations, their derivatives J[6 x columns] by the coordinates that move
+ * it, and what stresses of a dashpot take: force[columns], and K[columns x columns] of what turns
+ * with it. */
+void dashpots_strains(const model *, const model_state *, int spring, double d[], double J[]);
+void dashpots_stressed(const model *, const model_state *, int spring, const double sigma[],
+                       double force[], double K[]);
 /* Energy of all springs [J]. */
 double discrete_stored(const model *, const model_state *);
 /* F += what the structure needs on a node's frame to hold them in the state [6: N, N m]. */

@@ -253,7 +253,7 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
     TRY(outcome);
     for (int i = 0; i < model_discretes(s->m); i++) {
         element_part part = {.incompatibility = 0};
-        discrete_equations(s->m, at, model_discrete(s->m, i), &frame, part.force, part.K);
+        discrete_equations(s->m, at, model_discrete(s->m, i), &frame, NULL, part.force, part.K);
         assemble_discrete(&model_discrete(s->m, i)->el, part.K, &s->K);
     }
     loads_subtract_at_vertices(s->eq, at, path, &s->K);

@@ -238,7 +238,8 @@ static void add_discrete(const equations *eq, const model_state *s, model_linear
     const model *m = eq->m;
     for (int i = 0; i < model_discretes(m); i++) {
         element_part part = {.incompatibility = 0};
-        discrete_equations(m, s, model_discrete(m, i), &frame, part.force, part.K);
+        discrete_equations(m, s, model_discrete(m, i), &frame, damping_of_springs(eq->run->damping),
+                           part.force, part.K);
         add_part(eq, &model_discrete(m, i)->el, &part, lin);
         if (lin->K != NULL)
             assemble_discrete(&model_discrete(m, i)->el, part.K, lin->K);
@@ -420,7 +421,7 @@ void linearise_add_internal(const equations *eq, const model_state *s, int eleme
     for (int i = model_discretes(m) - model_springs(m); i < model_discretes(m); i++) {
         double force[MODEL_MAX_COORDINATES] = {0},
                K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-        discrete_equations(m, s, model_discrete(m, i), &frame, force, K);
+        discrete_equations(m, s, model_discrete(m, i), &frame, NULL, force, K);
         assemble_vector(&model_discrete(m, i)->el, force, out);
     }
 }

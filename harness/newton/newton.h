@@ -65,13 +65,22 @@ typedef struct loading {
     int rotates, rotation_follows_path;
 } loading;
 
-/* Stresses of a motion gain eta S0 e', eta of the member: see harness/time/time.h. */
+/* Stresses of a motion gain eta S0 e', eta of the member, and those of dashpots C e': see
+ * harness/time/time.h. */
 typedef struct run_damping {
     double *stiffness;          /* [kinds x strains^2] S0 */
-    double *none;               /* [elements x strains] zero */
+    double *none;               /* [model_stresses] zero */
+    double *begin;              /* [model_stresses] strains of the state that rates are from */
     double g;                   /* e' = known + g (e - from) */
-    const double *known, *from; /* [elements x strains] */
+    const double *known, *from; /* [model_stresses] */
+    spring_rates springs;       /* the same of the springs */
 } run_damping;
+
+/* NULL: nothing moves, or none is a dashpot. */
+static inline const spring_rates *damping_of_springs(const run_damping *d)
+{
+    return d != NULL ? &d->springs : NULL;
+}
 
 struct run_ahead;
 struct element_part;

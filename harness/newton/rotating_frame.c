@@ -272,7 +272,7 @@ static void add_discrete(const equations *eq, const model_state *state, const me
     const model *m = eq->m;
     const int n = d->el.columns;
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    discrete_equations(m, state, d, &frame, force, K);
+    discrete_equations(m, state, d, &frame, NULL, force, K);
     for (int a = 0; a < n; a++) {
         const int row = d->el.index[a] < model_unknowns(m) ? d->el.index[a] : NONE;
         if (row != NONE)

@@ -10,7 +10,7 @@ typedef struct alpha {
     motion_stage stage;
     outer_work *work;
     massive massive;
-    size_t strains;                  /* of elements that are damped: elements x strains, or 0 */
+    size_t strains;                  /* where something is damped: model_stresses, else 0 */
     double *mean;                    /* [strains] their rates over a step */
     double mass, force, gamma, beta; /* alpha_m, alpha_f */
     double *a0, *v0, *inc, *weight;  /* [free + driven] */
@@ -56,18 +56,19 @@ static void relate_strains(alpha *s, const instant *from, double h, instant *to)
                  later = h * (1 - s->gamma / (2 * s->beta));
     for (size_t i = 0; i < s->strains; i++)
         to->strain[i] = kept * from->strain[i] + later * from->strain2[i];
-    damping_follow(&s->stage.c->eq, g, to->strain, kinematics_strains(from->state));
+    damping_follow(&s->stage.c->eq, g, to->strain, from->state);
 }
 
 /* Rates at the end, and what was lost by those of the mean: where something has no inertia, rates
  * at the ends of steps swing about them. */
 static void damp(alpha *s, const instant *from, double h, instant *to)
 {
-    const double *e0 = kinematics_strains(from->state), *e1 = kinematics_strains(to->state);
     const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);
     to->dissipated = from->dissipated;
     if (s->strains == 0)
         return;
+    const double *e0 = s->stage.c->run->damping->from, *e1 = s->mean;
+    damping_strains(s->stage.c->model, to->state, s->mean);
     for (size_t i = 0; i < s->strains; i++) {
         const double gained = e1[i] - e0[i];
         s->mean[i] = gained / h;
@@ -149,16 +150,15 @@ status alpha_alloc(const scheme_request *request, motion_scheme **out, fault *f)
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     *out = &s->base;
-    *s = (alpha){.base = {.order = 3, .adds = 1, .step = step, .free = release},
-                 .work = request->work,
-                 .strains = damping_acts(request->c->scene)
-                                ? (size_t)size.elements * (size_t)size.strains
-                                : 0,
-                 .mass = how->mass,
-                 .force = how->force,
-                 .gamma = gamma,
-                 .beta = half * half,
-                 .a0 = calloc(4 * n, sizeof(double))};
+    *s = (alpha){
+        .base = {.order = 3, .adds = 1, .step = step, .free = release},
+        .work = request->work,
+        .strains = damping_acts(request->c->scene) ? (size_t)model_stresses(request->c->model) : 0,
+        .mass = how->mass,
+        .force = how->force,
+        .gamma = gamma,
+        .beta = half * half,
+        .a0 = calloc(4 * n, sizeof(double))};
     s->mean = calloc(s->strains + 1, sizeof *s->mean);
     if (s->a0 == NULL || s->mean == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");

@@ -370,7 +370,7 @@ static int moves_by_drivers(const conserving *s)
 static double dissipated(const conserving *s, const instant *from, model_state *now)
 {
     double sum = 0;
-    for (int i = 0; i < model_elements(s->of.c->model) && s->of.c->run->damping != NULL; i++) {
+    for (int i = 0; i < deformable_count(s) && s->of.c->run->damping != NULL; i++) {
         const deformable of = deformable_at(s, from, now, i);
         if (of.S != NULL)
             sum += of.damping / s->h * dense_quadratic(of.strains, of.S, of.d);
@@ -412,9 +412,12 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
 void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
-    for (int i = 0; i < model_elements(m) && s->of.c->run->damping != NULL; i++) {
+    const int elements = model_elements(m);
+    for (int i = 0; i < deformable_count(s) && s->of.c->run->damping != NULL; i++) {
         const deformable of = deformable_at(s, from, to->state, i);
-        const int first = i * model_strains(m);
+        const int first = i < elements
+                              ? i * model_strains(m)
+                              : elements * model_strains(m) + (i - elements) * SPRING_STRAINS;
         double *r = to->strain + first, *rate2 = to->strain2 + first, more[DEFORMABLE_STRAINS];
         for (int k = 0; k < of.strains; k++) {
             const double mean = of.d[k] / h, r0 = from->strain[first + k],
@@ -422,7 +425,7 @@ void conserving_damped(const conserving *s, const instant *from, double h, insta
             r[k] = (3 * mean - r0) / 2 + h * s0 / 4;
             rate2[k] = (mean - r0) / h + s0 / 2;
         }
-        if (of.S == NULL)
+        if (of.S == NULL || of.spring != NULL) /* whose stresses are found from its strains */
             continue;
         dense_mul_vec(of.strains, of.strains, of.S, r, more);
         for (int k = 0; k < of.strains; k++)

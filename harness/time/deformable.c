@@ -49,6 +49,8 @@ deformable deformable_at(const conserving *s, const instant *from, model_state *
         of.e = own;
         of.sigma = own + SPRING_STRAINS;
         of.before = own + 2 * SPRING_STRAINS;
+        of.damping = 1;
+        of.S = scene_spring_damps(of.spring->spring) ? of.spring->spring->damping : NULL;
         of.length = model_length(m);
     }
     of.coordinates = NODE_COORDINATES * of.el->nodes;
@@ -373,8 +375,10 @@ static status reaction_of(const equations *eq, const scene_component *what, cons
     double F[6], L[6];
     linearise_node_force(eq, s, NULL, what->node, F);
     loads_at_node(eq, s, kinematics_state_path(s), what->node, L);
-    if (motion->v != NULL)
+    if (motion->v != NULL) {
         TRY(shares_node(m, s, motion, what->node, F, f));
+        TRY(dashpots_at_node(m, s, motion->v, what->node, F, f));
+    }
     *out = F[what->component] - L[what->component];
     return STATUS_OK;
 }

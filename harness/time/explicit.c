@@ -22,10 +22,11 @@ static double error_of(const explicit_scheme *s)
 static int advance(explicit_scheme *s, const instant *from, double h)
 {
     const gsl_odeiv2_system of_motion = {
-        .function = explicit_rates, .dimension = 2 * (size_t)s->free + 1, .params = s};
+        .function = explicit_rates, .dimension = 2 * (size_t)s->free + 2, .params = s};
     memset(s->y, 0, (size_t)s->free * sizeof *s->y);
     memcpy(s->y + s->free, from->v, (size_t)s->free * sizeof *s->y);
     s->y[2 * s->free] = from->work;
+    s->y[2 * s->free + 1] = from->dissipated;
     return gsl_odeiv2_step_apply(s->stepper, from->time, h, s->y, s->error, NULL, s->dydt,
                                  &of_motion);
 }
@@ -39,6 +40,8 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     s->at = to;
     s->end = kinks_before(m, record->path);
     s->outcome = STATUS_OK;
+    if (s->of.c->run->damping != NULL) /* dashpots go by the rates of the coordinates */
+        damping_follow(&s->of.c->eq, 0, s->of.c->run->damping->none, NULL);
     kinematics_state_copy(m, from->state, to->state);
     if (advance(s, from, h) != GSL_SUCCESS)
         return fault_set(f, s->outcome == STATUS_OK ? STATUS_NOT_CONVERGED : s->outcome, "%s",
@@ -46,7 +49,7 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     memcpy(to->algorithm, to->a, (size_t)s->all * sizeof *to->a);
     to->time = record->path;
     to->work = s->y[2 * s->free];
-    to->dissipated = from->dissipated;
+    to->dissipated = s->y[2 * s->free + 1];
     *error = error_of(s);
     record->remaining = 0;
     return STATUS_OK;
@@ -67,7 +70,7 @@ static status allocate(explicit_scheme *s, fault *f)
     const size_t n = (size_t)s->free + 1, all = (size_t)s->all + 1;
     s->y = calloc(6 * n + 3 * all + (size_t)model_memory(m) + ELEMENT_MAX_STRAINS, sizeof *s->y);
     gsl_error_handler_t *before = gsl_set_error_handler_off();
-    s->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2 * (size_t)s->free + 1);
+    s->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2 * (size_t)s->free + 2);
     gsl_set_error_handler(before);
     if (s->y == NULL || s->stepper == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
@@ -292,6 +295,7 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
     TRY(linearise_state(&s->of.c->eq, &s->of.c->run->memory, s->at->state, &lin, f));
     memset(s->at->a, 0, (size_t)s->free * sizeof *s->at->a);
     inertia_subtract(m, s->of.masses, s->at->state, s->at->v, s->at->a, s->residual);
+    s->power = dashpots_subtract(m, s->at->state, s->at->v, s->of.work->dashpots, s->residual);
     return explicit_accelerate(m, s->of.masses, s->at->state, s->at->v, s->residual, s->at->a, f);
 }
 
@@ -308,7 +312,7 @@ int explicit_rates(double t, const double y[], double dydt[], void *context)
     explicit_scheme *s = context;
     const model *m = s->of.c->model;
     const double time = t > s->from->time ? fmin(t, s->end) : t;
-    if (!is_finite(2 * s->free + 1, y)) {
+    if (!is_finite(2 * s->free + 2, y)) {
         s->outcome = fault_set(&s->why, STATUS_NOT_CONVERGED,
                                "at %g s motions grow without bound: the step does not resolve the "
                                "fastest mode of the mesh",
@@ -325,6 +329,7 @@ int explicit_rates(double t, const double y[], double dydt[], void *context)
     turn_rates(s, s->inc, s->at->v, dydt);
     memcpy(dydt + s->free, s->at->a, (size_t)s->free * sizeof *dydt);
     dydt[2 * s->free] = work_power(s->of.work, s->at->state, s->at->v, s->at->a, time, s->at->v);
+    dydt[2 * s->free + 1] = s->power;
     return GSL_SUCCESS;
 }
 
@@ -339,14 +344,16 @@ static int is_driven(const model *m, const mesh_element *el)
 status work_alloc(const equations *eq, const carried_masses *masses, outer_work *w, fault *f)
 {
     const model *m = eq->m;
-    *w = (outer_work){.eq = eq,
-                      .m = m,
-                      .masses = masses,
-                      .force = calloc(2 * (size_t)model_all_coordinates(m) + 1, sizeof *w->force),
-                      .element = calloc((size_t)model_elements(m) + 1, sizeof *w->element)};
+    *w = (outer_work){
+        .eq = eq,
+        .m = m,
+        .masses = masses,
+        .force = calloc(2 * (size_t)model_all_coordinates(m) + dashpots_room(m), sizeof *w->force),
+        .element = calloc((size_t)model_elements(m) + 1, sizeof *w->element)};
     if (w->force == NULL || w->element == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the work of a motion");
     w->holding = w->force + model_all_coordinates(m);
+    w->dashpots = w->holding + model_all_coordinates(m);
     for (int i = 0; i < model_elements(m); i++)
         if (is_driven(m, model_element(m, i)))
             w->element[w->elements++] = i;
@@ -388,6 +395,7 @@ static void hold(outer_work *w, const model_state *s, const double v[], const do
     const int all = model_all_coordinates(m);
     memset(w->holding, 0, (size_t)all * sizeof *w->holding);
     inertia_subtract(m, w->masses, s, v, a, w->holding);
+    dashpots_subtract(m, s, v, w->dashpots, w->holding);
     for (int c = 0; c < all; c++)
         w->holding[c] = -w->holding[c];
     linearise_add_internal(w->eq, s, w->elements, w->element, w->holding);

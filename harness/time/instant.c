@@ -10,8 +10,7 @@
 
 static size_t strains_of(const model *m)
 {
-    const model_size size = model_sizes(m);
-    return damping_acts(model_scene(m)) ? (size_t)size.elements * (size_t)size.strains : 0;
+    return damping_acts(model_scene(m)) ? (size_t)model_stresses(m) : 0;
 }
 
 static size_t coordinates_of(const model *m)

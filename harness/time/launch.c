@@ -322,7 +322,7 @@ int extent_is_less(const extent *so_far, double tolerance, double *scale)
 status integrator_alloc(const scheme_request *r, motion_scheme **out, fault *f)
 {
     *out = NULL;
-    if (r->how->scheme == SCENE_EXPLICIT && damping_acts(r->c->scene))
+    if (r->how->scheme == SCENE_EXPLICIT && damping_of_members(r->c->scene))
         return fault_set(f, STATUS_REFUSED,
                          "integrator explicit takes no members with damping: take another");
     switch (r->how->scheme) {

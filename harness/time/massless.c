@@ -377,21 +377,33 @@ static status balance(motion_stage *s, const double zero[], instant *now, double
     return outcome;
 }
 
-/* Nodes of elements that are damped for long, against a step h: what of them has no inertia comes
- * to rest no sooner. of[free]: their coordinates; returns how many. */
+static int mark(const model *m, const mesh_element *el, unsigned char of[])
+{
+    int count = 0;
+    for (int c = 0; c < el->columns; c++)
+        if (el->index[c] != NONE && el->index[c] < model_unknowns(m)) {
+            count += !of[el->index[c]];
+            of[el->index[c]] = 1;
+        }
+    return count;
+}
+
+/* Nodes of elements and springs that are damped for long, against a step h: what of them has no
+ * inertia comes to rest no sooner. of[free]: their coordinates; returns how many. */
 static int creeping(const model *m, double h, unsigned char of[])
 {
     const double part = 1e-3;
     int count = 0;
-    for (int i = 0; i < model_elements(m); i++) {
-        const mesh_element *el = model_element(m, i);
-        if (model_scene(m)->member[el->member].damping < part * h)
-            continue;
-        for (int c = 0; c < el->columns; c++)
-            if (el->index[c] != NONE && el->index[c] < model_unknowns(m)) {
-                count += !of[el->index[c]];
-                of[el->index[c]] = 1;
-            }
+    for (int i = 0; i < model_elements(m); i++)
+        if (!(model_scene(m)->member[model_element(m, i)->member].damping < part * h))
+            count += mark(m, model_element(m, i), of);
+    for (int i = 0; i < model_springs(m); i++) {
+        const mesh_discrete *d = model_discrete(m, model_discretes(m) - model_springs(m) + i);
+        int holds = 0;
+        for (int k = 0; k < SPRING_STRAINS; k++)
+            holds |= d->spring->damping[7 * k] > part * h * d->spring->stiffness[7 * k];
+        if (holds)
+            count += mark(m, &d->el, of);
     }
     return count;
 }
@@ -400,10 +412,7 @@ static int creeping(const model *m, double h, unsigned char of[])
 static status give_way(motion_stage *s, const double zero[], double h, double softness,
                        instant *now, double moved[], fault *f)
 {
-    const model *m = s->c->model;
-    memcpy(now->strain2, now->state->e,
-           (size_t)(model_elements(m) * model_strains(m)) * sizeof *now->strain2);
-    damping_follow(&s->c->eq, 1 / (softness * h), now->strain, now->strain2);
+    damping_follow(&s->c->eq, 1 / (softness * h), now->strain, now->state);
     return balance(s, zero, now, moved, f);
 }
 

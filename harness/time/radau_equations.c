@@ -318,6 +318,42 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
     }
 }
 
+/* The same of a dashpot, whose stress is none of a slot's; what turns with it too. */
+static void damp_spring(radau *r, int fresh, const instant *from, double h, int spring)
+{
+    enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };
+    const model *m = r->of.c->model;
+    const mesh_element *el = &model_discrete(m, model_discretes(m) - model_springs(m) + spring)->el;
+    const double *C = model_scene(m)->spring[spring].damping;
+    double d[STAGES][SIX], J[STAGES][SIX * X], begin[SIX], K[X * X], CJ[SIX * X], force[X];
+    dashpots_strains(m, from->state, spring, begin, J[0]);
+    for (int i = 0; i < STAGES; i++)
+        dashpots_strains(m, r->stage[i].state, spring, d[i], J[i]);
+    for (int i = 0; i < STAGES; i++) {
+        double rate[SIX] = {0}, sigma[SIX];
+        for (int j = 0; j < STAGES; j++)
+            for (int k = 0; k < SIX; k++)
+                rate[k] += r->B[STAGES * i + j] / h * (d[j][k] - begin[k]);
+        dense_mul_vec(SIX, SIX, C, rate, sigma);
+        dashpots_stressed(m, r->stage[i].state, spring, sigma, force, K);
+        for (int c = 0; c < el->columns; c++)
+            if (el->index[c] != NONE && el->index[c] < r->free)
+                r->residual[(size_t)i * (size_t)r->free + (size_t)el->index[c]] -= force[c];
+        for (int k = 0; fresh && k < STAGES; k++) {
+            double block[X * X] = {0};
+            if (i == k)
+                memcpy(block, K, (size_t)(el->columns * el->columns) * sizeof *K);
+            dense_mul(SIX, SIX, el->columns, C, J[k], CJ);
+            for (int x = 0; x < SIX * el->columns; x++)
+                CJ[x] *= r->B[STAGES * i + k] / h;
+            dense_add_transpose_mul(el->columns, SIX, el->columns, J[i], CJ, block);
+            for (int x = 0; x < el->columns * el->columns; x++)
+                stages_add(&r->S, i, k, el->index[x / el->columns], el->index[x % el->columns],
+                           block[x]);
+        }
+    }
+}
+
 void radau_damp(radau *r, int fresh, const instant *from, double h)
 {
     const model *m = r->of.c->model;
@@ -336,6 +372,9 @@ void radau_damp(radau *r, int fresh, const instant *from, double h)
         if (fresh)
             add_blocks(r, all, h, eta, S, i);
     }
+    for (int i = 0; i < model_springs(m) && r->of.c->run->damping != NULL; i++)
+        if (scene_spring_damps(&model_scene(m)->spring[i]))
+            damp_spring(r, fresh, from, h, i);
 }
 
 /* out = sum_j weight_j (e_j - e_0) */
@@ -348,6 +387,18 @@ static void sum_strains(const radau *r, const instant *from, const double weight
         out[k] = 0;
         for (int j = 0; j < STAGES; j++)
             out[k] += weight[j] * (r->stage[j].state->e[k] - from->state->e[k]);
+    }
+    for (int i = 0; i < model_springs(m); i++) {
+        double d[SPRING_STRAINS], begin[SPRING_STRAINS],
+            J[SPRING_STRAINS * ELEMENT_MAX_COORDINATES];
+        double *sum = out + count + (size_t)(SPRING_STRAINS * i);
+        memset(sum, 0, SPRING_STRAINS * sizeof *sum);
+        dashpots_strains(m, from->state, i, begin, J);
+        for (int j = 0; j < STAGES; j++) {
+            dashpots_strains(m, r->stage[j].state, i, d, J);
+            for (int k = 0; k < SPRING_STRAINS; k++)
+                sum[k] += weight[j] * (d[k] - begin[k]);
+        }
     }
 }
 
@@ -373,7 +424,7 @@ void radau_damp_error(const radau *r, const instant *from, double h, const doubl
     for (int j = 0; j < STAGES; j++)
         weight[j] = -e[j] / h;
     sum_strains(r, from, weight, room);
-    damping_follow(&r->of.c->eq, g, room, from->state->e);
+    damping_follow(&r->of.c->eq, g, room, from->state);
 }
 
 /* Masses that elements spread, in the equations of three stages: blocks of all nodes of an element.

@@ -166,7 +166,7 @@ void released_project(const released_masses *of, const double A[36], const doubl
                 out[i * n + j] += of->T[k * n + i] * half[k * n + j];
 }
 
-int damping_acts(const scene *s)
+int damping_of_members(const scene *s)
 {
     for (int i = 0; i < s->members; i++)
         if (s->member[i].damping > 0)
@@ -174,18 +174,37 @@ int damping_acts(const scene *s)
     return 0;
 }
 
+static int has_dashpots(const scene *s)
+{
+    for (int i = 0; i < s->springs; i++)
+        if (scene_spring_damps(&s->spring[i]))
+            return 1;
+    return 0;
+}
+
+int damping_acts(const scene *s)
+{
+    return damping_of_members(s) || has_dashpots(s);
+}
+
+static size_t of_members(const model *m)
+{
+    return (size_t)model_elements(m) * (size_t)model_strains(m);
+}
+
 status damping_begin(const equations *eq, run_damping *d, fault *f)
 {
     const model *m = eq->m;
-    const size_t n = (size_t)model_strains(m), all = (size_t)model_elements(m) * n;
+    const size_t n = (size_t)model_strains(m), all = (size_t)model_stresses(m);
     memset(d, 0, sizeof *d);
     if (!damping_acts(model_scene(m)))
         return STATUS_OK;
     d->stiffness = calloc((size_t)model_kinds(m) * n * n + 1, sizeof *d->stiffness);
-    d->none = calloc(all + 1, sizeof *d->none);
+    d->none = calloc(2 * all + 1, sizeof *d->none);
     if (d->stiffness == NULL || d->none == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for damping");
-    for (int i = 0; i < model_elements(m); i++) {
+    d->begin = d->none + all;
+    for (int i = 0; i < model_elements(m) && damping_of_members(model_scene(m)); i++) {
         const int kind = model_element(m, i)->kind;
         const status outcome =
             model_type(m)->stress(model_kind(m, kind)->data, kinematics_rest(m)->e + (size_t)i * n,
@@ -196,7 +215,7 @@ status damping_begin(const equations *eq, run_damping *d, fault *f)
                              model_type(m)->name);
     }
     eq->run->damping = d;
-    damping_follow(eq, 0, d->none, d->none);
+    damping_follow(eq, 0, d->none, NULL);
     return STATUS_OK;
 }
 
@@ -207,13 +226,23 @@ void damping_end(const equations *eq, run_damping *d)
     free(d->none);
 }
 
-void damping_follow(const equations *eq, double g, const double known[], const double from[])
+void damping_strains(const model *m, const model_state *s, double e[])
 {
-    if (eq->run->damping == NULL)
+    memcpy(e, kinematics_strains(s), of_members(m) * sizeof *e);
+    dashpots_deformations(m, s, e + of_members(m));
+}
+
+void damping_follow(const equations *eq, double g, const double known[], const model_state *from)
+{
+    run_damping *d = eq->run->damping;
+    if (d == NULL)
         return;
-    eq->run->damping->g = g;
-    eq->run->damping->known = known;
-    eq->run->damping->from = from;
+    if (from != NULL)
+        damping_strains(eq->m, from, d->begin);
+    d->g = g;
+    d->known = known;
+    d->from = from != NULL ? d->begin : d->none;
+    d->springs = (spring_rates){g, known + of_members(eq->m), d->from + of_members(eq->m)};
 }
 
 status damping_matrix(const equations *eq, const model_state *s, sparse *C, fault *f)
@@ -242,6 +271,8 @@ status damping_matrix(const equations *eq, const model_state *s, sparse *C, faul
         eliminate_matrix(m, s, el, NULL, A);
         assemble_matrix(p, i, A, C);
     }
+    if (begun == STATUS_OK)
+        dashpots_matrix(m, s, C);
     damping_end(eq, &d);
     eq->run->damping = before;
     return begun;
@@ -282,7 +313,48 @@ status damping_rates(const model *m, const model_state *s, const double v[], dou
         dense_mul_vec(model_strains(m), model_own_coordinates(m), J, local,
                       rate + (size_t)i * (size_t)model_strains(m));
     }
+    dashpots_rates(m, s, dx, rate + of_members(m));
     free(dx);
+    return STATUS_OK;
+}
+
+size_t dashpots_room(const model *m)
+{
+    return (size_t)model_all_coordinates(m) + (size_t)(SPRING_STRAINS * model_springs(m)) + 1;
+}
+
+/* -> [6 x springs], in the room. */
+static double *rates_of_dashpots(const model *m, const model_state *s, const double v[],
+                                 double room[])
+{
+    double *rate = room + model_all_coordinates(m);
+    in_space(m, s, v, room);
+    dashpots_rates(m, s, room, rate);
+    return rate;
+}
+
+double dashpots_subtract(const model *m, const model_state *s, const double v[], double room[],
+                         double out[])
+{
+    if (!has_dashpots(model_scene(m)))
+        return 0;
+    double *rate = rates_of_dashpots(m, s, v, room);
+    for (int k = 0; k < SPRING_STRAINS * model_springs(m); k++)
+        rate[k] = -rate[k];
+    dashpots_add_forces(m, s, rate, out);
+    return dashpots_power(m, rate);
+}
+
+status dashpots_at_node(const model *m, const model_state *s, const double v[], int node,
+                        double F[6], fault *f)
+{
+    if (!has_dashpots(model_scene(m)))
+        return STATUS_OK;
+    double *room = calloc(dashpots_room(m), sizeof *room);
+    if (room == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for dashpots");
+    dashpots_node_force(m, s, rates_of_dashpots(m, s, v, room), node, F);
+    free(room);
     return STATUS_OK;
 }
 
@@ -292,8 +364,8 @@ status damping_now(const equations *eq, instant *now, fault *f)
     if (now->strain == NULL)
         return STATUS_OK;
     TRY(damping_rates(m, now->state, now->v, now->strain, f));
-    memset(now->strain2, 0, (size_t)(model_elements(m) * model_strains(m)) * sizeof *now->strain2);
-    damping_follow(eq, 0, now->strain, kinematics_strains(now->state));
+    memset(now->strain2, 0, (size_t)model_stresses(m) * sizeof *now->strain2);
+    damping_follow(eq, 0, now->strain, NULL);
     return STATUS_OK;
 }
 
@@ -308,7 +380,7 @@ double damping_power(const equations *eq, const double rate[])
             dense_quadratic(model_strains(m),
                             eq->run->damping->stiffness + (size_t)model_element(m, i)->kind * n * n,
                             rate + (size_t)i * n);
-    return sum;
+    return sum + dashpots_power(m, rate + of_members(m));
 }
 
 /* Components of a rotation about fixed axes that move. */

@@ -15,7 +15,7 @@ typedef struct instant {
     double *v, *a;           /* [free + driven] rates and their derivatives: see time_impl.h */
     double work, dissipated; /* [J] since t = 0: by external forces; by damping */
     double *strain,
-        *strain2; /* [elements x strains] rates of the strains of what is damped, and
+        *strain2; /* [model_stresses] rates of the strains of what is damped, and
                      their derivatives as generalized-alpha has them; NULL: nothing is */
     double stress,
         contraction;   /* largest stress so far, and how Newton contracted last: newton.h */
@@ -101,6 +101,7 @@ typedef struct outer_work {
     const model *m;
     const carried_masses *masses;
     double *force, *holding; /* [free + driven] room */
+    double *dashpots;        /* [dashpots_room] */
     int elements, *element;  /* that driven coordinates move */
 } outer_work;
 
@@ -170,10 +171,12 @@ status account_judge(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
 /* Stiffness-proportional damping: stresses gain eta S0 e', with the rates of the strains and the
- * stiffness S0 of the undeformed element. Rigid motions are not damped. */
+ * stiffness S0 of the undeformed element. Rigid motions are not damped. Dashpots: the same with
+ * the deformations of their spring and a matrix that is given. */
 
-/* Is any member of the scene damped? */
+/* Is any member or spring of the scene damped? */
 int damping_acts(const scene *);
+int damping_of_members(const scene *);
 /* S0 of all kinds, and from here on its share of the run's stresses, with rates that stay zero
  * until they are set. Nothing where no member is damped. */
 status damping_begin(const equations *, run_damping *, fault *);
@@ -182,10 +185,21 @@ void damping_end(const equations *, run_damping *);
 /* C of small motions about a state, on a pattern of model.h. */
 status damping_matrix(const equations *, const model_state *, sparse *C, fault *);
 
-/* Rates of the strains now: known + g (e - from); all [elements x strains]. */
-void damping_follow(const equations *, double g, const double known[], const double from[]);
-/* e' = J x' at rates v[free + driven] -> rate[elements x strains]. */
+/* Rates of the strains now: known + g (e - those of `from`, as they are); known[model_stresses].
+ * from NULL: g is 0. */
+void damping_follow(const equations *, double g, const double known[], const model_state *from);
+/* Strains of elements and springs -> e[model_stresses]. */
+void damping_strains(const model *, const model_state *, double e[]);
+/* e' = J x' at rates v[free + driven] -> rate[model_stresses]. */
 status damping_rates(const model *, const model_state *, const double v[], double rate[], fault *);
+/* What dashpots take at rates v: out[free + driven] -=; returns the power that they lose [W].
+ * room[dashpots_room]. */
+size_t dashpots_room(const model *);
+double dashpots_subtract(const model *, const model_state *, const double v[], double room[],
+                         double out[]);
+/* F[6] += on a node's frame. */
+status dashpots_at_node(const model *, const model_state *, const double v[], int node, double F[6],
+                        fault *);
 /* Rates of the strains by those of the coordinates, which stay; nothing where nothing is damped. */
 status damping_now(const equations *, instant *, fault *);
 /* Power that rates of strains lose [W]. */

@@ -406,8 +406,8 @@ typedef struct deformable {
     double *C, *memory;    /* P''(e) [strains x strains]; of stress */
     double *present;       /* [strains] P'(e) */
     double *gap_e, *gap_d; /* [strains] D(x_1) - e, A (dr, c, da) - d */
-    const double *S;       /* S0 of a damped member, else NULL */
-    double damping;        /* eta [s] of it */
+    const double *S;       /* S0 of a damped member, matrix of a dashpot, else NULL */
+    double damping;        /* eta [s] of it; 1 */
     double length;         /* [m] that incompatibilities are relative to */
 } deformable;
 
@@ -468,6 +468,7 @@ typedef struct explicit_scheme {
                                */
     double *inc, *residual;   /* [free + driven] */
     double *memory, *still;   /* of one element: as its type has it; no increment of strains */
+    double power;             /* [W] that dashpots take */
     double *weight;           /* [free + driven] model.h */
     const instant *from;      /* of the present step */
     double end;               /* [s] where its last loads are read */

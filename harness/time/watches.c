@@ -270,7 +270,7 @@ static void measure(const model *m, const instant *now, outcome_end *out)
     out->between = (size_t)turns_between_count(m);
     out->states = now->state->size - 3 * out->between;
     out->coordinates = (size_t)model_all_coordinates(m);
-    out->strains = now->strain != NULL ? (size_t)model_elements(m) * (size_t)model_strains(m) : 0;
+    out->strains = now->strain != NULL ? (size_t)model_stresses(m) : 0;
     out->released = now->ends_known ? instant_ends(m) : 0;
 }
 

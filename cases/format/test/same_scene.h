@@ -69,7 +69,8 @@ static inline int same_member(const scene_member *a, const scene_member *b)
 
 static inline int same_spring(const scene_spring *a, const scene_spring *b)
 {
-    return entry_same(entry_spring, a, b) && same_numbers(36, a->stiffness, b->stiffness);
+    return entry_same(entry_spring, a, b) && same_numbers(36, a->stiffness, b->stiffness) &&
+           same_numbers(36, a->damping, b->damping);
 }
 
 static inline int same_function(const scene_function *a, const scene_function *b)

@@ -265,6 +265,7 @@ nodes:
   a: {at: [0, 0, 0], hold: all}
   b: {at: [LENGTH, 0, 0]}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0], warping: fixed}}
+springs: {d: {to: b, damping: [DAMP, DAMP, DAMP, TURN, TURN, TURN]}}
 loads: {p: {force: [0, 1, 0], on: b, time: "sin(60*t)"}}
 analyses: {run: {motion: {stations: [0.01, 0.02], integrator: radau, tolerance: 1e-6}}}
 quantities:
@@ -307,8 +308,10 @@ def filled(text, **numbers):
     return text
 
 
-MILLIMETRES = {"WIDTH": 50, "THICK": 0.5, "YOUNG": 210e3, "SHEAR": 81e3, "LENGTH": 100, "RHO": 7.8e-9}
-METRES = {"WIDTH": 50e-3, "THICK": 0.5e-3, "YOUNG": 210e9, "SHEAR": 81e9, "LENGTH": 0.1, "RHO": 7800}
+MILLIMETRES = {"WIDTH": 50, "THICK": 0.5, "YOUNG": 210e3, "SHEAR": 81e3, "LENGTH": 100, "RHO": 7.8e-9,
+               "DAMP": 2e-4, "TURN": 1}
+METRES = {"WIDTH": 50e-3, "THICK": 0.5e-3, "YOUNG": 210e9, "SHEAR": 81e9, "LENGTH": 0.1, "RHO": 7800,
+          "DAMP": 0.2, "TURN": 1e-3}
 
 
 class UnitsTest(SceneCase):

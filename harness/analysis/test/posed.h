@@ -155,6 +155,12 @@ static void add(scene *s, const char *name)
                                                       s->node[MIDDLE].position[1] + 0.003, 0);
         scene_member_at(s, 1)->q =
             scene_add_attached(s, TIP, s->node[TIP].position[0], s->node[TIP].position[1], 0.02);
+    } else if (IS("dashpot")) {
+        const double none[36] = {0};
+        double c[36] = {0};
+        for (int i = 0; i < 6; i++)
+            c[7 * i] = 20 * (i + 1);
+        scene_damp_spring(s, scene_add_spring(s, SCENE_NONE, TIP, none), c);
     } else if (IS("release")) {
         double k[36] = {[28] = 500, [35] = 400};
         scene_release_end(s, 1, 0, SCENE_RZ);
