@@ -85,7 +85,8 @@ along_path_words along_path_end(const scene *s)
     return out;
 }
 
-/* Of stations between 0 and 1 all lie on the line from the value at 0 to that at 1. */
+/* Returns 1 where the values of all stations between 0 and 1 lie on the line from the value at 0 to
+ * that at 1. */
 static int is_straight(int stations, const double path[], const double value[])
 {
     for (int i = 0; i < stations; i++) {
@@ -263,7 +264,8 @@ static int has_drive(const scene *s, int analysis, char *who, int size)
     return s->drivers > 0 && called(s, SCENE_DRIVERS, 0, who, size);
 }
 
-/* Of the analysis, or of the one whose states it is about. */
+/* Returns whether the analysis, or the one whose states it is about, has a rotating frame; *who
+ * names that one. */
 static int has_spin(const scene *s, int analysis, char *who, int size)
 {
     const int follows = s->analysis[analysis].follows;
@@ -362,7 +364,7 @@ int scene_inputs_flutter(const scene *s, int analysis)
     return 0;
 }
 
-/* What is sought along a path: a linear solution would take it for zero. */
+/* Refuses an unknown that is solved for along a path: a linear solution would take it for zero. */
 static status check_unknown(const scene *s, int analysis, scene_column column, fault *f)
 {
     for (int d = 0; d < s->drivers; d++)

@@ -25,7 +25,8 @@ static void mirror_section(section_spec *spec)
         }
 }
 
-/* With mirror_section: forces change sides, x and y their direction. */
+/* Reverses a quantity of internal forces as mirror_section requires: forces change sides, x and y
+ * their direction. */
 static void reverse_internal(scene_quantity *q)
 {
     const scene_internal what = *scene_internal_of(q);
@@ -52,7 +53,7 @@ static void reverse_stress(scene_quantity *q)
             scene_beside(scene_stress_at(what.member, 1 - what.place, what.measure), !what.before);
 }
 
-/* Of a member whose ends are exchanged. */
+/* Reverses a load of a member whose ends are exchanged. */
 static void reverse_load(scene_load *load)
 {
     const double begin = load->range[0];
@@ -163,7 +164,7 @@ static int section_between(scene *s, const scene_member *m, double fraction)
     return scene_add_section(s, &spec);
 }
 
-/* What of a load acts from one place of its member to another, which become 0 and 1. */
+/* Cuts a load to its part between two positions of its member, which become 0 and 1. */
 static void cut_load(scene_load *load, double from, double to)
 {
     const scene_load whole = *load;

@@ -1,4 +1,4 @@
-/* What a structure consists of, but for its sections. */
+/* Keys of a structure, except its sections. */
 #include "cases/scene/scene.h"
 
 #include <math.h>
@@ -222,7 +222,7 @@ const entry_field *entry_of_load(scene_load_kind kind)
     return &entry_load[key[kind]];
 }
 
-/* What sections consist of. */
+/* Keys of sections. */
 
 static const entry_field rectangle[] = {
     {"width", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "along the member's z axis",

@@ -6,7 +6,7 @@
 
 #include "elements/shared/choice.h"
 
-/* Of the entry of a key. */
+/* Returns the member of the entry that the key sets. */
 static const void *place_of(const entry_field *k, const void *entry)
 {
     return (const char *)entry + k->at;
@@ -204,7 +204,8 @@ status entry_check(const scene *s, const entry_field *table, const void *entry, 
     return STATUS_OK;
 }
 
-/* Of a word of a unit: m, N, kg = N s^2/m, Pa = N/m^2, J = N m, W = N m/s; others have neither. */
+/* Returns the power of a base unit (m or kg) in a word of a unit: m, N, kg = N s^2/m, Pa = N/m^2, J
+ * = N m, W = N m/s; 0 for other words. */
 static int base_power(const char *word, size_t size, entry_base base)
 {
     static const struct {

@@ -50,8 +50,8 @@ static int takes(formula_reader *r, char sign)
     return 1;
 }
 
-/* What no t enters is one number: its derivatives are zero, also where those of a function are not
- * finite. 1: done. */
+/* An operation without t gives one number: its derivatives are zero, also where those of a function
+ * are not finite. Returns 1: done. */
 static int is_constant(formula_reader *r, jet_operation what, int grows)
 {
     const int values = grows < 0 ? 2 : 1, first = r->to->count - values;
@@ -94,7 +94,7 @@ static const double *constant_from(const formula_reader *r, int first)
     return r->to->count == first + 1 && step->what == JET_NUMBER ? &step->number : NULL;
 }
 
-/* Of numbers, behind "(": all are taken together as they are read. */
+/* Reads arguments after "("; all of them are combined as they are read. */
 static status read_arguments(formula_reader *r, const expression_function *f, int word)
 {
     int count = 0;

@@ -377,7 +377,8 @@ typedef struct scene_relative {
     int node, component, from;
 } scene_relative;
 
-/* What a kind reads that has no struct of its own: as its table of keys says. */
+/* Members that the reader of a kind without a struct of its own reads: its table of keys lists
+ * them. */
 typedef struct scene_reading {
     const struct quantity_type *type;
     int node[4], component[4];
@@ -710,7 +711,7 @@ typedef enum scene_shear {
     SCENE_SHEAR_ENGESSER,
     SCENE_SHEAR_OWN /* of each formulation the one that it has */
 } scene_shear;
-/* Those that a truth depends on. */
+/* Theories of shear in stability on which a reference value can depend. */
 #define SCENE_SHEAR_THEORIES "engesser|haringx"
 
 struct scene {

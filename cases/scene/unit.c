@@ -22,7 +22,7 @@ static void scale_vector(double v[3], double factor)
         v[i] *= factor;
 }
 
-/* What a file does not say. */
+/* Scales constants of a section that are not in a file. */
 static void scale_constants(section *c, double x)
 {
     const scaled list[] = {{&c->young, -2},     {&c->shear_modulus, -2}, {&c->density, -4},
@@ -99,7 +99,7 @@ static void scale_load(scene_load *load, entry_base base, double times)
     scale_vector(load->last, factor);
 }
 
-/* What is extracted, and what is compared with it. */
+/* Scales the extracted value and the values that it is compared with. */
 static void scale_extract(const scene *s, scene_quantity *q, entry_base base, double times)
 {
     const int power = entry_power(quantity_type_of(q)->unit(s, q), base);
@@ -108,7 +108,7 @@ static void scale_extract(const scene *s, scene_quantity *q, entry_base base, do
     q->passing.level *= pow(times, power);
 }
 
-/* What the tables of entries say. */
+/* Scales all members that the tables of entries list. */
 static void scale_entries(scene *s, entry_base base, double times)
 {
     for (int i = 0; i < s->sections; i++)

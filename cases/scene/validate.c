@@ -1,4 +1,4 @@
-/* What a scene must be before anything is built from it. */
+/* Requirements that a scene must satisfy before a model is built from it. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -154,7 +154,7 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* What of a member it acts on. */
+/* Checks the part of the member that a load acts on. */
 static status check_range(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
@@ -191,7 +191,7 @@ static status check_range(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* What a kind of load cannot have. */
+/* Refuses members that a kind of load cannot have. */
 static status check_load_kind(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];

@@ -94,7 +94,7 @@ static status check_follows(const scene *s, int i, fault *f)
     return scene_validate_mass(s, i, f);
 }
 
-/* What a table says at a value of the path parameter. */
+/* Returns the value of a table at a value of the path parameter, interpolated. */
 static double along_table(int stations, const double at[], const double value[], double path)
 {
     int k = 0;
@@ -194,7 +194,7 @@ static int moves(const scene *s)
     return 0;
 }
 
-/* What is wrong with one; idle: no analysis is in time. */
+/* Checks one function of time; idle: no analysis is in time. */
 static status check_function(const scene_function *of, int idle, fault *f)
 {
     if (of->pieces == 0)
@@ -258,7 +258,7 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
     return STATUS_OK;
 }
 
-/* What critical loads and frequencies may be about. */
+/* Checks the state that critical loads and frequencies are about. */
 static status check_about(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_analysis_kind about = s->analysis[a->follows].kind;

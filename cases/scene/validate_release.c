@@ -73,7 +73,7 @@ static void add_kept(int count, double (*axis)[3], double P[9])
         }
 }
 
-/* What the node's supports leave free. */
+/* Adds to P the rotations that the node's supports leave free. */
 static void add_supports(const scene_node *n, double P[9])
 {
     double axis[3][3] = {{0}};
@@ -168,7 +168,7 @@ static int releases_at(const scene *s, int node)
     return count;
 }
 
-/* What is loose at a node; axis: of one. */
+/* Rotations that are loose at a node; axis: the one of LOOSE_AXIS. */
 typedef enum loose { LOOSE_NOTHING, LOOSE_AXIS, LOOSE_PLANE, LOOSE_ALL } loose;
 
 static loose loose_at(const scene *s, int node, double axis[3])
@@ -277,7 +277,7 @@ static int releases_turn(const scene_release *r)
     return 0;
 }
 
-/* Of a straight member, unit vectors: along it, and of its y axis; 0: of another one. */
+/* Unit vectors of a straight member: along it, and of its y axis. Returns 0 for a curved one. */
 static int frame_of(const scene *s, const scene_member *m, double x[3], double y[3])
 {
     if (m->p < 0 || m->p >= s->nodes || m->q < 0 || m->q >= s->nodes)
@@ -381,8 +381,8 @@ static int runs_on(const scene *s, member_end first, member_end second)
            is_symmetric(s, profile[0], sign);
 }
 
-/* Of each node: how many ends are at it, the sum of their numbers, and whether it is part of a
- * body, or of one that members or springs reach at other nodes too. */
+/* Number of element ends at a node, the sum of their indices, and whether the node belongs to a
+ * body, or to one that members or springs reach at other nodes too. */
 typedef struct warping_place {
     int ends, tied;
     long sum;

@@ -37,8 +37,8 @@ status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, f
 
 /* Centre lines of all solutions, for pictures. */
 
-/* Of the undeformed structure, of at most `most` states of every path, of linear solutions and
- * modes. */
+/* Collects shapes of the undeformed structure, of at most `most` states of every path, of linear
+ * solutions and of modes. */
 status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 
 /* Matrices of small motions about all solutions. */
@@ -60,7 +60,8 @@ status compliance_take(analysis_context *, int analysis, const newton_run *, nod
 
 typedef struct compliance_walk compliance_walk;
 
-/* Of all analyses that follow `path`; *out NULL: there are none. */
+/* Begins the compliances of all analyses about states of `path`; *out NULL: no analysis follows it.
+ */
 status compliance_walk_begin(newton_run *, int path, compliance_walk **out, fault *);
 /* Newton's method has reached the station. The analysis itself computes what is not available now.
  * w NULL: no analysis follows. FAULT: out of memory. */
@@ -152,10 +153,10 @@ typedef struct flutter_point {
 typedef status flutter_walk(newton_run *, double target, double *increment, fault *);
 status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *, fault *);
 
-/* Whether states are stable whose tangent is not symmetric: with a mass by the frequencies of small
- * motions about them, without by the eigenvalues of the tangent that have passed zero. */
+/* Stability of states whose tangent is not symmetric: with mass by the frequencies of small motions
+ * about them, without mass by the number of eigenvalues of the tangent that have passed zero. */
 
-/* Of one analysis; all zero at first. */
+/* Workspace of one analysis; all members are zero at first. */
 typedef struct flutter_judge {
     int begun;
     newton_run n; /* with a tangent of all coordinates, which that of a path need not have */
@@ -172,11 +173,12 @@ status flutter_judge_begin(flutter_judge *, analysis_context *, fault *);
 status flutter_judge_here(flutter_judge *, step_record *, fault *);
 void flutter_judge_free(flutter_judge *);
 
-/* What counts instead of negative pivots where a tangent K is not symmetric: the eigenvalues next
- * to zero of D^-1 K, D the metric, and which of them lie left of the imaginary axis.  That number
- * changes where one passes zero, which is a critical point, and where a pair passes the axis beside
- * zero, which is none; pairs that meet on the axis do not change it, nor does rounding that makes a
- * pair of a double value.  A symmetric K has as many of them as negative pivots. */
+/* Replacement of the count of negative pivots where a tangent K is not symmetric: the eigenvalues
+ * next to zero of D^-1 K, D the metric, and the number of those left of the imaginary axis. That
+ * number changes where one passes zero, which is a critical point, and where a pair crosses the
+ * imaginary axis away from zero, which is none. Pairs that meet on the real axis do not change it,
+ * nor does rounding that turns a double value into a pair. A symmetric K has as many of them as
+ * negative pivots. */
 
 enum { LEFT_NEAREST = 6 };
 
@@ -325,8 +327,8 @@ void extract_spectrum_buckling(const scene_quantity *, const analysis_outcome *,
 void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
                             const analysis_outcome *, quantity_result *);
 
-/* Whether stability is lost and regained within a step of a static path, as far as that lasts a
- * fifth of the step: its state is looked at after every sixth. */
+/* Checks whether stability is lost and regained within a step of a static path: the state is
+ * examined after every sixth of the step, so that an interval of a fifth of it is noticed. */
 
 /* The step led from one state to the other. *found: path of a part of it whose stability is not
  * between those of the ends; INFINITY: there is none that could be reached. It is not counted as
@@ -357,7 +359,8 @@ int modal_wanted(const analysis_context *, int analysis);
 /* Stationary rotation and small motions about it. */
 
 status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* What the modes found say of the stability of the stations, when the steps have been judged. */
+/* Enters the stability of the stations, as the modes found show it, after the steps have been
+ * judged. */
 void rotation_judge_stations(analysis_context *, int analysis, const analysis_outcome *);
 
 /* Nonlinear equilibrium along a path. */

@@ -121,7 +121,7 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
     return outcome;
 }
 
-/* With what collect_shapes frees. */
+/* The caller, collect_shapes, frees *s, also after a failure. */
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
     TRY(shapes_alloc(s, f));
@@ -160,7 +160,7 @@ status collect_shapes(const analysis_context *c, int most, shapes *s, fault *f)
     return outcome;
 }
 
-/* What all states share. */
+/* Workspace shared by all states. */
 typedef struct workspace {
     sparse K, M, G;
     double *residual, *load; /* [free + driven] */
@@ -229,7 +229,8 @@ static status inputs(const analysis_context *c, const model_state *state, worksp
     return triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
 }
 
-/* With K known: B, and of a formulation with inertia M, and G where the axes turn. */
+/* Stores K, which is known, and B; M where the formulation has inertia, and G where the axes
+ * rotate. */
 static status systems_keep(const analysis_context *c, const model_state *state, double path,
                            workspace *w, state_matrices *out, fault *f)
 {
@@ -243,8 +244,8 @@ static status systems_keep(const analysis_context *c, const model_state *state, 
     return out->turns ? triplets_of(&w->G, 1, &out->G, f) : STATUS_OK;
 }
 
-/* Of the undeformed structure; displaced: those of a linear solution whose stresses count, under
- * the loads at `path`, NULL: there are none. */
+/* Stores the matrices of the undeformed structure. displaced: displacements of the linear solution
+ * whose stresses count, under the loads at `path`; NULL: none. */
 static status systems_keep_linear(const analysis_context *c, int analysis, const double displaced[],
                                   double path, workspace *w, system_matrices *s, fault *f)
 {
@@ -317,7 +318,7 @@ static status keep_about(const analysis_context *c, int analysis, workspace *w, 
     return keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f);
 }
 
-/* With its modes; nothing where it failed. */
+/* Stores the matrices of a modal analysis and its modes; nothing where it failed. */
 static status keep_modal(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {

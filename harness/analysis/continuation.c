@@ -285,7 +285,7 @@ static status start(continuation *p, fault *f)
     return add_point(p, f);
 }
 
-/* With what continuation_analysis frees. */
+/* The caller, continuation_analysis, frees *p, also after a failure. */
 static status walk(analysis_context *c, int analysis, outcome_continuation *o, continuation *p,
                    fault *f)
 {
@@ -308,13 +308,13 @@ status continuation_analysis(analysis_context *c, int analysis, analysis_outcome
     return result;
 }
 
-/* Whether a step stayed on its branch, and what is said when it did not. */
+/* Checks whether a step stayed on its branch, and reports where it did not. */
 
 /* Between a tangent and the secant, in the metric [rad]: what the tangent misses of a step, as part
  * of it. Steps are chosen by it. */
 static const double largest_swing = 0.3;
-/* Of any node in one step [rad]: a guard, where few nodes turn. Steps of a tenth of both lead to
- * the same states and events in all cells of `verify`. */
+/* largest rotation of any node in one step [rad]: a guard for paths on which few nodes rotate.
+ * Steps of a tenth of both limits lead to the same states and events in all runs of `verify`. */
 static const double largest_turn = 0.5;
 
 static double angle_to_secant(const continuation *p, const double tangent[], double length)

@@ -51,7 +51,8 @@ static double least_eigenvalue(continuation *p)
     return eigenvalue;
 }
 
-/* Of the point, where K is factored: the same, or the real part of what stands next to zero. */
+/* Returns the least eigenvalue at the point, where K is factored, or the real part of the
+ * eigenvalue next to zero. */
 static double least_of(continuation *p, const path_point *at)
 {
     return at->symmetric ? least_eigenvalue(p) : at->least;
@@ -81,7 +82,7 @@ static path_goal part_of(const continuation *p, path_goal goal, double part)
     return (path_goal){goal.by_arc, from + part * (goal.value - from)};
 }
 
-/* What is looked for: the first point behind `from` where something changes. */
+/* Target of the search: the first point after `from` where the count changes. */
 typedef struct sought {
     int by_rate;
     double from;  /* part of the step */
@@ -184,7 +185,8 @@ static status count_behind(continuation *p, path_goal goal, const sought *s, dou
     return STATUS_OK;
 }
 
-/* What changes without an eigenvalue at zero: a pair that passes the axis beside it, no branch? */
+/* Returns 1 where the count changes without an eigenvalue at zero: a pair crosses the imaginary
+ * axis away from zero, and no branch starts. */
 static int is_pair(const continuation *p, const sought *s)
 {
     return !s->by_rate && !p->next.symmetric && p->narrow && s->negative >= 0 &&

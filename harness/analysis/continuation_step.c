@@ -138,7 +138,7 @@ status continuation_step_go_on(continuation *p, path_goal goal, step_record *rec
     return newton_iterate(p->c, &use, &p->n.arrival, record, f);
 }
 
-/* Of a tangent that is not symmetric, which has no inertia. */
+/* Counts eigenvalues of an unsymmetric tangent, which has no inertia in the sense of Sylvester. */
 static status index_of(continuation *p, path_point *out, fault *f)
 {
     left_of_axis left;

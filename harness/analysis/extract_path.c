@@ -237,7 +237,8 @@ int extract_path_whole(const analysis_context *c, int analysis, int station)
     return 0;
 }
 
-/* Of a motion, between its stations. A crossing stays what it is though the motion stops later. */
+/* Reads a quantity of a motion between its stations. A crossing that was found stays valid where
+ * the motion stops later. */
 static void extract_passing(const analysis_context *c, const scene_quantity *q,
                             const analysis_outcome *o, quantity_result *r)
 {

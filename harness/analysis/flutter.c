@@ -262,7 +262,7 @@ enum {
     MOST = 48,
     SPARE = 3
 }; /* eigenvalues that are looked at; beyond the last on the left */
-/* Of an eigenvalue beside those looked at: its sign may be. */
+/* relative to the eigenvalues examined: a smaller one may have the wrong sign. */
 static const double rounding = 1e-6;
 
 typedef struct metric_inverse {

@@ -91,7 +91,7 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
     return outcome;
 }
 
-/* With what loaded_modal frees. */
+/* The caller, loaded_modal, frees *n, *M and *e, also after a failure. */
 static status frequencies(analysis_context *c, int analysis, newton_run *n, sparse *M,
                           eigen_result *e, outcome_spectrum *out, fault *f)
 {
@@ -550,7 +550,7 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
     return STATUS_OK;
 }
 
-/* With what loaded_buckling frees. */
+/* The caller, loaded_buckling, frees *s, also after a failure. */
 static status run(analysis_context *c, int analysis, loaded_search *s, outcome_spectrum *out,
                   fault *f)
 {

@@ -110,7 +110,7 @@ static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
     outcome_take(side, &o->left.spectrum.positive);
 }
 
-/* What nothing resists, neither stiffness nor mass, has any frequency. */
+/* Explains a motion with neither stiffness nor mass, whose frequency is arbitrary. */
 static status explain_massless(analysis_context *c, fault *f)
 {
     c->work->singular = 0;
@@ -206,7 +206,7 @@ static status assemble(analysis_context *c, int analysis, linear_system *s, moda
     return STATUS_OK;
 }
 
-/* With what modal_analysis frees. */
+/* The caller, modal_analysis, frees *s, *about and *e, also after a failure. */
 static status solve(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                     eigen_result *e, fault *f)
 {

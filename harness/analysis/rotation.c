@@ -189,7 +189,7 @@ static int is_enough(const analysis_context *c, int analysis, const rotation_mod
     return 1;
 }
 
-/* With a result that try_modes frees. */
+/* The caller, try_modes, frees *result, also after a failure. */
 static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
                          gyroscopic_result *result, rotation_modes *out, fault *f)
 {

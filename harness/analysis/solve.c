@@ -104,7 +104,7 @@ static void run_analyses(analysis_context *c)
     }
 }
 
-/* What follows from the solution and cannot be had spoils it, unless it is spoilt already. */
+/* Gives the solution the status of a failed later stage, unless it has failed before. */
 static void spoil(solve_result *r, status outcome, const fault *f)
 {
     if (outcome == STATUS_OK || r->status != STATUS_OK)
@@ -189,7 +189,7 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
 
 /* Linear statics about the undeformed state. */
 
-/* With what linear_analysis frees. */
+/* The caller, linear_analysis, frees *s, also after a failure. */
 static status displace(analysis_context *c, linear_system *s, analysis_outcome *o, fault *f)
 {
     const model_size size = model_sizes(c->model);
@@ -213,7 +213,8 @@ status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
  * of what the loads gain from path 0 to 1, and G_0 of what is there at path 0 and stays, with the
  * strains that members have by themselves. */
 
-/* What grows with the factor, and what stays. */
+/* Quadratic forms of the loads scaled by the load factor (growing) and of the constant loads
+ * (staying). */
 typedef struct prestresses {
     quadratic_forms growing, staying;
     int stays;         /* 0: nothing does */
@@ -353,7 +354,7 @@ static void buckling_free(buckling *b)
     free(b->of.product);
 }
 
-/* With what buckling_analysis frees. */
+/* The caller, buckling_analysis, frees *b, also after a failure. */
 static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
 {
     TRY(linear_system_alloc(c, &b->system, f));

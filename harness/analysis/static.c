@@ -129,7 +129,7 @@ static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance
     return STATUS_OK;
 }
 
-/* With what static_analysis frees. */
+/* The caller, static_analysis, frees the workspace, also after a failure. */
 static status solve(analysis_context *c, int analysis, newton_run *n, predictor *t,
                     flutter_judge *judge, compliance_walk **on_the_way, outcome_path *o, fault *f)
 {
@@ -184,8 +184,9 @@ static void forget_columns(unsigned known, double C[36])
             C[i] = NAN;
 }
 
-/* What is prescribed at the node exerts on it: force and moment [6]. The moment of a fork is that
- * of guides, which turn with the node: it is not of the convention's. */
+/* Force and moment [6] that the prescription of the node's motion exerts on it. The moment of a
+ * fork support is that of guides, which rotate with the node, so that the convention of moments
+ * does not apply to it. */
 static void reaction_of(const analysis_context *c, const scene_compliance *what,
                         const model_state *s, double reaction[6])
 {
@@ -274,7 +275,8 @@ static status unloaded(analysis_context *c, newton_run *n, const model_state **s
     return newton_to(n, 0, &unused, f);
 }
 
-/* With what compliance_analysis frees; at the stations that the path has reached. */
+/* Computes the compliances at the stations that the path has reached. The caller,
+ * compliance_analysis, frees the workspace, also after a failure. */
 static status compliance_solve(analysis_context *c, int analysis, node_tangent *t, newton_run *n,
                                outcome_compliance *out, fault *f)
 {

@@ -183,7 +183,7 @@ typedef struct measures {
 element_measure *measures_add(measures *m, const char *name);
 /* One more point of it. */
 void measures_point(element_measure *one, double at, double error);
-/* Those whose limit is wrong. */
+/* Quantities whose limit is wrong. */
 int measures_astray(const measures *m);
 /* 1: three points or more, and none has a value. */
 int measures_hopeless(const element_measure *one);
@@ -718,7 +718,7 @@ typedef struct pace_run {
     int group, series; /* of the sweep: a series and a point each, of one mesh */
     pace_method method;
     double step, tolerance; /* [s] the first one, of fixed steps all; 0: fixed */
-    /* What came of it; NAN: none */
+    /* result; NAN: none */
     status status;
     const char *reason;               /* lives in the sweep */
     double error;                     /* largest over stations: places over size, turns [rad] */

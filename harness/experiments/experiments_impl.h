@@ -80,8 +80,8 @@ typedef struct known_truths {
     int borrowed; /* 1: the rows of stored belong to the request */
 } known_truths;
 
-/* Those stored for the point, and where there is none and --compute-references was given those that
- * a program of reference/derive solves for. A program that fails derives nothing. FAULT: out of
+/* Reference values stored for the point; where none is stored and --compute-references was given,
+ * those that a program of reference/derive computes. A program that fails gives none. FAULT: out of
  * memory. */
 status known_at(const parameter_ranges *r, const sweep_point *p, known_truths *out, fault *f);
 void known_free(known_truths *);

@@ -33,7 +33,7 @@ static inline int adapted_owns(int count, const element_data *const data[],
 
 /* differences.c: J and H of a type that gives e, or e and J. */
 void differences_strain(const element_data *d, const node_state x[], strain_output *out);
-/* Of many elements, where the type has strain_many: all moved states together. */
+/* Strains of many elements, where the type has strain_many: all perturbed states in one call. */
 void differences_strain_many(int count, const element_data *const data[], const node_state x[],
                              strain_output out[]);
 /* H [7n x 7n] of strains with a Jacobian: jacobian(d, x, J) fills J [strains x 7n]. */

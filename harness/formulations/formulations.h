@@ -137,7 +137,7 @@ enum { FORMULATIONS_MOST_LOADED = 16 };
 
 /* Number i, or NULL after the last one. */
 const element_type *formulations_at(int i);
-/* Of this name, or NULL. */
+/* Returns the element type of this name, or NULL. */
 const element_type *formulations_named(const char *name, size_t length);
 /* Was it loaded from outside? */
 int formulations_is_loaded(const element_type *t);
@@ -150,7 +150,7 @@ void formulations_accept(const char *name);
 /* Adds one; refuses a name that is there, and words that mean more than one (all). The type stays
  * the caller's, and so does `from`: what --element calls it, or NULL. */
 status formulations_add(const element_type *t, const char *from, fault *f);
-/* What --element called it; NULL: it was not loaded so. */
+/* Returns the value of --element that loaded the type, or NULL where it was not loaded. */
 const char *formulations_element(const element_type *t);
 
 /* Formulations in separate processes: --element 'exec:COMMAND'. */

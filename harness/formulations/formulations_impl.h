@@ -32,8 +32,9 @@ typedef enum child_event {
 status child_start(char *const words[], child *out, fault *f);
 /* Does it still run? */
 int child_runs(const child *);
-/* Of this process: ends it, now or when it has had a moment to end by itself, and returns how it
- * ended, as waitpid says; -1: it was ended here. Of another process: its channels are closed. */
+/* Ends a child of this process, at once (now 1) or after a moment in which it may end by itself.
+ * Returns its status as waitpid gives it; -1: it was killed here. For a child of another process
+ * only its channels are closed. */
 int child_end(child *, int now);
 
 /* limit: seconds from now, 0: none. */
@@ -57,7 +58,7 @@ typedef struct handshake {
 /* `who` begins every error message. handshake_free frees what the type points to; after an error
  * there is nothing to free. The owner sets type.constants. REFUSED: no line of the protocol. */
 status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f);
-/* What the type of a handshake points to; a type of zeros has nothing. */
+/* Frees all that the type of a handshake points to; a type of zeros has nothing. */
 void handshake_free(element_type *);
 
 /* Requests to the process of a formulation and its answers, as protocol.md writes them. */
@@ -131,7 +132,7 @@ typedef struct gather {
     int room, failed;          /* states that there is room for; 1: no memory */
 } gather;
 
-/* What element i makes of its differences, through gather_next. */
+/* Evaluates element i from its differences, through gather_next. */
 typedef void gather_element(void *context, gather *, int i);
 /* Fills the answers of states first .. first + count - 1. */
 typedef void gather_evaluate(void *context, gather *, int first, int count);
@@ -148,7 +149,8 @@ const double *gather_next(gather *, const element_data *own, const node_state x[
 /* Energy, forces and stiffness that a type gives of an element, alone or of many states together.
  */
 
-/* Of the type itself; with `together`, of the answers gathered there, and zero while states are. */
+/* Forces by the type itself; with `together`, from the answers gathered there, and zero while
+ * states are being gathered. */
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out);
 /* Doubles of a gathered answer. */
 size_t forces_size(const element_data *d);

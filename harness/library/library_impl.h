@@ -49,7 +49,7 @@ status contestants_finished(const sweep *, fault *);
 status known_place(const char *path, fault *f);
 /* Reference values of a case with the known deviations; type NULL: the known deviations alone. */
 status known_read(const case_type *type, truths *out, fault *f);
-/* Those of all cases. */
+/* Reads the reference values of all cases. */
 status known_read_all(truths *out, fault *f);
 
 /* The lock of HDF5 alone: of two threads that want the same truths one reads, and a process is

@@ -181,7 +181,7 @@ status discrete_build(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Of a spring in a state. */
+/* Strains, stresses and their derivatives of a spring in a state. */
 typedef struct spring_state {
     double e[SPRING_STRAINS], sigma[SPRING_STRAINS], J[SPRING_STRAINS * X], H[X * X];
 } spring_state;

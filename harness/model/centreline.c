@@ -91,7 +91,7 @@ static void orientation(const span *e, int k, double t, const double direction[3
     rotation_compose(step, q, q);
 }
 
-/* What acts on the part before the point: the forces on the nodes beyond it. */
+/* Resultants on the part before the point: the forces on the nodes after it. */
 static void resultants(const span *e, int k, double t, centreline_point *p)
 {
     double force[3] = {0}, moment[3] = {0}, R[9];

@@ -82,7 +82,7 @@ static void mark_used(const model *m, char *used)
             used[m->mesh.vertex[m->mesh.discrete[i].el.vertex[k]].body] = 1;
 }
 
-/* What a released end keeps to itself: shifts first, turns behind. */
+/* Numbers the coordinates of a released end: shifts first, then rotations. */
 static void number_release(model *m, int index)
 {
     mesh_vertex *v = &m->mesh.vertex[index];
@@ -168,8 +168,8 @@ int coordinates_held_turn(const model *m, int node)
     return count == 1 ? held : NONE;
 }
 
-/* Those of a released end behind all others, turns first. A ball's place does not depend on how its
- * node turns, unless that is beside the body. */
+/* Adds the coordinates of a released end after all others, rotations first. The position of a ball
+ * joint depends on the rotation of its node only where the node is eccentric to the body. */
 static void index_release(const model *m, int node, mesh_element *el)
 {
     const mesh_vertex *v = &m->mesh.vertex[el->vertex[node]];
@@ -213,7 +213,7 @@ static int fixed_warps(const model *m, int *absent)
     return fixed;
 }
 
-/* What is not a coordinate, in lines. */
+/* Lists the scalars that are not coordinates, one line for each kind. */
 static status note_left_out(model *m, const coordinates_tally *of, fault *f)
 {
     int absent = 0, attached = 0;

@@ -208,7 +208,8 @@ int profile_at(const model *m, int member, int number)
     return m->profile[member] + (scene_member_tapers(sm) ? number : 0);
 }
 
-/* What the ends do not show, no formulation was asked for. */
+/* Checks a section between the ends of a tapered member for properties that the sections at its
+ * ends do not have. */
 static status check_between(const model *m, int member, const section *c, fault *f)
 {
     const scene_member *sm = &m->scene->member[member];

@@ -1,4 +1,4 @@
-/* What a scene needs, in features of formulations. */
+/* Features of formulations that a scene needs. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -110,7 +110,7 @@ static int is_sheared(unsigned needs)
     return (needs & FEATURE_SHEAR) && (needs & (FEATURE_GEOMETRIC | FEATURE_LARGE));
 }
 
-/* What the scene calls for when it leaves this out. */
+/* Returns the features that the scene needs when this physics is omitted. */
 static unsigned needed_without(const scene *s, unsigned omits)
 {
     unsigned needs = s->demands | needs_of_analyses(s) | (features_of_quantities(s) & ~omits),
@@ -241,7 +241,7 @@ unsigned features_needed_by_quantity(const scene *s, int quantity)
     return features_needed(s) & (moves ? ~0U : ~inertia);
 }
 
-/* What elements of one section are asked for. */
+/* Features that elements with this section need. */
 status features_of_section(const model *m, int index, unsigned *features, fault *f)
 {
     (void)f;

@@ -334,7 +334,7 @@ const double *kinematics_strains(const model_state *s)
     return s->e;
 }
 
-/* With a block of so many doubles. */
+/* Allocates a state with a block of that many doubles. */
 static status block_alloc(size_t size, model_state **out, fault *f)
 {
     model_state *s = *out = calloc(1, sizeof *s);

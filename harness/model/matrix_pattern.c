@@ -86,7 +86,7 @@ static void begin_lists(size_t pairs, const int index[], int n, int begin[])
         begin[i + 1] += begin[i];
 }
 
-/* What compress needs: pairs as they come, and their columns by rows. */
+/* Input of compress: pairs in any order, and their columns by rows. */
 typedef struct pairs {
     size_t count;
     int *row, *column, *by_row; /* [count] */

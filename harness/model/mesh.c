@@ -14,7 +14,7 @@
 #include "elements/math/scalar.h"
 #include "elements/shared/masses.h"
 
-/* Of a sequence's next angle; any length. */
+/* Adds the axis, of any length, of a sequence's next angle. */
 static void add_axis(const double axis[3], mesh_vertex *v)
 {
     const double length = vec3_norm(axis);
@@ -308,8 +308,9 @@ static double weight_of(int n, int node)
     return from_end < 3 ? closed[(n < most ? n : most) - 1][from_end] : 1;
 }
 
-/* Of the element behind node i, there: with what the nodes beyond carry it has the force of all
- * that lies beyond the node, of a linear acceleration, and the moment of a uniform one. */
+/* Sets the end of the element after node i: with the masses at the nodes beyond, its inertia equals
+ * the force of all mass beyond the node for a linear acceleration, and the moment for a uniform
+ * one. */
 static void set_end(mesh_element *el, int end, int n, int i, double beyond, double first)
 {
     const double length = n - i;
@@ -317,7 +318,7 @@ static void set_end(mesh_element *el, int end, int n, int i, double beyond, doub
     el->couple[end] = length * length / 2 - first;
 }
 
-/* Of `count` elements of one kind behind each other. */
+/* Sets the shares of `count` consecutive elements of one kind. */
 static void set_shares(mesh_element *el, int count)
 {
     double beyond = 0, first = 0; /* weights of the nodes beyond, and their moment about node i */

@@ -1,4 +1,4 @@
-/* What a scene needs and a formulation does not offer, in words. */
+/* Physics that a scene needs and a formulation does not support, in words. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -10,10 +10,10 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
-/* What bends over a length l with ends that do not turn gives way by F l^3/(12 EI) and slides by F
- * l/(kGA): Phi = 12 EI/(kGA l^2) of its deflection is shear (a cantilever: a quarter of that;
- * bending in n half-waves: about n^2 times it). Beyond this part of it a rigid section is another
- * model, not a discretisation. */
+/* largest share of shear in a deflection that a section rigid in shear may neglect. A length l
+ * whose ends do not rotate deflects by F l^3/(12 EI) in bending and F l/(kGA) in shear: their ratio
+ * is Phi = 12 EI/(kGA l^2) (a cantilever: a quarter of that; bending in n half-waves: about n^2
+ * times it). Beyond it a rigid section is another model, not a discretisation. */
 static const double largest_phi = 0.01;
 
 /* Box around members that hang together. */
@@ -183,7 +183,7 @@ int missing_refused(const scene *s, const element_type *type, char *words, int s
     return mass_lacks(s, type, words, size);
 }
 
-/* What sections have beyond the limits of the type. */
+/* Returns the properties of sections that exceed the limits of the type. */
 static unsigned omits_of_sections(const scene *s, const element_type *type)
 {
     const int warps = (features_needed(s) & FEATURE_WARPING) != 0;
@@ -278,8 +278,7 @@ static int is_heavy(const scene *s)
     return heavy;
 }
 
-/* What of the loads along members goes to the nodes with the mass of a motion (newton/loads.c).
- */
+/* Names the loads along members that are lumped with the mass of a motion (newton/loads.c). */
 static const char *goes_with(const scene *s, const scene_motion *how)
 {
     int weight = 0, other = 0;

@@ -44,8 +44,8 @@ static int stations_of(const scene_analysis *a)
     return scene_path_of(a) != NULL ? scene_path_of(a)->stations : 0;
 }
 
-/* At least what the elements, the pattern of their matrices and the states kept along the path
- * take. */
+/* Checks a lower bound of the memory for elements, matrix patterns and states stored along the
+ * path; REFUSED where the machine has less. */
 static status check_memory(const model *m, fault *f)
 {
     const double entries = (double)m->mesh.coordinates * m->mesh.coordinates / 2,

@@ -110,8 +110,8 @@ void assemble_patterns_free(assemble_patterns *);
  * there; matrices on it come from sparse_alloc_like. Symmetric: of the undeformed state. */
 status assemble_pattern(const model *, assemble_patterns *, int with_driven, const sparse **out,
                         fault *f);
-/* Of any state: stored whole where a load may make tangents unsymmetric, and then symmetric by its
- * numbers. */
+/* Pattern of the tangent in any state: stored whole where a load may make tangents unsymmetric;
+ * whether such a matrix is symmetric is then decided by its numbers. */
 status assemble_pattern_of_states(const model *, assemble_patterns *, int with_driven,
                                   const sparse **out, fault *f);
 /* 0: a load or a support may make tangents unsymmetric. */
@@ -279,8 +279,8 @@ static inline const model_mesh *model_mesh_of(const model *m)
     return (const model_mesh *)m;
 }
 
-/* Of an element: its type, nodes, their coordinates (7 each), strains, inner unknowns, and doubles
- * that its type remembers of a linearisation. */
+/* Sizes of an element: its type, number of nodes, coordinates of the nodes (7 each), strains,
+ * internal unknowns, and doubles that its type stores from a linearisation. */
 static inline const element_type *model_type(const model *m)
 {
     return model_mesh_of(m)->type;
@@ -329,7 +329,7 @@ static inline int model_all_coordinates(const model *m)
 {
     return model_mesh_of(m)->free + model_mesh_of(m)->driven;
 }
-/* Of a driver, or NONE. */
+/* Coordinate of a driver, or NONE. */
 static inline int model_driver_coordinate(const model *m, int driver)
 {
     return model_mesh_of(m)->driver_coordinate[driver];
@@ -343,12 +343,12 @@ static inline const mesh_element *model_element(const model *m, int element)
 {
     return &model_mesh_of(m)->element[element];
 }
-/* The first of a member; of the number of members: one past the last. */
+/* First element of a member; for the number of members: one past the last element. */
 static inline int model_first_element(const model *m, int member)
 {
     return model_mesh_of(m)->first_element[member];
 }
-/* Of members into elements. */
+/* Division of the members into elements. */
 const division *model_division(const model *);
 static inline int model_kinds(const model *m)
 {
@@ -412,9 +412,9 @@ static inline int model_turns(const model *m)
     return model_mesh_of(m)->turns;
 }
 
-/* What a slot of a linear_memory has at its end where elements take loads along them: does this
- * one, how its frame turns [3 x 14], and what stresses [strains x 3] and inner unknowns [inner x 3]
- * do then. */
+/* End of a slot of a linear_memory where elements take loads along them: whether this element does,
+ * the rotation of its frame [3 x 14], and the changes of stresses [strains x 3] and internal
+ * unknowns [inner x 3] with it. */
 enum { SLOT_TAKES, SLOT_TURN, SLOT_MIXED = SLOT_TURN + 3 * ELEMENT_ALONG_COORDINATES };
 static inline int slot_followed(const model *m)
 {
@@ -442,7 +442,7 @@ void discrete_inertia(const model *, const model_state *, const element_rotating
 void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
 void discrete_geometric(const model *, const model_state *, const element_rotating_frame *,
                         sparse *out);
-/* What rounding may change in x^T of the first. */
+/* Bound of what rounding may change in x^T K x of the material part. */
 double discrete_material_rounding(const model *, const model_state *, const double x[]);
 /* Dashpots: deformations of all springs [6 x springs], and their rates at increments dx[free +
  * driven] in a unit of time; the power that dashpots take at these [W], what they take of the
@@ -491,7 +491,7 @@ typedef struct mesh_entry {
     int offset;   /* in the pattern: from the start of its column */
 } mesh_entry;
 
-/* What elements share whose entries stand alike in the columns of a pattern. */
+/* Entries of elements that occupy the same relative positions in the columns of a pattern. */
 typedef struct mesh_layout {
     int entries;
     mesh_entry *entry; /* [entries] */
@@ -507,7 +507,7 @@ typedef struct mesh_pattern {
     const mesh_element *element; /* of the model */
 } mesh_pattern;
 
-/* That on which a matrix was made. */
+/* Returns the pattern that the matrix was made on. */
 const mesh_pattern *assemble_of(const assemble_patterns *, const sparse *a);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
 /* The same of a discrete element, whose places are looked for. */
@@ -516,7 +516,7 @@ void assemble_vector(const mesh_element *el, const double local[], double out[])
 /* Nothing where it is not stored. */
 void assemble_subtract(sparse *a, int row, int column, double value);
 
-/* What a scene needs, in features of formulations (FEATURE_* bits). */
+/* Features that a scene needs (FEATURE_* bits). */
 
 /* Feature bits the scene needs and those of them the type does not offer, or a limit it hits, in
  * words; 0: it can run. */
@@ -524,16 +524,15 @@ void assemble_subtract(sparse *a, int row, int column, double value);
 int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
 
 unsigned features_needed(const scene *);
-/* Those without which an asked quantity means nothing. */
+/* Returns the features without which a requested quantity is meaningless. */
 unsigned features_of_quantities(const scene *);
 /* Physics that the scene would need but omits. */
 unsigned features_omitted(const scene *);
-/* Of the physics that it does not leave out, what a section that is given by its numbers has
- * nothing of, and what counts where there are the analyses of the scene: zero, as far as the
- * numbers say. */
+/* Returns the physics, not omitted, that a section given by its constants lacks although the
+ * analyses of the scene need it; a constant given as zero counts as given. */
 unsigned features_not_given(const scene *, int section);
-/* Of walls: does its bimoment turn it on, which no formulation has, where the analyses have
- * stresses and neither warping nor the Wagner torque is omitted? */
+/* Returns 1 for a section of walls whose bimoment causes torsion, which no formulation models,
+ * where the analyses have stresses and neither warping nor the Wagner torque is omitted. */
 int features_one_sided(const scene *, int section);
 /* The same with the theory of shear in stability that the type has instead of the one the scene
  * asks for: FEATURE_* bits. */
@@ -545,8 +544,8 @@ unsigned features_theory(const scene *, const element_type *);
 int features_sheared(const scene *);
 /* Its name: "Haringx"; of SHEAR_OWN what the type says of it; "" of 0. */
 const char *features_theory_words(const element_type *, unsigned theory);
-/* Those of them that one quantity depends on: inertia only where it is a frequency or of a rotating
- * structure. */
+/* Returns those that one quantity depends on: inertia only where it is a frequency or belongs to a
+ * rotating structure. */
 unsigned features_needed_by_quantity(const scene *, int quantity);
 
 int features_eccentric(const section *c); /* its shear centre is not its centroid */
@@ -555,8 +554,8 @@ status features_of_section(const model *m, int section, unsigned *features, faul
 /* States of a model and the motion of its nodes in them. */
 
 status kinematics_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
-/* What kinematics_component and kinematics_driver_value read of a state, and its path: nothing else
- * may be asked of it. */
+/* A state with only those members that kinematics_component, kinematics_driver_value and the path
+ * need; no other function may be called with it. */
 status kinematics_nodes_alloc(const model *, const model_state *from, model_state **, fault *);
 void kinematics_state_free(model_state *);
 const model_state *kinematics_rest(const model *); /* undeformed */
@@ -595,7 +594,7 @@ int kinematics_node_jacobian(const model *, const model_state *, int node, int s
 /* Current offset of a vertex from its body [m]. */
 void kinematics_offset(const model *, const model_state *, int vertex, double rho[3]);
 
-/* Of an element in a state, as its type takes it: x[nodes]. */
+/* Fills x[nodes], the nodes of an element in a state, as its type takes them. */
 void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,
                        node_state x[]);
 void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
@@ -612,7 +611,7 @@ void kinematics_local(const model *m, const model_state *s, const mesh_element *
 /* Weights [free + driven] of the square of an increment, (displacement/size)^2 + rotation^2 in the
  * mean over the bodies. */
 void metric_of(const model *, double weight[]);
-/* What the displacements of the nodes have of an increment [free + driven], measured so. */
+/* Share of the displacements of the nodes in an increment [free + driven], in the same measure. */
 double metric_shift_part(const model *, const double dx[]);
 /* The same distance between two states; light[9 x (2 i + block)], row-major: projections of what
  * vertex i moved (block 0) and turned in its own axes (block 1) that do not count; NULL: all does.
@@ -635,9 +634,10 @@ enum { OMIT_WORDS = 200, OMIT_BITS = 16 }; /* length of their names; number of b
 /* Names the physics that the type does not support, or a limit that the scene exceeds; words are
  * empty if and only if there are none. 0: it has all that the scene needs. */
 int missing_words(const scene *, const element_type *, char *words, int size);
-/* Those of them without which nothing of the scene can be solved; 0: it can run. */
+/* Names the missing physics without which nothing of the scene can be solved; returns 0: it can be
+ * solved. */
 int missing_refused(const scene *, const element_type *, char *words, int size);
-/* Those that it runs without: bits of FEATURE_* and OMIT_*. */
+/* Returns the physics that is omitted when it is solved: bits of FEATURE_* and OMIT_*. */
 unsigned missing_omits(const scene *, const element_type *);
 /* Such bits in words. */
 void missing_omit_words(unsigned omits, char words[OMIT_WORDS]);
@@ -646,8 +646,9 @@ void missing_omit(section *, unsigned omits);
 /* The limit of the type that a section with N closed cells exceeds, in words; NULL: none. */
 const char *missing_in_section(const element_type *, const section *, int cells, int warps);
 
-/* What the type offers in one direction only (element_lack) where the scene needs it, in words: 0:
- * nothing, 1: so little of it that it is shown and not refused, 2: missing_words says so too. */
+/* Names what the type supports in one direction only (element_lack) where the scene needs it.
+ * Returns 0: nothing; 1: so little that it is printed and not refused; 2: missing_words names it
+ * too. */
 int lacks_of(const scene *, const element_type *, char *words, int size);
 
 /* Members of a model's state, for functions that advance it. */
@@ -688,12 +689,11 @@ void movable_of(int columns, const double *T, double length, movable *out);
  * prescribed, and a moment there is what Newton's method left over. */
 void movable_prescribed(int columns, const double *T, const double m[3], double out[3]);
 
-/* What of loads and mass along members is put on nodes by convention, in words. */
+/* Loads and masses of members that are lumped at nodes by convention, in words. */
 
-/* Of loads that ask for it, of masses that a motion or the scene lumps or a formulation has there,
- * and of what goes to the nodes with them: with the order in space that this has.  Of many the
- * first ones are named.  "" where nothing is.
- */
+/* Describes, with their order of convergence in space: loads that ask to be lumped; masses that a
+ * motion, the scene or the formulation lumps; loads that are lumped with them. Of many the first
+ * ones are named. "": nothing is lumped. */
 void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
               size_t room);
 
@@ -704,10 +704,10 @@ void on_nodes(const scene *s, const element_type *type, const double options[], 
  * The pieces are prismatic: what they come to has an error of second order in their length,
  * whatever the formulation. */
 
-/* Those of the scene. */
+/* Computes the sections of the scene. */
 status profile_scene(model *m, fault *f);
-/* Of all elements of the divided members.  All that m->section has is then there to stay;
- * *sections: how many that are. */
+/* Computes the sections of all elements of tapered members. No later call changes m->section;
+ * *sections: their number. */
 status profile_members(model *m, int *sections, fault *f);
 /* Index in m->section of an element of a member, counted along it. */
 int profile_at(const model *m, int member, int number);
@@ -777,9 +777,9 @@ enum { SPRING_STRAINS = 6 };
  * what they are there. The moment stays exact while it is along the turn. */
 void spring_strain(int nodes, const node_state x[], const double near[3], strain_output *out);
 
-/* Whether the supports hold all parts of a structure. Rigid motions of a part are six numbers:
- * displacement of an origin, turn times the size of the model; what prevents them squares, of
- * lengths. */
+/* Whether the supports hold all parts of a structure. A rigid motion of a part is six numbers:
+ * displacement of an origin, and rotation times the size of the model. Constraints are sums of
+ * squares of lengths. */
 
 /* 1: the supports leave a part of the undeformed structure loose: a node of it, and a rigid motion
  * (displacement of that node [m], turn [rad], of any size) that they allow. Coordinates that are
@@ -794,11 +794,11 @@ extern const double supports_loose;
  * supports_root; apart: released ends are not joined to their nodes. */
 void supports_join(const model *, int apart, int part[]);
 int supports_root(const int part[], int vertex);
-/* What moves a vertex. */
+/* Returns the vertex that moves this one rigidly. */
 int supports_mover(const model *, int vertex, int apart);
 /* G[6 x 6]: motion (m, rad) at a position from the origin. */
 void supports_rigid(const double position[3], double length, double G[36]);
-/* What the supports of a node prevent of the motions about the origin: out[6 x 6]. */
+/* out[6 x 6]: squares of the motions about the origin that the supports of a node prevent. */
 void supports_prevented(const model *, int node, const double origin[3], double out[36]);
 /* sum[6 x 6] += squares of what springs between the part and the ground prevent, whatever their
  * stiffness. */
@@ -807,8 +807,9 @@ void supports_add_springs(const model *, const int part[], int root, const doubl
 
 /* Turns beyond half a circle: an orientation repeats itself, what has turned so does not. */
 
-/* What is followed, in this order: the turns of the scene's nodes, of its springs (their ends
- * against each other), and of what quantities read of a node against another. */
+/* Allocates the rotation vectors that are followed, in this order: of the scene's nodes, of its
+ * springs (their ends against each other), and of nodes against other nodes where quantities read
+ * them. */
 status turns_build(model *, fault *);
 
 /* The rotation vector [rad] of q that continues `before`: of all vectors of q, and of all
@@ -819,7 +820,8 @@ void turns_continue(const double q[4], const double before[3], double out[3]);
 /* Message: why the rotation vector of a turn is NaN. */
 extern const char turns_lost[];
 
-/* Of a state whose orientations have changed; state.turn holds where they come from. */
+/* Updates the rotation vectors of a state whose orientations have changed; state.turn holds their
+ * values before. */
 void turns_follow(const model *, model_state *);
 /* [3] in a state, NaN where it has lost its direction. */
 const double *turns_of_node(const model_state *, int node);
@@ -827,9 +829,9 @@ const double *turns_of_spring(const model *, const model_state *, int spring);
 /* NULL: no quantity reads it. */
 const double *turns_between(const model *, const model_state *, int from, int node);
 
-/* Of those between nodes, which quantities of one run read and not of another: how many, and each
- * as its nodes and its vector [5]. What is not among those that are taken has made less than half a
- * turn more than its nodes differ by. */
+/* Rotation vectors between nodes that the quantities of one run read and those of another do not:
+ * their number, and for each its two nodes and its vector [5]. A vector that is not restored starts
+ * within half a turn of the difference of its nodes. */
 int turns_between_count(const model *);
 void turns_put_between(const model *, const model_state *, double out[]);
 void turns_take_between(const model *, int count, const double in[], model_state *);
@@ -839,14 +841,14 @@ void turns_take_between(const model *, int count, const double in[], model_state
 int turns_swung(const double from[3], const double to[3]);
 /* Is it within `near` [rad] of one or more full turns? */
 int turns_full(double size, double near);
-/* Those that have lost their direction since `from` are no numbers from here on. */
+/* Sets rotation vectors that have lost their direction since `from` to NaN. */
 void turns_lose(const model *, const model_state *from, model_state *);
 
 /* Which ends of members hold their warping, in words. */
 
-/* Of members whose section warps: "held at base_a, base_b; shared at fold; free at tip", by nodes,
- * or "leaf at base" where ends at one node differ.  Of many the first ones are named.  "" where
- * nothing warps. */
+/* Describes the ends of members whose section warps: "held at base_a, base_b; shared at fold; free
+ * at tip", by nodes, or "leaf at base" where ends at one node differ. Of many the first ones are
+ * named. "": nothing warps. */
 void warping_ends(const scene *s, char *text, size_t room);
 /* The same of those that the other scene, of the same members, leaves free. */
 void warping_ends_freed(const scene *s, const scene *other, char *text, size_t room);

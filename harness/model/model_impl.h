@@ -8,8 +8,9 @@
 
 /* Inertia of a rigid body that moves with a node. */
 
-/* Of the node's coordinates [7: translation, spatial turn, warping (not moved)], its frame at x:
- * position, and turn since the undeformed state in R.  frame NULL: the frame is at rest. */
+/* Inertia of a body by its node's coordinates [7: translation, spatial rotation, warping (not
+ * moved)]; x has the position, and in R the rotation since the undeformed state. frame NULL: the
+ * frame is at rest. */
 void body_inertia(const scene_body *, const node_state *x, const element_rotating_frame *frame,
                   inertia_output *);
 
@@ -31,8 +32,8 @@ void member_arc_at(const member_arc *a, double s, double position[3], double R[9
 
 /* Inside of a model, for harness/model alone. */
 
-/* What has a rotation vector that is followed: a node's frame against another's, NONE: against the
- * fixed one. */
+/* A rotation vector that is followed: of a node's frame against another's; NONE: against the fixed
+ * one. */
 typedef struct mesh_turn {
     int from, node;
 } mesh_turn;

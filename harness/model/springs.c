@@ -99,7 +99,8 @@ static void between_frames(const model_state *s, const mesh_turn *t, double q[4]
     rotation_compose(back, &s->q[4 * t->node], q);
 }
 
-/* Of a node whose turn is that of one driven or held angle: that, however far it goes at once. */
+/* Sets the rotation vector of a node whose rotation is one prescribed or fixed angle: that angle,
+ * of any size in one step. Returns 0 for other nodes. */
 static int by_angle(const model *m, const model_state *s, int node, double out[3])
 {
     const mesh_vertex *v = &m->mesh.vertex[node];

@@ -82,8 +82,8 @@ static unsigned components_of(int rank, double (*basis)[N])
     return components;
 }
 
-/* What moves where every column is a component of its own, or nothing, as those of a node are that
- * is its own body; ALL + 1: another column is among them. */
+/* Returns the components that move where every column is one component, or zero, as for a node that
+ * is its own body; ALL + 1: there is another column. */
 static unsigned components_alone(int columns, const double *T)
 {
     unsigned components = 0;
@@ -220,7 +220,7 @@ void supports_rigid(const double position[3], double length, double G[SUPPORTS_N
     }
 }
 
-/* What the supports leave to a node by itself. */
+/* Motions that the supports of a node leave free. */
 static void free_motions(const model *m, int node, movable *out)
 {
     int index[SUPPORTS_N], columns = 0;

@@ -61,7 +61,7 @@ static applied of_vertex(const model_state *s, int vertex, const scene_load *loa
     return out;
 }
 
-/* Of a body: m g at its centre of mass. */
+/* Weight of a body: m g at its centre of mass. */
 static applied of_weight(const model *m, const model_state *s, const scene_load *load, double scale)
 {
     const scene_body *body = &model_scene(m)->node[load->where].body;
@@ -161,7 +161,7 @@ int applied_with_mass(const scene_load *load)
     return !load->lumped && !load->varies && load->range[0] == 0 && load->range[1] == 1;
 }
 
-/* What node k of an element takes: the load's vector times its shares. */
+/* Part of a load on node k of an element: the load's vector times the node's share. */
 static void share_at(const model *m, const scene_load *load, int element, const double part[2],
                      int k, double vector[3])
 {
@@ -245,7 +245,7 @@ static void add_following(const entries *all, const mesh_vertex *body, const dou
     }
 }
 
-/* What one coordinate does to a load on a released end. */
+/* Effect of one coordinate on a load on a released end. */
 typedef struct load_motion {
     int coordinate;
     int own;        /* 1: of the end, 0: of its body */

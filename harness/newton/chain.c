@@ -332,7 +332,7 @@ INLINED void reduce(chain *s, int c, int y, const double r[], double ends[])
     }
 }
 
-/* What rounding leaves between the last joint and its end goes to all links. */
+/* Distributes the rounding error between the last joint and its end over all links. */
 INLINED void close_gap(chain *s, int c, int y, const double end[], double x[])
 {
     double gap[CHAIN_JOINT], last[CHAIN_JOINT], begin[CHAIN_JOINT];

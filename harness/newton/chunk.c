@@ -120,7 +120,7 @@ static void stresses_together(const model *m, const linear_memory *memory, const
         element[own[k]].outcome = outcome[k];
 }
 
-/* Of elements that take loads along them. */
+/* Stresses of elements that take loads along them into their own equilibrium. */
 static void stresses_under_loads(const model *m, const linear_memory *memory, const model_state *s,
                                  int count, chunk_element element[])
 {

@@ -48,8 +48,8 @@ static void undeformed(const distributed_loads *of, double x, double R[9])
     mat3_mul(el->triad[0], by, R);
 }
 
-/* What the load is at x times `scale`, with the undeformed triad there: per length, of gravity on
- * the mass there. */
+/* Load at x times `scale`, with the undeformed triad there: per length; of gravity on the mass
+ * there. */
 static void load_at(const distributed_loads *of, const scene_load *load, double scale, double x,
                     const double before[9], field_load *out)
 {
@@ -87,7 +87,7 @@ static int same(const distributed_loads *of, const scene_load *load, const field
             vec3_norm(model_kind_of(of->m, of->element)->curvature) == 0);
 }
 
-/* What acts of one load at the points of an element; returns how many. */
+/* Fills one load's values at the points of an element; returns the number of points. */
 static int points_of(const distributed_loads *of, const scene_load *load, double scale,
                      const double part[2], field_rows rows[MOST], field_load acting[MOST])
 {

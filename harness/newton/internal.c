@@ -43,10 +43,9 @@ static void note_taken(const model *m, const double force[], double sign, double
             taken[end][i] += sign * force[NODE_COORDINATES * (end ? model_nodes(m) - 1 : 0) + i];
 }
 
-/* What was taken off the ends for shares of the mass of an element of two nodes, weight or
- * centrifugal: what lies within it has a couple beside, as its inertia has
- * (harness/time/deformable.c).
- */
+/* Records the shares of weight or centrifugal force that were subtracted at the ends of a two-node
+ * element. The distributed load has a couple in addition, as its inertia has
+ * (harness/time/deformable.c). */
 static void take_couple(const mesh_element *el, const node_state x[], double taken[2][3],
                         double ends[2][7])
 {
@@ -65,8 +64,8 @@ static void take_couple(const mesh_element *el, const node_state x[], double tak
     }
 }
 
-/* What the outside exerts on the first (0) and the last (1) node of an element but for the loads
- * along it, in fixed axes: ends[2][7]; and its nodes. */
+/* ends[2][7]: external forces on the first (0) and last (1) node of an element without the loads
+ * along it, in fixed axes; x: its nodes. */
 static void ends_of(const equations *eq, const internal_state *s, int i, node_state x[],
                     double ends[2][7])
 {
@@ -187,7 +186,7 @@ static void take_ends(const equations *eq, const internal_state *s, int i, span_
     }
 }
 
-/* What acts along an element. */
+/* Loads along an element. */
 typedef struct internal_between {
     distributed_loads loads;
     int acts, nodes; /* 0 nodes: nothing moves */

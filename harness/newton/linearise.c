@@ -81,7 +81,7 @@ static status add_material(const equations *eq, const linear_memory *memory, con
     return STATUS_OK;
 }
 
-/* What acts along the element. */
+/* Subtracts the loads along the element. */
 static void subtract_loads(const equations *eq, const linear_memory *memory, chunk_element *of,
                            int tangent, double path, element_part *part)
 {
@@ -153,7 +153,7 @@ static void add_columns(const model *m, const mesh_element *el, const double K[]
     }
 }
 
-/* What the threads of a team share: elements in pieces of `window`, whose parts are added up in
+/* Data shared by the threads of a team: elements in batches of `window`, whose parts are added in
  * order. */
 typedef struct shared_loop {
     const equations *eq;
@@ -355,7 +355,7 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
                                   node, F);
 }
 
-/* Of what the moments at a node are made of; less is rounding. */
+/* relative to the moments that are summed at a node; a smaller sum is rounding. */
 static const double least_moment = 1e-12;
 
 double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],

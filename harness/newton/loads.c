@@ -10,8 +10,9 @@
 /* Asymmetry of a moment's stiffness that is round-off, in parts of the moment. */
 static const double potential = 1e-12;
 
-/* What of the loads along members goes to the ends of elements: weights where mass is lumped there,
- * all where a motion has to conserve energy; in states that motions start from, too. */
+/* Returns which loads along members are lumped at the ends of elements: weights where mass is
+ * lumped there; all where a motion has to conserve energy, also in the states that such motions
+ * start from. */
 static int lumps_of(const model *m, int analysis)
 {
     const scene *s = model_scene(m);
@@ -66,7 +67,7 @@ void loads_driver_rates(const equations *eq, const scene_driver *d, double path,
         out[0] = along_path_value(d, eq->loading.held_path);
 }
 
-/* What one load puts on vertices is added up. */
+/* Sum of one load's forces on vertices. */
 typedef struct sum_of_loads {
     const model *m;
     const model_state *s;
@@ -261,7 +262,7 @@ void loads_release_moment(const model *m, const model_state *s, int node, const 
         }
 }
 
-/* What acts on the frame of one node is added up. */
+/* Sum of the forces on the frame of one node. */
 typedef struct sum_at_node {
     const equations *eq;
     const model *m;
@@ -286,7 +287,7 @@ static void add_at_node(void *context, const applied *what)
         sum->F[k] += what->F[k] + (k >= 3 && away ? moment[k - 3] : 0);
 }
 
-/* What acts along an element. */
+/* Adds the loads along an element at one node. */
 static void add_element_at_node(sum_at_node *sum, int element, double path)
 {
     const model *m = sum->m;

@@ -10,7 +10,7 @@
 
 enum { MAX_ITERATIONS = 30 };
 
-/* What solves, and its matrix unless members are condensed. */
+/* Allocates the solver, and its matrix unless members are condensed. */
 static status allocate_tangent(newton_run *n, int condense, fault *f)
 {
     const sparse *pattern;

@@ -46,7 +46,7 @@ typedef struct run_undeformed {
     double *value;   /* [room x (J, C, initial stresses)] */
 } run_undeformed;
 
-/* Of all elements, from linearise_state for advance_state. */
+/* Data of all elements, from linearise_state for advance_state. */
 typedef struct linear_memory {
     double *slot; /* [elements x model.work_size]: J, C, P' + C (D - e), D - e, memory of the last
                      linearisation */
@@ -116,7 +116,7 @@ element_rotating_frame loading_frame(const loading *, double path);
 
 /* Update of a state by the solution of the linearised equations. */
 
-/* Of all elements [N]. */
+/* Largest stresses of all elements [N]. */
 typedef struct advance_stress {
     double largest, change; /* after it; by it */
 } advance_stress;
@@ -288,7 +288,7 @@ typedef struct outcome_path {
     model_state **state;   /* [stations]; NULL: of a compliance */
 } outcome_path;
 
-/* Of a node at one station, [6 x 6] both. */
+/* Compliance C and stiffness K of a node at one station. */
 typedef struct station_matrices {
     int known;
     double C[36], K[36];
@@ -307,13 +307,13 @@ typedef struct outcome_rotation {
     rotation_modes *modes; /* [stations]; NULL where no quantity asks for them */
 } outcome_rotation;
 
-/* Of a motion at one instant, by scene_balance. */
+/* State of a motion at one instant, from scene_balance. */
 typedef struct outcome_instant {
     double *rate, *acceleration; /* [free + driven]: see harness/time/time_impl.h; one block */
     double balance[SCENE_BALANCES];
 } outcome_instant;
 
-/* What a motion passed through, wherever its stations lie, of one quantity. */
+/* Extreme or crossing of one quantity during a motion, not only at its stations. */
 enum { PASSING_LOST = 2 }; /* a turn has lost its direction (harness/model/model.h) */
 typedef struct outcome_passing {
     int known;    /* 1, 0: not, or PASSING_LOST */
@@ -390,15 +390,15 @@ typedef struct analysis_outcome {
     } left;
 } analysis_outcome;
 
-/* What the kind leaves; another kind ends the program. */
+/* Return the results of an analysis of that kind; another kind ends the program. */
 const double *outcome_displacements(const analysis_outcome *);
 const outcome_spectrum *outcome_spectrum_of(const analysis_outcome *);
-/* Of any analysis along a path. */
+/* Returns the path of any analysis along a path. */
 const outcome_path *outcome_path_of(const analysis_outcome *);
 const outcome_compliance *outcome_compliance_of(const analysis_outcome *);
 const outcome_rotation *outcome_rotation_of(const analysis_outcome *);
 const outcome_motion *outcome_motion_of(const analysis_outcome *);
-/* Of a motion, to be filled. */
+/* Returns the outcome of a motion, to be filled. */
 outcome_motion *outcome_motion_in(analysis_outcome *);
 const outcome_continuation *outcome_continuation_of(const analysis_outcome *);
 /* A static path, or that of a stationary rotation, to be filled. */
@@ -415,7 +415,7 @@ status outcome_stations(outcome_path *, int stations, fault *);
 status outcome_keep(outcome_path *, const model *, const model_state *, int whole, double path,
                     fault *);
 
-/* What a structure looks like in chosen states: kept when a solution is asked for it. */
+/* Shapes of a structure in chosen states; kept where a solution requests them. */
 
 typedef enum shape_kind {
     SHAPE_UNDEFORMED,
@@ -451,7 +451,7 @@ const char *shapes_kind_name(shape_kind);
  * many, and SHAPES_FRAMES where these are all or few. */
 int shapes_frames(int most);
 
-/* What each row of the matrices of a model belongs to. */
+/* Degrees of freedom of the rows of a model's matrices. */
 
 typedef struct row_label {
     int node;   /* of the scene; SCENE_NONE: inside a member, or an end that keeps motions to itself
@@ -493,8 +493,7 @@ typedef struct system_matrices {
 
 void system_matrices_free(system_matrices *);
 
-/* What a solution is asked for and what it leaves: quantities, steps, iterations, events, matrices,
- * shapes. */
+/* Options and results of a solution: quantities, steps, iterations, events, matrices, shapes. */
 
 typedef struct solve_options {
     int threads; /* of the loop over elements; 0, 1: one */
@@ -587,7 +586,7 @@ typedef struct nodal_matrices {
     double *compliance, *stiffness; /* [stations x 36]; held components: zero; not computed because
                                        nothing asked: NAN */
 } nodal_matrices;
-/* What happened along a continued path. */
+/* Event on a continued path. */
 typedef enum event_kind {
     EVENT_LIMIT_POINT, /* the load has an extremum */
     EVENT_BIFURCATION, /* other branches start here; this one is followed */
@@ -643,9 +642,9 @@ const char *result_event_name(event_kind); /* "limit point", ... */
 int result_event_multiplicity(const path_event *);
 void result_free(solve_result *);
 
-/* What an analysis works with. */
+/* Context of an analysis. */
 
-/* What a solution keeps from one analysis for the next ones. */
+/* Data that one analysis of a solution leaves for the next ones. */
 typedef struct context_work {
     double setup;        /* [s] spent on patterns and symbolic factorisation */
     int singular;        /* 1: the last factorisation failed */
@@ -666,16 +665,15 @@ typedef struct analysis_context {
 
 /* Is the analysis asked for, by what is read from it or by the options? */
 int context_runs(const analysis_context *, int analysis);
-/* That of an analysis, with its loading; loads without a function of time stay in a motion as in
- * the state that it starts from. */
+/* Returns the context of an analysis, with its loading. In a motion, loads without a function of
+ * time keep the value of the state that it starts from. */
 analysis_context context_of(const analysis_context *, int analysis);
-/* The same where no load acts and no driver moves: what stays are strains that members have by
- * themselves. */
+/* The same with no load acting and no driver moving: only initial strains of members remain. */
 analysis_context context_unloaded(const analysis_context *);
-/* The numeric factors of K, and into the context whether they exist. */
+/* Factors K numerically and records in the context whether the factors exist. */
 status context_factor(analysis_context *, matrix_factor *, const sparse *K, fault *);
-/* What condenses members of many elements; *out NULL: none is, or the condition of the tangent was
- * asked for, which is that of all coordinates. See condensation_alloc. */
+/* Condenses members of many elements. *out NULL: there are none, or the condition of the tangent of
+ * all coordinates was requested. See condensation_alloc. */
 status context_condensation(const analysis_context *, int count, const int released[],
                             condensation **out, fault *);
 /* The same of a tangent whose members are condensed. */
@@ -712,7 +710,7 @@ typedef struct border {
 
 /* Index of a released coordinate, or -1. */
 int border_place(const border *, int coordinate);
-/* Those of the analysis' node; the matrices have room and no values. */
+/* Released coordinates of the analysis' node; matrices are allocated without values. */
 status border_alloc(const analysis_context *, const scene_compliance *, border *, fault *);
 void border_free(border *);
 /* From K of all coordinates. */
@@ -728,7 +726,7 @@ typedef struct node_tangent {
     sparse inside;    /* free x free */
     sparse geometric; /* like K, where solutions are refined: see stiffness_parts_geometric */
     int refined;      /* 1: the condition asks for it */
-    /* Of `inside`, as it was estimated last (0: never), and how far its pivots were apart then. */
+    /* of `inside`, as last estimated (0: never), and the ratio of its pivots then. */
     double condition, apart;
     matrix_factor *own;    /* NULL: not needed so far */
     matrix_factor *factor; /* of `inside`: own, or that of the iteration that it was taken from */
@@ -770,7 +768,7 @@ status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
  * (elements/field), or what an element makes of them in its own equilibrium, and what goes through
  * sections. */
 
-/* Of one element, at a path parameter. */
+/* Loads along one element, at a path parameter. */
 typedef struct distributed_loads {
     const equations *eq;
     const model *m;
@@ -784,14 +782,14 @@ int distributed_spreads(const equations *, const scene_load *);
 /* Does the element take it into its own equilibrium (element_type.along)? Dead forces on the whole
  * of it, along its line, in scenes without a motion. */
 int distributed_takes(const equations *, int element, const scene_load *);
-/* Those together. */
+/* Sum of the loads that an element takes into its own equilibrium. */
 typedef struct distributed_taken {
     int acts;
     double force[3 * ELEMENT_ALONG_POINTS], mixed[3 * ELEMENT_MAX_STRAINS],
         H[ELEMENT_ALONG_COORDINATES * ELEMENT_ALONG_COORDINATES];
     along_output out; /* into the arrays above; its stresses into those of a slot */
 } distributed_taken;
-/* What acts at `path`; out->acts 0: nothing. */
+/* Fills *out with the loads at `path`; out->acts 0: none. */
 void distributed_take(const equations *, int element, double path, distributed_taken *out);
 /* forces[14] += what J^T sigma has not got in it, K[14 x 14] -= its derivative, as `out` has it.
  * gap[strains]: D(x) - e. */
@@ -821,12 +819,12 @@ int distributed_add_field(const equations *, const node_state x[], int element, 
 int distributed_acts(const distributed_loads *);
 /* A load that begins, ends or acts between its ends, or SCENE_NONE. */
 int distributed_jumps(const distributed_loads *);
-/* What acts per initial length at x in [0, 1] of the element, on a section with this frame: loads
- * of its member, and what a rotating frame adds (of the section's turn too where rotary inertia is
- * active).  context: a distributed. */
+/* Load per initial length at x in [0, 1] of the element, on a section with this frame: loads of its
+ * member and inertia of a rotating frame (with rotary inertia where that is active). context: a
+ * distributed_loads. */
 void distributed_at(void *context, double x, const span_frame *, span_load *out);
 
-/* What the files of harness/newton share. */
+/* Functions shared by the files of harness/newton. */
 
 /* One element's equations in model coordinates. */
 typedef struct element_part {
@@ -844,7 +842,7 @@ status rotating_frame_add(const equations *eq, const node_state x[], int element
 /* loads.c: out[free + driven] += all of them, or those on vertices alone, not along elements. */
 void loads_add(const equations *eq, const model_state *s, double path, double out[]);
 void loads_add_at_vertices(const equations *eq, const model_state *s, double path, double out[]);
-/* What those on vertices add to K. */
+/* Stiffness of the loads on vertices, entry by entry. */
 void loads_stiffness_at_vertices(const equations *eq, const model_state *s, double path,
                                  loads_entry, void *context);
 void loads_subtract_at_vertices(const equations *eq, const model_state *s, double path, sparse *K);
@@ -868,11 +866,11 @@ status linearise_held_have_potential(const equations *eq, const double sigma[], 
 
 /* Loads and drivers along a path. */
 
-/* Of an analysis: in a motion the path parameter is the time, of which loads and drivers are
- * functions; what has none is whole. Axes turn as its own do, or those of the analysis whose states
- * it is about. */
+/* Returns the loading of an analysis. In a motion the path parameter is the time, of which loads
+ * and drivers are functions; others act in full. Axes rotate as those of the analysis, or of the
+ * analysis whose states it is about. */
 loading loading_of(const model *, int analysis);
-/* Of a known driver [m or rad]. */
+/* Value of a known driver [m or rad]. */
 double loads_driver_value(const equations *, const scene_driver *d, double path);
 /* In time, also its first two derivatives; at the end of a piece: of the next one. What has no
  * function of time stays at its last value; of a load it is whole. */
@@ -991,17 +989,14 @@ typedef struct chunk_element {
 void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,
                     double path, int count, chunk_element element[]);
 
-/* What the moment m that acts on a node does while the node turns, and so what its stiffness is.
- * With the stiffness K of the exponential chart R = exp(theta~) R0, in which the generalized moment
- * of theta is constant:
- *   semitangential: K.  The moment follows half of the rotation, m + theta x m/2, and has a
- *                   potential (Argyris et al. 1979)
- *   spatial:        K - m~/2 on the rotations.  The moment is dead about fixed axes; the matrix is
- *                   not symmetric
- *   symmetrised:    the symmetric part of the spatial stiffness; K itself where everything else has
- *                   a potential.
- * A tangent has one of the first two: the spatial one at a node that is held about one axis alone,
- * whose moment keeps its direction (coordinates_held_turn), else the semitangential one. */
+/* Stiffness of a moment m on a node that rotates, by convention. K: the stiffness of the
+ * exponential chart R = exp(theta~) R0, in which the generalized moment of theta is constant.
+ * Semitangential: K; the moment follows half of the rotation, m + theta x m/2, and has a potential
+ * (Argyris et al. 1979). Spatial: K - m~/2 on the rotations; the moment is dead about fixed axes,
+ * and the matrix is not symmetric. Symmetrised: the symmetric part of the spatial stiffness; K
+ * itself where everything else has a potential. A tangent has one of the first two: the spatial one
+ * at a node that is held about one axis alone, whose moment keeps its direction
+ * (coordinates_held_turn), else the semitangential one. */
 
 /* Does the convention change the stiffness of the tangent's?  Then one column of the compliance
  * depends on all the others. */
@@ -1036,9 +1031,10 @@ status history_add_iteration(solve_result *r, step_record *step, const iteration
 /* Removes the iterations of a rejected step. */
 void history_drop_step(solve_result *r, const step_record *step);
 
-/* What the steps from `first` on are of, and whether the states where they ended are stable. */
+/* Enters into the steps from `first` on their analysis, and whether the states at their ends are
+ * stable. */
 void history_judge_steps(solve_result *, const scene *, int analysis, int first);
-/* What the modes at a station say, where pivots do not. */
+/* Enters the stability that the modes at a station show, where pivots do not decide it. */
 void history_judge_station(solve_result *, int analysis, double path, step_stability);
 /* Where a step of the analysis ended at that path parameter; STEP_OPEN: nowhere. */
 step_stability history_stability_at(const solve_result *, int analysis, double path);
@@ -1047,7 +1043,7 @@ status history_add_step(solve_result *, const step_record *, fault *);
 /* path: parameter of the state that it starts from; NAN: it has none. */
 status history_add_motion(solve_result *, int analysis, double path, const outcome_motion *,
                           fault *);
-/* What is there so far; what was added since then is forgotten. */
+/* Position in the record; history_go_back removes what was added later. */
 typedef struct history_mark {
     int steps, iterations, ends;
 } history_mark;
@@ -1098,9 +1094,9 @@ typedef struct internal_inertia {
     const void *context;
 } internal_inertia;
 
-/* Of what lies towards `to` on what lies towards `from`, in the principal axes of the turned
- * section, moments about its centroid: N, Qy, Qz [N], Mx, My, Mz [N m], bimoment [N m^2] (work:
- * that of the warping amplitude's rate). end: 0 from, 1 to. */
+/* Resultants at an end: action of the part towards `to` on the part towards `from`, in the
+ * principal axes of the rotated section, moments about its centroid: N, Qy, Qz [N], Mx, My, Mz [N
+ * m], bimoment [N m^2] (conjugate to the rate of the warping amplitude). end: 0 from, 1 to. */
 void internal_at_end(const equations *, const internal_state *, int member, int end, double out[7]);
 
 /* A place of a member, 0 from .. 1 to of its initial length; before: on the side of `from` of what
@@ -1131,7 +1127,7 @@ status internal_largest(const equations *, const internal_state *, int member, i
  * else as internal_at. */
 status internal_stress_at(const equations *, const internal_state *, const internal_place *,
                           stress_measure, double *out, fault *);
-/* Of all its sections. */
+/* Largest stress over all sections of the member. */
 status internal_stress_largest(const equations *, const internal_state *, int member,
                                stress_measure, double *out, fault *);
 
@@ -1254,11 +1250,11 @@ typedef struct newton_use {
     status (*accept)(void *of, fault *); /* called when it has converged; NULL: always accepted */
 } newton_use;
 
-/* Of states on a path. */
+/* Returns Newton's iteration for states on a path. */
 newton_use newton_on_path(newton_run *, void *of,
                           status (*correct)(void *of, int iteration, newton_correction *,
                                             step_record *, fault *));
-/* Of steps in time. */
+/* Returns Newton's iteration for steps in time. */
 newton_use newton_in_time(const analysis_context *, void *of,
                           status (*correct)(void *of, int iteration, newton_correction *,
                                             step_record *, fault *),
@@ -1292,7 +1288,7 @@ void quadratic_forms_free(quadratic_forms *p);
 status quadratic_forms_load(const equations *, quadratic_forms *p, double path, int whole,
                             fault *f);
 
-/* Of x[free]: x^T K x, x^T G x, and what rounding may change in them. */
+/* Return x^T K x and x^T G x of x[free], and bounds of what rounding may change in them. */
 double quadratic_forms_stiffness(quadratic_forms *p, const double x[]);
 double quadratic_forms_geometric(quadratic_forms *p, const double x[]);
 double quadratic_forms_stiffness_rounding(quadratic_forms *p, const double x[]);
@@ -1338,8 +1334,8 @@ typedef struct solution_refinement {
     double last;     /* in parts of the solution */
 } solution_refinement;
 
-/* What follows from a correction, in parts of the solution: at least two after the first, and on
- * while they halve and digits are missing. */
+/* Decides from the size of a correction, relative to the solution: at least two corrections after
+ * the first, and more while they halve and digits are missing. */
 refinement_state refinement_next(solution_refinement *, double correction);
 /* Are the digits enough that a last correction, or another measure of the error, leaves? */
 refinement_state refinement_judge(solution_refinement *, double correction);
@@ -1365,7 +1361,7 @@ double rotating_frame_inner(const model *, const double x[]);
 /* B itself, with the pattern of a symmetric K. 0: no element has it, and it is zero. */
 int rotating_frame_inner_matrix(const equations *, sparse *out);
 
-/* What loads on offsets and moments add to K. */
+/* Stiffness of loads on offsets and of moments. */
 void rotating_frame_load_stiffness(const equations *, const model_state *, double path,
                                    sparse *out);
 
@@ -1388,7 +1384,7 @@ void singular_explain(analysis_context *c, fault *f);
  * of offsets and sequences, less the loads' and the rotation's stiffness. */
 void stiffness_parts_material_product(const model *, const linear_memory *, const model_state *,
                                       const double x[], double y[]);
-/* What rounding may change in x^T of the stiff part. */
+/* Bound of what rounding may change in x^T K x of the material part. */
 double stiffness_parts_material_rounding(const model *, const linear_memory *, const model_state *,
                                          const double x[]);
 status stiffness_parts_geometric(const equations *, const linear_memory *, const model_state *,

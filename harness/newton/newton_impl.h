@@ -27,7 +27,8 @@ typedef struct run_ahead {
 
 enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* what of the strains */
 
-/* Of the nodes of s; sigma[elements x strains] for H. Until ahead_end. */
+/* Evaluates strains in batches at the nodes of s; sigma[elements x strains] for H. Valid until
+ * ahead_end. */
 void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[]);
 /* At e[elements x strains], or NULL: at the strains evaluated ahead; sigma and C. */
 void ahead_stresses(const equations *eq, const double e[], const double inner[]);
@@ -36,8 +37,8 @@ void ahead_end(const equations *eq);
 void ahead_copy_strain(const equations *eq, int i, const strain_output *out);
 status ahead_copy_stress(const equations *eq, int i, const stress_output *out);
 
-/* Those of element i at x or e, for loops between ahead_strains or ahead_stresses and ahead_end:
- * what was evaluated ahead, or the type's own functions. */
+/* Return the values of element i at x or e, for loops between ahead_strains or ahead_stresses and
+ * ahead_end: those evaluated in batches, or those of the type's own functions. */
 static inline void ahead_strain(const equations *eq, int i, const node_state x[],
                                 strain_output *out)
 {
@@ -90,7 +91,7 @@ status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, 
 
 enum { CHAIN_JOINT = 7, CHAIN_LINK = 2 * CHAIN_JOINT };
 
-/* What goes into a chain. */
+/* Data of an element that joins a chain. */
 typedef struct chain_link {
     double A[CHAIN_LINK * CHAIN_JOINT];  /* [y x joint] */
     double F[CHAIN_LINK * CHAIN_LINK];   /* [y x y] symmetric */
@@ -120,16 +121,15 @@ void chain_reduce(chain *, const double r[], double ends[]);
  * be r. */
 void chain_expand(chain *, const double r[], const double ends[], double x[]);
 
-/* What a chain consists of: chain.c builds it, chain.c solves with it. */
+/* Members of a chain: chain.c builds it and solves with it. */
 
-/* Of a symmetric matrix the rows up to the diagonal, one after the other. */
+/* Size of a symmetric matrix stored by its rows up to the diagonal. */
 static inline int chain_packed(int n)
 {
     return n * (n + 1) / 2;
 }
 
-/* What is kept of a link: its A and F, and with Z, F of the row before it and its B what joins the
- * two: Z, B Z and Z F. */
+/* Stored for each link: its A and F; Z joins it to the row before: Z, B Z and Z F. */
 struct chain {
     int links, count; /* count: that are there */
     int c, y, inside; /* coordinates of a joint; of a link; inside = y - c */
@@ -162,7 +162,7 @@ static inline kept_link chain_kept(const chain *s, int link, int c, int y)
     return k;
 }
 
-/* What a condensation consists of. */
+/* Members of a condensation. */
 
 /* More coordinates of ends than this are not condensed: their pattern is made densely. */
 enum { MOST_ENDS = 2000, MEMBER_COLUMNS = 2 * NODE_COORDINATES + 2 * SCENE_RELEASED };

@@ -21,8 +21,8 @@ static const double arrival_near = 1e-6, negligible = 1e-15;
 static const double rounding = 1e-12;
 /* Larger corrections need not contract as their squares. */
 static const double quadratic = 0.1;
-/* Of the stresses, relative to the largest one: compliances change by half of it at most (measured
- * on the mechanisms of cases/), which is less than the noise of most of them. */
+/* relative change of stresses below which a tangent is reused: compliances change by half of it at
+ * most (measured on the mechanisms of cases/), which is less than the scatter of most of them. */
 static const double same_tangent = 3e-11;
 
 void arrival_start(double criterion, int differences, int elements, arrival *a)
@@ -35,7 +35,8 @@ void arrival_start(double criterion, int differences, int elements, arrival *a)
                    .remaining = NAN};
 }
 
-/* Of the stresses of the path the largest one so far is the measure: they may pass through zero. */
+/* Updates the history by a correction. Stresses are compared with the largest one of the path so
+ * far, since they may pass through zero. */
 void arrival_take(double correction, const advance_stress *stress, int first, arrival *a)
 {
     a->before = first ? INFINITY : a->correction;
@@ -60,7 +61,8 @@ int arrival_tangent_stands(const arrival *a)
     return a->correction <= same_tangent && a->stress_change <= same_tangent;
 }
 
-/* What loads that the element takes do when its frame turns: to stresses, and to inner unknowns. */
+/* Changes of stresses and internal unknowns by the rotation of an element's frame, where the
+ * element takes loads along it. */
 static void follow_turn(const model *m, const double along[], const double local[], double sigma[],
                         double inner[])
 {
@@ -326,7 +328,7 @@ status newton_accept(const model *m, const model_state *from, model_state *s, fa
     return STATUS_OK;
 }
 
-/* Of the corrections of one step. */
+/* Sizes of the corrections of one step. */
 typedef struct watch {
     double last, first, largest; /* the largest behind the first */
     int growing;                 /* so many after another */

@@ -252,8 +252,8 @@ status history_add_step(solve_result *r, const step_record *record, fault *f)
     return memory_append(&r->step, &r->steps, record, sizeof *record, "step records", f);
 }
 
-/* With mass an odd number of eigenvalues beyond zero is a divergence; all else is decided by
- * frequencies. */
+/* Returns the stability of a state with an unsymmetric tangent. It is unstable where eigenvalues
+ * have passed zero, with mass an odd number of them; everything else is decided by frequencies. */
 static step_stability without_symmetry(const scene *s, const step_record *one)
 {
     const int massive = scene_has_mass(s);

@@ -197,7 +197,7 @@ static void gather(const movable *v, const double C[36], double to[])
             to[i * n + j] = C[N * v->component[i] + v->component[j]];
 }
 
-/* Of whole components; the sums leave no negative zero. */
+/* Scatters a matrix of whole components; the sums leave no negative zero. */
 static void scatter(const movable *v, const double from[], double to[36])
 {
     const int n = v->count;

@@ -83,7 +83,7 @@ status rotating_frame_inertia(const equations *eq, const model_state *state, dou
     return STATUS_OK;
 }
 
-/* Of a vector in fixed axes, in those of an element between its ends. */
+/* Components of a vector in fixed axes along the axes of an element between its ends. */
 static void in_axes(const mesh_element *el, const double v[3], double out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -253,7 +253,7 @@ static status add_element(const equations *eq, const model_state *state, int i, 
     return STATUS_OK;
 }
 
-/* What loads add to the stiffness. */
+/* Stiffness of one load, being added. */
 typedef struct load_part {
     const model *m;
     uncondensed *s;

@@ -44,7 +44,7 @@ status quadratic_forms_load(const equations *eq, quadratic_forms *p, double path
                  : linear_stresses(eq, p->load_x, p->sigma, f);
 }
 
-/* With the driven coordinates. */
+/* Returns x[free] with zeros for the prescribed coordinates. */
 static const double *all_of(quadratic_forms *p, const double x[])
 {
     memcpy(p->x, x, (size_t)p->free * sizeof *x);
@@ -177,7 +177,8 @@ static double condition_at_rest(const analysis_context *c, const equations *eq, 
     return condition;
 }
 
-/* Of the same scene with one element per member, how many there are, and whether it is lost too. */
+/* Condition of the same scene with one element per member; *elements: their number; *lost: 1 where
+ * its digits are lost too. */
 static double condition_when_coarse(const analysis_context *c, int *elements, int *lost)
 {
     model *coarse = NULL;

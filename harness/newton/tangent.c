@@ -109,7 +109,7 @@ static int asks_refinement(node_tangent *t)
     return t->condition > harmless_condition;
 }
 
-/* What follows from K and the factors of its free block. */
+/* Completes the tangent from K and the factors of its free block. */
 static status complete(analysis_context *c, const scene_compliance *a, const model_state *s,
                        const double reaction[6], node_tangent *t, fault *f)
 {

@@ -254,7 +254,7 @@ double linear_springs_energy2(const model *m, const double x[])
     return sum;
 }
 
-/* That of the terms of J x, as for elements. */
+/* Bound of the rounding of the terms of J x, as for elements. */
 double linear_springs_rounding(const model *m, const double x[])
 {
     double sum = 0;

@@ -106,9 +106,9 @@ static const double ritz_imaginary = 1e-7;
 
 status ritz_alloc(ritz *r, int room, const subspace *b, fault *f);
 void ritz_free(ritz *r);
-/* With S = K: Hermitian, every lambda is imaginary and the positive ones are found. */
+/* Solves with S = K: Hermitian, every lambda is imaginary, and the positive ones are found. */
 status ritz_hermitian(const subspace *b, ritz *r, fault *f);
-/* With S = K + shift M. */
+/* Solves with S = K + shift M. */
 status ritz_general(const subspace *b, double shift, ritz *r, fault *f);
 
 /* How many digits a motion has that was found in a subspace.
@@ -147,8 +147,8 @@ typedef struct factor_symmetric factor_symmetric;
 
 status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, factor_counts *counts,
                               fault *f);
-/* Of a matrix with the same pattern: order, pattern and workspace are those of `of`, which must
- * outlive it; only one of the two is factored at a time. */
+/* Allocates for a matrix with the same pattern: order, pattern and workspace are those of `of`,
+ * which must outlive it; only one of the two may be factored at a time. */
 status factor_symmetric_alloc_like(const factor_symmetric *of, factor_symmetric **out, fault *f);
 void factor_symmetric_free(factor_symmetric *fs);
 /* OK or SINGULAR; allocates nothing. *weakest: unknown whose pivot lost most digits; *ratio: its
@@ -200,7 +200,7 @@ typedef struct gyroscopic_index {
  * is rounding, and none. Where two frequencies meet there is neither: they count as oscillations.
  */
 int gyroscopic_index_grows(const ritz *, const subspace *, double shift, int i);
-/* Of the first `count` pairs, found with S = K + shift M. */
+/* Index of the first `count` pairs, found with S = K + shift M. */
 gyroscopic_index gyroscopic_index_of(const ritz *, const subspace *, double shift, int count);
 
 /* Implicitly restarted Lanczos (ARPACK) for the algebraically largest eigenvalues of s A x = mu K

@@ -22,7 +22,7 @@ typedef struct span_grid {
 
 void span_grid_make(span_grid *g);
 
-/* What each point counts for in the value at x: share[SPAN_GRID_POINTS]. */
+/* share[SPAN_GRID_POINTS]: weight of each grid point in the value at x. */
 void span_grid_at(const span_grid *g, double x, double share[]);
 
 /* out[i][k] = integral from 0 to x[i] of component k; values [points x count], row-major. */
@@ -88,7 +88,7 @@ typedef struct span_problem {
         *request; /* section, length, active physics, initial curvature and strain */
     span_end end[2];
     int linear; /* 1: the frames are those of the undeformed element, where equilibrium is */
-    /* What acts at x in [0, 1], at r with the triad R; NULL: nothing does. */
+    /* Load at x in [0, 1], at r with the triad R; NULL: none. */
     void (*load)(void *context, double x, const span_frame *, span_load *out);
     void *context;
 } span_problem;

@@ -130,7 +130,7 @@ static const double longest = 20;
 static const double brief = 0.2;
 /* A change beyond so many times omission_most is significant without further checks. */
 static const double surely = 100;
-/* Of the largest value in the same unit: what counts as zero beside it. */
+/* relative to the largest value in the same unit: smaller values count as zero. */
 static const double nothing = 1e-9;
 
 /* Physics of which the constants of a section have none. */
@@ -187,7 +187,8 @@ static int can_be_shown(const scene *s)
     return can;
 }
 
-/* Of those that have all of the scene the one of the highest order; NULL: there is none. */
+/* Returns the formulation of the highest order among those that support all physics of the scene,
+ * or NULL. */
 static const element_type *whole_model(const scene *s)
 {
     const element_type *best = NULL;
@@ -249,7 +250,7 @@ static double change_of_curve(const curve *a, const curve *b, double least)
     return relative(apart, size);
 }
 
-/* Of one quantity; infinite where one of the two has no value. */
+/* Change of one quantity; INFINITY where one of the two has no value. */
 static double change_of(const scene *s, const solve_result *with, const solve_result *without,
                         int quantity)
 {

@@ -72,7 +72,7 @@ static double of_reading(const scene *s, const char *unit)
     return strcmp(unit, "rad") == 0 || strcmp(unit, "1") == 0 ? small_part : 0;
 }
 
-/* By what it is, in SI units. */
+/* Returns the scale of a quantity from its kind, in SI units. */
 static double physical_scale(const scene *s, const scene_quantity *q)
 {
     switch (q->what.kind) {
@@ -167,7 +167,7 @@ static const quantity_result *whole_of(const solve_result *r, int quantity)
     return q != NULL && q->status == STATUS_OK && q->curve.points > 0 ? q : NULL;
 }
 
-/* Of the curve the point with that abscissa; -1: none. */
+/* Returns the point of the curve with that abscissa, or -1. */
 static int point_at(const curve *c, double x, double size)
 {
     for (int i = 0; i < c->points; i++)

@@ -126,7 +126,7 @@ static int stop(script *s)
     return how;
 }
 
-/* With what derive_asked stops and frees. */
+/* The caller, derive_asked, stops the script and frees, also after a failure. */
 static status derive(const derive_question *q, script *s, derived_value **out, int *count, fault *f)
 {
     char complaint[LINE] = "", more[LINE];

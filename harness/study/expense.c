@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the path that an analysis walks, or that of the one it follows. */
+/* Returns the number of stations of the path that an analysis follows, its own or that of the
+ * analysis it is about. */
 static double stations_of(const scene *s, const scene_analysis *a)
 {
     while (scene_path_of(a) == NULL && a->follows != SCENE_NONE)
@@ -98,7 +99,7 @@ double expense_of_cell(const sweep *s, int series_index, int mesh)
     return expense_of_scene(&p->scene, p->steps, one->formulation.type, one->mesh[mesh]);
 }
 
-/* Of the share of one process: what costs less is no matter at the end. */
+/* relative to the share of one process: the order of cheaper tasks does not matter at the end. */
 static const double dear_share = 0.01;
 
 /* A series that is run. */
@@ -107,7 +108,7 @@ typedef struct expense {
     int series;
 } expense;
 
-/* Of two that cost the same, the first. */
+/* Sorts by cost, most expensive first; ties in their order. */
 static int dearest(const void *left, const void *right)
 {
     const expense *a = left, *b = right;

@@ -80,7 +80,7 @@ static int agree(const scene_quantity *q, const families_known_limit *a,
     return d.apart + d.unknown <= FAMILIES_APART * size;
 }
 
-/* What agrees with one limit: of each family the nearest. */
+/* Returns the limits that agree with one limit: the nearest one of each family. */
 static families_limit around(const scene_quantity *q, const families_known_limit *all, int count,
                              int centre)
 {

@@ -293,7 +293,7 @@ status agreements_add(const sweep *s, const truths *t, int index, judgement *out
 
 /* How often limits lie within their uncertainty of an exact truth. */
 
-/* Of the series' case and formulation. */
+/* Returns the row of the series' case and formulation. */
 static coverage *row_of(const sweep *s, judgement *j, const series *one, fault *f)
 {
     const case_type *of = s->point[one->point].type;

@@ -72,7 +72,7 @@ static int group_end(const state_matrices *s, int j)
     return end;
 }
 
-/* Of a state: its modes of unit mass, and M times them. */
+/* Modes of a state, normalised to unit mass, and M times them. */
 typedef struct match_workspace {
     double *mode, *product; /* [modes x rows] */
     double *share;          /* [modes] of the followed shape */

@@ -121,7 +121,7 @@ static overview_cell *cell_of(const sweep *s, const overview *o, int series_inde
     return &o->cell[row * o->columns + column_of(o, name_of(one, o->joined))];
 }
 
-/* What comes first is worse. */
+/* Adds a mark; an earlier mark of the list is worse. */
 static void add(overview_cell *to, overview_mark mark, int unexpected)
 {
     const int rank = OVERVIEW_MARKS * unexpected + (int)mark;

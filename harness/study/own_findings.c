@@ -388,7 +388,7 @@ static int count_columns(const char *columns)
     return count;
 }
 
-/* With a line that own_table_read frees. */
+/* The caller, own_table_read, frees *line, also after a failure. */
 static status read_lines(FILE *from, const char *columns, char **line, own_table *out, mistakes *m,
                          fault *f)
 {

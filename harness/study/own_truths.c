@@ -155,7 +155,7 @@ static void take_row(truths_reader *r, const case_type *type, truth *out)
     check_quantity(r, type, out->parameter);
 }
 
-/* Of closed lists, and what fits together. */
+/* Checks a row: words of closed lists, and members that require each other. */
 static void check_row(truths_reader *r, const truth *row)
 {
     const char *wrong = truth_rows_wrong(row);

@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What speaks against a formulation, weightiest first; the least one is chosen. */
+/* Reasons against a formulation, the strongest first; the formulation with the weakest reasons is
+ * chosen. */
 enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
 typedef struct standing {
     int against[REASONS];
@@ -84,7 +85,7 @@ static int can_run(const scene *s, const element_type *type, int other)
     return !missing_words(s, type, words, sizeof words) && !lacks_of(s, type, words, sizeof words);
 }
 
-/* Those that can run, best first: as sound as the first one, and of a family two at most. */
+/* Formulations that can run, best first: as good as the first one, and at most two of a family. */
 enum { CANDIDATES = 5, OF_FAMILY = 2 };
 typedef struct preference_candidates {
     int count;
@@ -176,7 +177,7 @@ status preference_formulation(const scene *s, const rule_subject *where, const r
     return STATUS_OK;
 }
 
-/* Of a path of which a coarse mesh may follow another branch. */
+/* Returns 1 for a path on which a coarse mesh may follow another branch. */
 static int met_unstable(const solve_result *r)
 {
     for (int i = 0; i < r->steps; i++)
@@ -290,7 +291,7 @@ static void tell_elements(const scene *s, const runner *r, char why[FAULT_TEXT])
                  r->unstable ? "; coarser ones met unstable states" : "");
 }
 
-/* Of none that settled: the one that changed least. */
+/* Returns the runner whose values changed least, where none has settled. */
 static runner *calmest(runner of[], int count)
 {
     runner *out = &of[0];
@@ -300,7 +301,7 @@ static runner *calmest(runner of[], int count)
     return out;
 }
 
-/* What a runner found; its changes go to *out. */
+/* Stores the result of a runner; *out takes its changes. */
 static void keep(const scene *s, runner *r, preference *out)
 {
     out->chosen = r->chosen;
@@ -329,7 +330,7 @@ status preference_elements(const cell_request *request, const formulation *chose
     return STATUS_OK;
 }
 
-/* Of all candidates, the first that settles. */
+/* Chooses the first of the candidates whose values settle. */
 static void choose(const scene *s, runner of[], int count, preference *out)
 {
     runner *first = race(s, of, count);

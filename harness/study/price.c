@@ -194,7 +194,8 @@ static int has_no_rank(const formulation *chosen)
     return reach_unranked(chosen->type)[0] != '\0';
 }
 
-/* Of one series. 0: it is not within the level in all that is asked. */
+/* Fills the answer of one series. Returns 0 where it does not reach the level in all requested
+ * quantities. */
 static int reach_one(const reach_question *q, int series_index, reached *out)
 {
     const series *one = &q->s->series[series_index];
@@ -282,7 +283,7 @@ verdict *reach_verdicts(const sweep *s, const truths *t, int *count)
     return all;
 }
 
-/* What a series is measured by; a curve by nothing. */
+/* Returns the reference value of a quantity of a series; NULL for a curve. */
 static const truth *reference_of(const sweep *s, const truths *t, int index, int quantity)
 {
     const sweep_point *p = &s->point[0];

@@ -69,7 +69,7 @@ static status start_all(const workload *w, cell_crew *c, fault *f)
     return STATUS_OK;
 }
 
-/* Those that have something to say; the others may be late. */
+/* Reads the processes that have sent something; the others may be late. */
 static status attend_all(progress *p, workload *w, cell_crew *c, const struct pollfd ends[],
                          fault *f)
 {

@@ -55,7 +55,7 @@ static void unjudged(const verdict *v, char *text, size_t size)
         snprintf(text, size, "no truth to judge by");
 }
 
-/* What it leaves out, and how far that takes it from the truth. */
+/* Names the omitted physics and the resulting difference from the reference value. */
 static void other_model(const verdict *v, char *text, size_t size)
 {
     const int agreed = v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0;
@@ -129,7 +129,7 @@ static void count_part(char *text, size_t size, int *parts, int count, const cha
     add_part(text, size, parts, ", ", part);
 }
 
-/* Of the verdicts that differ. */
+/* Counts undecided verdicts among the unexpected ones. */
 static int count_undecided(const judgement *j)
 {
     int count = 0;
@@ -138,7 +138,7 @@ static int count_undecided(const judgement *j)
     return count;
 }
 
-/* What differs, counted. */
+/* Counts the unexpected verdicts, in words. */
 static void failures(const judgement *j, char *text, size_t size)
 {
     int parts = 0;

@@ -1254,8 +1254,8 @@ int reach_ranking(const reach_question *q, reached out[]);
  * uncertainty of the cost coefficients. 0 where there is none that ranks without a defect, 1 where
  * the first one has the lowest cost. */
 int reach_ties(const reached list[], int count);
-/* Whether the question includes the series of the point, and how: 1 every quantity has a reference
- * value of its theory, 0 some have none, -1 it does not run. */
+/* Returns how the question includes the series of the point: 1: every quantity has a reference
+ * value of its theory; 0: some have none; -1: the series does not run. */
 int reach_asks(const reach_question *q, int series_index);
 /* Verdicts of every series and quantity of a sweep that was not judged, with what formulations
  * agree on where there is no truth; NULL: out of memory. The caller frees it. */

@@ -38,8 +38,8 @@ typedef struct follow_shapes {
 
 /* The first `modes` of a state. */
 status follow_match_first(const state_matrices *, int modes, follow_shapes *out, fault *);
-/* Those of `before` among the modes of a state. *least: the worst match; 0 where two would be the
- * same mode. */
+/* Matches the modes of `before` with those of a state. *least: the worst match; 0 where two would
+ * be matched with the same mode. */
 status follow_match_next(const follow_shapes *before, const state_matrices *, follow_shapes *out,
                          double *least, fault *);
 void follow_match_free(follow_shapes *);

@@ -203,7 +203,8 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     return STATUS_OK;
 }
 
-/* Of a formulation that leaves out the same at the same point; else it is found. */
+/* Copies the effect of an omission from a formulation that omits the same at the same point; else
+ * computes it. */
 static void find_omission(const sweep *s, int index)
 {
     series *one = &s->series[index];
@@ -239,7 +240,7 @@ static void choose_given(const sweep_request *request, chosen_cells *out)
         out->list[out->count++] = request->formulation[i];
 }
 
-/* Those whose options are judged by themselves too. */
+/* Selects the formulations whose options have verdicts too. */
 static void choose_options(const element_type *type, chosen_cells *out)
 {
     for (int k = 0; k < parameter_count(type->options); k++) {
@@ -308,7 +309,7 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
     return STATUS_OK;
 }
 
-/* What no formulation is asked for is not computed. */
+/* Removes the quantities that no formulation is asked for. */
 static void drop_quantities(scene *s, const char asked[])
 {
     int kept = 0;

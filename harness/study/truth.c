@@ -198,7 +198,7 @@ static status check_row(const table_columns *r, const case_type *type, int i, co
     return STATUS_OK;
 }
 
-/* What a moment does while its node turns, and how prescribed rotations combine. */
+/* Conventions: of a moment whose node rotates, and of the order of prescribed rotations. */
 static const char conventions[] =
     "vector|RyRzRx|spatial|spatial vector|spatial RyRzRx|semitangential|semitangential vector|"
     "semitangential RyRzRx|symmetrised|symmetrised vector|symmetrised RyRzRx";

@@ -76,7 +76,7 @@ static void find_strangers(hid_t all, truths *out)
     }
 }
 
-/* What is read of a file. */
+/* Tables to be read from a file. */
 typedef struct truths_wanted {
     const char *group; /* of tables, one for every case; NULL: none */
     const case_type *only;
@@ -97,7 +97,7 @@ static status read_tables(const char *path, hid_t file, const truths_wanted *wha
     return outcome;
 }
 
-/* With what read_file closes. */
+/* The caller, read_file, closes *file, also after a failure. */
 static status read_open(const char *path, const truths_wanted *what, hid_t *file, truths *out,
                         fault *f)
 {
@@ -292,7 +292,7 @@ static status read_all(table_columns *c, glossary_entry **out)
     return STATUS_OK;
 }
 
-/* With what glossary_read closes. */
+/* The caller, glossary_read, closes *file, also after a failure. */
 static status glossary_read_open(const char *path, hid_t *file, glossary *out, fault *f)
 {
     table_columns c = {.path = path, .name = "glossary", .f = f};

@@ -226,7 +226,7 @@ static void say_other_model(const series *one, verdict *v)
     snprintf(v->reason, sizeof v->reason, "%.*s", (int)sizeof v->reason - 1, words);
 }
 
-/* What keeps the series from being judged at all. 1: something does. */
+/* Returns 1 where the series gets no verdict by comparison, and sets the one it has. */
 static int is_hindered(const sweep *s, verdict *v)
 {
     const series *one = &s->series[v->series];

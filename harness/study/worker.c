@@ -20,8 +20,8 @@ typedef struct asked {
     int task, same;
 } asked;
 
-/* What a cell's answers depend on, beside its model: the words that its scene is made from, and
- * what of it is asked for. */
+/* Adds the inputs of a cell other than its model: the words that its scene is made from, and the
+ * requested quantities. */
 static void add_request(identity *out, const workload *w, const asked *a)
 {
     const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];

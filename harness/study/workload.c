@@ -34,7 +34,8 @@ static void list_tasks(workload *w)
     w->board->ended = w->due == 0;
 }
 
-/* What comes up later is each task of noise once, and each task by itself once. */
+/* Allocates for the largest number of tasks that may be added: each task of scatter once, and each
+ * task on its own once. */
 static board *alloc_board(int all, size_t *size)
 {
     *size = sizeof(board) + 2 * ((size_t)all + 1) * sizeof(atomic_int);
@@ -158,7 +159,7 @@ static void begin_noise(workload *w, int i)
         say(w, task_of_noise(w, i, k));
 }
 
-/* Of a series; *last: the task that was the last one of it. */
+/* Marks a series as done; *last: the task that was its last one. */
 static void all_done(workload *w, int i, const workload_task *last)
 {
     series *one = &w->s->series[i];
@@ -337,7 +338,7 @@ int noise_cells(const sweep *s)
     return cells;
 }
 
-/* Of one thing; key 0: free. */
+/* Lock of one task; key 0: free. */
 typedef struct process_claim {
     _Atomic uint64_t key, check;
     atomic_int task; /* behind the first, 1 is added; 0: not yet said */

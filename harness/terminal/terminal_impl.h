@@ -18,7 +18,7 @@ int table_cheapest(FILE *to, const sweep *, const judgement *, int point, int ev
 
 /* Curves as text: their values, and how far meshes and formulations are apart. */
 
-/* Those over one abscissa beside each other; of many points some. */
+/* Prints curves over one abscissa in adjacent columns; of many points a selection. */
 void table_curves_values(FILE *to, const scene *s, const solve_result *r);
 /* Table of one point: for each curve the largest error of each mesh, then the values of the
  * formulation that the others are compared with. */

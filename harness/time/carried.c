@@ -16,7 +16,7 @@ static void add_point(double mass, const double r[3], double tensor[9])
             tensor[3 * i + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/* Of a mass about r, with its first moment from there. */
+/* Moves the tensor of a mass to r, with its first moment from there. */
 static void shift(double mass, const double moment[3], const double r[3], double tensor[9])
 {
     add_point(mass, r, tensor);
@@ -26,8 +26,7 @@ static void shift(double mass, const double moment[3], const double r[3], double
             tensor[3 * i + j] += (i == j ? mixed : 0) - r[i] * moment[j] - moment[i] * r[j];
 }
 
-/* What a vertex carries goes to the frame that moves it; an end that turns or slides by itself
- * keeps its own. */
+/* Adds the mass at a vertex to the frame that moves it; a released end keeps its own. */
 static void take(const model *m, int vertex, double mass, const double moment[3],
                  const double tensor[9], carried_mass of[])
 {
@@ -265,7 +264,9 @@ double account_size(const account *a)
     return fmax(a->largest, a->turned);
 }
 
-/* Of all parameters of alpha: force - mass is (1 - rho)/(1 + rho), rho the spectral radius. */
+/* Returns 1 where the request explains a loss of energy: fixed steps, or generalized-alpha that
+ * damps more than with rho_inf = 0.9. For all its parameters force - mass is (1 - rho)/(1 + rho),
+ * rho the spectral radius. */
 int account_loses(const scene_motion *how)
 {
     const double usual = 0.9, most = (1 - usual) / (1 + usual) * (1 + 1e-9);

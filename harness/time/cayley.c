@@ -260,7 +260,7 @@ void cayley_slopes_of(const cayley_step *s, cayley_slopes *d)
         node_slopes(s, j, d);
 }
 
-/* Of a node's r(s) and R(s): by its dphi, and by the mean of c. */
+/* Derivatives of a node's r(s) and R(s) by its dphi and by the mean of c. */
 typedef struct node_columns {
     double by_phi[9], r_common[9], phi_common[9];
 } node_columns;
@@ -335,7 +335,7 @@ static void add_block(int n, int row, int column, double factor, const double A[
             K[(row + i) * n + column + j] += factor * A[3 * i + j];
 }
 
-/* Of one node: its force and moment by the mean of c, and its moment by c_j. */
+/* Derivatives of one node's force and moment by the mean of c, and of its moment by c_j. */
 typedef struct node_forces {
     double F[3], force[9], moment[9], own[9];
 } node_forces;

@@ -59,7 +59,7 @@ static double size_of(const conserving *s)
     return largest;
 }
 
-/* What an iteration of a step works on. */
+/* Workspace of the iteration of a step. */
 typedef struct solution {
     conserving *s;
     const instant *from;
@@ -319,7 +319,7 @@ double conserving_impulses(const conserving *s, const instant *from, double h, c
     return sum;
 }
 
-/* Of a sequence of angles: the rates whose angular velocity is nearest to w. */
+/* Rates of a sequence of angles whose angular velocity is nearest to w. */
 static void angle_rates(const model *m, int vertex, instant *to, const double w[3])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -413,7 +413,8 @@ static void conserving_released_rates(const conserving *s, const instant *from, 
     to->ends_known = 1;
 }
 
-/* Of frames with a mass by their centres, of the others by themselves. */
+/* Sets the rates after a step: for frames with a mass at their centres, for the others at the
+ * frames. */
 void conserving_rates(conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;

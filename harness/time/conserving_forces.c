@@ -12,7 +12,7 @@
 
 enum { N = ELEMENT_MAX_COORDINATES, M = DEFORMABLE_STRAINS };
 
-/* What is known before strains are asked: (sigma_n + P'(e))/2 + k W d, and of damping eta S0 d/h.
+/* Terms known before strains are evaluated: (sigma_n + P'(e))/2 + k W d, and of damping eta S0 d/h.
  */
 static void middle_of(const conserving *s, evaluation *v)
 {
@@ -95,7 +95,7 @@ static void add_scalar(conserving *s, const double J[], evaluation *v)
     dense_add_transpose_mul(n, strains, 1, of->J, k_e, v->row);
 }
 
-/* Of the coordinates that move its nodes; F[7 nodes]: forces of `middle`. */
+/* Transforms to the coordinates that move the element's nodes; F[7 nodes]: forces of `middle`. */
 static void to_coordinates(const conserving *s, const instant *from, const model_state *now,
                            const double F[], evaluation *v)
 {
@@ -336,7 +336,8 @@ double conserving_update(conserving *s, const instant *from, model_state *now)
     return largest;
 }
 
-/* What comes from outside over a step: the very forces of the step, on what they work on. */
+/* Work of external loads over a step: the forces that act in the step, times the increments of the
+ * coordinates. */
 
 /* dr and c of the coordinates; of angles 2 tan(d angle/2). */
 static double worked_on(const conserving *s, const double force[])

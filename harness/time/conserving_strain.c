@@ -15,7 +15,7 @@ static const double *inner_of(const model *m, const model_state *s, int i)
     return model_inner(m) > 0 ? s->inner + (size_t)i * (size_t)model_inner(m) : none;
 }
 
-/* Of elements of one kind. */
+/* Mean stresses of elements of one kind. */
 static status middle_stress_of(const equations *eq, int count, const int index[],
                                const double *const e[], const model_state *s, stress_output out[],
                                fault *f)

@@ -172,7 +172,7 @@ static void add_at(const double rho[3], const double F[6], double out[6])
         out[i] += F[i] + (i < 3 ? 0 : moment[i - 3]);
 }
 
-/* Of elements that spread their mass, at the nodes that a body moves. */
+/* Adds the inertia of elements with consistent mass at the nodes that a body moves. */
 static void add_spread(const model *m, const model_state *s, const shares_motion *motion, int node,
                        const double place[3], double F[6])
 {
@@ -216,7 +216,7 @@ status shares_node(const model *m, const model_state *s, const shares_motion *mo
     return STATUS_OK;
 }
 
-/* Of node k of an element, with its warping; *share: of the mass. */
+/* Inertia force of node k of an element, with warping; *share: its part of the mass. */
 static void force_of(const model *m, const model_state *s, const shares_motion *motion, int element,
                      int k, double F[7], carried_mass *share)
 {

@@ -294,7 +294,7 @@ status balance_of(const model *m, const carried_masses *masses, const instant *a
     return STATUS_OK;
 }
 
-/* What coordinates are off by when they come out of equations, by their size. */
+/* relative rounding error of coordinates that are solved from equations. */
 static const double coordinate_rounding = 32 * DBL_EPSILON;
 
 /* Strain energy of an element whose coordinates are off by that. */

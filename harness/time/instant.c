@@ -230,7 +230,8 @@ static void take(peak *one, double value, double time, double error)
         *one->out = (outcome_passing){1, value, time, error};
 }
 
-/* Of the scheme, at a time inside the step behind the instant; *known 0: no such step succeeds. */
+/* Computes the value by a step of the integrator to a time inside the step after the instant;
+ * *known 0: no such step converges. */
 static status beside(peaks *s, const scene_quantity *q, const instant *from, double time,
                      double *value, int *known, fault *f)
 {

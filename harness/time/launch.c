@@ -12,7 +12,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* Of the square of a step: how far positions give way. */
+/* compliance of positions, relative to the square of a step. */
 static const double softness = 1e-12;
 
 /* Rates of a sequence's angles of which the spin is the sum; held and driven ones stay. */
@@ -43,7 +43,7 @@ static void start_angles(const model *m, const model_state *s, int index, const 
         v[frame->coordinate[SCENE_RX + of[i]]] = right[i];
 }
 
-/* Of a field: velocity [m/s] at the place of a vertex. */
+/* Velocity [m/s] of a field at the position of a vertex. */
 static void velocity_of(const model *m, const model_state *s, int index, const scene_start *field,
                         double out[3])
 {
@@ -226,7 +226,7 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     return STATUS_OK;
 }
 
-/* What consistent mass does not go with. */
+/* Refuses scenes that consistent mass cannot be combined with. */
 static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];
@@ -300,7 +300,7 @@ double extent_error(const extent *so_far, const motion_scheme *s, double h, doub
     return s->adds ? so_far->density * pow(h, s->order) : error;
 }
 
-/* What coordinates are rounded by. */
+/* relative rounding error of coordinates. */
 static const double rounding = 32 * DBL_EPSILON;
 
 double extent_allows(const extent *so_far, double part, double tolerance)

@@ -8,10 +8,10 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* Of M as it is measured there, in parts of the largest mass. */
+/* relative to the largest mass: smaller eigenvalues of M, measured in that way, count as zero. */
 static const double massless_nothing = 1e-14;
 
-/* What is done with the masses of a body. */
+/* Operations on the masses of a body. */
 typedef enum massless_task { COUNT, STIFFEST, KEEP_FORCES, KEEP_MOTION, ACCELERATE } massless_task;
 
 typedef struct wish {
@@ -311,7 +311,7 @@ static double *diagonal_of(const sparse *S, double out[])
     return out;
 }
 
-/* What acts, at the accelerations that are known; K: NULL: not wanted. */
+/* Unbalanced forces at the known accelerations; K NULL: not wanted. */
 static status forces(motion_stage *s, instant *now, sparse *K, fault *f)
 {
     const model *m = s->c->model;
@@ -323,7 +323,7 @@ static status forces(motion_stage *s, instant *now, sparse *K, fault *f)
     return STATUS_OK;
 }
 
-/* What an iteration works on. */
+/* Workspace of the iteration. */
 typedef struct settle_solution {
     motion_stage *s;
     const double *zero;

@@ -9,7 +9,7 @@
 
 enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 
-/* Of a step by that of the last one. */
+/* bounds of the ratio of consecutive step sizes, and the safety factor on the error estimate. */
 static const double shorter = 0.3, longer = 2, safety = 0.9;
 
 /* All that a motion is integrated with. */
@@ -136,7 +136,7 @@ static status watch(motion_course *w, int *grows, fault *f)
     return STATUS_OK;
 }
 
-/* What the next step is after one that was taken. */
+/* Sets the size of the next step after an accepted one. */
 static void lengthen(motion_course *w, double step, double whole, int rejected)
 {
     if (w->how->tolerance > 0 && step < whole)
@@ -184,7 +184,7 @@ static status take_step(motion_course *w, double target, fault *f)
     }
 }
 
-/* What acts is another from here on. */
+/* Restarts after a discontinuity of the loads. */
 static status jump(motion_course *w, fault *f)
 {
     TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
@@ -409,7 +409,7 @@ void frames_free(frames *p)
     instant_free(&p->at);
 }
 
-/* Of the next frame; infinite: there is none. */
+/* Time of the next frame; INFINITY: there is none. */
 static double next_of(const frames *p)
 {
     const int next = p->to->reached, last = p->to->stations - 1;

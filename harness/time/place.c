@@ -13,7 +13,7 @@ int place_plain(const model *m, int vertex)
     return model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
-/* What is being built, with the derivatives by the columns as [3 x columns]. */
+/* Position that is being built, with its derivatives by the columns as [3 x columns]. */
 typedef struct place_chain {
     const model *m;
     const model_state *from, *now;
@@ -150,7 +150,7 @@ static void direction(const double before[3], const double after[3], const place
         change[i] += swept[i] / 2 + more[i];
 }
 
-/* What the end slides by: shift of the mean, and its columns. */
+/* Shift of an end by its slides: mean of the shift, and its columns. */
 static void slides(const double step[], place_chain *by, frame_place *p)
 {
     const mesh_release *r = by->release;

@@ -6,7 +6,7 @@
 
 #include "elements/math/scalar.h"
 
-/* What an iteration of the stages works on. */
+/* Workspace of the iteration of the stages. */
 typedef struct radau_solution {
     radau *r;
     const instant *from;

@@ -252,7 +252,7 @@ void radau_in_space(const radau *r, int vertex, int i, const double B[9], double
  *   e_i' = 1/h sum_j B_ij (e_j - e_0),
  * which couple all three in every damped element. */
 
-/* Of one element in one stage. */
+/* Damping forces of one element in one stage. */
 typedef struct damped {
     double J[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES]; /* by the model's coordinates */
     double gained[ELEMENT_MAX_STRAINS];                    /* strains since the start of the step */
@@ -430,7 +430,7 @@ void radau_damp_error(const radau *r, const instant *from, double h, const doubl
 /* Masses that elements spread, in the equations of three stages: blocks of all nodes of an element.
  */
 
-/* What the motion of a node in stage i gains by spatial increments of its coordinates in stage k.
+/* Changes of the motion of a node in stage i by spatial increments of its coordinates in stage k.
  */
 static void motions_of(const radau *r, const spread_parts *p, int node, double h, int i, int k,
                        spread_motion *rates, spread_motion *accelerations)

@@ -9,7 +9,7 @@
 
 enum { MOST = ELEMENT_MAX_COORDINATES };
 
-/* Of an element's nodes: states, velocities and accelerations. */
+/* States, velocities and accelerations of an element's nodes. */
 typedef struct moving_element {
     node_state x[ELEMENT_MAX_NODES];
     double rate[MOST], acceleration[MOST];
@@ -301,7 +301,7 @@ void spread_place(const model *m, const spread_parts *p, spread_motion place[])
     }
 }
 
-/* What the rates of the bodies are by their coordinates. */
+/* Derivatives of the rates of the bodies by their coordinates. */
 static void motions_of(const model *m, const mesh_element *el, const inertia_relation *with,
                        const spread_parts *p, spread_motion rates[])
 {

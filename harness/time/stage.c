@@ -84,7 +84,7 @@ static status direction(motion_stage *s, int fresh, double time, const stage_rat
     return stage_direction(s, fresh, f);
 }
 
-/* What an iteration of a stage works on. */
+/* Workspace of the iteration of a stage. */
 typedef struct stage_solution {
     motion_stage *s;
     const model_state *from;
@@ -210,7 +210,7 @@ static double near_of(int n, const double sigma[])
     return 0.1 * largest;
 }
 
-/* What sigma lacks of the goal; returns the largest, NAN: not a number. */
+/* gap[n] = goal - sigma; returns the largest size, NAN where one is not finite. */
 static double gap_of(int n, const double goal[], const double sigma[], double gap[])
 {
     double sum = 0, largest = 0;

@@ -9,8 +9,8 @@
 
 enum { PARTS = 5, BALL = 3 };
 
-/* Of one coordinate: its increment over the step, and rates and their derivatives at both ends, by
- * the length of the step. */
+/* Data of one coordinate over a step: its increment, and rates and their derivatives at both ends,
+ * in units of the step. */
 typedef struct between_ends {
     double whole, rate[2], second[2];
 } between_ends;
@@ -226,7 +226,7 @@ void between_at(const step_between *b, double time, instant *at)
     blend_elements(b, (time - b->from->time) / (b->to->time - b->from->time), at->state);
 }
 
-/* Of a step: nearer than that to its end is at its end. */
+/* relative to a step: a station nearer than that to its end is at its end. */
 static const double same_instant = 1e-9;
 
 status stations_alloc(stations *s, fault *f)

@@ -89,7 +89,8 @@ status carried_alloc(const model *, carried_masses *, fault *);
 /* Rigid bodies alone, in addition to consistent masses of elements. */
 status carried_alloc_spread(const model *, carried_masses *, fault *);
 void carried_free(carried_masses *);
-/* Of one node of an element, about it, and of its warping amplitude [kg m^4]. */
+/* Share of one node in the mass of an element, about the node, and of its warping amplitude [kg
+ * m^4]. */
 struct mesh_element;
 void carried_share(const model *, const struct mesh_element *, int node, carried_mass *,
                    double *warping);
@@ -209,20 +210,21 @@ double damping_power(const equations *, const double rate[]);
 
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
-/* What quantities read of a motion at an instant without its forces. */
+/* Quantities of a motion at an instant that need no forces. */
 
 /* Is it read from places and rates alone? */
 int reading_is_kinematic(const scene_quantity *);
 /* As extracted, without factor and offset; kinematic kinds only. rate[free + driven] */
 double reading_of(const model *, const scene_quantity *, const model_state *, const double rate[]);
 
-/* What quantities read of a state beyond its places and rates: reactions, resultants, stresses. */
+/* Quantities of a state that need more than positions and rates: reactions, resultants, stresses.
+ */
 
 /* As extracted, without factor and offset, of SCENE_REACTION, SCENE_INTERNAL and SCENE_STRESS. v,
  * a[free + driven]: rates of a motion and their derivatives; NULL: nothing moves. */
 status resultants_of(const equations *, const scene_quantity *, const model_state *,
                      const double v[], const double a[], double *out, fault *);
-/* Of a section, in any state that internal_state knows. */
+/* Resultant in a section, in any state that internal_state describes. */
 status resultants_in_section(const equations *, const scene_quantity *, const internal_state *,
                              double *out, fault *);
 

@@ -55,10 +55,10 @@ typedef struct body_mass {
 /* Allocates room for any body of the model. */
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
-/* Of one body in a state; returns the largest mass in it [kg]. */
+/* Fills the mass of one body in a state; returns the largest mass in it [kg]. */
 double body_mass_of(const model *, const carried_masses *, int body, const model_state *,
                     body_mass *);
-/* Of a warping amplitude [kg m^4]. */
+/* Returns the mass of a warping amplitude [kg m^4]. */
 double body_mass_warps(const model *, const carried_masses *, int warp, const model_state *);
 /* Rank of M, in which `none` is zero. */
 int body_mass_rank(body_mass *, double none);
@@ -198,7 +198,7 @@ void inertia_subtract(const model *, const carried_masses *, const model_state *
 void inertia_add_tangent(const equations *, const carried_masses *, const model_state *,
                          const double v[], const double a[], const inertia_relation *, sparse *S);
 
-/* Of one frame: derivatives of its force and moment [6 x 6, row-major]. */
+/* Derivatives of the inertia force and moment of one frame [6 x 6, row-major]. */
 typedef struct inertia_parts {
     double place[36]; /* by spatial increments, at fixed rates in its axes; exponential chart */
     double velocity[36], acceleration[36]; /* by those, spatial */
@@ -230,7 +230,7 @@ typedef struct massive {
                       in the frames' axes; NULL: there are none */
 } massive;
 
-/* Of the masses in a state, once. */
+/* Computes the lumped masses in a state, once for all functions below. */
 status massive_of(const model *, const carried_masses *, const model_state *, massive *, fault *);
 void massive_free(massive *);
 /* Removes motions without inertia from e. Returns the root of the sum of weight[c] e[c]^2 over the
@@ -324,8 +324,8 @@ typedef struct carried_step {
     double g[3], behind[3], turned[3], late[3]; /* of these (carried.c) */
 } carried_step;
 
-/* Of one mass: its centre from the frame and its tensor about that, in the frame's axes; of a frame
- * that only turns it is about the frame, which then counts as its centre. */
+/* Centre of one mass from the frame, and its tensor about the centre, in the frame's axes. For a
+ * frame that only rotates the tensor is about the frame, which then counts as its centre. */
 void carried_step_centre(const model *, const carried_mass *, double centre[3], double J[9]);
 void carried_step_of(const conserving *, const instant *from, const model_state *now, double h,
                      const carried_mass *, carried_step *);
@@ -417,7 +417,7 @@ deformable deformable_at(const conserving *, const instant *from, model_state *n
 /* How many from `first` on are evaluated in one go: elements of one kind, or 1. */
 int deformable_together(const conserving *, int first);
 
-/* What one iteration evaluates of one of them. */
+/* Values of one element that one iteration evaluates. */
 struct evaluation {
     deformable of;
     cayley_step step;
@@ -505,7 +505,7 @@ typedef struct extent {
 extern const double extent_guess;
 
 void extent_begin(extent *, const model *);
-/* With a step of h [s]. */
+/* Returns the extent after a step of h [s]. */
 extent extent_with(const extent *, const model *, const motion_scheme *, const instant *from,
                    const instant *to, double h, double error);
 /* Where the errors of steps add up to that of the motion, the error of a step of h [s] by what the
@@ -616,9 +616,8 @@ status launch_turning(analysis_context *, const carried_masses *, const scene_mo
 status launch(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
               instant *room, fault *);
 
-/* What has inertia and what has none: of the coordinates of a body and of the ends that are
- * released from it, some motions may be without. Their positions follow from balance at every
- * instant. */
+/* Motions of a body and of the ends released from it, with and without inertia. The positions of
+ * those without inertia follow from balance at every instant. */
 
 /* Free coordinates less the rank of their masses in the state. */
 status massless_count(const model *, const carried_masses *, const model_state *, int *count,
@@ -721,7 +720,8 @@ void place_add(conserving *, const model_state *from, const model_state *now, in
  *   t_i' = 1/h sum_j B_ij t_j,  W_i = Jr(t_i) t_i',  a_i = 1/h sum_j B_ij (v_j - v),  B = A^-1,
  * every stage in mixed Newton (Nijenhuis et al., section 4), all three at once. */
 
-/* With an estimate of the error of each step, of order 3, from one more factorisation. */
+/* Allocates the integrator; an additional factorisation in each step gives an error estimate of
+ * order 3. */
 status radau_alloc(const scheme_request *, motion_scheme **, fault *);
 
 /* The matrix of three stages of one step: blocks [n x n] of three by three, off the
@@ -778,12 +778,12 @@ typedef struct radau {
 /* radau_equations.c */
 /* Nodes, weights and B of the scheme. */
 void radau_coefficients(radau *);
-/* Of the instant of a stage [s]: the last one is at the end of the step as it was asked for. */
+/* Instant of a stage [s]; that of the last one is exactly the requested end of the step. */
 double radau_time(const radau *, const instant *from, double h, int stage, const step_record *);
 /* v and a of all stages, from their increments. */
 void radau_rates(radau *, const instant *from, double h);
-/* What the rates (rate) and accelerations of stage i gain by spatial increments of a vertex in
- * stage k: scalars of translations, [3 x 3] of its rotation, in the axes of its rates. */
+/* Changes of the rates (rate) and accelerations of stage i by spatial increments of a vertex in
+ * stage k: scalars for translations, [3 x 3] for its rotation, in the axes of its rates. */
 typedef struct radau_relation {
     double rate, acceleration, turn_rate[9], turn_acceleration[9];
 } radau_relation;
@@ -890,8 +890,8 @@ status shares_node(const model *, const model_state *, const shares_motion *, in
  * per initial length, with the moment about that node. */
 void shares_along(const model *, const model_state *, const shares_motion *, int element,
                   double density[ELEMENT_MAX_NODES][6]);
-/* Of the mass of one element: ends[e][7] += what its share at the first (0) and the last (1) node
- * takes, with the warping's. */
+/* ends[e][7] += inertia force on the share of one element's mass at its first (0) and last (1)
+ * node, with that on warping. */
 void shares_ends(const model *, const model_state *, const shares_motion *, int element,
                  double ends[2][7]);
 
@@ -912,8 +912,8 @@ void spread_add_tangent(const equations *, const model_state *, const double v[]
 void spread_add_balance(const model *, const model_state *, const double v[], double *kinetic,
                         double momentum[3], double angular[3]);
 
-/* Of one element: derivatives of what the bodies that move its nodes take, and its ends where these
- * are released: 7 coordinates of each node. */
+/* Derivatives of the inertia forces of one element by the motions of the bodies that move its
+ * nodes, and of its ends where these are released: 7 coordinates of each node. */
 typedef struct spread_parts {
     const struct mesh_element *el;
     const model_state *state;
@@ -958,7 +958,7 @@ typedef struct stations {
 /* c, analysis, masses, scheme and out are given. */
 status stations_alloc(stations *, fault *);
 void stations_free(stations *);
-/* Those inside a step, the end excepted. */
+/* Stations inside a step, without its end. */
 status stations_inside(stations *, const instant *from, const instant *to, fault *);
 /* The station at the present time, if there is one. */
 status stations_here(stations *, const instant *now, const double balance[SCENE_BALANCES], fault *);
@@ -978,10 +978,10 @@ void turning_add(double t[3], const double d[3]);
 
 /* Velocity and acceleration of frames. */
 
-/* Of a node's frame or of a released end: forms_rates. */
+/* Rates of a node's frame or of a released end, by forms_rates. */
 void inertia_rates(const model *, const model_state *, int vertex, const double v[],
                    const double a[], frame_rates *);
-/* Of any. */
+/* Rates of any vertex. */
 void vertex_rates(const model *, const model_state *, int vertex, const double v[],
                   const double a[], frame_rates *);
 

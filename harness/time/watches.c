@@ -94,7 +94,7 @@ static double root(watches *s, const watched *one, along *f, double a, double fa
     return fabs(fa) < fabs(fb) ? a : b;
 }
 
-/* What a step that ends at the time says otherwise than the polynomial. */
+/* Difference between the value at the end of a step to the given time and the polynomial. */
 static status disagreement(watches *s, const watched *one, const instant *from, double time,
                            double *out, fault *f)
 {

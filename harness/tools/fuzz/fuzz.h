@@ -1,5 +1,5 @@
-/* What the fuzzing programs have in common. Each has libFuzzer's LLVMFuzzerTestOneInput and is run
- * by harness/tools/fuzz.sh. */
+/* Functions shared by the fuzzing programs. Each program has libFuzzer's LLVMFuzzerTestOneInput and
+ * is run by harness/tools/fuzz.sh. */
 #ifndef BEAMWORK_FUZZ_H
 #define BEAMWORK_FUZZ_H
 

@@ -53,7 +53,7 @@ void ask_scene(const scene *, const element_type *, const double option[], int e
 /* NAN when there is none of that name. */
 double answer_of(const answer *, const char *quantity);
 
-/* What became of the questions of one test to one formulation. */
+/* Outcomes of the questions of one test to one formulation. */
 typedef struct ask_tally {
     int count[ASK_OUTCOMES];
     int values;               /* in all answers */

@@ -16,7 +16,7 @@ void scenes_at(const case_type *, double value[], const char *values, ...)
 /* Its scene there, which the caller frees. */
 void scenes_read(scene *s, const char *path, const char *values, ...)
     __attribute__((format(printf, 3, 4)));
-/* What becomes of it, solved with the default options. */
+/* Solves the scene with the default options and fills the answer. */
 void scenes_ask(const char *path, const element_type *, int elements, answer *, const char *values,
                 ...) __attribute__((format(printf, 5, 6)));
 /* Its cell; one that is not solved fails the test. formulation: "name:key=value,...". */
