@@ -11,7 +11,7 @@ static const char *usual_unit(const scene *s, const scene_quantity *q)
 {
     if (q->reduction == SCENE_PER_SECOND)
         return "Hz";
-    if (q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN)
+    if (scene_is_timed(q->reduction))
         return "s";
     return quantity_type_of(q)->unit(s, q);
 }

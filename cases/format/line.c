@@ -249,6 +249,8 @@ static void passing(FILE *to, const scene_quantity *q)
     const scene_passing *p = &q->passing;
     if (q->reduction == SCENE_MEAN)
         fputs(", mean over time", to);
+    else if (q->reduction == SCENE_RMS)
+        fputs(", root mean square over time", to);
     else if (q->reduction == SCENE_MAX_TIME || q->reduction == SCENE_MIN_TIME)
         fprintf(to, ", time at which it is %s",
                 q->reduction == SCENE_MAX_TIME ? "largest" : "least");
@@ -287,6 +289,7 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
     case SCENE_PERIOD:
     case SCENE_PER_SECOND:
     case SCENE_MEAN:
+    case SCENE_RMS:
     case SCENE_REDUCTIONS:
         passing(to, q);
         break;

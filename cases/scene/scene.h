@@ -283,13 +283,21 @@ typedef enum scene_reduction {
     SCENE_PERIOD,     /* from one crossing to the next of its direction, mean of all [s] */
     SCENE_PER_SECOND, /* one by that [Hz] */
     SCENE_MEAN,       /* over time */
+    SCENE_RMS,        /* root of the mean of its square over time */
     SCENE_REDUCTIONS
 } scene_reduction;
+
+/* Is it a time, or one by that, and no value of what is read? */
+static inline int scene_is_timed(scene_reduction how)
+{
+    return how > SCENE_CURVE && how < SCENE_MEAN;
+}
 
 /* Which way a level is passed. */
 typedef enum scene_direction { SCENE_RISING, SCENE_FALLING, SCENE_EITHER } scene_direction;
 #define SCENE_DIRECTION_CHOICES "rising|falling|either"
-#define SCENE_TAKE_CHOICES      "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean"
+#define SCENE_TAKE_CHOICES                                                                         \
+    "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean|rms"
 
 /* Feature of a motion from which a value is taken. */
 typedef struct scene_passing {
@@ -499,7 +507,7 @@ void scene_set_curve_over(scene_quantity *q, const char *quantity, const char *u
 int scene_abscissa_of(const scene *s, const scene_quantity *q);
 /* At one value of the path parameter or the control coordinate. */
 void scene_set_at(scene_quantity *q, double at);
-/* Statistic over the whole time of a motion: SCENE_MAX_TIME to SCENE_MEAN, SCENE_MAX, SCENE_MIN. */
+/* Statistic over the whole time of a motion: SCENE_MAX_TIME to SCENE_RMS, SCENE_MAX, SCENE_MIN. */
 void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
 /* Is it read between the stations of a motion? */
 int scene_is_passed(const scene_quantity *q, scene_analysis_kind);

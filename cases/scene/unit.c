@@ -103,8 +103,7 @@ static void scale_load(scene_load *load, entry_base base, double times)
 static void scale_extract(const scene *s, scene_quantity *q, entry_base base, double times)
 {
     const int power = entry_power(quantity_type_of(q)->unit(s, q), base);
-    const int timed = q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN;
-    q->factor *= timed ? 1 : pow(times, -power);
+    q->factor *= scene_is_timed(q->reduction) ? 1 : pow(times, -power);
     q->passing.level *= pow(times, power);
 }
 

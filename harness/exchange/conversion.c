@@ -215,16 +215,17 @@ static void turn_reduction(scene_quantity *q, int *sign)
     static const scene_direction back[] = {[SCENE_RISING] = SCENE_FALLING,
                                            [SCENE_FALLING] = SCENE_RISING,
                                            [SCENE_EITHER] = SCENE_EITHER};
-    const int times = q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN;
     if (*sign > 0)
         return;
     if (other[q->reduction] != SCENE_LAST)
         q->reduction = other[q->reduction];
-    if (times) {
+    if (scene_is_timed(q->reduction)) {
         q->passing.direction = back[q->passing.direction];
         q->passing.level = -q->passing.level;
         *sign = 1;
     }
+    if (q->reduction == SCENE_RMS)
+        *sign = 1;
 }
 
 static int same_reduction(const scene_quantity *a, const scene_quantity *b)

@@ -998,7 +998,8 @@ typedef struct watched {
     int crossings;      /* of its direction, in the window */
     double first, last; /* [s] of them */
     double error;       /* [s] of the first one and the last */
-    double sum, span;   /* of values by time; [s] */
+    double sum, span;   /* of values, or of squares in parts of `largest`, by time; [s] */
+    double largest;     /* magnitude so far, of a root mean square */
 } watched;
 
 typedef struct watches {

@@ -325,6 +325,7 @@ static const struct {
              {"period", 2 * PI / 5, -1, 1e-12},
              {"per_second", 2.5 / PI, -1, 1e-12},
              {"mean_of_a_period", 0, -1, 1e-9},
+             {"rms_of_a_period", 0.3 * 0.7071067811865476, -1, 1e-9},
              {"mean_of_half_of_it", -0.6 / PI, -1, 1e-8}};
 enum { KNOWN = sizeof known / sizeof known[0] };
 
