@@ -77,7 +77,7 @@ static void weigh_all(const fields *f, scene_load *what)
                    "mass");
 }
 
-/* Of a body. */
+/* Checks the weight of a body. */
 static void check_weight(const fields *f, const scene_load *what)
 {
     if (what->where >= 0 && scene_node_at(f->b->scene, what->where)->body.mass == 0)
@@ -117,7 +117,7 @@ static scene_load_kind kind_of(const fields *f, int given)
                                    : (scene_load_kind)given;
 }
 
-/* Of the member's length. */
+/* Returns a part of the member's length, or `otherwise` where the key is absent. */
 static double part_of(const fields *f, const char *key, double otherwise)
 {
     const double part = fields_number(f, key, otherwise);

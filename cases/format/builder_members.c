@@ -55,7 +55,7 @@ static void read_warping(const fields *f, scene_member *m)
     m->warp_q = warping_of(f, n->kind == DOCUMENT_LIST ? n->item[1] : n);
 }
 
-/* What changes along the member can. */
+/* Checks that only properties that may change along a member differ between its two sections. */
 static void check_taper(const fields *f, const document_node *n, const int profile[2])
 {
     const scene *s = f->b->scene;
@@ -127,7 +127,7 @@ void builder_members(builder *b)
     }
 }
 
-/* What a motion moves has its unit. */
+/* Checks that the prescribed coordinate has the unit of the motion. */
 static void check_unit(const fields *f, int motion)
 {
     const document_node *given = document_find(f->map, "unit");
@@ -190,7 +190,7 @@ void builder_motions(builder *b)
 
 /* Analyses of a scene. */
 
-/* What its table does not say. */
+/* Sets members of an analysis that its table of keys does not describe. */
 static void complete(const fields *f, int index, scene_analysis *a)
 {
     const fields control = fields_below(f, "continuation"), motion = fields_below(f, "motion"),

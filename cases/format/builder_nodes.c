@@ -9,8 +9,8 @@
 /* Lengths of a unit vector below it are round-off. */
 static const double round_off = 1e-12;
 
-/* Of the instance's component c that of the scene, and whether it has the same sign; SCENE_NONE: it
- * is along none. */
+/* Returns the component of the scene along the instance's component c, *same: 1: with the same
+ * sign; SCENE_NONE: it is along none. */
 static int component_of(const fields *f, int c, int *same)
 {
     double axis[3] = {0};
@@ -142,7 +142,7 @@ static void check_masters(const fields *f, const scene_node *n)
                          "'rotation' says all about turns; leave out rx, ry, rz and forks");
 }
 
-/* Of the body at rest; it turns with the instance it is in: I <- A I A^T, row by row. */
+/* Rotates the inertia of a body at rest with its instance: I <- A I A^T, row by row. */
 static void turn_inertia(const placement *placed, double I[6])
 {
     double row[3][3] = {{I[0], I[3], I[5]}, {I[3], I[1], I[4]}, {I[5], I[4], I[2]}};
@@ -241,7 +241,7 @@ static int are_zero(int count, const double value[])
     return i == count;
 }
 
-/* What the table does not say of constants. */
+/* Reads members of section constants that the table of keys does not describe. */
 static void read_rest(const fields *f, section_spec *spec)
 {
     const fields those = fields_below(f, "constants");

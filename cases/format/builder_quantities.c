@@ -131,7 +131,7 @@ static void check_wanted(builder *b)
     }
 }
 
-/* What its table does not say of its kind. */
+/* Sets members of a quantity that the table of keys of its kind does not describe. */
 static void settle(const fields *what, const quantity_type *type, scene_quantity *q)
 {
     const scene *s = what->b->scene;
@@ -165,7 +165,8 @@ void builder_quantities(builder *b)
     check_wanted(b);
 }
 
-/* What a scene asks for where its file does not say: one analysis, and what can be seen of it. */
+/* Default analysis and quantities of a scene whose file requests none: one analysis and its visible
+ * results. */
 
 /* A path to the last station of the motions; without motions, one linear solution. */
 static int add_analysis(builder *b)
@@ -233,7 +234,7 @@ static void add_states(builder *b, int analysis, int prefixed)
             add_displacements(b, analysis, i, prefixed);
 }
 
-/* Of a motion. */
+/* Adds the energies of a motion. */
 static void add_energy(builder *b, int analysis, int prefixed)
 {
     char name[SCENE_NAME + 8];

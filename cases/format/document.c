@@ -23,7 +23,7 @@ static void *refuse(reader *r, yaml_mark_t at, const char *what)
     return NULL;
 }
 
-/* What the parser found; its own words where nothing better is known. */
+/* Reports a syntax error: beamwork's words for known ones, else those of the parser. */
 static void tell_syntax(reader *r)
 {
     const yaml_parser_t *p = &r->parser;

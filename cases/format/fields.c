@@ -146,7 +146,7 @@ static const char *entry_at(const void *context, int i)
     return i < those->b->list[those->list].count ? those->b->list[those->list].entry[i].name : NULL;
 }
 
-/* Of an instance its own entries are found first. */
+/* Finds the entry of that name; inside an instance its own entries come first. */
 static int find_entry(const fields *f, const char *text, scene_list list, int own)
 {
     const size_t prefix = own && f->placed != NULL ? strlen(f->placed->name) : 0;

@@ -279,7 +279,7 @@ static const char *elsewhere(const entry_field *table, const char *name)
     return NULL;
 }
 
-/* Of an unknown key: the one that is meant, or where all are. */
+/* Remedy for an unknown key: the nearest known one, or where all are listed. */
 static const char *remedy_of(const known_keys *known, const char *name, char text[FAULT_TEXT])
 {
     const char *other = elsewhere(known->table, name);

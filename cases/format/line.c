@@ -194,7 +194,7 @@ void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size)
         snprintf(text, size, "%s", sentence);
 }
 
-/* Of which states of which analysis a quantity is. */
+/* States, and their analysis, that a quantity belongs to. */
 
 /* [rad/s] at path parameter 1. */
 static double speed(const scene_analysis *a)
@@ -242,7 +242,7 @@ static void at_station(FILE *to, const scene *s, const scene_quantity *q, const 
     }
 }
 
-/* Of a motion, between its stations. */
+/* Writes a quantity of a motion between its stations. */
 static void passing(FILE *to, const scene_quantity *q)
 {
     static const char *const way[] = {"rises through", "falls through", "passes"};

@@ -17,7 +17,8 @@ static void check_version(const scene_file *file, mistakes *m)
         document_mistake(m, file->root, 0, "'beamwork: 1' stands first; move it up");
 }
 
-/* Of the file, without its ending: what a name cannot have becomes '_', one for each character. */
+/* Returns the name of the file without its ending; each character that a name cannot have becomes
+ * '_'. */
 static const char *name_of_file(scene_file *file)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_"
@@ -159,7 +160,7 @@ static status read_bytes(const char *path, char *bytes, size_t room, size_t *siz
     return failed ? fault_set(f, STATUS_FAULT, "%.200s cannot be read", path) : STATUS_OK;
 }
 
-/* With bytes that scene_file_read frees. */
+/* The caller, scene_file_read, frees the bytes, also after a failure. */
 static status read_file(const char *path, char *bytes, size_t room, int built, scene_file **out,
                         mistakes *m, fault *f)
 {
@@ -311,7 +312,7 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
     return (file_truth){holds, t};
 }
 
-/* What is needed to read truths of a point. */
+/* Workspace for reading the reference values of a parameter point. */
 typedef struct truth_reader {
     builder b;
     unrolled *list;
@@ -350,7 +351,7 @@ void scene_file_truths_check(const scene_file *file, const scene *s, const doubl
     arena_free(&a);
 }
 
-/* With what scene_file_truths frees. */
+/* The caller, scene_file_truths, frees the workspace, also after a failure. */
 static status give_at(const scene_file *file, const double point[], scene *s, arena *a,
                       scene_truth_taker *take, void *to, fault *f)
 {

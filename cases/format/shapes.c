@@ -186,21 +186,21 @@ static const struct {
               {{280, 280, 95, 10, 15, 15}, 53.3, 6280, 399, 31.0, 48.5, 5.02},
               {{300, 300, 100, 10, 16, 16}, 58.8, 8030, 495, 37.4, 69.1, 5.41}};
 
-/* What a quarter of the corner of a square of side r leaves beside its inscribed circle: area over
- * r^2, distance of its centroid from the sides over r, second moment about an axis through the
- * centroid along a side over r^4. */
+/* Area between a corner of a square of side r and its inscribed quarter circle: area over r^2,
+ * distance of its centroid from the sides over r, second moment about an axis through the centroid
+ * along a side over r^4. */
 static const double spandrel_area = 1 - PI / 4, spandrel_at = (10 - 3 * PI) / (12 - 3 * PI),
                     spandrel_moment = 1. / 3 - PI / 16 - 1 / (36 - 9 * PI);
 
-/* What the scene gives itself stays. */
+/* Sets the constant unless the scene gives it. */
 static void give(double *to, double value)
 {
     if (isnan(*to))
         *to = value;
 }
 
-/* With fillets, exact but It (El Darwish and Johnston, J. Struct. Div. ASCE 91, 1965, as tables of
- * producers have it). */
+/* Constants with fillets, exact except It (El Darwish and Johnston, J. Struct. Div. ASCE 91, 1965,
+ * as in tables of producers). */
 static void add_rolled_i(section_spec *spec, const rolled *p, double mm)
 {
     const double h = p->h * mm, b = p->b * mm, tw = p->tw * mm, tf = p->tf * mm, r = p->r * mm,
@@ -262,8 +262,8 @@ static int sizes_of(const char *text, double size[3])
     return -1;
 }
 
-/* Of a name without blanks, in capitals; mm: a millimetre in the scene's unit of length. 0: there
- * is none of that name. */
+/* Adds the rolled section of a name without blanks, in capitals; mm: a millimetre in the scene's
+ * unit of length. Returns 0 where there is none of that name. */
 static int add_profile(section_spec *spec, const char *name, double mm)
 {
     static const struct {

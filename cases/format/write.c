@@ -270,7 +270,7 @@ static void write_stations(writer *w, int count, const double path[], const char
     write_values_numbers(w, count, value);
 }
 
-/* What a motion is known by. */
+/* Writes the keys that identify a motion. */
 static void write_known(writer *w, const void *entry)
 {
     const scene_driver *d = entry;

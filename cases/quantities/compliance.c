@@ -25,7 +25,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(e->row), meaning_load(e->column), meaning_axis(e->column));
 }
 
-/* Of the node at which the load acts, both. */
+/* Returns the rotations that the quantity reads: both of the node at which the load acts. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     const scene_entry *what = &q->what.of.entry;

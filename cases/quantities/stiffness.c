@@ -32,7 +32,7 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
     return NULL;
 }
 
-/* Of the node at which the load acts, both. */
+/* Returns the rotations that the quantity reads: both of the node at which the load acts. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     const scene_entry *what = &q->what.of.entry;

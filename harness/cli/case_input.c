@@ -94,7 +94,7 @@ static void tell_mistakes(const command_line *l, const mistakes *m, status outco
         message_fail(STATUS_FAULT, unwritten.text);
 }
 
-/* What stands for the `needs` of earlier versions. */
+/* Prints the `omit` that replaces the `needs` of earlier versions. */
 static void tell_needs(const char *path, const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS];

@@ -257,7 +257,7 @@ static status leave_out(const cut *c, const spread_end *end, fault *f)
     return STATUS_OK;
 }
 
-/* With what verification_work_run frees. */
+/* The caller, verification_work_run, frees the workspace, also after a failure. */
 static status spread(cut *c, const shard_options *r, identity_texts *texts, spread_end *out,
                      fault *f)
 {

@@ -113,7 +113,7 @@ static status check_sweeps(const command_line *l, const stored_results *before,
                      before->swept ? l->argument[1] : l->argument[0]);
 }
 
-/* What is compared, or written; cli_compare frees it. */
+/* Reads the runs to be compared or written; cli_compare frees them. */
 static status read_runs(const command_line *l, const compare_request *r, comparison_limits *limits,
                         stored_results *before, stored_results *after, fault *f)
 {

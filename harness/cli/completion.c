@@ -1,5 +1,5 @@
-/* What may stand at the place of the cursor: words that are written out for a shell, names of the
- * program, and what the words before the cursor ask for. */
+/* Completion of a command line: words that may stand at the cursor, for shells: fixed words, names
+ * of the program, and values that depend on the words before the cursor. */
 #include "harness/cli/cli.h"
 
 #include <string.h>
@@ -132,8 +132,8 @@ static void offer_terms(const offer *o, const char *said, const glossary *g)
     }
 }
 
-/* What `beamwork explain` knows. said: the words before, one behind the other, which a term of
- * several words begins with. */
+/* Terms of `beamwork explain`. said: the words before the cursor, joined, with which a term of
+ * several words may begin. */
 static void names_words(const offer *o, const char *said)
 {
     const truths_options usual = {.packed = NULL};
@@ -155,7 +155,7 @@ static void names_words(const offer *o, const char *said)
 
 enum { SAID = 400 };
 
-/* What the words before the cursor say. */
+/* Content of the words before the cursor. */
 typedef struct completion_reading {
     const verb *verb;
     const verb_option *open; /* the option whose value the word at the cursor is; or NULL */
@@ -257,7 +257,7 @@ static void offer_selection(const offer *o)
     offer_choices(&word, "and|or|not");
 }
 
-/* Of the case or scene file that the line names. */
+/* Offers the parameters of the case or scene file that the line names. */
 static void offer_parameters(const offer *o, const completion_reading *r,
                              void names(const offer *, const case_type *))
 {

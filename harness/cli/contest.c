@@ -224,7 +224,7 @@ static status check_models(const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* With what against_error frees. */
+/* The caller, against_error, frees *d, also after a failure. */
 static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
 {
     const sweep_request request = {.jobs = r->jobs,
@@ -272,7 +272,7 @@ static void show_pair(const bench_options *r, const sweep_point *p, const contes
     json_decref(root);
 }
 
-/* What both are asked for. Its scene is freed by who built it. */
+/* Returns the parameter point that both are run at. The caller that built the scene frees it. */
 static sweep_point point_of(const bench_options *r, const case_type *type, const scene *s)
 {
     sweep_point p = {.type = type, .scene = *s, .status = STATUS_OK};

@@ -56,7 +56,7 @@ static status lap_here(contestant *c, double *seconds, fault *f)
     return STATUS_OK;
 }
 
-/* What the program wrote: its seconds and its work. */
+/* Reads the output of the program: its seconds and its counts of work. */
 static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
 {
     json_error_t where;

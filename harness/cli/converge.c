@@ -33,7 +33,7 @@ static void tell(const converge_request *r, const sweep *s)
     tell_supports(r, s);
 }
 
-/* With what answer frees. */
+/* The caller, answer, frees *c, also after a failure. */
 static status converge(converge_request *r, const case_type *type, convergence *c, fault *f)
 {
     const convergence_request asked = {

@@ -23,7 +23,7 @@ static const char *file_among(const command_line *l)
     return NULL;
 }
 
-/* Those that are named; else those that were loaded. */
+/* Selects the formulations that are named; by default those that were loaded. */
 static void choose(const command_line *l, element_test_request *r)
 {
     for (int i = 0; i < l->arguments; i++)
@@ -33,7 +33,7 @@ static void choose(const command_line *l, element_test_request *r)
             named_add(&r->chosen, formulations_at(i)->name);
 }
 
-/* With what answer frees. */
+/* The caller, answer, frees *c, also after a failure. */
 static status run(const command_line *l, const element_test_request *r, certificates *c, fault *f)
 {
     const certificate_request what = {.chosen = r->chosen.formulation,

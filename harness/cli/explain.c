@@ -1,4 +1,4 @@
-/* What the words of the program and of the field mean. */
+/* Verb explain: meaning of words of the program and of the field. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -77,7 +77,7 @@ static int explain_case(const char *word)
     return 0;
 }
 
-/* What of a scene has part in which analysis. */
+/* Prints which inputs of a scene each kind of analysis uses. Returns 0 for another word. */
 static int explain_inputs(const char *word)
 {
     if (!glossary_same("inputs", word))

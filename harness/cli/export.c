@@ -17,8 +17,8 @@ typedef struct export_request {
 
 enum { DEFAULT_ELEMENTS = 20 };
 
-/* What the deck is of, as an import says it: case or whole path of a scene file; parameters that
- * differ from their defaults. */
+/* Name of the deck's scene, as an import has it: case or whole path of a scene file; parameters
+ * that differ from their defaults. */
 static void name_of(const export_request *r, const case_type *type, char *text, size_t size)
 {
     char parameters[PARAMETERS_TEXT], path[PATH_MAX];
@@ -36,7 +36,7 @@ static status write_deck(const export_request *r, const deck_request *deck, faul
     return output_finish(&file, deck_write(deck, file.stream, f), f);
 }
 
-/* With a scene that answer frees. */
+/* The caller, answer, frees the scene, also after a failure. */
 static status export(const export_request *r, const case_type *type, scene *s, fault *f)
 {
     char of[PARAMETERS_TEXT + PATH_MAX];

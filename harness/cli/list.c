@@ -1,5 +1,5 @@
-/* What there is: cases, formulations; what one of them is, offers and lacks, and where it is known
- * to fail. */
+/* Verb list: cases and formulations; for one of them what it supports, its limitations and known
+ * deviations. */
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
@@ -24,7 +24,8 @@ static void hang(int indent, const char *text)
     paragraph_write(stdout, printf("%*s%.*s ", indent, "", word, text), indent + 2, text + word);
 }
 
-/* What it declares, as result files have it; returns the text of a field, or its number. */
+/* Reads a declared field of a formulation, as result files have it; returns its number, *out its
+ * text. */
 static long declared(const formulation *chosen, const char *name, field_value *out)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -125,7 +126,7 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
         printf("known findings: none\n");
 }
 
-/* Those of one kind whose words are the same, behind the first of them. */
+/* Prints the entries of one kind with the same words as the first, in one group. */
 static void show_alike(const runs_on all[], int count, int first, const char *head)
 {
     char line[LINE];
@@ -252,7 +253,8 @@ static void list_parameters(const case_type *type)
         list_parameter(p);
 }
 
-/* What a case asks for at its default parameters, and who answers. */
+/* Prints the quantities of a case at its default parameters, and the formulations that can run it.
+ */
 static void list_scene(const scene *s)
 {
     printf("quantities (along a path: a curve)\n");

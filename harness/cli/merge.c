@@ -74,9 +74,9 @@ static status add_all(const batch_label *label, const command_line *l, again *ou
     return add_outputs(l, out, f);
 }
 
-/* What the first batch of the first folder was asked, with --from for all folders and the outputs
- * of the request. REFUSED: no batches there; FAULT: memory, or a file that cannot be read.
- * again_free frees it, also after a failure. */
+/* Reads the request of the first batch of the first folder, with --from for all folders and the
+ * outputs of this request. REFUSED: there are no batches; FAULT: no memory, or a file that cannot
+ * be read. again_free frees it, also after a failure. */
 static status again_make(const command_line *l, again *out, fault *f)
 {
     batch_label label;

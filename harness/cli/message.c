@@ -130,7 +130,7 @@ void ending_begin(void)
     on_exit(ended, NULL);
 }
 
-/* What can happen, and the line for each, written before it does. */
+/* Signals and the line for each, which is prepared in advance. */
 static struct {
     int signal;
     const char *what;
@@ -285,8 +285,8 @@ static status check_word(const verb *v, const verb *const *verbs, const char *wo
                : STATUS_OK;
 }
 
-/* What is none, or lacks its value, is refused in one line with the nearest one, before any is
- * taken. */
+/* Refuses unknown options and missing values in one line, with the nearest name, before any option
+ * is taken. */
 static status check_options(const verb *v, const verb *const *verbs, int count,
                             char *const argument[], fault *f)
 {

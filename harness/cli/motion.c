@@ -15,7 +15,7 @@ typedef struct motion_options {
     const char *expected; /* table of verdicts, in the place of a case */
 } motion_options;
 
-/* What describes motions. REFUSED: also where there is no such case, without a word. */
+/* Fills the request. REFUSED: also where there is no such case, without a message. */
 static status ask(motion_options *r, motion_request *out, fault *f)
 {
     out->type = case_input_find(&r->of);

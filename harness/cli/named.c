@@ -90,7 +90,7 @@ static void add_note(char note[DEFAULTS_NOTE], const char *choice, const char *w
     snprintf(note + used, DEFAULTS_NOTE - used, "%s: %s; %s gives another\n", choice, why, option);
 }
 
-/* What was chosen becomes what was given. */
+/* Copies the choice of formulation and mesh into the request. */
 static void take(const defaults *d, const solution_request *chosen, const solution_choice *why,
                  char note[DEFAULTS_NOTE])
 {

@@ -22,7 +22,7 @@ static status describe(FILE *to, const scene_request *r, fault *f)
     return STATUS_OK;
 }
 
-/* With a scene that write_out frees. type NULL: a description of the keys. */
+/* The caller, write_out, frees the scene. type NULL: writes a description of the keys. */
 static status write_to(FILE *to, const scene_request *r, const case_type *type, scene *s, fault *f)
 {
     if (type == NULL)

@@ -1,4 +1,4 @@
-/* What the result file consists of, from the tables it is written by. */
+/* Verb schema: content of result files, from the tables that write them. */
 #include <stdio.h>
 #include <string.h>
 
@@ -41,7 +41,7 @@ static const record_type *take(const record_type *const *list, int *i)
     return NULL;
 }
 
-/* Of the experiments, one after the other. */
+/* Returns the records of the next experiment. */
 static results_record of_experiment(const verb *const *verbs, int *i)
 {
     results_record r = {"", NULL};

@@ -208,7 +208,7 @@ static status check_matrices(const solve_request *r, const scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* What is needed before the solution; answer frees it. */
+/* Prepares the solution; the caller, answer, frees *w, also after a failure. */
 static status prepare(solve_request *r, const case_type *type, solve_work *w, fault *f)
 {
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
@@ -230,7 +230,7 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
     return prepare_ends(r, &w->from, &w->what, &w->s.point[0].scene, f);
 }
 
-/* Of motions that came to their ends. */
+/* Stores the ends of motions that reached them. */
 static status write_ends(const solve_request *r, const solution_request *what, const sweep *s,
                          fault *f)
 {

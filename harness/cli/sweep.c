@@ -11,7 +11,7 @@
 
 #include "elements/shared/choice.h"
 
-/* What the command line asks for. */
+/* Options of the command line. */
 typedef struct sweep_options {
     case_options of;
     chosen_formulations chosen;
@@ -236,7 +236,7 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
                                     : spread_work(&r->shards, &s->all, &s->end, f);
 }
 
-/* What is not there is computed when the same command is given again. */
+/* Reports missing points, which the same command computes when it is run again. */
 static int tell(const sweep_options *r, const sweeping *s)
 {
     if (s->asked)
@@ -358,7 +358,7 @@ status spread_asked(const shard_options *r, int *asked, fault *f)
                      folder);
 }
 
-/* What became of the shard, in one line. */
+/* Reports the outcome of the shard, in one line. */
 static int tell_shard(const shard_options *r, const shard_request *q, const shard_outcome *o)
 {
     const int left = o->mine - o->before - o->done;

@@ -105,7 +105,7 @@ static void print_line(const derived_value *v, const case_type *type, const doub
     printf("}\n");
 }
 
-/* With a file that print_scene closes. */
+/* The caller, print_scene, closes the file, also after a failure. */
 static status print_scene_of(const case_type *type, const double parameter[], FILE *text, fault *f)
 {
     char script[PATH_MAX];
@@ -127,7 +127,7 @@ static status print_scene_of(const case_type *type, const double parameter[], FI
     return STATUS_OK;
 }
 
-/* Of a scene file: solved as a network of members and bodies. */
+/* Prints the reference values of a scene file, solved as a network of members and bodies. */
 static status print_scene(const case_type *type, const double parameter[], fault *f)
 {
     FILE *text = tmpfile();

@@ -153,7 +153,7 @@ static void complete_verb(const char *begun, int others)
     }
 }
 
-/* What may stand in the place of the last word; shells ask (harness/cli). */
+/* Prints completions of the last word, for shells (harness/cli). */
 static int complete(int count, char **words)
 {
     const verb *v = verb_find(verbs, words[0]);

@@ -56,7 +56,7 @@ static void show(const verify_request *r, const sweep *s, const judgement *j, co
     table_run_end(stdout, look, sentence);
 }
 
-/* What the exit code does not say by itself. */
+/* Prints what the exit status alone does not show, and returns that status. */
 static int tell(const verify_request *r, const sweep *s, const judgement *j, const spread_end *e)
 {
     int first = 0;
@@ -117,7 +117,7 @@ static status add_all_imported(const verify_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Of each scene file, by the first formulation that is run on it. */
+/* Prints the supports of each scene file, as the first formulation that runs on it has them. */
 static void tell_supports(const scenes *own, const sweep *s)
 {
     for (int k = 0; k < own->count; k++)

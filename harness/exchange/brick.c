@@ -110,7 +110,7 @@ static void write_node(const brick *b, const int at[3], FILE *to)
     fprintf(to, "%d,%.12e,%.12e,%.12e\n", number_of(b, at), p[0], p[1], p[2]);
 }
 
-/* What is done with every node of the lattice from `first` to `last` along the member. */
+/* Function that is called for every node of the lattice from `first` to `last` along the member. */
 typedef void visit(const brick *, const int at[3], FILE *to);
 static void each_node(const brick *b, int first, int last, visit *what, FILE *to)
 {

@@ -76,7 +76,7 @@ static void multiply(unit_measure *a, const unit_measure *b, int power)
         a->power[i] += power * b->power[i];
 }
 
-/* What one sign at the place of a unit says; 0: it is a symbol. */
+/* Interprets one character of a unit; returns 0 for a character of a symbol. */
 static int read_sign(char c, int *side, int *depth)
 {
     if (c == ' ' || c == '*')
@@ -186,8 +186,8 @@ static int *word_in(const entry_field *k, scene_quantity *q)
     return (int *)((char *)q + k->at);
 }
 
-/* What their quantity extracts, in our axes; what is in those of the section or has none stays. 1:
- * it has axes. */
+/* Rotates the extracted component into beamwork's axes; components in axes of the section, or
+ * without axes, stay. Returns 1 where it has axes. */
 static int turn_extract(const axes *a, scene_quantity *q, int *sign)
 {
     int turns = 0;

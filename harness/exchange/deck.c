@@ -40,8 +40,8 @@ static void write_deck_head(const deck_request *r, int elements, FILE *to)
             r->scene->name, r->of, elements);
 }
 
-/* What a moment does while its node turns: about the undeformed structure, which is all that decks
- * ask with moments, all conventions are the same. */
+/* Writes the convention of moments. About the undeformed structure, the only state in which decks
+ * have moments, all conventions agree. */
 static void write_convention(const scene *s, FILE *to)
 {
     for (int i = 0; i < s->analyses; i++)

@@ -16,7 +16,7 @@ static const char *const map_keys[] = {"beamwork_map", "program",  "case",     "
 static const char *const value_keys[] = {"file",  "under", "where", "column",   "minus",
                                          "times", "unit",  "rows",  "abscissa", NULL};
 
-/* What is being read. */
+/* State of reading a map. */
 typedef struct map_reader {
     const document_node *root;
     mistakes *m;

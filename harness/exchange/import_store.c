@@ -36,7 +36,7 @@ typedef struct tables {
     value_row *value;
 } tables;
 
-/* What is being read. */
+/* State of reading a store. */
 typedef struct store_reader {
     const char *path;
     int gates;

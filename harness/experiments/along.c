@@ -28,12 +28,12 @@ static const struct {
     int shift, turn, sign;
 } planes[2] = {{1, 5, 1}, {2, 4, -1}};
 
-/* What forces and moments at its end find: 1/EA, 1/GIt, and of each plane 1/EI and what shears. */
+/* Flexibility at the end: 1/EA, 1/GIt, and in each plane 1/EI and that in shear. */
 typedef struct softness {
     double axial, twist, bend[2], shear[2];
 } softness;
 
-/* Of both nodes: displacements, or reactions where they are held. */
+/* Displacements of both nodes, or reactions where they are fixed. */
 typedef struct ends {
     double of[2][SIX];
 } ends;
@@ -188,7 +188,7 @@ static status found_ends(const formulation *chosen, support of, const double q[S
     return outcome;
 }
 
-/* What it would be of a cantilever. */
+/* Returns the value of a cantilever, to scale with. */
 static double size_of(const softness *soft, int component, int reaction)
 {
     const ends of =

@@ -157,7 +157,7 @@ void batch_clean(const char *folder, const char *name, int gone)
         closedir(d);
 }
 
-/* What a file of a batch says of itself. */
+/* Header of a batch file. */
 
 static status no_batch(const char *path, fault *f)
 {
@@ -296,7 +296,7 @@ status batch_belongs(const batch_label *b, const shard_work *w, const char *path
     return STATUS_OK;
 }
 
-/* Of this process and those that it has waited for. */
+/* Returns the processor time of this process and of the children that it has waited for. */
 static double processor_seconds(void)
 {
     static const int whose[] = {RUSAGE_SELF, RUSAGE_CHILDREN};

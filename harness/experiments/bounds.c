@@ -286,8 +286,8 @@ static void same(const call_account *a, const call_account *b, const char *after
                 other, after, s->words);
 }
 
-/* Of another length, in memory of its own or in the place of the first, which is made again. Both
- * say what they say where nothing went before. */
+/* Makes an element of another length, in its own memory or in place of the first, which is made
+ * again. Both must return what they return without previous calls. */
 static void other_element(const specimen *s, const call_account *before, const node_state x[],
                           const call_account *first, claim *one)
 {
@@ -387,8 +387,8 @@ static void make_longer(const specimen *s, const node_state x[], call_account *o
     specimen_free(&other);
 }
 
-/* What the first call of all says of the longer element: in a process of its own, where it is made
- * and nothing went before. */
+/* Results of the longer element on the first call of all: in a new process, without previous calls.
+ */
 static void tell_first(const specimen *s, const node_state x[], call_account *out)
 {
     const pid_t parent = getpid();

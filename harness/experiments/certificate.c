@@ -318,7 +318,7 @@ static void write_measure(FILE *to, const element_measure *one, int verbose)
         paragraph_write(to, fprintf(to, "      "), 6, one->words);
 }
 
-/* What is measured, below a line that says what the columns are. */
+/* Prints the measured values, below a line that names the columns. */
 static void write_measures(FILE *to, screen look, const certificate *c, int part, int verbose)
 {
     const certificate_part *own = &c->part[part];

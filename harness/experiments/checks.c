@@ -24,7 +24,7 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"in_time", "forces of inertia in time derive from the kinetic energy", checks_in_time},
 };
 
-/* What changes nothing: rigid motion, the order of the nodes, the unit of length. */
+/* Invariances: rigid motion, the order of the nodes, the unit of length. */
 
 enum { M = SPECIMEN_STRAINS };
 

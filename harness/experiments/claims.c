@@ -82,7 +82,7 @@ int claims_compared(const claims *c)
     return count;
 }
 
-/* What a type says of itself. */
+/* Checks of the declarations of a type. */
 
 static void theories(const element_type *t, claim *one)
 {

@@ -160,7 +160,7 @@ enum { MANY_M = SPECIMEN_STRAINS, MANY_N = SPECIMEN_COORDINATES, MANY = 5 };
 static const double longer = 1.7 * 0.2385; /* [m] */
 static const char *const claim_name = "many at once give what each gives alone";
 
-/* What one element says; what differences of it would give is not asked for. */
+/* Answers of one element; values that would be differences are not requested. */
 typedef struct many_answers {
     status outcome;
     double e[MANY_M], J[MANY_M * MANY_N], H[MANY_N * MANY_N], energy, sigma[MANY_M],

@@ -289,7 +289,7 @@ static const record_type record_measure = {
     "errors over meshes or thicknesses",
     {key_of_formulation, key_of_family, key_of_measure, fields_of_measure}};
 
-/* Of a measure: the group counts its points. */
+/* Value of a point of a measure, whose group counts its points. */
 static void get_at(const subject *s, field_value *out)
 {
     out->numbers = &((const element_measure *)s->record)->at[s->group];

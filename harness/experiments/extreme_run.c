@@ -82,7 +82,7 @@ static status run(const void *asked, void *found, fault *f)
     return s->outcomes > 0 ? run_cells(asked, &s->first, f) : STATUS_OK;
 }
 
-/* What may be coarse is run on other meshes, too. */
+/* Evaluates an outcome; one that may be under-resolved is also run on other meshes. */
 static status judge(const void *asked, void *found, fault *f)
 {
     const extreme_request *request = asked;

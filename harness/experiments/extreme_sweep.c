@@ -100,7 +100,7 @@ static int has_other_theory(const extreme_sweep *s, const truths *t, const extre
     return exact_value(s, t, o) == NULL && truth_of(t, p->type, p->parameter, name, "same") != NULL;
 }
 
-/* What the value should be, and how well that is known (relative). */
+/* Returns the reference value and its relative uncertainty. */
 static double extreme_reference_of(const extreme_sweep *s, const truths *t,
                                    const extreme_outcome *o, int refinement, double *uncertainty)
 {

@@ -1,4 +1,5 @@
-/* What a type offers it can do: alone, in subsets, and as the cases ask for it. */
+/* Checks that a type can do what it declares to support: each feature alone, in subsets, and as the
+ * cases need them. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -26,7 +27,7 @@ static int finite_stiffness(const specimen *s, unsigned seed)
     return 1;
 }
 
-/* What becomes of an element that is asked for exactly these, and why it is refused. */
+/* Evaluates an element with exactly these features, and the reason where it refuses them. */
 static feature_outcome evaluated(const formulation *chosen, unsigned features, fault *why)
 {
     const specimen_request what = {
@@ -136,7 +137,7 @@ void checks_features(const formulation *chosen, claims *out)
 
 enum { EFFECTS_M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 
-/* What an element says of a state. */
+/* Answers of an element in a state. */
 typedef struct effects_answers {
     double e[EFFECTS_M], J[EFFECTS_M * N], energy, sigma[EFFECTS_M], C[EFFECTS_M * EFFECTS_M],
         G[EFFECTS_M * EFFECTS_M];
@@ -228,7 +229,8 @@ static int warps(const formulation *chosen, unsigned features, profiles_form for
     return found;
 }
 
-/* Of a rectangle and, where it takes one, of an unsymmetric section: 1 once something changes. */
+/* Returns 1 where the feature changes a result, for a rectangle or, where the type supports it, for
+ * an unsymmetric section. */
 static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 {
     const element_type *t = chosen->type;
@@ -387,8 +389,9 @@ static void carried(const specimen *s, const node_state x[], const double M[], c
                            specimen_coordinate(j, second), back[i * n + j], M[i * n + j], s->words);
 }
 
-/* Of a straight element that turns about its first node: rho l (Ip, Iy, Iz) beside what masses on
- * the line have: the difference that FEATURE_ROTARY_INERTIA makes, and all of it about the axis. */
+/* Inertia of a straight element that rotates about its first node: rho l (Ip, Iy, Iz) compared with
+ * that of masses on the line: the difference that FEATURE_ROTARY_INERTIA makes, and about the axis
+ * all of it. */
 static void moments(const specimen *s, claim *one)
 {
     static const double none[3] = {0, 0, 0};

@@ -35,7 +35,7 @@ static json_t *bound_of(const parameter_type *p, double value)
     return none ? json_null() : json_real(value);
 }
 
-/* Of a table; value NULL: the defaults. */
+/* JSON of a table of parameters; value NULL: the defaults. */
 static json_t *parameters_of(const assignment_list *all, const double value[])
 {
     json_t *list = json_array();
@@ -69,7 +69,7 @@ static json_t *runs_of(const char *what, const runs_on *r)
                      "other_model", r->other);
 }
 
-/* What a type declares at its options. */
+/* JSON of the declarations of a type at its options. */
 static json_t *declaration_of(const formulation *chosen)
 {
     const series one = {.formulation = *chosen};

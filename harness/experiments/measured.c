@@ -17,7 +17,8 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
 
 enum { THICKNESSES = 7, ELEMENTS = 8 };
 
-/* Of a straight cantilever under a force, and of a quarter ring under one towards its centre. */
+/* Exact displacement of a straight cantilever under a force, or of a quarter ring under one towards
+ * its centre. */
 static double exact_of(const beam_request *r, const section *c)
 {
     const double EI = c->young * c->Iz, EA = c->young * c->A,
@@ -58,7 +59,7 @@ static void over_thickness(beam_request *r, const char *name, measures *out)
     conclude(one);
 }
 
-/* With shear where it is offered in that direction. */
+/* Returns FEATURE_SHEAR where the type supports shear along y, else 0. */
 static unsigned shear_of(const element_type *t)
 {
     return t->lacks & LACKS_SHEAR_Y ? 0 : t->offers & FEATURE_SHEAR;
@@ -120,7 +121,7 @@ static const state states[] = {
     {"torsion, warping held", 0, 0, 1, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It, E Iw?"},
 };
 
-/* Of the load's component, and the exact value that it gives. */
+/* Exact value that the load gives in its component. */
 static double states_exact_of(const state *s, const section *c, double load)
 {
     const double EIz = c->young * c->Iz, EIy = c->young * c->Iy, GI = c->shear_modulus * c->It;
@@ -261,7 +262,8 @@ static double orders_exact_of(const orders_question *q, const section *c, beam_r
     }
 }
 
-/* Of the finest two meshes whose errors say something: the second of them; 0: there are none. */
+/* Returns the second of the finest two meshes whose errors are above rounding; 0: there are none.
+ */
 static int telling(const element_measure *one)
 {
     int last = 0;

@@ -77,7 +77,7 @@ static void take_energy(const track *t, int first, pace_run *r)
     }
 }
 
-/* Of a momentum: its size, or that of its change since `first`. */
+/* Returns the size of a momentum, or that of its change since `first`. */
 static double vector_at(const track *t, scene_balance x, int i, int first)
 {
     double square = 0;
@@ -89,7 +89,8 @@ static double vector_at(const track *t, scene_balance x, int i, int first)
     return sqrt(square);
 }
 
-/* Of both momenta, against their size; what is at rest has none. */
+/* Returns the largest change of both momenta relative to their initial size; 0 for a structure at
+ * rest. */
 static double momentum_drift(const track *t, int first)
 {
     static const scene_balance both[] = {SCENE_PX, SCENE_LX};
@@ -143,7 +144,7 @@ void pace_drift(const pace *p, pace_run *r)
 
 const double pace_order_slack = 0.3;
 
-/* Of what the reference may be off, and of rounding. */
+/* Multiples of the reference's uncertainty and of rounding below which errors are not known. */
 static const double floor_of_reference = 10, floor_of_rounding = 1e-11;
 
 const char *pace_order_name(pace_order_kind kind)
@@ -276,7 +277,7 @@ int pace_reach_methods(const pace *p, const char *name[PACE_METHODS_MOST])
 
 enum { NAME = 16, NUMBER = 9 };
 
-/* What the reference is, and how far it can be trusted. */
+/* Prints the reference solution and its uncertainty. */
 static void print_reference(FILE *to, const pace *p, const pace_group *g)
 {
     char stopped[160] = "";

@@ -138,7 +138,7 @@ static void read_exactly(scene *s, int analysis)
                     "time", "s", 1, 0);
 }
 
-/* With its checks behind it. */
+/* Adds the reference run and its checks. */
 static status add_reference(pace *p, pace_group *g, const pace_plan_request *q, fault *f)
 {
     pace_run r = {.step = g->step};

@@ -65,7 +65,7 @@ static const schema_field fields_of_run[] = {
 const record_type record_pace_run = {
     "run", "runs", "a motion by one integrator with one step or tolerance", {KEYS, fields_of_run}};
 
-/* Of a quantity of a run: the index counts it. */
+/* Error of a quantity of a run, by its index. */
 static void get_quantity_error(const subject *s, field_value *out)
 {
     out->numbers = &((const pace_run *)s->record)->values[s->index];
@@ -287,7 +287,7 @@ static void gather_ladders(const pace *p, const pace_group *g, subjects *out)
     }
 }
 
-/* Who reaches which error at what cost, by level and integrator. */
+/* Collects the lowest cost for each error level, by integrator. */
 static void gather_reached(const pace *p, const pace_group *g, subjects *out)
 {
     const char *name[PACE_METHODS_MOST];

@@ -6,7 +6,7 @@
 
 #include "elements/shared/choice.h"
 
-/* Of a decimal logarithm: the same, but for a factor of two. */
+/* Tolerance of a decimal logarithm: within a factor of two. */
 static const double same_decade = 0.3;
 
 static void say(pace_verdict *v, const char *word)
@@ -20,7 +20,7 @@ static double drift_of(const pace_verdict *v, const pace_run *r)
     return v->kind == PACE_ENERGY_KEPT ? r->energy : r->momentum;
 }
 
-/* Of a drift at halved steps, from the last two pairs; 0: they do not agree on any. */
+/* Returns the order of a drift at halved steps, from the last two pairs; 0: the two differ. */
 static int drift_order(const pace_verdict *v, const pace_run r[])
 {
     double order[2];
@@ -117,7 +117,7 @@ enum { JUDGED, CASE, PARAMETERS, FORMULATION, ELEMENTS, INTEGRATOR, STEPS, EXPEC
 static const char *const judged_names[PACE_JUDGED] = {"order", "energy", "momentum", "tolerance",
                                                       "fate"};
 
-/* Of a row, and what it plans. */
+/* A row, and the runs that it plans. */
 typedef struct planned {
     pace_plan_request request;
     double parameter[CASE_MAX_PARAMETERS];
@@ -221,7 +221,7 @@ static status plan_block(pace *p, pace_verdicts *all, planned row[], int first, 
     return STATUS_OK;
 }
 
-/* Of a row that is wrong. */
+/* Refuses a row that is wrong, with its position. */
 static status refuse(const char *path, const own_table_row *row, status outcome, const fault *why,
                      fault *f)
 {

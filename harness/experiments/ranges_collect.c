@@ -19,7 +19,7 @@ status ranges_collect_beside(const char *path, const char *ending, char out[PATH
                : fault_set(f, STATUS_REFUSED, "%.200s: the name is too long", path);
 }
 
-/* What worst_write writes. */
+/* Returns 1 for names of files that worst_write writes. */
 static int is_ours(const char *name)
 {
     int end = 0;

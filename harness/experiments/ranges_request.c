@@ -176,7 +176,7 @@ static void say_unmeasured(const tally *t, int q, char *text, size_t size)
         snprintf(text + used, size - used, " and %d more", count - NAMED);
 }
 
-/* What a quantity is measured by, in words. */
+/* Describes the reference values of a quantity. */
 static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
 {
     const long *kind = t->kind[q];

@@ -177,7 +177,7 @@ static void write_all_shares(FILE *to, const tally *t, int every)
     }
 }
 
-/* What formulations leave out, where that makes another model. */
+/* Prints the physics that formulations omit, where that makes another model. */
 static void write_others(FILE *to, const tally *t)
 {
     for (int i = 0; i < t->of->formulations; i++) {

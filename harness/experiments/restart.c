@@ -180,7 +180,7 @@ status restart_write(const char *path, const solution_request *of, const sweep *
     return outcome;
 }
 
-/* Of a file that is read. */
+/* State of reading a file. */
 typedef struct source {
     hid_t file;
     const char *path;

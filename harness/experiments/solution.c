@@ -36,7 +36,7 @@ static void take(solution_request *r, preference *p, solution_choice *why)
     p->change = NULL;
 }
 
-/* With a scene that solution_choose frees. */
+/* The caller, solution_choose, frees the scene, also after a failure. */
 static status choose(solution_request *r, const rule *rules, int count, int elements, scene *s,
                      solution_choice *why, fault *f)
 {
@@ -81,7 +81,7 @@ status solution_plan(const solution_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* What the choice of the mesh knows of the values. */
+/* Enters the changes of values that the choice of the mesh has found. */
 static status tell_change(const solution_request *r, const solution_choice *why, solve_result *out,
                           fault *f)
 {
@@ -226,7 +226,7 @@ static status find_stored(const parameter_ranges *r, const sweep_point *p, known
     return STATUS_OK;
 }
 
-/* Of loads at which it buckles, the theory of shear that the scene follows. */
+/* Returns the theory of shear that the scene follows for critical loads. */
 static const char *theory_of(const scene *s, const char *quantity)
 {
     const unsigned both = FEATURE_ENGESSER | FEATURE_HARINGX, needs = features_needed(s) & both;
@@ -369,7 +369,7 @@ static int running(const sweep *s)
     return count;
 }
 
-/* What it comes to, in lines of words. */
+/* Prints the conclusion. */
 static void write_answer(FILE *to, double level, const sweep *s, const truths *t)
 {
     paragraph words;

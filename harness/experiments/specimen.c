@@ -225,7 +225,7 @@ static void one_way(const way *w, claims *c, specimens_check *check)
     specimen_free(&s);
 }
 
-/* Of every section that it takes, straight and curved. */
+/* Checks test elements with every section that the type supports, straight and curved. */
 static void all_forms(const formulation *chosen, claims *c, specimens_check *check)
 {
     const element_type *t = chosen->type;
@@ -283,7 +283,7 @@ void specimens_each(const formulation *chosen, claims *c, specimens_check *check
         other_choices(chosen, i, c, check);
 }
 
-/* Of types that are known by a force or an energy of their nodes. */
+/* Test elements of types that are defined by forces or an energy of their nodes. */
 
 enum { N = SPECIMEN_COORDINATES };
 

@@ -284,7 +284,7 @@ void deal_order(int batches, const double cost[], int order[])
     qsort_r(order, (size_t)batches, sizeof *order, dearest, (void *)cost);
 }
 
-/* What a shard has so far; a heap of them has the one with the least on top, of two the first. */
+/* Work of a shard so far; a heap of these has the least one on top, the first of equal ones. */
 typedef struct hand {
     double sum;
     int shard;

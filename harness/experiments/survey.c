@@ -9,7 +9,7 @@
 
 enum { LOOKED_AT = 9 };
 
-/* What the selection lets through. */
+/* Series and quantities that are selected. */
 typedef struct survey_wanted {
     const char *select;
     select_words words;
@@ -42,7 +42,7 @@ static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *
     return STATUS_OK;
 }
 
-/* Of one series: which quantities are asked for, and does it run? */
+/* Enters for one series the selected quantities, and whether it runs. */
 static status look_at(parameter_ranges *r, const sweep *s, int index, survey_wanted *w, fault *f)
 {
     const series *one = &s->series[index];

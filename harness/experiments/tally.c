@@ -170,7 +170,7 @@ static void join(const tally *t, seen *all, const seen *one)
         all->least = one->least;
 }
 
-/* What is open may be within or not: only that another is not is known. */
+/* Closes the counts: points that are open may be within the tolerance or not. */
 static void close_counts(seen *all)
 {
     if (!all->open)
@@ -202,7 +202,8 @@ static void keep_worst(tally *t, int which, const tally_worst *one)
     list[at] = *one;
 }
 
-/* With the finest mesh: no solution, or the largest error of all quantities. */
+/* Finds the worst point with the finest mesh: no solution, or the largest error of all quantities.
+ */
 static void look_for_worst(tally *t, const rows *w, int here, long index, int which)
 {
     const int finest = t->of->meshes - 1;

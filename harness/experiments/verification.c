@@ -52,7 +52,8 @@ static status judge_to(verification *v, const sweep *s, int end, fault *f)
     return STATUS_OK;
 }
 
-/* Those of a point are judged together: where formulations agree depends on all of them. */
+/* Evaluates the series of a point together, since the agreement of formulations depends on all of
+ * them. */
 static status whole(void *context, const sweep *s, int series_index, fault *f)
 {
     verification *v = context;
@@ -123,7 +124,7 @@ static status begin(verification *v, const sweep *s, int jobs, int time_limit, f
     return hold_contracts(s, jobs, time_limit, v->judgement, f);
 }
 
-/* With the series that are not judged yet: of a point that an interrupted run did not end. */
+/* Evaluates the remaining series: those of a point that an interrupted run did not finish. */
 static status end(verification *v, const sweep *s, int everything, fault *f)
 {
     TRY(judge_to(v, s, s->seriess, f));

@@ -322,7 +322,7 @@ static int leaves_h(const element_data *d)
     return (d->given->leaves & (LEAVES_J | LEAVES_H)) != 0;
 }
 
-/* What of it the type gives itself. */
+/* Returns the derivatives that the type itself gives. */
 static strain_output given_part(const element_data *d, const strain_output *out)
 {
     strain_output asked = *out;
@@ -348,7 +348,7 @@ static void made_part(const element_data *d, const node_state x[], gather *toget
         curvature(&at, out->H);
 }
 
-/* Of many elements. */
+/* Data of many elements. */
 typedef struct many {
     const element_data *const *data;
     const node_state *x;

@@ -160,7 +160,8 @@ static status gives_of(const handshake_reading *r, handshake *out)
     return refuse(r, "gives", "give one of e; e,J; e,J,H; energy; force; tangent");
 }
 
-/* Of its own: in vibration and in frames that turn, or in motions in time too. */
+/* Reads the inertia that the process gives itself: for vibration and rotating frames, or for
+ * motions in time too. */
 static status inertia_of(const handshake_reading *r, handshake *out)
 {
     const json_t *given = json_object_get(r->said, "inertia");

@@ -31,7 +31,7 @@ static status check(const char *path, const element_type *t, fault *f)
     return why != NULL ? refuse(path, why, f) : STATUS_OK;
 }
 
-/* What was appended to the interface after it was compiled is zero. */
+/* Copies the type; members that were appended to the interface after it was compiled are zero. */
 static status copy(const char *path, const element_type *loaded, const element_type **out, fault *f)
 {
     if (loaded->abi != ELEMENT_ABI)

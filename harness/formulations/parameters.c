@@ -220,7 +220,7 @@ void assignment_text(const assignment_list *l, const double value[], char *text,
     }
 }
 
-/* Of the program, not of the source of a case. */
+/* Returns 1 for parameters of the program, which do not come from the source of a case. */
 static int is_shared(const parameter_type *p)
 {
     return case_is_omit(p) || case_is_mass(p);

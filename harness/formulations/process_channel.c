@@ -276,7 +276,7 @@ status channel_break(channel *c, const char *why, fault *f)
     return fault_set(f, STATUS_FAULT, "%s", c->trouble);
 }
 
-/* What the process has done instead of answering. */
+/* Reports an event of the process other than an answer. */
 static status breach(channel *c, child_event what, const char *when, fault *f)
 {
     char why[200], how[100];

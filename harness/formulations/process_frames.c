@@ -204,7 +204,7 @@ static void stress_frames(int count, const element_data *const data[], const dou
     pthread_mutex_unlock(&data[0]->of->to.lock);
 }
 
-/* Those whose stiffness is constant are not asked. */
+/* Stresses of many elements; elements of constant stiffness are not sent to the process. */
 static void stress_many(int count, const element_data *const data[], const double *const e[],
                         const double *const inner[], stress_output out[], status outcome[])
 {

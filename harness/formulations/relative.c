@@ -160,7 +160,7 @@ static status stress_at(const relative_place *at, stress_output *out)
     return out->C != NULL ? tangent_of(at, out->C) : STATUS_OK;
 }
 
-/* Of many elements. */
+/* Data of many elements. */
 typedef struct relative_many {
     const element_data *const *data;
     const double *const *e;

@@ -64,7 +64,7 @@ static int index_of(const bw_result *r, const char *name)
     return -1;
 }
 
-/* What was found of it; NULL: nothing. */
+/* Returns the result of a quantity, or NULL where there is none. */
 static const quantity_result *found_of(const bw_result *r, const char *name)
 {
     const int i = index_of(r, name);
@@ -141,7 +141,8 @@ static double *read_column(const bw_result *r, const record_type *type, const sc
     return out;
 }
 
-/* Of `rows` records of a type; kept[RESULT_COLUMNS]: those that were asked for before. */
+/* Column of `rows` records of a type; kept[RESULT_COLUMNS]: the columns that were requested before.
+ */
 static size_t column_of(const bw_result *r, const record_type *type, double *kept[], int rows,
                         const char *name, const double **values)
 {

@@ -419,7 +419,7 @@ status source_known(source *s, const truths **out, fault *f)
     return outcome;
 }
 
-/* What belongs to no scene. */
+/* Functions without a scene. */
 
 const char *bw_version(void)
 {

@@ -245,10 +245,10 @@ double *candidates_products(const candidates *p)
     return products;
 }
 
-/* With x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y) of mu. What y
- * has of a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a part c_k/(mu_k - mu) of
- * that mode in x, which moves the quotient mu by c_k^2/(mu_k - mu) or, where they are too close to
- * be distinguished, by their distance. The rest counts in full. */
+/* Error bound: with x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y)
+ * of mu. The component of y along a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a
+ * part c_k/(mu_k - mu) of that mode in x, which moves the quotient mu by c_k^2/(mu_k - mu) or,
+ * where they are too close to be distinguished, by their distance. The rest counts in full. */
 void candidates_judge(candidates *p, int i, double *residual, double *error)
 {
     const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
@@ -347,7 +347,7 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
     return STATUS_OK;
 }
 
-/* With Y = K^-1 s A X the projections need no product with K: Y^T K Y = Y^T s A X. */
+/* Projections from Y = K^-1 s A X need no product with K: Y^T K Y = Y^T s A X. */
 
 /* Ax = s A x. */
 static void signed_product(const candidates *p, const double x[], double Ax[])

@@ -103,7 +103,7 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
     return STATUS_OK;
 }
 
-/* Of candidates that are not all, those that are the first ones stay. */
+/* Keeps the first candidates where not all were found. */
 static status keep_first(candidates *p, eigen_result *r, fault *f)
 {
     int missing = 1;
@@ -185,7 +185,7 @@ static status improve(candidates *p, int count, eigen_side *out, eigen_result *r
     return STATUS_OK;
 }
 
-/* What has no digits has no value. */
+/* Replaces values without digits by NaN. */
 static void drop_lost(candidates *p, int count, eigen_side *out)
 {
     const double noticeable = 1e-9; /* part of K that assembling it has changed */
@@ -240,7 +240,7 @@ static status find(const eigen_problem *e, candidates *up, candidates *down, eig
     return one_sparse(down, 1, e->smallest, &r->negative, r, f);
 }
 
-/* With what eigen_solve frees. */
+/* The caller, eigen_solve, frees the candidates, also after a failure. */
 static status solve(const eigen_problem *e, candidates *up, candidates *down, eigen_result *r,
                     fault *f)
 {
@@ -254,8 +254,8 @@ static status solve(const eigen_problem *e, candidates *up, candidates *down, ei
                                       : fault_set(f, worse->status, "%s", worse->reason);
 }
 
-/* Of a matrix that is stored whole, its upper triangle: K - A/mu, of which little may be left, is
- * symmetric whatever rounding has made of K and A. */
+/* Takes the upper triangle of a matrix that is stored whole: K - A/mu, of which few digits may
+ * remain, is then symmetric although rounding makes K and A unsymmetric. */
 static status take_upper(const sparse **a, by_numbers **whole, fault *f)
 {
     if ((*a)->symmetric)

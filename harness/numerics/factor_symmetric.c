@@ -173,7 +173,7 @@ void factor_symmetric_free(factor_symmetric *fs)
     free(fs);
 }
 
-/* Of row and column k of C. */
+/* Returns the largest entry in row and column k of C. */
 static double largest_entry(const factor_symmetric *fs, const double a[], int k)
 {
     double largest = 0;

@@ -226,8 +226,8 @@ static double missed(motion_estimate *e, int i, double complex lambda, double ow
     return 2 * sum;
 }
 
-/* What rounding may change in x^H (K + lambda^2 M + lambda G) x. The entries themselves pass
- * through a few operations. */
+/* Bound of the rounding of x^H (K + lambda^2 M + lambda G) x. The entries themselves result from a
+ * few operations. */
 static double rounding(const motion_estimate *e, double size, const double re[], const double im[])
 {
     const double operations = 4;
@@ -297,7 +297,7 @@ static void fill(const sparse *K, const sparse *M, const sparse *G, double omega
         }
 }
 
-/* With what gyroscopic_count frees. */
+/* The caller, gyroscopic_count, frees *doubled and *factors, also after a failure. */
 static status count(const sparse *K, const sparse *M, const sparse *G, double omega,
                     sparse *doubled, matrix_factor **factors, int *below, fault *f)
 {

@@ -9,7 +9,8 @@
 
 enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 
-/* Of a residual, in parts of x^H K x: a frequency is off by its square. */
+/* residuals relative to x^H K x; the relative error of a frequency is the square of its residual.
+ */
 static const double good_residual = 1e-8, bearable_residual = 1e-5;
 /* Where rounding moves the residual by this much, pairs need not converge: their mass is rounding
  * beside the largest. */
@@ -103,7 +104,8 @@ static double improve(gyroscopic_solver *s, int i, int *grown)
     return size;
 }
 
-/* By what part of lambda^2 of pair i rounding moves it, with its mass beside the largest. */
+/* Returns the relative change of lambda^2 of pair i by rounding, from its mass relative to the
+ * largest one. */
 static double noise(const gyroscopic_solver *s, int i)
 {
     const double size = cabs(s->pairs.lambda[i]);
@@ -374,7 +376,7 @@ static status find(gyroscopic_solver *s, fault *f)
     return hand_over(s, f);
 }
 
-/* With what gyroscopic_solve frees. */
+/* The caller, gyroscopic_solve, frees *s, also after a failure. */
 static status solve(gyroscopic_solver *s, fault *f)
 {
     const gyroscopic_problem *p = s->p;

@@ -143,7 +143,7 @@ static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, d
     return STATUS_OK;
 }
 
-/* With what lanczos_largest frees. */
+/* The caller, lanczos_largest, frees *w, also after a failure. */
 static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, int *found,
                     double mu[], double **x, long *solutions, fault *f)
 {

@@ -181,7 +181,7 @@ void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[]);
 status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, double omega, int *below,
                         fault *f);
 
-/* What the negative eigenvalues of K prove of the modes found about an unstable state.
+/* Proof that no mode about an unstable state is missing, from the negative eigenvalues of K.
  *
  * (lambda^2 M + lambda G + K) x = 0 with M positive.  Each negative eigenvalue of K belongs to a
  * motion:  negative(K) = real + 2 complex + 2 opposed  counts the growing lambda > 0, the

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the largest eigenvalue of a projected mass, times its size. */
+/* relative to the largest eigenvalue of a projected mass, times its size: less is no mass. */
 static const double no_mass = 8 * DBL_EPSILON;
 
 status ritz_alloc(ritz *r, int room, const subspace *b, fault *f)

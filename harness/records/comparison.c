@@ -371,7 +371,7 @@ void comparison_series(const listing *l, const result_series *a, const result_se
 
 enum { TOLD = 1 << 14, NAME = 2048 };
 
-/* What one of them has alone, and what had its line. */
+/* Entries that only one of the runs has, and entries that were printed. */
 typedef struct lone {
     comparison_kind kind;
     const stored_results *other;
@@ -404,7 +404,8 @@ static void tell_point(const listing *l, lone *only, int length)
     tell(l, only->kind, only->where, 0);
 }
 
-/* Of all points: case/formulation, or a mesh of the case. */
+/* Reports an entry that one run has alone at all points: case/formulation, or a mesh of the case.
+ */
 static void tell_column(const listing *l, lone *only, const char *key, int elements)
 {
     const size_t used = strlen(only->told);

@@ -177,7 +177,7 @@ enum { NAME = 96 };
 static const char undeformed[] = "undeformed";
 static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789-+";
 
-/* What the tables are made of. */
+/* Content of a table. */
 typedef struct contents {
     const char *title;
     const scene *scene;
@@ -254,7 +254,8 @@ static void write_rows(FILE *to, const void *what)
     }
 }
 
-/* What of its member a load acts on, and its vector where that ends; nothing of one at a node. */
+/* Writes the part of its member that a load acts on, and its vector at the end of that part;
+ * nothing for a load on a node. */
 static void write_extent(FILE *to, const scene_load *l)
 {
     const double *last = l->varies ? l->last : l->vector;

@@ -271,7 +271,8 @@ static int is_left_out(const char *path)
     return strcmp(leaf, "timings") == 0 || strncmp(leaf, "seconds", 7) == 0;
 }
 
-/* Of links, whose visit every version of HDF5 calls the same; that of objects changed in 1.12. */
+/* Visits links, for which every version of HDF5 has the same function; that for objects changed in
+ * 1.12. */
 static herr_t visit(hid_t file, const char *path, const H5L_info_t *link, void *context)
 {
     walk *w = context;

@@ -55,7 +55,7 @@ static void get_strains(const subject *s, field_value *out)
     out->whole = size->strains + size->inner;
 }
 
-/* What was run elsewhere has no counts. */
+/* Cost of a run; imported runs have no counts. */
 static void get_cost(const subject *s, field_value *out)
 {
     schema_set_number(out, s->series->imported == NULL

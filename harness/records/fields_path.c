@@ -285,7 +285,7 @@ const record_type record_matrix = {"matrix",
                                    "small motions of a node at a station of a path",
                                    {keys_of_point, keys_of_series, key_of_mesh, fields_of_matrix}};
 
-/* What a formulation declares, at the options that it runs with. */
+/* Declarations of a formulation at the options that it runs with. */
 
 static const element_type *type_of(const subject *s)
 {

@@ -168,7 +168,7 @@ void gather_mesh(const gathering *g, const record_type *type, int series_index, 
         add_array(cell, 1, &cell.series->timing[mesh], 0, out);
 }
 
-/* What another program found, each value with its quantity. */
+/* Adds the values of another program, each with its quantity. */
 static void add_imports(subject s, const imported *found, subjects *out)
 {
     for (int i = 0; i < found->rows; i++) {
@@ -215,7 +215,7 @@ static void gather_points(const gathering *g, const case_type *of, subjects *out
     }
 }
 
-/* What can be set of a case. */
+/* Adds the parameters of a case. */
 static void gather_parameters(subject s, subjects *out)
 {
     while (parameter_at(s.point->type->parameters, s.index) != NULL) {
@@ -237,7 +237,7 @@ void gather_assumptions(const sweep_point *p, subjects *out)
         gather_add(out, &s);
 }
 
-/* Of the first point, or of all. */
+/* Adds the records of the first point, or of all. */
 static void gather_of_points(const gathering *g, const record_type *type, const case_type *of,
                              subjects *out)
 {

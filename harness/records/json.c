@@ -137,7 +137,8 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     return json_finish(root, to, f);
 }
 
-/* What stands before and behind the verdicts where they are alone, as they stand among the rest. */
+/* Text before and after the verdicts where they are the only content, in the form of the whole
+ * document. */
 static const char alone_before[] = "{\n \"verdicts\": [", alone_behind[] = "\n ]\n}",
                   none[] = "\n \"verdicts\": []";
 
@@ -180,7 +181,7 @@ void json_part_free(json_part *part)
     *part = (json_part){.verdicts = 0};
 }
 
-/* Of all points. */
+/* Assumptions of all points. */
 static json_t *assumptions_of(const sweep *s)
 {
     json_t *all = json_array();
@@ -246,7 +247,7 @@ static json_t *around_verdicts(const sweep *s, const judgement *j, const environ
     return root;
 }
 
-/* With the verdicts in their place. 0: written. */
+/* Writes the document with the verdicts in their position. 0: written. */
 static int write_around(FILE *to, const char *around, const json_part *part)
 {
     const char *place = strstr(around, none);

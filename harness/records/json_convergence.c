@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of one quantity on every mesh: what was found, and the cell it was found by. */
+/* Values of one quantity on every mesh, with the runs that computed them. */
 static json_t *meshes_of(const gathering *g, int series_index, int quantity)
 {
     json_t *all = json_array();
@@ -156,7 +156,7 @@ static void write_reached(FILE *to, const sweep *s, const reached *r)
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
-/* Those with a defect, the ones of the same words together. */
+/* Writes the formulations with a verdict other than pass; those with the same words together. */
 static void write_defective(FILE *to, const reach_question *q, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -194,7 +194,7 @@ static void write_ranking(FILE *to, const reach_question *q, const reached list[
     write_defective(to, q, list + sound, count - sound);
 }
 
-/* Those whose cost is that of any formulation with as many strains. */
+/* Writes the formulations that use the general cost coefficients for their number of strains. */
 static void write_unpriced(FILE *to, const sweep *s, const reached list[], int count)
 {
     const char *before = "; without cost coefficients of its own: ";
@@ -215,8 +215,8 @@ static int is_reached(const reached list[], int count, int series_index)
     return found;
 }
 
-/* Of those asked that the series has not within the level: the one whose error on the finest mesh
- * is largest, or that has no value there. */
+/* Writes the requested quantity that the series does not reach within the level: the one with the
+ * largest error on the finest mesh, or without a value there. */
 static void write_worst(FILE *to, const reach_question *q, int series_index)
 {
     const series *one = &q->s->series[series_index];
@@ -244,7 +244,7 @@ static void write_worst(FILE *to, const reach_question *q, int series_index)
             isfinite(most) ? " %" : "");
 }
 
-/* Those of one kind (reach_asks) that are not in the list. */
+/* Writes the series of one kind (reach_asks) that are not in the list. */
 static void write_others(FILE *to, const reach_question *q, const reached list[], int count,
                          int kind, const char *words)
 {
@@ -258,7 +258,7 @@ static void write_others(FILE *to, const reach_question *q, const reached list[]
     }
 }
 
-/* Those that another model was solved with, each kind once. */
+/* Writes the other models that were solved, each kind once. */
 static void write_other_models(FILE *to, const reach_question *q)
 {
     const char *before = "; another model, which is not ranked: ";

@@ -119,7 +119,7 @@ typedef struct junit_counts {
     int tests, failures, skipped;
 } junit_counts;
 
-/* Of what will be written, by the same rules. */
+/* Counts the entries that will be written, by the same rules. */
 static junit_counts count_all(const sweep *s, const judgement *j)
 {
     const int nothing = judgement_exit(j) == JUDGED_NOTHING;

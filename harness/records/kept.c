@@ -161,7 +161,7 @@ static void copy_former(record_file *r, const char *name, hid_t former)
         copy_all(r, former, r->file);
 }
 
-/* Of a file that verify has not written into yet. */
+/* Writes the schema into a file that has no results of verify yet. */
 static void put_schema(record_file *r)
 {
     if (H5Aexists(r->file, "schema") > 0)
@@ -170,7 +170,8 @@ static void put_schema(record_file *r)
     record_count(r, r->file, "schema_version", SCHEMA_VERSION);
 }
 
-/* What was made in memory goes to the disk first: what others have left may be larger. */
+/* Merges the former content. The new content is written to the disk first, since the former may be
+ * larger than the memory. */
 static status merge(record_file *r, const char *name, hid_t former, const char *path, fault *f)
 {
     record_file all;

@@ -173,7 +173,7 @@ static void write_overview(FILE *to, const overview *o)
     write_legend(to, o);
 }
 
-/* What the scenes leave out, a line for each case and what its points leave out differently. */
+/* Writes the physics that scenes omit: a line for each case, and for points that differ from it. */
 static void write_omitted(FILE *to, const sweep *s)
 {
     int lines = 0;
@@ -200,7 +200,7 @@ static void write_omitted(FILE *to, const sweep *s)
         fprintf(to, "\n</details>\n");
 }
 
-/* What is assumed of their sections. */
+/* Writes the assumptions about their sections. */
 static void write_assumed(FILE *to, const sweep *s)
 {
     int lines = 0;

@@ -40,7 +40,7 @@ void output_forget(const char *path)
             atomic_store(&unfinished[i].owner, 0);
 }
 
-/* What follows calls the system only, as a signal handler must. */
+/* Removes all outputs; only system calls from here on, as a signal handler requires. */
 static void remove_all(int at, const char *name);
 
 /* Entries that there were. */

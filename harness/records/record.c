@@ -171,7 +171,7 @@ void record_ascii(record_file *r, hid_t at, const char *name, const char *text)
     H5Tclose(type);
 }
 
-/* Of a data set: large ones are compressed, in pieces along their first dimension. */
+/* Layout of a data set: large ones are compressed, in chunks along their first dimension. */
 static hid_t layout_of(hid_t type, int rank, const hsize_t size[])
 {
     enum { LEAST = 4096, PIECE = 1 << 20, LEVEL = 3 }; /* [bytes]; of deflate */

@@ -301,7 +301,7 @@ static status take_limits(const char *path, const char *of, const case_tables *t
     return STATUS_OK;
 }
 
-/* With what results_case_read frees. */
+/* The caller, results_case_read, frees *t, also after a failure. */
 static status take_case(const char *path, hid_t at, const char *name, case_tables *t,
                         stored_results *out, fault *f)
 {

@@ -214,7 +214,7 @@ static int compare_words(const void *a, const void *b)
 
 enum { WORD = NAME + ASSIGNMENT_VALUE + 1, MOST_WORDS = 2 * CASE_MAX_PARAMETERS };
 
-/* Those that do not vary, as "name=value". */
+/* Words "name=value" of the parameters that do not vary. */
 static int fixed_words(const sweep_file *s, char word[MOST_WORDS][WORD])
 {
     int count = 0;
@@ -264,7 +264,7 @@ static result_cell *add_cell(const sweep_file *s, const char *text, const char *
     return cell;
 }
 
-/* What the errors are against: no mesh. */
+/* Adds the reference values of the errors; they belong to no mesh. */
 static int add_references(const sweep_file *s, int which, const char *text, stored_results *out)
 {
     result_cell *cell = add_cell(s, text, "reference", out);

@@ -199,7 +199,7 @@ int place_same(const file_place *a, const file_place *b)
     return !is_free || strcmp(place_leaf(a->path), place_leaf(b->path)) == 0;
 }
 
-/* What a stored run was asked for. */
+/* Request of a stored run. */
 
 enum { NAME = 2048 };
 

@@ -334,7 +334,7 @@ static void put_integers(record_file *r, hid_t at, const char *name, int rows, i
     H5Dclose(record_array(r, at, name, H5T_NATIVE_INT, columns > 1 ? 2 : 1, size, value));
 }
 
-/* What connects the points: sections and ends of the members, bodies and supports of the nodes. */
+/* Stores the geometry: sections and ends of the members, bodies and supports of the nodes. */
 static void put_structure(record_file *r, hid_t at, const scene *sc)
 {
     int *member = calloc((size_t)sc->members * 3 + 1, sizeof *member),
@@ -385,7 +385,7 @@ static void put_sections(record_file *r, hid_t at, const scene *sc)
     H5Gclose(all);
 }
 
-/* Of the far ends of members along which the section changes, by the member's number. */
+/* Stores the sections at the far ends of tapered members, by the member's number. */
 static void put_far_ends(record_file *r, hid_t at, const scene *sc)
 {
     if (!scene_tapers(sc))

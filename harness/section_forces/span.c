@@ -97,7 +97,7 @@ static void resultants(span_work *w)
     }
 }
 
-/* What stresses along the fibres, which the twist turns, add to the torque for a unit of it. */
+/* Torque per unit of twist rate by the stresses along the fibres, which the twist inclines. */
 static double wagner(const span_work *w, int j, double rate)
 {
     const beam_constants *c = &w->c;
@@ -123,7 +123,7 @@ static int twisted(span_work *w, const double strains[])
     return span_twist_solve(w->g, &t, &w->twist);
 }
 
-/* Of a section by its matrices: no part of the torque is that of warping. */
+/* Resultants of a section given by matrices: no part of the torque is that of warping. */
 static void strained_matrices(span_work *w, double out[])
 {
     for (int j = 0; j < N; j++) {

@@ -53,7 +53,7 @@ void table_point(FILE *to, const sweep_point *p)
     fprintf(to, "%s%s%s", p->type->name, p->text[0] != '\0' ? ": " : "", p->text);
 }
 
-/* What the source of a case leaves out, where the case was asked for whole. */
+/* Returns the physics that the source of a case omits, where the whole physics was requested. */
 static unsigned omitted_by_source(const sweep_point *p)
 {
     double value[CASE_MAX_PARAMETERS];
@@ -226,7 +226,7 @@ static int has_colour(FILE *to)
            (none == NULL || none[0] == '\0');
 }
 
-/* Of the environment, whatever locale the program itself keeps to. */
+/* Returns whether the environment's locale is UTF-8, whatever locale the program itself uses. */
 static int has_utf8(void)
 {
     const locale_t here = newlocale(LC_CTYPE_MASK, "", (locale_t)0);

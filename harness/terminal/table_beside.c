@@ -228,7 +228,7 @@ static void write_quantity(FILE *to, const sweep *s, const truths *t, int quanti
     }
 }
 
-/* Those that miss the same stand on one line, before the first of them. */
+/* Writes formulations that lack the same features on one line, at the first of them. */
 static void write_missing(FILE *to, const sweep *s)
 {
     for (int i = 0; i < s->seriess; i++) {
@@ -247,7 +247,7 @@ static void write_missing(FILE *to, const sweep *s)
     }
 }
 
-/* What those that ran leave out. */
+/* Writes the physics that formulations omitted. */
 static void write_omissions(FILE *to, const sweep *s)
 {
     for (int i = 0; i < s->seriess; i++) {

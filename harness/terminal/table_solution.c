@@ -38,7 +38,7 @@ static int is_told(const solve_result *r, int index)
            strcmp(r->quantity[index - 1].reason, r->quantity[index].reason) == 0;
 }
 
-/* What round-off and the mesh may change in a value. */
+/* Bound of the change of a value by round-off and by the mesh. */
 static double uncertainty_of(const scene *s, int index, const solve_result *r)
 {
     const quantity_result *v = &r->quantity[index];
@@ -143,7 +143,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
 
 enum { MOST_STEPS = 40 };
 
-/* Of the iterations of a step, in lines below each other where they are many. */
+/* Writes the corrections of a step's iterations, on several lines where there are many. */
 static void corrections(FILE *to, int column, const solve_result *r, const step_record *k)
 {
     paragraph words;
@@ -250,7 +250,7 @@ static double length_at(const motion_record *r, int of)
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* By what, and how well. */
+/* Writes the integrator and its parameters. */
 static void method(FILE *to, const scene_motion *how)
 {
     char name[SCENE_NAME];

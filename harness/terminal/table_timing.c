@@ -248,7 +248,7 @@ static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
     return 0;
 }
 
-/* What is cheapest for a quantity at every level. */
+/* The formulation of lowest cost for a quantity at every level. */
 typedef struct cheapest_answer {
     int quantity, told; /* 1: its lines are written */
     char *text[REACH_LEVELS];

@@ -31,7 +31,7 @@ static void print_columns(const verdicts_block *b)
             "+-", ORDER, "order", "error", "verdict");
 }
 
-/* What another model says of a quantity that has a truth. */
+/* Prints the result of another model for a quantity that has a reference value. */
 static void print_other_model(const verdicts_block *b, const truth *other)
 {
     char value[ROUNDING_TEXT];
@@ -85,7 +85,7 @@ static void add_difference(const verdict *v, char *text, size_t size)
                  other->kind);
 }
 
-/* What stands in the last column. */
+/* Text of the last column. */
 static void verdict_words(verdicts_block *b, const verdict *v, char *text, size_t size)
 {
     const int number = v->matches ? number_of_rule(b, v->rule) : 0;
@@ -141,7 +141,7 @@ static void print_judged(verdicts_block *b, int quantity)
     }
 }
 
-/* What was not judged, for one reason together. */
+/* Prints the series without a verdict, those with the same reason together. */
 static void print_skipped(verdicts_block *b)
 {
     for (int i = 0; i < b->count; i++) {
@@ -166,7 +166,7 @@ static void print_skipped(verdicts_block *b)
     }
 }
 
-/* What series leave out, those that leave out the same together. */
+/* Prints the physics that series omit, those that omit the same together. */
 static void print_omissions(const verdicts_block *b)
 {
     const sweep *s = b->s;

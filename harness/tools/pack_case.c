@@ -87,7 +87,8 @@ static void write_parameters(const parameter_type *p)
     puts("{0}};\n");
 }
 
-/* What it says of mass, its user may say otherwise. */
+/* Writes the case. Where its file specifies how mass is modelled, users have a parameter for that.
+ */
 static void write_case(const scene_file *file, int nodes)
 {
     const char *shared = scene_file_states(file, "mass") ? "case_mass_omit" : "case_omit";

@@ -16,7 +16,8 @@ int ask_offered(const scene *s, const element_type *type)
     return !missing_words(s, type, words, sizeof words);
 }
 
-/* What the type declares decides whether a question was offered, not whether it was refused. */
+/* Returns the outcome of a question; the declaration of the type decides whether it is supported,
+ * not a refusal. */
 static ask_outcome outcome_of(const scene *s, const element_type *type, status outcome, int all)
 {
     if (!ask_offered(s, type))
