@@ -1,4 +1,4 @@
-"""How `make docs` draws the site: Sphinx, MyST, and equations as MathML, which needs no network."""
+"""Configuration of the site of `make docs`: Sphinx, MyST, and equations as MathML, which needs no network."""
 import pathlib
 import re
 import sys

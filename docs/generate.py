@@ -17,7 +17,7 @@ sys.path.insert(0, str(ROOT))
 from docs import results  # noqa: E402  pylint: disable=wrong-import-position
 from reports.drawing import describe, draw, scene  # noqa: E402  pylint: disable=wrong-import-position
 
-# What pages include from elsewhere in the repository.
+# Files that pages include from elsewhere in the repository.
 INCLUDED = ("CHANGELOG.md", "cases/format/scenes.md", "harness/exchange/import.md",
             "harness/experiments/sweep.md", "harness/formulations/protocol.md",
             "harness/tools/cluster/README.md", "reference/ERRATA.md")
@@ -32,7 +32,7 @@ class Site:
         self.program, self.folder, self.results = program, folder, stored
 
     def ask(self, *words):
-        """What the program prints."""
+        """Returns the output of the program."""
         return subprocess.run([self.program, *words], check=True, text=True,
                               stdout=subprocess.PIPE).stdout
 
@@ -104,7 +104,7 @@ def write_interfaces(site):
 
 
 def arguments(value):
-    """As they are written in a call; nothing for what is not called."""
+    """Returns the arguments as written in a call; '' for an object that is not called."""
     member = value.__func__ if isinstance(value, (classmethod, staticmethod)) else value
     if not callable(member) or inspect.isclass(member) and issubclass(member, Exception):
         return ""
@@ -140,12 +140,12 @@ def write_formulations(site, formulations):
 
 
 def numbers(value):
-    """As people write it."""
+    """Returns the number as text for readers."""
     return value if isinstance(value, str) else f"{value:.10g}"
 
 
 def problem(site, case):
-    """What a case asks, from its own tables."""
+    """Returns the problem of a case, from its own tables."""
     told = json.loads(site.ask("list", case, "--format", "json"))
     structure = scene.read(site.ask("scene", case))
     results.save(draw.draw(structure), site.folder / "verification" / f"{case}_structure.svg")

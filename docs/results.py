@@ -1,4 +1,4 @@
-"""What pages show of a file of results: verdicts, and error against run time of one quantity.
+"""Tables and figures of a file of results for pages: verdicts, and error against run time of one quantity.
 
 usage, from the root: python3 -m docs.results build/results.h5 docs/images/sheet_cantilever.svg
 """
@@ -62,7 +62,7 @@ def draw(point, path, quantity=None, only=None):
 
 
 def save(figure, path):
-    """As SVG, the same text from the same figure."""
+    """Saves the figure as SVG; equal figures give equal text."""
     figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
     text = re.sub(r"[ \t]+$", "", path.read_text("utf-8"), flags=re.M)

@@ -46,7 +46,7 @@ class Way:
 
 @dataclass
 class Answer:
-    """What reaches a level, of one quantity or of all of a point."""
+    """Formulations that reach a level in one quantity, or in all of a point."""
     quantity: str
     level: float
     best: list = field(default_factory=list)
@@ -137,7 +137,7 @@ def way(series, quantities, level):
 
 
 def words_of(v):
-    """What a verdict that is not a pass says against a formulation."""
+    """Describes a verdict other than pass."""
     if v.verdict in words.OWN_LIMITS:
         return "with a different limit"
     return {"low order": "of low order", "undecided": "with a limit that is not known"}.get(
@@ -244,5 +244,5 @@ def line_of_case(case):
 
 
 def lines_of_cases(cases):
-    """Of every case with a truth at its defaults."""
+    """Returns a line for every case with a reference value at its defaults."""
     return [found for found in map(line_of_case, cases) if found]

@@ -178,7 +178,7 @@ def staying(series, quantities):
 
 
 def points_of(case, keys):
-    """What the script of the page needs of a case at its defaults: for each formulation its meshes
+    """Returns the data of a case at its defaults for the script of the page: for each formulation its meshes
     with cost and time, for each quantity asked the error that each stays within."""
     point, meshes, asked = case.points[0], {}, []
     for series in point.series:

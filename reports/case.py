@@ -10,7 +10,7 @@ from reports.drawing import describe, draw, scene
 from reports.site import ROOT
 from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 
-# What the page of a case shows of its scene: the drawing, its sections, the same in words.
+# Scene on the page of a case: the drawing, its sections, the same in words.
 
 
 @dataclass
@@ -24,7 +24,7 @@ class Drawing:
 
 
 def drawing(site, case):
-    """Of the first parameter point, or None where the results hold no scene of it."""
+    """Returns the drawing of the first parameter point, or None where the results hold no scene of it."""
     read = scene.read(case.points[0].scene)
     if read is None:
         return None
@@ -34,7 +34,7 @@ def drawing(site, case):
                    describe.counts(read), describe.describe(read))
 
 
-# What is known of the quantities of a parameter point: truths with their digits, verdicts in a
+# Quantities of a parameter point: truths with their digits, verdicts in a
 # matrix.
 
 MOST_DIGITS = 15
@@ -61,7 +61,7 @@ class Quantity:
 
 
 def digits_of(value, uncertainty):
-    """How many digits of a truth are known."""
+    """Returns the number of known digits of a reference value."""
     if not value or not uncertainty:
         return MOST_DIGITS
     return max(1, min(MOST_DIGITS, math.floor(math.log10(abs(value) / uncertainty))))
@@ -81,7 +81,7 @@ def truths_of(point, name):
 
 
 def quantities(point):
-    """Of a point, in the order of the case."""
+    """Returns the quantities of a point, in the order of the case."""
     curves = {q for s in point.series for m in s.meshes for q in m.curves}
     names = dict.fromkeys([*point.meanings, *point.units])
     return [Quantity(name, point.units[name], point.meanings.get(name, ""),
@@ -98,7 +98,7 @@ class Cell:
 
 
 def away(v):
-    """How far another model's limit is from the truth."""
+    """Describes the distance of another model's limit from the reference value."""
     if not math.isfinite(v.model_error):
         return []
     return [f"{percent(v.model_error)} from the {v.model_truth_kind} value"]
@@ -165,7 +165,7 @@ def told_of(point, quantity):
 
 
 def figures_of(site, case, index):
-    """What is drawn of one parameter point."""
+    """Returns the figures of one parameter point."""
     point = case.points[index]
     name = f"{case.name}_{point.name}"
     quantities = [q for q in answers.judged(point)
@@ -197,7 +197,7 @@ def figures_of(site, case, index):
 
 
 def cost_of(cell):
-    """Of a way; without one it stands behind all that have one."""
+    """Returns the cost of a cell for sorting; a cell without cost comes last."""
     return cell[0].cost if math.isfinite(cell[0].cost) else math.inf
 
 
@@ -247,7 +247,7 @@ def causes_of(point):
 
 
 def parts_of(site, case, index):
-    """What a page shows of one parameter point."""
+    """Returns the parts of the page for one parameter point."""
     point = case.points[index]
     names = answers.judged(point)
     noise = [100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes
@@ -286,7 +286,7 @@ def page_of(case, index):
 
 
 def signs_of(parts):
-    """Of the verdicts that stand in matrices."""
+    """Returns the legend of the verdicts in matrices."""
     return {cell.sign for part in parts for _, cells in part["cells"] for cell in cells}
 
 

@@ -31,7 +31,7 @@ def points_of(points, measure):
 
 
 def read(path):
-    """What `beamwork element-test` left, or None; each formulation with its parts."""
+    """Reads the results of `beamwork element-test`, or None; each formulation with its parts."""
     record = experiments.read(path, "element-test")
     if record is None:
         return None
@@ -61,7 +61,7 @@ def present(site):
 
 
 def names(site):
-    """Those that have a certificate, for the pages of formulations."""
+    """Returns the formulations with a certificate, for their pages."""
     return {c["formulation"] for c in shown(site)}
 
 

@@ -117,7 +117,7 @@ def dashes(line):
 
 
 def colour(given):
-    """As an SVG says it: formulations by their variables, `0.6` a grey of the ink."""
+    """Returns the colour for SVG: formulations by their variables, `0.6` a grey of the ink."""
     return style.VARIABLES.get(given, given)
 
 

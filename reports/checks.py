@@ -1,4 +1,4 @@
-"""What was checked, and how often: truths by kind, cells judged, limits' uncertainties, the smallest
+"""Page of checks and their numbers: truths by kind, cells judged, limits' uncertainties, the smallest
 faults that `make verify` notices, injected faults, executions with any bytes as input."""
 import csv
 import functools
@@ -73,7 +73,7 @@ def of_formulation(rows, key):
 
 
 def coverages(cases):
-    """What the page shows: each consistent formulation, these together, all; and by case."""
+    """Returns the coverages on the page: each consistent formulation, these together, all; and by case."""
     rows = [row for case in cases for row in case.coverages]
     names = sorted({row["formulation"] for row in rows})
     by_case = [
@@ -107,7 +107,7 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_environment, site)]
 
 
-# What the results were made with, how times were taken, and whether injected delays were found.
+# Programs and machine of the results, how times were measured, and whether injected delays were found.
 
 OUTCOME = ("outcome", "sentence")  # of the run, which the first page says
 # (command of make, files that it leaves beside the results, what they add)

@@ -1,4 +1,4 @@
-"""What the papers claim, beside what is measured here; and other programs on the same case."""
+"""Claims of the papers compared with measurements, and other programs on the same case."""
 import csv
 import functools
 import math
@@ -329,7 +329,7 @@ def read(path=TABLE):
 
 
 def measured(look, truths, row):
-    """What the results hold of a row, in words; '' if it names no cell or the cell was not run."""
+    """Returns the measured value of a row, in words; '' if it names no cell or the cell was not run."""
     if not row["elements"]:
         return ""
     cell = row["case"], row["parameters"], row["formulation"], int(row["elements"]), row["quantity"]

@@ -115,7 +115,7 @@ def unranked(declared):
 
 
 def mark(series, declared):
-    """What a formulation declares of itself: what does not rank has no cost."""
+    """Marks a series by the declarations of its formulation; one that is not ranked has no cost."""
     series.unranked, series.is_new = unranked(declared), bool(declared.get("is_new"))
     for mesh in series.meshes if series.unranked else []:
         mesh.cost = math.nan

@@ -33,7 +33,7 @@ def link_of(proof, titles):
 
 
 def predictions(rows):
-    """How well predicted limits are met, missed where the observed limit differs from them, open where
+    """Counts how many predicted limits are met, missed where the observed limit differs from them, open where
     the limit is not known well enough; None where none was derived."""
     told = [r for r in rows if math.isfinite(met(r.verdict))]
     if not told:
@@ -54,7 +54,7 @@ def predictions(rows):
 
 
 def left(v):
-    """What a rule leaves open of a limit: its distance from the derived one, where there is one,
+    """Returns the unexplained part of a limit: its distance from the derived one, where there is one,
     else from the truth; in parts of the truth, as errors are."""
     if not math.isfinite(v.predicted) or not v.error:
         return abs(v.error)
@@ -62,7 +62,7 @@ def left(v):
 
 
 def line(rule, rows, titles):
-    """What the page says of one rule. rows: its verdicts, counted or not."""
+    """Returns the line of one entry. rows: its verdicts, counted or not."""
     own = [r for r in rows if r.standing == verdicts.OWN]
     seen, left_out = verdicts.counts(rows)
     known = [r for r in own if math.isfinite(r.verdict.error)]
@@ -135,7 +135,7 @@ def tasks(site):
 
 
 def verdict_of(study):
-    """What the experiments on one verdict show, in words for the head of its table."""
+    """Returns the conclusion of the experiments on one verdict, in words for the head of its table."""
     gone = [e for e in study["experiments"] if e["gone"]]
     if any(e["kind"] == "finer" for e in gone):
         return "the meshes of the verdict are too coarse"

@@ -1,4 +1,4 @@
-"""What other experiments than verify have left in a file of results: a group each, below /experiments. `beamwork schema` describes their tables, whose columns keep their names here.
+"""Reads the results of experiments other than verify: a group each, below /experiments. `beamwork schema` describes their tables, whose columns keep their names here.
 
     python -m reports.experiments RESULTS.h5 EXPERIMENT PROGRAM
 

@@ -26,7 +26,7 @@ def listed(values, digits):
 
 
 def error_text(error):
-    """With as many digits as truth x (1 + error) needs to be known to seven."""
+    """Returns the error with as many digits as truth x (1 + error) needs to be known to seven."""
     if error is None or not math.isfinite(error):
         return "-"
     part = abs(error) / max(abs(1 + error), 1e-9)
@@ -67,7 +67,7 @@ def series_of(series, names):
 
 
 def data_of(case):
-    """What the file of a case holds."""
+    """Returns the data of the file of a case."""
     points = []
     for point in case.points:
         names = list(point.units)

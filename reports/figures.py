@@ -251,7 +251,7 @@ class Writer:
 
     @staticmethod
     def share(own, children):
-        """What all children say alike is said by their parent."""
+        """Moves attributes that all children have in common to their parent."""
         drawn = [c for c in children if c[0] != "defs"]
         for name in INHERITED:
             values = {c[1].get(name) for c in drawn}

@@ -73,7 +73,7 @@ def chosen(path, wanted):
 
 
 def words_of(summary, s):
-    """What is seen."""
+    """Describes the film."""
     times = s.value[shapes.frames_of(s)]
     what = f"{summary[:1].upper()}{summary[1:]}. " if summary else ""
     return (f"{what}{times[0]:.4g} to {times[-1]:.4g} s, computed with {s.formulation}, n = {s.n}, "

@@ -30,7 +30,7 @@ def rendered(text):
     text = DISPLAY.sub(lambda found: keep(found, True), text)
     text = INLINE.sub(lambda found: keep(found, False), text)
     page = markdown.markdown(text, extensions=["tables"])
-    # What follows an equation without a space stays on its line.
+    # Text after an equation without a space stays on its line.
     page = re.sub(r"(EQUATION\d+E)([.,;:)]+)(?!<)", r'<span class="whole">\1\2</span>', page)
     return re.sub(r"EQUATION(\d+)E", lambda found: equations[int(found.group(1))], page)
 
@@ -132,7 +132,7 @@ def options_of(declared):
 
 
 def example(name, choices):
-    """How one of the options is set to another than its default."""
+    """Returns an example of an option that differs from its default."""
     for option, values, default, _ in choices:
         other = next((v for v in values.split("|") if v != default), None)
         if other and "|" in values:
@@ -161,7 +161,7 @@ def rules(rows, known, titles):
     for rule in known:
         own = found.get(rule["rule"])
         if own:
-            # What a kept misprint repeats counts here, on its own page.
+            # A verdict that a kept misprint repeats counts here, on its own page.
             counted = [verdicts.TallyRow(r.case, r.parameters, r.formulation, r.verdict,
                                          verdicts.OWN) for r in own]
             out.append({**deviations.line(rule, counted, titles),
@@ -235,7 +235,7 @@ def table(found):
 
 @dataclass(frozen=True)
 class Known:
-    """What all pages take from, found once."""
+    """Data of all pages, collected once."""
 
     rows: list  # verdicts.TallyRow of every verdict
     rules: list  # of the list of known deviations

@@ -10,7 +10,7 @@ from reports import answers, problems, profiles, verdicts
 from reports.data import text
 from reports.profiles import panel
 
-# What a case is about, by the analyses of its scene: a word to find it under.
+# Topic of a case, from the analyses of its scene.
 
 # A case is of the first kind one of whose analyses it has.
 KINDS = (
@@ -123,7 +123,7 @@ def rows_agreed(cases, level):
     return found
 
 
-# What was found, in three sentences: of speed, of trust, of the truths. The template has words.
+# Results in three sentences: speed, verdicts, reference values. The template has words.
 
 NAMED = 3  # cases that a sentence names
 
@@ -153,7 +153,7 @@ def of_speed(compared, rows):
 
 
 def of_trust(cases, rows):
-    """Who never tends to a wrong limit, who does most often and where, how much was derived."""
+    """Formulations that never have a wrong limit, the one that has most and where, and the number of derived limits."""
     if not rows:
         return None
     worst = max(rows, key=lambda r: (r.wrong, r.key))
@@ -171,7 +171,7 @@ def of_trust(cases, rows):
 
 
 def of_truths(cases):
-    """How many truths were judged by, of which kinds, how well they are known; None without any."""
+    """Number of reference values in verdicts, their kinds and uncertainties; None without any."""
     known = {}
     for row in verdicts.rows(cases):
         v = row.verdict

@@ -1,4 +1,4 @@
-"""What `beamwork motion` left in the results, as plain records: motions by integrators with steps
+"""Results of `beamwork motion` as plain records: motions by integrators with steps
 and tolerances; and `make lab L=paces`, the same of every case of motion."""
 import json
 import math
@@ -38,7 +38,7 @@ class Run:
 
     @property
     def setting(self):
-        """What was chosen: the tolerance where steps follow it, else the step."""
+        """Returns the tolerance where it controls the steps, else the step."""
         return f"tolerance {self.tolerance:.2g}" if self.tolerance else f"step {self.step:.3g} s"
 
     @property
@@ -63,7 +63,7 @@ class Ladder:
 
 @dataclass(frozen=True)
 class Way:
-    """How a scheme comes within an error: cost [s] where the error is just that, and the run that
+    """Cost of an integrator for an error: cost [s] where the error is just that, and the run that
     is within it."""
 
     scheme: str
@@ -101,7 +101,7 @@ class Problem:
         return ordered({r.scheme for r in self.runs})
 
     def ladder(self, scheme):
-        """Of a scheme, or None."""
+        """Returns the runs of a scheme, or None."""
         return next((one for one in self.ladders if one.scheme == scheme), None)
 
 
@@ -138,14 +138,13 @@ def ways_of(rows, runs):
 
 
 def stiffening_in(parameters):
-    """How many times as stiff elongation is, from `name=value;...`."""
+    """Returns the factor of the axial stiffness, from `name=value;...`."""
     said = dict(p.strip().split("=", 1) for p in parameters.split(";") if p.strip())
     return float(said.get(STIFFENING, 1))
 
 
 def problem_of(tables, key):
-    """What a case, set of parameters, formulation and mesh has; runs of which errors are wanted,
-    and, behind them, of which only the fate is."""
+    """Returns the runs of a case, set of parameters, formulation and mesh: those with errors, then those of which only the outcome is known."""
     def own(name):
         return tables[name].get(key, [])
 
@@ -168,7 +167,7 @@ def problems_of(found):
 
 @dataclass(frozen=True)
 class Check:
-    """How far the reference of a problem is from `explicit` at two tolerances; reason: why that is
+    """Difference of the reference of a problem from `explicit` at two tolerances; reason: why that is
     not known."""
 
     name: str
@@ -197,7 +196,7 @@ class Record:
 
 
 def load(path):
-    """What a file has, or None where there is none."""
+    """Returns the contents of a file, or None where it does not exist."""
     if not os.path.exists(path):
         return None
     with open(path, encoding="utf-8") as file:
@@ -212,7 +211,7 @@ def check_of(row):
 
 
 def compared_in(path):
-    """What paces.json has: (problems, left_out, checks), or None where there is none."""
+    """Returns the contents of paces.json: (problems, left_out, checks), or None where there is none."""
     try:
         paces = load(path)
         return None if paces is None else (
@@ -310,7 +309,7 @@ def orders(problems):
 
 
 def judged(problems):
-    """Those with errors of time."""
+    """Returns the problems with errors of time integration."""
     return [p for p in problems if not p.reference and any(r.known for r in p.runs)]
 
 

@@ -84,7 +84,7 @@ def chosen(ways):
 
 
 def keeping(found):
-    """Who comes within the error and keeps energy, at how many times the least cost."""
+    """Returns the integrators that reach the error and conserve energy, with their cost relative to the least."""
     if not found.keeping:
         return "none of those within it keeps energy to round-off"
     names = joined(dict.fromkeys(scheme for scheme, _ in found.keeping))
@@ -333,7 +333,7 @@ def maps_of(problems):
 
 
 def unmeasured(problems):
-    """Those whose errors were requested and are not known."""
+    """Returns the problems whose errors were requested and are not known."""
     return [p for p in problems if p.reference and p.reference != integrators.NONE_WANTED]
 
 

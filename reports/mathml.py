@@ -31,7 +31,7 @@ TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|\s+|.", re.S)
 
 
 class Unknown(ValueError):
-    """What an equation has and this part of LaTeX has not."""
+    """A command that this subset of LaTeX does not have."""
 
 
 def row(parts):
@@ -72,7 +72,7 @@ class Parser:
         return token
 
     def group(self):
-        """What stands between braces, or a single token."""
+        """Parses the text between braces, or a single token."""
         if self.peek() != "{":
             return self.atom()
         self.take("{")

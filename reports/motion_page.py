@@ -45,12 +45,12 @@ class Motion:
 
     @property
     def scale(self):
-        """What a drift of energy is relative to: the most that there was at once [J]."""
+        """Returns the scale of energy-balance errors: the largest energy [J]."""
         return float(max(np.abs(self.energy).max(), np.abs(self.columns["work"]).max()))
 
     @property
     def drift(self):
-        """Of the energy, in parts of its scale, over time."""
+        """Returns the energy-balance error over time, relative to its scale."""
         return self.columns["drift"] / (self.scale or 1)
 
     def momentum(self, which):
@@ -93,7 +93,7 @@ def has_motions(path):
 
 
 def how(point):
-    """What the scene says of its last motion, or {}."""
+    """Returns the settings of the scene's last motion, or {}."""
     analyses = (yaml.safe_load(point.scene) or {}).get("analyses", {}) if point.scene else {}
     found = [a["motion"] for a in analyses.values() if "motion" in a]
     return found[-1] if found else {}
@@ -150,7 +150,7 @@ def scheme(how):
 
 
 def words_of_steps(motion):
-    """How many and how long."""
+    """Describes the number and the lengths of steps."""
     lengths = motion.steps
     if np.ptp(lengths) <= 1e-6 * lengths.max():
         return f"{len(lengths)} steps of {lengths[0]:.3g} s"
@@ -158,7 +158,7 @@ def words_of_steps(motion):
 
 
 def words_of_momenta(motion):
-    """What is said of momenta that stay."""
+    """Describes momenta that are conserved."""
     changes = [c for c in (motion.stays("P"), motion.stays("L")) if math.isfinite(c)]
     if changes and max(changes) < ROUND_OFF:
         return f", momentum and angular momentum by {max(changes):.0e}"
@@ -187,12 +187,12 @@ def between(values, form):
 
 
 def whenever(meaning):
-    """What a quantity is, without the instant at which it is read."""
+    """Returns the meaning of a quantity without its instant."""
     return re.sub(r", \S+ s after the start of the motion", "", meaning)
 
 
 def spread(motions):
-    """How the others compare, or nothing."""
+    """Compares the other formulations, or returns nothing."""
     if len(motions) < 2:
         return ""
     drifts = [float(np.abs(m.drift).max()) for m in motions]
@@ -287,7 +287,7 @@ def draw_momenta(site, motion, name):
 
 
 def leading(motions):
-    """Those that are drawn: plain formulations first."""
+    """Returns the motions that are drawn, plain formulations first."""
     rank = sorted(motions, key=lambda m: (verdicts.corrected(m.formulation) is not None,
                                           ":" in m.formulation))
     return rank[:MOST_CURVES]
@@ -409,7 +409,7 @@ def leader(motions):
 
 
 def parts_of(site, case, motions):
-    """What the page of a case shows."""
+    """Returns the parts of the page of a case."""
     first, name = leader(motions), f"motion_{case.name}"
     drawn = [(q, draw_quantity(site, case, q, f"{name}_{q}"))
              for q in dict.fromkeys([*case.points[0].meanings, *case.points[0].units])]
@@ -434,7 +434,7 @@ def found_in(site):
 
 
 def section(site, case):
-    """What the page of a case says of its motion."""
+    """Returns the section on motions of the page of a case."""
     motions = motions_of(site.results, case.name)
     if not motions:
         return []

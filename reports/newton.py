@@ -10,7 +10,7 @@ FORMS = ("mixed", "displacement")
 
 
 def read(path):
-    """What harness/tools/newton.py wrote, or None."""
+    """Reads the file of harness/tools/newton.py, or None."""
     try:
         with open(path, encoding="utf-8") as file:
             return json.load(file)

@@ -34,7 +34,7 @@ class Solid:
 
 @dataclasses.dataclass
 class Event:
-    """What happened on a path."""
+    """Event on a path."""
     kind: str
     before: int
     after: int

@@ -1,4 +1,4 @@
-"""What figures of errors share: axes, which formulations are drawn, marks below the truth's
+"""Parts of all figures of errors: axes, which formulations are drawn, marks below the truth's
 digits."""
 import math
 
@@ -76,7 +76,7 @@ def tolerance_of(point, quantity):
 
 
 def digits_of(point, quantity):
-    """What the truth is uncertain by, relative to it: errors below say nothing. None where it is
+    """Relative uncertainty of the reference value: smaller errors have no meaning. None where it is
     exact to more than is drawn."""
     found = (answers.verdict_of(s, quantity) for s in point.series)
     known = [v.truth_uncertainty / abs(v.truth) for v in found
@@ -114,7 +114,7 @@ def telling(point, quantities):
 
 
 def marks_of(site, point, series, quantity, meshes, errors="errors"):
-    """What plot() wants for the curve of a formulation through these meshes, whose marks say what
+    """Arguments of plot() for the curve of a formulation through these meshes, whose marks say what
     was found."""
     v = answers.verdict_of(series, quantity)
     unit = point.units.get(quantity, "")

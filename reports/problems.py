@@ -127,8 +127,7 @@ def to_the_smallest(problem, bills, count):
 
 @dataclass(frozen=True)
 class Question:
-    """What a profile is asked: solved to which level, counted in what, by which unit; which defect
-    forbids."""
+    """Definition of a profile: error level, cost measure, unit, and the defects that exclude."""
 
     level: float
     count: str = "cost"
@@ -183,12 +182,12 @@ class TrustRow:
 
     @property
     def share(self):
-        """Of its verdicts that are passes."""
+        """Returns the share of passes among the verdicts."""
         return self.counts["pass"] / self.judged if self.judged else math.nan
 
 
 def median(pairs):
-    """Of values with weights: half of the weight is at or below it; NaN where there is none."""
+    """Returns the weighted median: half of the weight is at or below it; NaN where there is none."""
     half, reached = sum(w for _, w in pairs) / 2, 0.0
     for value, weight in sorted(pairs):
         reached += weight
@@ -234,7 +233,7 @@ def trust_table(cases, found, keys):
 
 
 def trust_order(row):
-    """Those that solve most first; what is not compared (options, kept misprints) at last."""
+    """Sorts by the number of solved problems; formulations that are not compared (options, kept misprints) come last."""
     solved = row.solved if math.isfinite(row.solved) else -1
     return -round(solved, 6), -round(row.share, 6), row.key
 

@@ -85,7 +85,7 @@ def read_at(curves, at, factor):
 
 
 class Compared:
-    """What is compared in results: problems, the formulations, those of them with a curve."""
+    """Comparison of results: problems, the formulations, those of them with a curve."""
 
     def __init__(self, cases):
         self.keys = problems.contestants(cases)
@@ -123,7 +123,7 @@ def xlabel(picture):
 
 
 def marks_of(site, key, at, shares, marked):
-    """What plot() wants for a curve whose marks say the share, and what is solved at any cost."""
+    """Arguments of plot() for a curve whose marks say the share, and what is solved at any cost."""
     rows = [(f"{x:g}", f"{100 * share:.1f} %", f"{100 * shares[-1]:.1f} %")
             for x, share in list(zip(at, shares))[marked]]
     return site.points(key, ("factor", "solved", "at any cost"), rows)

@@ -1,4 +1,4 @@
-"""What a run holds: cases, their points, series, meshes and verdicts, as plain records."""
+"""Records of a run: cases, their points, series, meshes and verdicts, as plain records."""
 import math
 from dataclasses import dataclass, field
 
@@ -115,7 +115,7 @@ class Series:
 
     @property
     def marks(self):
-        """What is said wherever its name stands."""
+        """Marks that follow its name everywhere."""
         return "; ".join(filter(None, (self.unranked, "new, without effect on the exit status" if self.is_new else "")))
 
     @property

@@ -26,7 +26,7 @@ FRAME = "motion"  # kind of a state that is a frame of a motion; its value is th
 
 @dataclasses.dataclass
 class Shapes:
-    """What the group `shapes` of a cell holds."""
+    """Content of the group `shapes` of a run."""
     formulation: str
     n: int
     members: np.ndarray  # [members x 3]: nodes p and q, section
@@ -54,7 +54,7 @@ def matrices(q):
 
 
 def frames_in(shapes):
-    """How many of the states of a group `shapes` are frames of a motion."""
+    """Returns the number of frames of a motion in a group `shapes`."""
     return int((shapes["kind"][()] == FRAME.encode()).sum())
 
 
@@ -296,7 +296,7 @@ def drawn_bodies(s):
 
 
 def exaggerations(s):
-    """Of every state; those of a path share one, that of the state that has moved farthest; motions
+    """Returns the scale of every state; those of a path share one, that of the state that has moved farthest; motions
     have none."""
     found = [1.0 if kind == FRAME else float(exaggeration(s, k))
              for k, kind in enumerate(s.kind)]
@@ -306,7 +306,7 @@ def exaggerations(s):
 
 
 def shape(s, words, supports, hinges, start, view, most=MOST_FRAMED):
-    """What the viewer draws. words: title of a state and its exaggeration; supports: nodes; hinges:
+    """Data for the viewer. words: title of a state and its exaggeration; supports: nodes; hinges:
     points; start: state shown first; view: (azimuth, elevation) in degrees; most: points of all
     frames of a motion together."""
     at, first = kept(s, most)

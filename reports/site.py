@@ -1,4 +1,4 @@
-"""What every page shares: records, styles, templates, the folder written into."""
+"""Parts of every page: records, styles, templates, the folder written into."""
 import math
 import os
 import pathlib
@@ -124,7 +124,7 @@ class Site:
         return found, navigation.group_of(name, found, {c.name for c in self.cases})
 
     def name_of(self, sweep):
-        """Of the files of a sweep: its own file's, with a number where another has the same."""
+        """Returns the name of a sweep's page: that of its file, with a number where another has the same."""
         name = file_name(sweep.path)
         before = self.sweeps[:self.sweeps.index(sweep)]
         same = sum(file_name(s.path) == name for s in before)
@@ -147,7 +147,7 @@ class Site:
             out.write(figures.with_markers(text))
 
     def points(self, key, columns, rows, title=""):
-        """What plot() wants for a curve whose marks say more than where they are: with the pointer
+        """Arguments of plot() for a curve whose marks say more than where they are: with the pointer
         on a mark, or from the keyboard, a box shows title, formulation and the row of the mark.
 
         key: formulation; columns: names of what is in a row, of which `error` is shown in percent

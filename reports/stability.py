@@ -122,7 +122,7 @@ NAMED = ("not converged", "singular", "refused", "no value")
 
 
 def read(path):
-    """What `beamwork stress` left, or None; each extreme with its values of x and its quantities."""
+    """Reads the results of `beamwork stress`, or None; each extreme with its values of x and its quantities."""
     record = experiments.read(path, "stress")
     if record is None:
         return None
@@ -173,7 +173,7 @@ def cells(record):
 
 
 def largest(found, name):
-    """Of an extreme's cells, as text."""
+    """Returns the largest error of an extreme's runs, as text."""
     values = [getattr(c, name) for c in found.values() if math.isfinite(getattr(c, name))]
     return f"{max(values):.2g}" if values and max(values) > 0 else "–"
 

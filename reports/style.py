@@ -43,7 +43,7 @@ LINES = {"mass=lumped": "--", "mass=averaged": ":", "torsion=hyperbolic": "-."}
 RESERVE_LINES = ((0, (6, 1)), (0, (1, 2)), (0, (4, 1, 1, 1)), (0, (8, 3)), (0, (2, 1)))
 
 COLOURS = [(light, dark) for light, dark, _ in TABLE.values()] + list(RESERVE)
-# Of drawings of scenes: loads, motions, springs (drawing/canvas.py).
+# Colours of drawings of scenes: loads, motions, springs (drawing/canvas.py).
 MEANINGS = {"#b03a00": "var(--bad,#b03a00)", "#005a94": "var(--accent,#005a94)",
             "#6a5a00": "var(--fair,#6a5a00)"}
 VARIABLES = MEANINGS | {light: f"var(--f{i},{light})" for i, (light, _) in enumerate(COLOURS)}
@@ -59,7 +59,7 @@ plt.rcParams.update({
 
 
 def extra(keys):
-    """Those that a figure of these does without at first: options, then misprints and old forms."""
+    """Returns those that a figure drops first: options, then misprints and old forms."""
     keys = list(keys)
     last = [k for k in keys if ":" in k] + [k for k in LAST if k in keys]
     rest = [k for k in keys if k not in last]
@@ -118,8 +118,7 @@ class Styles:
 
     @staticmethod
     def of(key):
-        """What plot() wants to draw the curve of a formulation; its gid says whose it is
-        (figures.py)."""
+        """Arguments of plot() for the curve of a formulation; its gid names the formulation (figures.py)."""
         colour, _, marker = look(key)
         options = key.partition(":")[2]
         return {

@@ -52,7 +52,7 @@ def slices_of(part):
 
 
 def counted(state, look):
-    """What a map says, for those who do not see it."""
+    """Describes a map for readers who do not see it."""
     drawn = state[state != maps.EMPTY]
     said = [f"{look.words[k]}: {answers.percent((drawn == k).sum() / drawn.size)}"
             for k in [*(k for k in look.words if k >= 0), maps.UNKNOWN] if (drawn == k).any()]
@@ -177,7 +177,7 @@ class Winners:
 
 
 def curves(site, sweep, found, q=-1):
-    """Of one axis: the largest error in each of its parts, a panel for each mesh. q: quantity."""
+    """Curves over one axis: the largest error in each of its parts, a panel for each mesh. q: quantity."""
     part = found.parts[0]
     x = np.where(part.low == part.high, part.low, (part.low + part.high) / 2)
     columns = 2 if len(sweep.meshes) > 1 else 1
@@ -197,7 +197,7 @@ def curves(site, sweep, found, q=-1):
     return chart.image(site, f"sweep_errors{q if q >= 0 else ''}")
 
 
-# What is in the cells of a sweep, for maps over the axes of the reader's choice: a script of its
+# Data of the runs of a sweep, for maps over the axes of the reader's choice: a script of its
 # own beside the page, which assets/sweep.js loads when something is chosen.
 #
 # Cells are letters, each with how often it follows itself. The last axis changes first.
@@ -255,7 +255,7 @@ def look(fill, sign, words):
 
 
 def axis_of(part):
-    """What a map needs of an axis: names of its parts, the cuts between them, and where ticks may
+    """Returns the axis of a map: names of its parts, the cuts between them, and where ticks may
     stand, in parts."""
     low, high = part.low[0], part.high[-1]
     return {"name": part.axis.name, "range": [float(f"{low:.6g}"), float(f"{high:.6g}")],
@@ -310,7 +310,7 @@ def present(site):
 
 
 def axis_words(part):
-    """What was tried along an axis."""
+    """Describes the values along an axis."""
     axis, count = part.axis, len(part.levels) or part.axis.count
     if axis.words:
         return f"{axis.name}: {', '.join(axis.words)}"
@@ -351,7 +351,7 @@ def curves_of(site, sweep, found):
 
 
 def glance(site, sweep):
-    """What is said first, here and on the first page: the context of its sentences."""
+    """Returns the context of the first sentences, here and on the first page."""
     found = gather.of_sweep(sweep)
     made = answers.of_sweep(sweep, found)
     return {"sweep": sweep, "found": found, "answers": made, "groups": answers.together(made),

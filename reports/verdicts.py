@@ -60,12 +60,12 @@ def percent(value):
 
 
 def met(v):
-    """How far the limit is from the predicted one, relative to that; NaN where none was derived."""
+    """Returns the relative distance of the limit from the predicted one; NaN where none was derived."""
     return abs(v.limit - v.predicted) / abs(v.predicted) if v.predicted else math.nan
 
 
 def of_limit(v):
-    """What is said of a limit that is not the truth, or is not known to be."""
+    """Describes a limit that is not the reference value, or not known to be."""
     if v.verdict == "undecided" and v.truth:
         known = 100 * v.limit_uncertainty / abs(v.truth)
         return [f"{percent(v.error)} from the truth, known to ± {known:.2g} %"]

@@ -44,7 +44,7 @@ class Refused(Exception):
 
 
 def checked(value, name, count, each, why, numbers="biuf"):
-    """What a function returned as an array[count, *each] (count 0: [*each]), or Refused."""
+    """Returns the answer of a function as an array[count, *each] (count 0: [*each]), or Refused."""
     def words(shape):
         all_of = ["N" if count and (i, v) == (0, count) else str(v) for i, v in enumerate(shape)]
         return f"({', '.join(all_of)})" if shape else "one number"
@@ -158,7 +158,7 @@ def described(body, said):
 
 
 def three(name, found, mask, parts, N, c, why):
-    """Those that a mask asks for of energy[N], a vector [N, c] and a matrix [N, c, c]."""
+    """Returns those of energy[N], a vector [N, c] and a matrix [N, c, c]."""
     if not isinstance(found, (tuple, list)) or len(found) != 3:
         raise Refused(f"{name} must return three: energy, {parts[0]}, {parts[1]}")
     all_three = [None if v is None and not mask >> i & 1 else
@@ -220,7 +220,7 @@ def states(x):
 
 
 def inertia(mask, kind, x, body, functions):
-    """What a mask asks for of elements x[N, n, 16] with a frame and rates, body[N, ...]."""
+    """Returns the inertia, as the mask requests it, of elements x[N, n, 16] with a frame and rates, body[N, ...]."""
     N, c = len(x), 7 * x.shape[1]
 
     def mass(kind, *state):

@@ -1,4 +1,4 @@
-"""What CalculiX printed for a deck of `beamwork export`, as a file that `beamwork import` reads.
+"""Converts the output of CalculiX for a deck of `beamwork export`, as a file that `beamwork import` reads.
 
     python3 harness/exchange/read_back.py DECK.inp... [-o VALUES.csv]
 
@@ -61,7 +61,7 @@ def unknowns(lines):
 
 
 def said(lines, card):
-    """What a comment of the deck says."""
+    """Returns the words of a comment of the deck."""
     for line in lines:
         if line.startswith(card):
             return line[len(card):].strip()

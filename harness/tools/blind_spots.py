@@ -65,7 +65,7 @@ def planted_values(program, folder, constant):
 
 
 def scale_of(v):
-    """What a relative error is relative to."""
+    """Returns the value that errors are relative to."""
     size = abs(v["limit"] if v["truth"] is None else v["truth"])
     return max(size, v["near_zero"] or 0)
 
@@ -95,7 +95,7 @@ def band_of(v, rules):
 
 
 def moved_of(v):
-    """How far the limit may move from the committed one; infinite: an exact truth judges it."""
+    """Returns by how much the limit may differ from the committed one; infinite: an exact truth judges it."""
     if v["point"] != "default" or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf
     slack = MOVED * max(abs(v["limit"]), scale_of(v))
@@ -160,7 +160,7 @@ def notices(v, slopes, rules):
 
 
 def weakest(found, formulations):
-    """Of the formulations that which notices least, by the best it has; None: nothing is noticed."""
+    """Returns the formulation that notices least, by its best quantity; None: nothing is noticed."""
     best = {key: None for key in formulations}
     for one in found:
         key = one.verdict["formulation"]

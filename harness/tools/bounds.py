@@ -32,12 +32,12 @@ def bound_of(seen, steps=STEPS):
 
 
 def apart(verdict):
-    """Of a limit from its prediction, relative."""
+    """Returns the relative distance of a limit from its derived value."""
     return abs(verdict["limit"] / verdict["predicted"] - 1)
 
 
 def departure(verdict):
-    """Of a limit from the derived one, else from the truth, in parts of the truth; None: no limit."""
+    """Returns the distance of a limit from the derived one, else from the reference value, relative to that; None: no limit."""
     if verdict["predicted"] is None or not verdict["error"]:
         return verdict["error"] and abs(verdict["error"])
     size = (verdict["limit"] - verdict["truth"]) / verdict["error"]
@@ -51,7 +51,7 @@ def digits(verdicts):
 
 
 def line(rule, verdicts):
-    """What is said of a rule: its verdicts, errors and predictions, and whether its bound stands."""
+    """Returns the line of an entry: its verdicts, errors and predictions, and whether its bound stands."""
     derived, others = (
         max((departure(v) for v in verdicts if v["error"] is not None and (v["predicted"] is None) == free),
             default=None) for free in (False, True)

@@ -117,7 +117,7 @@ class Laboratory:
         return self.stand_in(case, parameters, quantity), EXACT
 
     def limit(self, case, formulation, parameters, quantity, known):
-        """What a series shows: limit, its error and against what, or why nothing."""
+        """Returns the limit of a series and its error, or the reason why there is none."""
         meshes = OF_MECHANISMS.get(case, MESHES)
         out = {"formulation": formulation, "parameters": ";".join(parameters), "meshes": meshes}
         found, why = self.series(case, formulation, parameters, meshes)
@@ -186,7 +186,7 @@ def experiments(laboratory, v):
 
 
 def is_gone(error, before):
-    """Of a verdict without a value (before: None) its failure is gone where a value is right."""
+    """Returns whether the error has vanished; without a former value (before: None), whether the value is right."""
     return error is not None and abs(error) <= (RIGHT if before is None else LEFT * abs(before))
 
 

@@ -67,7 +67,7 @@ FOLDER = re.compile(r"(?:.*/)?((?:elements|cases/format|cases|harness/\w+)/)(?:.
 
 
 def folder(path):
-    """Of a source or an object: build/harness/time/step.o is of harness/time. The elements are one,
+    """Returns the folder of a source or an object: build/harness/time/step.o is of harness/time. The elements are one,
     and so are the cases but for their format."""
     found = FOLDER.match(path)
     return found[1] if found else str(pathlib.Path(path).parent)

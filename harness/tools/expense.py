@@ -1,4 +1,4 @@
-"""What a cell is expected to cost before it is solved, fitted to the counted work of cells that
+"""Predicts the cost of a run before it is solved, fitted to the counted work of cells that
 were solved (`make lab L=expense`; the file of the last `make verify`).
 
 Cost [s] = sum over what an analysis does of times * (once * o + element * e * elements), elements
@@ -27,7 +27,7 @@ LARGE = 0.3  # of the logarithm: errors beyond it count less
 
 
 def stations_of(analyses, body):
-    """Of the path that an analysis walks, or that of the one it is about."""
+    """Returns the number of stations of the path of an analysis, or of the one whose states it is about."""
     while "stations" not in body and "about" in body:
         ((_, body),) = analyses[body["about"]].items()
         body = body or {}

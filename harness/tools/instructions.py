@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What limits now: instructions of the parts of a solution, counted by callgrind, so the same on
+"""Counts the instructions of the parts of a solution, counted by callgrind, so the same on
 a busy machine, beside the least that is thinkable.
 
 usage: instructions.py PROGRAM [-o FILE] [--only WORD]     a table; FILE: the same as JSON
@@ -146,7 +146,7 @@ def run(program, *arguments):
 
 
 def profiled(program, cell, inside, read=Profile, *more):
-    """What happens in functions of the program, as `read` has it of the file."""
+    """Returns the counts in functions of the program, as `read` has it of the file."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "profile")
         run("valgrind", "-q", "--tool=callgrind", f"--callgrind-out-file={path}", *more,

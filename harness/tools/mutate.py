@@ -38,7 +38,7 @@ STATUSES = {"STATUS_REFUSED": "STATUS_FAULT", "STATUS_FAULT": "STATUS_REFUSED",
             "STATUS_NOT_CONVERGED": "STATUS_SINGULAR", "STATUS_SINGULAR": "STATUS_NOT_CONVERGED"}
 NO_TYPES = {"return", "else", "case", "goto", "sizeof", "do"}
 NO_CALLS = NO_TYPES | {"if", "for", "while", "switch"}
-# What is called with a size of memory, or must hold.
+# Calls with a size of memory, and assertions.
 UNSEEN = re.compile(r"(\w*alloc|sizeof|assert|_Static_assert|memset|memcpy|memmove)$")
 # Calls that release memory or give hints: only sanitizers notice that one is missing.
 RELEASED = re.compile(r"(\w*(free|alloc|close|end)|assert|_Static_assert)$")
@@ -307,7 +307,7 @@ def tests():
 
 
 def checks(file, texts):
-    """What should notice a fault of a file: tests of its room, of others that call its functions,
+    """Returns the checks that should notice a fault of a file: tests of its folder, of others that call its functions,
     cells that are judged, and tests in Python that show it."""
     room = file.split("/")
     near = re.compile(NEAR.get("/".join(room[:2])) or NEAR.get(room[0]) or
@@ -330,7 +330,7 @@ def checks(file, texts):
 
 
 def physics(path):
-    """Of a table: name, file, what sed looks for and puts in its place, and the check."""
+    """Reads a table: name, file, what sed looks for and puts in its place, and the check."""
     with open(path, encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
             change = f"s|{row['pattern']}|{row['replacement']}|"

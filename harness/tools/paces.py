@@ -58,7 +58,7 @@ def ladder(program, row):
 
 
 def checked(program, row):
-    """How far the reference and `explicit` are apart at the same instants."""
+    """Returns the difference between the reference and `explicit` at the same instants."""
     found = motion(program, row, "-f", row["check"], "--time-limit", CHECK, "--integrator",
                    "explicit", "--tolerance", EXPLICIT)
     coarse, fine = found["runs"]
@@ -69,7 +69,7 @@ def checked(program, row):
 
 
 def word_of(check):
-    """What came of it."""
+    """Returns the outcome."""
     if None in check["distances"]:
         return f"not checked: {check['reason']}"
     coarse, fine = check["distances"]

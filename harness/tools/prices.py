@@ -17,7 +17,7 @@ import h5py
 import numpy as np
 from scipy.optimize import nnls
 
-# Of all formulations alike, and of each: products of columns of the table `cells`.
+# General coefficients, and those of each formulation: products of columns of the table `cells`.
 SHARED = ("one", "free", "load_steps", "load_steps*elements_total", "factorisations*free",
           "factor_flops", "solutions", "solutions*free", "solutions*factor_entries",
           "dense_operations")

@@ -24,7 +24,7 @@ def stiffness(k, warping):
 
 
 def work(k, force, y, z, polar):
-    """Of stresses with resultants `force`, first moments y and z, and second moment `polar` about the centroid."""
+    """Returns the work of stresses with resultants `force`, first moments y and z, and second moment `polar` about the centroid."""
     m = matrix(3, 3)
     m[0, 0] = m[1, 1] = force
     m[0, 2] = m[2, 0] = -z

@@ -149,7 +149,7 @@ def product(a, b):
 
 
 def quaternion(R):
-    """Of a rotation matrix."""
+    """Returns the quaternion of a rotation matrix."""
     trace = R[0, 0] + R[1, 1] + R[2, 2]
     squares = [1 + trace] + [1 + 2 * R[i, i] - trace for i in range(3)]
     skew = [R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]

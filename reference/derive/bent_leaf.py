@@ -18,7 +18,7 @@ def curvature(F, e, u):
 
 
 def integral(F, e, low, f):
-    """Of f(sin t) over the initial length from the inflection to where u = low .. of a half."""
+    """Returns the integral of f(sin t) over the initial length from the inflection to where u = low .. of a half."""
 
     def slope(u):
         t = asin(sin(e) - u ** 2)

@@ -91,7 +91,7 @@ def lateral_rows():
 
 
 def column_load(given):
-    """Of shear_column. Engesser: 1/P = 1/P_E + 1/GA_s; Haringx: GA_s (sqrt(1 + 4 P_E/GA_s) - 1)/2; P_E = pi^2 EI/l^2, GA_s = 5/6 G A."""
+    """Critical load of shear_column. Engesser: 1/P = 1/P_E + 1/GA_s; Haringx: GA_s (sqrt(1 + 4 P_E/GA_s) - 1)/2; P_E = pi^2 EI/l^2, GA_s = 5/6 G A."""
     at = defaults.decimals("shear_column", given)
     euler = pi ** 2 * at["young"] * at["side"] ** 4 / 12 / at["length"] ** 2
     shear = at["shear_modulus"] * at["side"] ** 2 * 5 / 6

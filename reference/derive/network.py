@@ -71,7 +71,7 @@ class Loaded(Scaled):
         return np.concatenate([y] + [np.array(s)[None]] * self.varies + [np.zeros((6, y.shape[1]))])
 
 
-# What a network (network.py) consists of: rigid bodies, and beams between them.
+# Parts of a network: rigid bodies, and beams between them.
 
 
 class Body:

@@ -84,7 +84,7 @@ class Question:
         return scene.motion[self.of["motion"]](level, scene.net.numbers)
 
     def scale(self, scene):
-        """Of displacements and reactions in the network: what round-off is relative to."""
+        """Returns the scale of displacements and reactions in the network, for round-off."""
         turns = self.of.get("component", "ux")[0] == "r" or self.of.get("resultant", "N")[0] == "M"
         if self.kind == "displacement":
             return 1.0 if turns else scene.length
@@ -227,7 +227,7 @@ KNOWN = {"leaf_spring_guide": ("k_drive", "k_support")}  # in closed form
 
 
 def rows():
-    """Of examples, written out by the program, which has to be built."""
+    """Returns the rows of examples, which the built program writes."""
     if not os.access(PROGRAM, os.X_OK):
         raise SystemExit(f"of_scene.py: {PROGRAM} is not there; run make all first")
     for name in EXAMPLES:

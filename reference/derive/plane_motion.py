@@ -65,7 +65,7 @@ class Mesh:
 
 
 def forces(rod, mesh, q):
-    """Of the strains on the nodes [3, nodes], from q likewise: x, y and the turn from the x
+    """Returns the forces of the strains on the nodes [3, nodes], from q likewise: x, y and the turn from the x
     axis."""
     (dx, dy, curvature), turn = q @ mesh.G.T, mesh.V @ q[2]
     c, s = np.cos(turn), np.sin(turn)

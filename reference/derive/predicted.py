@@ -268,7 +268,7 @@ def predictions(cases=CASES):
 
 
 def derived_rows(cases=CASES):
-    """Those of points and quantities that have exact values, and differ from all of them."""
+    """Returns the rows of points and quantities that have exact values, and differ from all of them."""
     exact = exact_values()
     for given in predictions(cases):
         point = rederive.canonical(given[2].replace("shear_stability=*", ""))

@@ -146,7 +146,7 @@ def nijenhuis_sheared(gamma, kappa, a, centre, polar):
 
 
 def simo_reissner(gamma, kappa, a, centre, polar):
-    """Those of beam.py, less what eccentricity adds: a test of the rest of the machinery."""
+    """The strains of beam.py without the terms of eccentricity: a test of the rest of the machinery."""
     (ys, zs), warping = centre, None if a is None else kappa[0] - a
     eps = gamma[0] + kappa[0] * kappa[0] * (polar / 2)
     return [eps, gamma[1] - zs * kappa[0], gamma[2] + ys * kappa[0], warping] + list(kappa)
@@ -236,7 +236,7 @@ class ScaledPrinted(Scaled):
         raise ArithmeticError("the strains at a point did not settle")
 
     def _derivatives(self, x, given):
-        """Of (gamma, kappa, B') [many, 7, 7] by (N, M, a), and B' [many]."""
+        """Derivatives of (gamma, kappa, B') [many, 7, 7] by (N, M, a), and B' [many]."""
         E, s, count = self._measures(x, given[6]), x[6:], len(self.kept)
         curved = sum(stress * e.hessian for stress, e in zip(s, E))
         pull = np.array([e.gradient[6] for e in E])

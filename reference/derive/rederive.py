@@ -57,13 +57,13 @@ def is_solid(name):
 
 
 def kind_of(name):
-    """Of the rows of a program: its KIND, or that of all others."""
+    """Returns the kind of a program's rows: its KIND; default: `independent` for solids, else `exact`."""
     module = importlib.import_module(f"reference.derive.{name}")
     return getattr(module, "KIND", "independent" if is_solid(name) else "exact")
 
 
 def confirms(name):
-    """Whether the stored rows have another source, so that the program only holds them to their digits."""
+    """Returns whether the stored rows have another source, so that the program only confirms their digits."""
     return kind_of(name) == "consensus"
 
 

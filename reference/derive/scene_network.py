@@ -211,7 +211,7 @@ class SceneNetwork:
         return table(numbers(entry["path"], where), numbers(entry["factor"], where))
 
     def weight(self, entry, where):
-        """Of a body: the force at its centre."""
+        """Returns the weight of a body: the force at its centre."""
         if entry["on"] not in self.scene["nodes"]:
             raise Refused(f"{where}: no node or member '{entry['on']}' in the deriving program")
         body = self.scene["nodes"][entry["on"]]
@@ -418,7 +418,7 @@ def asked(name, entry, pieces):
 
 
 def whole(piece, members):
-    """Of the members of a scene that was cut those that were one with this."""
+    """Returns the pieces of a cut scene that were one member with this one."""
     name = piece.partition(" from ")[0]
     return [one for one in members if one.partition(" from ")[0] == name]
 

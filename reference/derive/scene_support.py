@@ -1,4 +1,4 @@
-"""What holds, drives and loads a body of a scene, as conditions of network.py.
+"""Supports, drivers and loads of a body of a scene, as conditions of network.py.
 
 Six conditions on place x, rotation R and the load of the members (f, mu about the body's point): where a component is free, f or mu is
 what is applied.  Turns: increments about fixed axes, each free or held; a rotation vector; or a sequence R = exp(a_1 t_1) exp(a_2 t_2) ...,
@@ -23,7 +23,7 @@ def skew(D):
 
 
 def rotation_vector(R):
-    """Of a real rotation matrix of less than half a turn."""
+    """Returns the rotation vector of a real rotation matrix of less than half a turn."""
     s = skew(R)
     sine, cosine = np.linalg.norm(s), (np.trace(R) - 1) / 2
     return s * (np.arctan2(sine, cosine) / sine if sine > 0 else 1.0)
@@ -106,7 +106,7 @@ class Support:
         return out
 
     def axes_now(self, level, numbers):
-        """Of the free turns of a sequence, as rows."""
+        """Returns the axes of the free angles of a sequence, as rows."""
         return np.array([axis for axis, _ in self._sequence(level, numbers)[0]])
 
     def conditions(self, kept=None, axes=None):
@@ -164,7 +164,7 @@ class Support:
         return None
 
 
-# What an end of a member does not pass on to its node: a joint (network.py) between them.
+# End release of a member: a joint (network.py) between them.
 #
 # The end is at r + R rho + R_end s, R_end = R exp(a_1 t_1) exp(a_2 t_2) with the node's body r, R; three turns have no order, R_end is free.
 # s: shifts along the turned end.  No load works on the released motions: with the moment about the joint, mu + (R_end s) x f, it vanishes
@@ -183,7 +183,7 @@ class Release:
         self.slides = [(axes[:, i], new_number()) for i in components if i < 3]
 
     def _axes(self, R, numbers):
-        """Of the turns now, and the rotation behind them; R of the node."""
+        """Returns the present axes of the rotations, and the rotation after them; R: of the node."""
         out = []
         for axis, k in self.turns:
             out.append(R @ axis)

@@ -1,4 +1,4 @@
-"""What the modified modes of a beam of second order must be, from the Simo-Reissner beam; compared with J Eq. 66 and N Eq. 37.
+"""Derives the modified modes of a beam of second order, from the Simo-Reissner beam; compared with J Eq. 66 and N Eq. 37.
 
 usage: second_order.py      prints the comparisons; reference/test/second_order_test.py asks for them
 

@@ -65,7 +65,7 @@ ELBOW = Rod((0, 0, 0), ((10, 0, 0), (0, 10, 0)), 1e6, 1e3, 1, 10, 20, True, 0, _
 
 
 def cross(a, b):
-    """Of [3, n] and [3, n] or [3, 1]."""
+    """Returns the cross products of [3, n] and [3, n] or [3, 1]."""
     return np.stack([
         a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
     ])
@@ -87,7 +87,7 @@ def _between(x, points):
 
 
 def _each(tensors, vectors):
-    """Of nodes: [nodes, 3, 3] times [3, nodes]."""
+    """Products at nodes: [nodes, 3, 3] times [3, nodes]."""
     return (tensors @ vectors.T[:, :, None])[:, :, 0].T
 
 

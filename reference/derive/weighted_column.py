@@ -13,7 +13,7 @@ POINTS = ({}, {"staying": 4}, {"staying": -20}, {"grows": "weight",
 
 
 def slope_at_foot(P, q):
-    """Of the solution that has slope 1 and no moment at the head."""
+    """Slope at the foot of the solution with slope 1 and no moment at the head."""
     c = [mpf(1), mpf(0)]
     while len(c) < TERMS:
         n = len(c) - 2

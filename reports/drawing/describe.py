@@ -1,4 +1,4 @@
-"""What a drawing shows, in words: supports, motions, loads, springs, sections."""
+"""Description of a drawing: supports, motions, loads, springs, sections."""
 import numpy as np
 
 from reports.drawing import geometry, loads
@@ -44,7 +44,7 @@ def load(one):
 
 
 def extent(within):
-    """Of the length of a member."""
+    """Describes a part of a member's length."""
     if within in (None, (0, 1)):
         return ""
     begin, end = (f"{number(100 * part)} %" for part in within)
@@ -132,7 +132,7 @@ def describe(scene):
 
 
 def counts(scene):
-    """How large it is, in words."""
+    """Describes the size of the scene."""
     bodies = {n.part_of for n in scene.nodes.values() if n.part_of}
     several = ((len(scene.members), "member"), (len(bodies), "rigid body"))
     words = [f"{n} {what if n == 1 else {'rigid body': 'rigid bodies'}.get(what, what + 's')}"

@@ -119,7 +119,7 @@ def thickness_words(section):
 
 
 def put_section(canvas, name, section, left):
-    """As it is looked at along x: y upwards, z to the right. Returns the right end."""
+    """Draws the section as seen along x: y upwards, z to the right. Returns the right end."""
     polygons = geometry.outline(section)
     both = np.vstack(polygons)[:, ::-1]  # across the paper z, upwards y
     low, high = both.min(axis=0), both.max(axis=0)
@@ -194,7 +194,7 @@ def body(scene, lines):
 
 
 def directions(scene):
-    """Of shifts and of turns that loads, motions, springs and axes make."""
+    """Returns the directions of displacements and of rotations of loads, motions, springs and axes."""
     shifts, turns = [], []
     for load in scene.loads:
         (turns if "moment" in load.kind else shifts).extend((load.vector, load.last))
@@ -212,7 +212,7 @@ def directions(scene):
 
 
 def put_names(canvas, look, scene):
-    """Of all nodes, or, where they are many, of those that quantities are of."""
+    """Draws the names of all nodes or, where there are many, of those with quantities."""
     asked = [n for n in scene.nodes.values() if n.name in scene.asked]
     named = asked if len(scene.nodes) > MOST_NAMES else list(scene.nodes.values())
     if len(named) > MOST_NAMES:

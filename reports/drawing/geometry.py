@@ -37,7 +37,7 @@ def chord(k, s):
 
 
 def arc_length(k, distance):
-    """Of the arc whose ends are so far apart."""
+    """Returns the length of the arc whose ends have this distance."""
     length = distance
     for _ in range(60):
         length += distance - np.linalg.norm(chord(k, length))

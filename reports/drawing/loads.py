@@ -38,7 +38,7 @@ def straight(view, at, way, ways, size=ARROW):
 
 
 def size(load):
-    """Of its vector, or of both where it changes."""
+    """Returns the size of the load's vector, or of both where it varies."""
     unit_of = UNITS[load.kind]
     if not load.varies():
         return vector(load.vector, unit_of)

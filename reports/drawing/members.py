@@ -29,7 +29,7 @@ def is_thin(strip):
 
 
 def middle_line(strip):
-    """Of a thin polygon with four corners [2 x 2]."""
+    """Returns the middle line of a thin polygon with four corners [2 x 2]."""
     a, b = np.linalg.norm(strip[1] - strip[0]), np.linalg.norm(strip[2] - strip[1])
     return np.array([(strip[0] + strip[3]) / 2, (strip[1] + strip[2]) / 2]) if a > b else \
         np.array([(strip[0] + strip[1]) / 2, (strip[2] + strip[3]) / 2])
@@ -56,7 +56,7 @@ def put_solid(canvas, view, line, here, there):
 
 
 def breadth(view, line, polygons):
-    """Of a member on paper, across its line [pt]."""
+    """Returns the breadth of a member on paper, across its line [pt]."""
     if not polygons:
         return 0
     flat = view(line.points[[0, -1]])
@@ -196,7 +196,7 @@ def put_ground(canvas, at, away):
         canvas.line([at + k * across, at + (k - 4) * across + 5 * way], INK, 0.7)
 
 
-# What holds a structure: clamps, pins, forks, single components.
+# Supports of a structure: clamps, pins, forks, single components.
 
 PLATE = 15  # half a side of a clamp's plate [pt]
 HATCHES = 9  # lines of a plate

@@ -81,7 +81,7 @@ class Spin:
 
 @dataclass
 class Scene:
-    """What a scene file says."""
+    """Content of a scene file."""
     name: str
     sections: dict  # name -> what the file says of it
     nodes: dict
@@ -164,7 +164,7 @@ def read_motion(said):
 
 
 def read_spin(analyses):
-    """Of the first analysis whose axes turn."""
+    """Reads the rotating frame of the first analysis that has one."""
     for said in analyses.values():
         kind, what = next(iter(said.items()))
         turning = what if kind == "rotation" else what.get("spin")

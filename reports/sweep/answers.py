@@ -1,4 +1,4 @@
-"""What the page of a sweep says first: for every formulation the ranges in which it is within the
+"""First statements of the page of a sweep: for every formulation the ranges in which it is within the
 tolerance, from the counts of one pass."""
 from dataclasses import dataclass, field
 
@@ -243,7 +243,7 @@ def many(number, noun):
 
 
 def percent(share):
-    """Of all points; never 0 or 100 where it is neither."""
+    """Returns the percentage of all points; never 0 or 100 unless exact."""
     value = 100 * share
     if 0 < value < 1:
         return "less than 1 %"
@@ -279,7 +279,7 @@ def bounds(part, chosen):
 
 
 def condition(part, chosen):
-    """What is chosen of an axis, in words."""
+    """Describes the chosen part of an axis."""
     axis = part.axis
     if axis.words:
         given, left = (axis.words[i] for i in chosen), set(range(len(part))) - set(chosen)

@@ -39,7 +39,7 @@ class Box:
 
     @property
     def share(self):
-        """Of all points."""
+        """Returns the share of all points."""
         return self.points / self.whole if self.whole else 0.0
 
     def holds(self, at):
@@ -228,7 +228,7 @@ class Search:
         self.ascend()
 
     def box(self, cost, chosen):
-        """What was chosen, as a Box."""
+        """Returns the choice as a Box."""
         good, bad = (float(self.reduced(t, (), chosen)) for t in (self.good, self.bad))
         parts = [None] * self.good.ndim
         for axis, row in chosen.items():

@@ -40,7 +40,7 @@ class Parts:
         return np.searchsorted(self.cuts, values, side="right")
 
     def name(self, part):
-        """What stands at a part."""
+        """Returns the label of a part."""
         if self.axis.words:
             return self.axis.words[part]
         if self.exact and self.low[part] == self.high[part]:
@@ -82,7 +82,7 @@ def values_of(column, at):
 
 @dataclass
 class Extent:
-    """What an axis takes: its different values while they are few, least and largest one."""
+    """Range of an axis: its different values while they are few, least and largest one."""
 
     levels: np.ndarray
     low: float = math.inf
@@ -120,7 +120,7 @@ def parts_of(axis, extent, most):
 
 
 def most_parts(sweep):
-    """How many parts of an axis the memory for cells, and the number of scattered points, allow."""
+    """Returns the largest number of parts of an axis, from the memory and the number of scattered points."""
     meshes, asked = len(sweep.meshes), len(sweep.quantities) + 1
     room = CELLS / (len(sweep.keys) * asked * (meshes + 2))
     axes = min(AXES, max(1, len(sweep.axes)))
@@ -213,7 +213,7 @@ class Gathered:
 
     @property
     def parts(self):
-        """Of all axes."""
+        """Returns the parts of all axes."""
         return self.lattices[0].parts
 
     @property

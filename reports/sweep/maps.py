@@ -24,7 +24,7 @@ def luminance(colour):
 
 
 def ink(fill):
-    """What can be read on it."""
+    """Returns the colour of text that is legible on it."""
     if not fill.startswith("#"):
         return "currentColor"
     return "#111418" if luminance(fill) > 130 else "#ffffff"

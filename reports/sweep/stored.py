@@ -80,7 +80,7 @@ class Piece:
 
 @dataclass
 class Sweep:
-    """What a file says of itself; pieces() reads its tables.
+    """Header of a file; pieces() reads its tables.
 
     subject: the scene file or the case; fixed: values of all its parameters where they do not vary;
     noise: costs whose ratio is below it tie; points: their number; statuses, kinds: names by
@@ -112,7 +112,7 @@ class Sweep:
 
     @property
     def name(self):
-        """Of its subject, without folders."""
+        """Returns the name of its subject, without folders."""
         return pathlib.PurePath(self.subject).name
 
     def scene_of(self, worst):

@@ -29,7 +29,7 @@ def run(*arguments, program=PROGRAM, **options):
 
 
 def environment(**changes):
-    """That of this process with some variables of other values."""
+    """Returns the environment of this process with some variables changed."""
     return {**os.environ, **changes}
 
 
@@ -80,7 +80,7 @@ class ProgramTest(unittest.TestCase):
         return done
 
     def record(self, *arguments, **options):
-        """What it prints with --format json."""
+        """Returns the output of --format json."""
         return json.loads(self.answered(*arguments, "--format", "json", **options).stdout)
 
     def refused(self, code, words, *arguments, silent=True, **options):

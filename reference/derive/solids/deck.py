@@ -72,7 +72,7 @@ class Grid:
         return np.flatnonzero(np.abs(self.nodes[:, axis] - value) < 1e-9)
 
 
-# What a rigid end does to a solid: the motion of its face, the resultant on it, their tangent.
+# Rigid end of a solid: the motion of its face, the resultant on it, their tangent.
 #
 # A shell's edge: the face moves as a rigid body, but its thickness is free to change; the directions
 # of the face turn with it.

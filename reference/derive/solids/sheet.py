@@ -133,7 +133,7 @@ def twisted(angle, mesh):
 
 
 def unit(name):
-    """Of a quantity of either case."""
+    """Returns the unit of a quantity of either case."""
     return {"u_x": "m", "F_y": "N"}.get(name) or unit_of(*entry_of(name))
 
 
@@ -156,7 +156,7 @@ def rows(everything=True):
 
 
 def anticlastic(mesh=MESHES[0]):
-    """How much softer the beam is in F_y/u_y, F_y/phi_z and M_z/phi_z at rest (N 4.1).
+    """Returns the relative difference of compliance between beam and plate in F_y/u_y, F_y/phi_z and M_z/phi_z at rest (N 4.1).
 
     Relative to the plate.
     """

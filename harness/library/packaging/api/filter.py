@@ -12,7 +12,7 @@ FEATURE = re.compile(r'\{(FEATURE_\w+),\s*"([^"]+)",\s*"([^"]+)"\}')
 
 
 def escaped(text):
-    """What doxygen would take for commands and tags; not inside `code`."""
+    """Escapes text that doxygen would take for commands and tags; not inside `code`."""
     parts = text.split("`")
     parts[::2] = [re.sub(r"([\\<>@#&]|--)", r"\\\1", part) for part in parts[::2]]
     return "`".join(parts)

@@ -1,4 +1,4 @@
-"""What users give, as the library takes it; what cannot be meant ends here with one line."""
+"""Converts arguments of users to those of the library; invalid ones raise an error of one line."""
 import json
 import operator
 import os

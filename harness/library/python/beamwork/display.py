@@ -1,4 +1,4 @@
-"""What notebooks show: small tables of HTML, all texts escaped, digits as far as they are known."""
+"""Display in notebooks: small tables of HTML, all texts escaped, digits as far as they are known."""
 import html
 import math
 
@@ -65,7 +65,7 @@ def folded(title, content):
 
 
 def scene(about, text):
-    """What it is and its parameters; quantities and the file unfold."""
+    """HTML of a scene: summary and parameters; quantities and the file unfold."""
     parameters = [(p["name"], plain(p["value"]), of_unit(p["unit"]), p["summary"])
                   for p in about["parameters"]]
     quantities = [(q["name"], of_unit(q["unit"]), q["meaning"]) for q in about["quantities"]]
@@ -78,7 +78,7 @@ def scene(about, text):
 
 
 def mistakes(told):
-    """Those of a scene that cannot be shown otherwise."""
+    """HTML of the mistakes of a scene that cannot be built."""
     return table(("mistakes", ), ((str(m), ) for m in told))
 
 

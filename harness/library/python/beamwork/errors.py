@@ -1,4 +1,4 @@
-"""What goes wrong, each with one line that names culprit and remedy."""
+"""Errors, each with one line that names culprit and remedy."""
 import json
 from dataclasses import dataclass
 

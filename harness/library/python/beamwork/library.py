@@ -115,7 +115,7 @@ class Owned:
             self._free(self.pointer)
 
     def text(self):
-        """What a text says; '' where there is none."""
+        """Returns the text, or '' where there is none."""
         return ctypes.string_at(self.pointer).decode("utf-8", "replace") if self.pointer else ""
 
 
@@ -146,7 +146,7 @@ def owned_by(kind, name, *arguments, entries=()):
 
 
 def stoppable(work, options):
-    """What work(options) gives, in a thread beside: Ctrl-C makes a descriptor readable that the
+    """Returns the result of work(options), run in another thread: Ctrl-C makes a descriptor readable that the
     option stop names, which ends the library's processes, and is raised here once they have.
     Where stop is given, or in another thread, which gets no Ctrl-C: work(options) itself."""
     if "stop" in options or threading.current_thread() is not threading.main_thread():
@@ -181,5 +181,5 @@ def stoppable(work, options):
 
 
 def ask(name, *arguments):
-    """What a function without a status gives."""
+    """Returns the result of a function without a status."""
     return _functions[name](*arguments)

@@ -1,4 +1,4 @@
-"""What one cell gives: a scene solved with one formulation on one mesh."""
+"""Result: a scene solved with one formulation on one mesh."""
 import ctypes
 import difflib
 import functools
@@ -183,7 +183,7 @@ class Result:
 
     @property
     def matrices(self):
-        """Of each state of compliance analyses: dicts of node, path, moments, and compliance and
+        """Returns for each state of compliance analyses: dicts of node, path, moments, and compliance and
         stiffness, [6, 6] arrays in ux, uy, uz, rx, ry, rz (None: there is none)."""
         def array(value):
             return None if value is None else numpy.array(value, dtype=float)

@@ -145,7 +145,7 @@ class Scene:
 
     @property
     def about(self):
-        """What it is, as `beamwork list CASE --format json`: a dict of case, summary, source and
+        """Returns the description, as `beamwork list CASE --format json`: a dict of case, summary, source and
         Records of parameters (name, unit, value, default, min, max, choices, summary), quantities
         (name, unit, meaning, is_curve) and formulations (formulation, runs, without)."""
         with self._lock:

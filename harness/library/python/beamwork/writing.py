@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 from .errors import Refused
 
-# What a scene file begins with, in its order; then what is a list of entries, each on a line.
+# First keys of a scene file, in this order; then the lists of entries, each entry on a line.
 HEAD = ("name", "summary", "source", "plane")
 ENTRIES = ("parameters", "let", "sections", "nodes", "members", "springs", "motions", "loads",
            "analyses", "quantities", "truths", "omit", "shear_theory", "needs", "meshes", "parts", "instances")
@@ -23,7 +23,7 @@ def number(value, where):
 
 
 def quoted(text, where):
-    """As a word, or between quotation marks."""
+    """Returns the text as a word, or between quotation marks."""
     if not text.isprintable():
         raise Refused(f"{where}: {text[:40]!r} has a character that is not printed; write it in "
                       "one line, without tabs")
