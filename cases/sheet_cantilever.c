@@ -103,7 +103,7 @@ static status build(const double value[], scene *s, fault *f)
     if (s->sections > 0)
         add_predictions(value, s);
     if (value[MODES] > 0) {
-        /* About the last state of the path.  The rotation about z is held in the sense of the
+        /* About the last state of the path.  The rotation about z is fixed in the sense of the
          * rotation vector from there. */
         add_frequencies(s, scene_add_modal(s, path_analysis), (int)value[MODES]);
         if (value[ROTARY] == 0)

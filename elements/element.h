@@ -13,7 +13,7 @@
  * dr (3, [m]), dphi (3, spatial increment, [rad]), da (warping amplitude, [rad/m]).
  * First derivatives are with respect to these; second derivatives are those in
  * the exponential chart R(dphi) = exp(dphi~) R, hence symmetric.
- * Matrices are row-major.  NULL output: not wanted and not computed.
+ * Matrices are row-major.  NULL output: not needed and not computed.
  * Elements allocate nothing and keep no state: the caller owns all arrays. */
 #ifndef BEAMWORK_ELEMENT_H
 #define BEAMWORK_ELEMENT_H
@@ -50,7 +50,7 @@ enum element_limit {
                                  6107 it has no definite stiffness */
     LIMIT_HALF_TURN = 1 << 5, /* strains follow turns between the ends up to pi: frames do not say
                                  by how many circles they have turned. Types that declare neither
-                                 turn are held to this one */
+                                 turn are bound to this one */
     LIMIT_TENSION = 1 << 6,   /* an element that is long for the axial force in it loses its
                                  stiffness across it: `tension` says by how much it is too long */
     LIMIT_EIGHTH_TWIST = 1 << 7 /* the strain of torsion is the sine of the twist between the nodes:
@@ -60,7 +60,7 @@ enum element_limit {
 /* Features that a type supports in one direction only. `list` and `solve` show it; a scene in which
  * it matters is not run. */
 enum element_lack {
-    LACKS_SHEAR_Y = 1 << 0 /* rigid in shear along y, though FEATURE_SHEAR is offered */
+    LACKS_SHEAR_Y = 1 << 0 /* rigid in shear along y, though FEATURE_SHEAR is supported */
 };
 
 /* Derivatives that the harness computes by differences (harness/formulations) for a type that does
@@ -74,8 +74,8 @@ enum element_left {
 };
 
 /* The theory of shear in stability that the equations of a type have, in bits; 0: rigid in shear.
- * A type is judged against the truth of its own theory, whatever a scene says; one that offers
- * several takes that of the request's features. */
+ * A type is evaluated against the truth of its own theory, whatever a scene specifies; one that
+ * offers several takes that of the request's features. */
 enum shear_theory {
     SHEAR_ENGESSER = 1 << 0, /* the axial force works on 1/2 (v'^2 + w'^2) of the fibre */
     SHEAR_HARINGX = 1 << 1,  /* it works on the rotation of the section (Simo-Reissner) */
@@ -161,12 +161,12 @@ typedef struct element_type {
     /* NOT_CONVERGED or SINGULAR when the state is outside what the formulation can evaluate. */
     status (*stress)(const element_data *, const double e[], const double inner[], stress_output *);
     /* Codes that give force and tangent of node states, or an energy that is the same wherever a
-     * rigid motion takes the element. The places of the nodes relative to the first one are its
+     * rigid motion takes the element. The positions of the nodes relative to the first one are its
      * strains. Straight elements only; in linear buckling the strains of the prestress count inside
      * each element: an error of their size. */
     status (*force)(const element_data *, const node_state x[], force_output *);
 
-    /* Optional: what it is judged by. */
+    /* Optional: what it is evaluated by. */
     unsigned leaves;         /* element_left: nothing is left to differences */
     unsigned limits;         /* element_limit: none */
     unsigned lacks;          /* element_lack: nothing */
@@ -223,7 +223,7 @@ typedef struct element_type {
      * nothing is wrong. */
     const char *(*trouble)(const element_data *);
     /* Optional: how many of one kind strain_many and stress_many evaluate in one go (lanes of the
-     * processor): they are asked for so many. 0: as many as there are (another process). */
+     * processor): this number is requested at a time. 0: as many as there are (another process). */
     int lanes;
     /* Optional: strains, stresses and the equations that follow from them in one go, the bits of
      * those one after the other. s[count][strains]: independent stresses. */
@@ -231,7 +231,7 @@ typedef struct element_type {
                            const double *const e[], const double *const inner[],
                            const double *const s[], equations_output out[], status outcome[]);
     /* Optional: 1: `inertia` of two nodes gives what motions in time with consistent mass need
-     * (rate and what stands below it). 0: they have the mass lumped at the nodes. Of a type without
+     * (rate and what is below it). 0: they have the mass lumped at the nodes. Of a type without
      * `inertia`: 1. */
     int spreads;
     /* For LIMIT_TENSION: length of the element over the largest one that the axial force of its

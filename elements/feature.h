@@ -1,5 +1,5 @@
-/* Physics: what an element can be asked for, a type offers and a scene needs; their words in
- * files. */
+/* Physics: features that an element can be asked for, that a type supports and a scene needs; their
+ * words in files. */
 #ifndef BEAMWORK_FEATURE_H
 #define BEAMWORK_FEATURE_H
 

@@ -10,7 +10,7 @@
 enum { OPTION_NODES };
 
 /* Compliance of a plane across an element, which an axial force N takes for more than it is where N
- * times it is 1: the section's shear [1/N], which is the beam's, and the bending that stands in the
+ * times it is 1: the section's shear [1/N], which is the beam's, and the bending that is in the
  * place of shear, l^2/12EI or l^2/60EI (exact.h), which is the mesh's. */
 typedef struct across {
     double shear, bending;

@@ -7,7 +7,7 @@
 typedef struct strain_output {
     double *e;       /* [strains] [m] */
     double *J;       /* [strains x 7 nodes] de/dx */
-    const double *s; /* in: [strains] stresses for H; NULL: H not wanted */
+    const double *s; /* in: [strains] stresses for H; NULL: H not needed */
     double *H;       /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2, overwritten */
 } strain_output;
 
@@ -61,14 +61,14 @@ typedef struct along_output {
                             its size, and nothing else counts */
     const double *e;     /* in: [strains]; NULL: linear in the force, of the undeformed element */
     const double *inner; /* in: [inner] */
-    double *sigma;       /* as `stress`, under the force; linear: of held nodes */
+    double *sigma;       /* as `stress`, under the force; linear: of fixed nodes */
     double *C;        /* as `stress`; linear: the stiffness of that prestress [strains x strains] */
     double *memory;   /* as `stress` */
     double *mixed;    /* [strains x 3] derivative of sigma by the turn [N]; linear: only with H */
     double *followed; /* [inner x 3] of the inner unknowns by the turn, which `update` leaves out;
-                         NULL: not wanted */
+                         NULL: not needed */
     double *H; /* [14 x 14] what the turns of the nodes add to turn^T second turn in the second
-                  derivative of the energy, exponential chart; NULL: not wanted */
+                  derivative of the energy, exponential chart; NULL: not needed */
     double turn[3 * ELEMENT_ALONG_COORDINATES]; /* [3 x 14] */
     double ends[ELEMENT_ALONG_COORDINATES];     /* what acts on the nodes at once [N, N m] */
     double moment[3];                           /* derivative of the energy by the turn [N m] */
@@ -84,7 +84,7 @@ typedef struct equations_output {
     double *sigma;           /* [strains] stress(e) + C (D(x) - e) [N] */
     double *force;           /* [7 nodes] J^T sigma */
     double *present;         /* [7 nodes] J^T s */
-    double *K; /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2 + J^T C J; NULL: not wanted */
+    double *K; /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2 + J^T C J; NULL: not needed */
 } equations_output;
 
 #endif

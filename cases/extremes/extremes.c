@@ -227,7 +227,7 @@ const extreme extremes[] = {
      {{"step", 0, 0.5, 1}},
      {{"w_z", 0}, {"R_xx", 0}, {"energy", 0}}, "turn in a step", "rad", EXTREME_WHOLE,
      1, 4, {0.1, 0.9, 2, 3}, EXTREME_EXACT, 0, 1e-9},
-    /* The turn of conserving, 2 atan(x/2), has an error of order 2 and is not asked for. */
+    /* The turn of conserving, 2 atan(x/2), has an error of order 2 and is not requested. */
     /* 3627.6 s: the first period; four steps in each. */
     {"long_motion", "long motion", "energy over many periods of a cantilever with a heavy body, by conserving",
      "release", "body=1e6;integrator=conserving;step=907;tolerance=0",

@@ -91,7 +91,7 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
                          "an abscissa is of a curve; add take: curve, or remove it");
 }
 
-/* The prediction's source stays when the scene is built anew: as it stands in the file. */
+/* The prediction's source stays when the scene is built anew: as it is in the file. */
 static void read_prediction(const fields *f, const unrolled *entry, scene_quantity *q)
 {
     const fields prediction = fields_below(f, "prediction");
@@ -289,7 +289,7 @@ void builder_defaults(builder *b)
         add_quantities(b);
 }
 
-/* Behind a word of the SI and its power; NULL: it is none. */
+/* Behind a word of the SI and its power; NULL: it is not one. */
 static const char *word_end(const char *at)
 {
     static const char *const si[] = {"1", "m", "rad", "s", "kg", "N", "Pa", "J", "W", "Hz"};
@@ -310,7 +310,7 @@ static const char *product_end(const char *at)
     return at;
 }
 
-/* "N m", "kg/m^3", "rad/(N m)": behind the stroke one word, or several in parentheses. */
+/* "N m", "kg/m^3", "rad/(N m)": after the stroke one word, or several in parentheses. */
 static int is_si(const char *unit)
 {
     const char *at = product_end(unit);

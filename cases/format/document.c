@@ -223,7 +223,7 @@ static document_node *read_node(reader *r, const yaml_event_t *event, int depth)
     }
 }
 
-/* The stream's first events, the tree, and the end behind it. */
+/* The stream's first events, the tree, and the end after it. */
 static document_node *read_stream(reader *r)
 {
     yaml_event_t event;

@@ -88,7 +88,7 @@ static double literal(parser *p)
     return value;
 }
 
-/* Arguments of a function behind its "(", and the ")". */
+/* Arguments of a function after its "(", and the ")". */
 static double call(parser *p, const expression_function *f, int from)
 {
     double value = 0;
@@ -300,7 +300,7 @@ int expression_vector(const document_node *n, int count, const scope *names, mis
 
 enum { MOST = 10000 };
 
-/* Where a text stands outside parentheses, behind `from`; the last such place; -1: nowhere. */
+/* Where a text stands outside parentheses, after `from`; the last such place; -1: nowhere. */
 static int find_outside(const char *text, int from, const char *what)
 {
     int depth = 0, found = -1;

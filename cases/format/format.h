@@ -75,7 +75,7 @@ typedef enum document_kind { DOCUMENT_TEXT, DOCUMENT_LIST, DOCUMENT_MAP } docume
 typedef struct document_node {
     document_kind kind;
     int line, column; /* of its first character, counted from 1 */
-    /* A text that stands in the file as it is: how many columns behind `column` it begins (a
+    /* A text that is in the file as it is: how many columns after `column` it begins (a
      * quote); -1: its characters have no place of their own (several lines, escapes, a name that
      * was put in). */
     int inset;
@@ -108,7 +108,7 @@ typedef void key_list_take(void *context, int depth, const char *name, const cha
 void key_list_loops(key_list_take *take, void *context);
 void key_list_all(key_list_take *take, void *context);
 
-/* Writes a text behind `at` columns of a line, further lines indented, and the end of the line. */
+/* Writes a text after `at` columns of a line, further lines indented, and the end of the line. */
 typedef void key_list_say(FILE *to, int at, int indent, const char *text);
 /* Name, form, unit, summary and words of each key. */
 void key_list_write(FILE *to, key_list_say *say);
@@ -159,7 +159,7 @@ typedef status scene_truth_taker(void *to, const scene_truth *, fault *);
  * REFUSED with all mistakes in m (and the first in f), FAULT when it cannot be read. path must
  * outlive m and the file. */
 status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f);
-/* Its form and parameters alone, where values other than the defaults are asked for; what it is
+/* Its form and parameters alone, where values other than the defaults are requested; what it is
  * at these says scene_file_check. */
 status scene_file_read_form(const char *path, scene_file **out, mistakes *m, fault *f);
 /* Is it a scene at these values of its parameters? REFUSED with all mistakes in m, the first in f.

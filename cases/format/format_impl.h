@@ -17,7 +17,7 @@ typedef struct scope {
     double number;           /* NAN: its expression has a mistake, which is reported */
     const char *word;        /* of a choice; NULL: a number */
     const char *choices;     /* "a|b|c" of a parameter; NULL: not known */
-    const double *constants; /* of a section, whose name ends in a point; NULL: it is none */
+    const double *constants; /* of a section, whose name ends in a point; NULL: it is not one */
     const struct scope *before;
 } scope;
 
@@ -61,7 +61,7 @@ typedef struct unrolled {
     const char *name;           /* of an entry of a map; of a list NULL */
     const document_node *place; /* where messages point to: its key, or itself */
     const document_node *value;
-    const document_node *written; /* the value as it stands in the file */
+    const document_node *written; /* the value as it is in the file */
     const scope *names;
     const struct placement *placed; /* of an instance of a part; NULL: of the scene itself */
 } unrolled;
@@ -91,7 +91,7 @@ enum { PLACEMENT_LISTS = 4 };
 /* Lists of a part: "nodes", "members", "springs", "loads". */
 extern const char *const placement_list[PLACEMENT_LISTS];
 
-/* Adds the entries of all instances of the scene behind list[k] of count[k], in the order of
+/* Adds the entries of all instances of the scene after list[k] of count[k], in the order of
  * placement_list. */
 void placement_unroll(const document_node *root, const scope *names, arena *a, mistakes *m,
                       unrolled *list[], int count[]);
@@ -217,7 +217,7 @@ int build_shapes_read(const fields *f, section_spec *spec);
 /* {NAME: VALUE, NAME: [VALUE, ...], ...}: has each name one of its values? 0 after a mistake. NULL:
  * 1. */
 int choose_holds(const document_node *conditions, const scope *names, mistakes *m);
-/* {NAME: {VALUE: ..., else: ...}}: what stands behind the value that the name has; anything else is
+/* {NAME: {VALUE: ..., else: ...}}: what is after the value that the name has; anything else is
  * itself. NULL after a mistake. */
 const document_node *choose_value(const document_node *n, const scope *names, mistakes *m);
 
@@ -279,7 +279,7 @@ status scene_packed_build(const void *context, const double value[], scene *s, f
 /* Lists of numbers, written out or as a range. */
 
 /* A list of numbers, or a range: a..b (steps of 1), a..b step c, a..b/n (n equal parts; the last /
- * behind .. always divides so, else put b in parentheses). Both ends are values. The count, or -1
+ * after .. always divides so, else put b in parentheses). Both ends are values. The count, or -1
  * after a mistake; *out is the arena's. */
 int range_values(const document_node *n, const scope *names, arena *a, mistakes *m, double **out);
 /* Is the text a range? */
@@ -332,8 +332,8 @@ int substitute_is_left(const char *text);
 typedef struct writer {
     FILE *to;
     const scene *scene;
-    int unwritable; /* 1: a number that is none */
-    int begun;      /* 1: a key stands in the map already */
+    int unwritable; /* 1: a number that is not one */
+    int begun;      /* 1: a key is in the map already */
 } writer;
 
 /* Functions that write an entry in a form of their own: its key, and all after it. */
@@ -345,7 +345,7 @@ typedef struct write_own {
 /* A map with the keys of an entry whose values are not the default. own: also for the maps below
  * it; NULL: none. */
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
-/* "key: ", behind ", " where it is not the first of its map. */
+/* "key: ", after ", " where it is not the first of its map. */
 void write_values_key(writer *w, const char *key);
 /* The word of that index in "a|b|c". */
 void write_values_word(writer *w, const char *words, int index);

@@ -97,7 +97,7 @@ const char *const key_list_head[2] = {
 
 typedef struct key_rows {
     FILE *to;
-    int depth; /* of what stands at the root of what is walked */
+    int depth; /* of what is at the root of what is walked */
     key_list_say *say;
 } key_rows;
 

@@ -170,7 +170,7 @@ void build_sections(builder *b)
     builder_sections(b);
 }
 
-/* Entries of the scene's own lists but sections, and behind them those of its instances. */
+/* Entries of the scene's own lists but sections, and after them those of its instances. */
 static void list_entries(builder *b)
 {
     static const scene_list placed[PLACEMENT_LISTS] = {SCENE_NODES, SCENE_MEMBERS, SCENE_SPRINGS,

@@ -245,7 +245,7 @@ static void add_hollow(section_spec *spec, double h, double b, double t)
     give(&spec->given.It, t * t * t * line / 3 + 4 * enclosed * enclosed * t / line);
 }
 
-/* Sizes behind the letters of a name: "200x100x5". How many; -1: something else stands there. */
+/* Sizes after the letters of a name: "200x100x5". How many; -1: something else stands there. */
 static int sizes_of(const char *text, double size[3])
 {
     int count = 0;

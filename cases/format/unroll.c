@@ -186,7 +186,7 @@ int choose_holds(const document_node *conditions, const scope *names, mistakes *
     return holds;
 }
 
-/* Behind the key that is its value, or behind else; NULL: behind none, or after a mistake. */
+/* Behind the key that is its value, or after else; NULL: after none, or after a mistake. */
 static const document_node *entry_of(const scope *known, const document_node *map,
                                      const scope *names, mistakes *m)
 {

@@ -222,7 +222,7 @@ static int base_power(const char *word, size_t size, entry_base base)
 int entry_power(const char *unit, entry_base base)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-    int power = 0, side = 1; /* side -1: behind a stroke */
+    int power = 0, side = 1; /* side -1: after a stroke */
     while (*unit != '\0') {
         const size_t size = strspn(unit, letters);
         const int times = unit[size] == '^' ? unit[size + 1] - '0' : 1;

@@ -164,7 +164,7 @@ scene_alpha scene_alpha_of_radius(double rho);
 /* Turns the axes of a static path or a continuation. */
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
 
-/* "linear", "static", ...: as a scene file says it. */
+/* "linear", "static", ...: as a scene file specifies it. */
 const char *scene_analysis_name(scene_analysis_kind);
 
 const scene_walk *scene_walk_of(const scene_analysis *a);
@@ -219,7 +219,7 @@ typedef struct scene_function {
     double scale;       /* of its value; 0: 1 */
 } scene_function;
 
-/* A further piece, behind those that there are; text is copied. -1: out of memory. */
+/* A further piece, after those that there are; text is copied. -1: out of memory. */
 int function_add(scene_function *, double until, const char *text);
 /* The pieces of another one, and its scale; `to` has none yet. -1: out of memory. */
 int function_copy(scene_function *to, const scene_function *from);
@@ -228,22 +228,22 @@ void function_free(scene_function *);
 status function_check(const scene_function *, fault *);
 /* Value and first two derivatives at t; at the end of a piece: of the next one. */
 void function_at(const scene_function *, double t, double out[3]);
-/* Is it finite from 0 to `end`, with so many of its derivatives (0 to 2), at both ends of all
+/* Is it finite from 0 to `end`, with that many of its derivatives (0 to 2), at both ends of all
  * pieces and at 63 instants between? 0: not at *time. */
 int function_finite(const scene_function *, double end, int derivatives, double *time);
 /* 1: value and velocity are continuous from piece to piece before `end`. 0: at *time the value
  * (*derivative 0) or the velocity (1) is not. */
 int function_smooth(const scene_function *, double end, double *time, int *derivative);
 
-/* Quantities of an analysis: a name, how it is judged, and what is extracted, one struct for each
- * kind. What a kind has is read through its function below, which ends the program when the
+/* Quantities of an analysis: a name, how it is evaluated, and what is extracted, one struct for
+ * each kind. What a kind has is read through its function below, which ends the program when the
  * quantity is of another kind: nothing else names the union. */
 
 typedef enum scene_quantity_kind {
     SCENE_COORDINATE,       /* displacement or rotation-vector component of a node */
     SCENE_REACTION,         /* of a prescribed component at a node */
     SCENE_COMPLIANCE_ENTRY, /* of the 6 x 6 matrix of the analysis' node */
-    SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (i, i), only the non-held coordinates free */
+    SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (i, i), only the non-fixed coordinates free */
     SCENE_CRITICAL_FACTOR,  /* load factor of linear buckling */
     SCENE_GROWTH,           /* largest rate of growth of a small motion [1/s]; 0: stable */
     SCENE_FREQUENCY,        /* [Hz] */
@@ -276,7 +276,7 @@ typedef enum scene_reduction {
     SCENE_MIN,
     SCENE_AT,
     SCENE_CURVE,
-    /* of a motion, wherever its stations lie: places and rates only */
+    /* of a motion, wherever its stations lie: positions and rates only */
     SCENE_MAX_TIME,   /* when the largest value is met [s] */
     SCENE_MIN_TIME,   /* when the least one is [s] */
     SCENE_CROSSING,   /* when a level is passed [s] */
@@ -489,7 +489,7 @@ typedef struct scene_quantity {
     double factor, offset;     /* reported value = factor * extracted value + offset */
     double near_zero;   /* absolute scale for relative errors of values near zero; 0: |value| */
     double tolerance;   /* relative, of the limit against the truth: SCENE_TOLERANCE unless a case
-                         says why not */
+                           specifies why not */
     double least_order; /* of convergence in the number of elements */
     scene_prediction prediction;
 } scene_quantity;
@@ -534,7 +534,7 @@ const char *scene_compliance_unit(int row, int column);
 /* Can it be extracted from an analysis of this kind? */
 int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
 
-/* A scene: pure data that says what a structure is, how it is held and driven,
+/* A scene: pure data that says what a structure is, how it is fixed and prescribed,
  * what is analysed and which quantities are wanted.  No solver is called here
  * and no formulation is known: a file could hold the same data.
  *
@@ -559,7 +559,7 @@ enum { SCENE_WARP_FREE = -1, SCENE_WARP_FIXED = -2 };
 enum { SCENE_FREE = -1, SCENE_HELD = -2 };
 
 /* Held in a plane: nothing leaves it, neither the nodes nor what lies between them; warping is
- * held.
+ * fixed.
  */
 typedef enum scene_plane {
     SCENE_SPACE,
@@ -573,7 +573,7 @@ typedef enum scene_rotation {
     SCENE_ROTATION_SPATIAL,  /* three increments about fixed axes, each free or held (all held:
                                 clamped) */
     SCENE_ROTATION_SEQUENCE, /* R = exp(axis_1 t_1) exp(axis_2 t_2) exp(axis_3 t_3); each angle
-                                free, held or driven */
+                                free, fixed or prescribed */
     SCENE_ROTATION_VECTOR, /* rotation vector = its three drivers' values: prescribed entirely, any
                               path */
     SCENE_ROTATION_FORK /* no turn about the section's own axis, the other two free: see scene_fork
@@ -644,7 +644,7 @@ typedef struct scene_member {
 typedef struct scene_spring {
     int p, q;             /* p: SCENE_NONE: the ground */
     double stiffness[36]; /* K, symmetric, row-major [N/m, N, N m] */
-    double asymmetry;     /* of K as it was given, in parts of its diagonal: the mean is taken */
+    double asymmetry;     /* of K as it was given, relative to its diagonal: the mean is taken */
     double damping[36];   /* of motions: forces gain damping x rates of d; symmetric [N s/m, N s,
                              N m s] */
     double damping_asymmetry; /* likewise */
@@ -683,7 +683,7 @@ typedef struct scene_load {
     double vector[3]; /* in `axes`, of the undeformed structure; at range[0] where it varies */
     double last[3];   /* where it varies: at range[1], linear between */
     int varies;       /* 0: the vector is the same all over the range */
-    double range[2]; /* of a member, in parts of its initial length from p: where a distributed load
+    double range[2]; /* of a member, relative to its initial length from p: where a distributed load
                         begins and ends (0 and 1: all of it, as of gravity); of a force or a moment
                         at a place both are that place. 0 and 0 of loads at nodes */
     int lumped;      /* of loads along a member: 0: it does its work on the displacements within the
@@ -735,7 +735,7 @@ struct scene {
     scene_load *load;
     scene_analysis *analysis;
     scene_quantity *quantity;
-    scene_plane plane; /* that all is held in; SCENE_SPACE: none */
+    scene_plane plane; /* that all is fixed in; SCENE_SPACE: none */
     unsigned omits;    /* of SCENE_OMITTABLE what the scene leaves out: scene_omit sets them */
     unsigned demands;  /* FEATURE_* bits beyond what its data call for: scene_demand sets them */
     scene_shear shear_theory;
@@ -780,7 +780,7 @@ int scene_add_driver(scene *s, const char *name, int stations, const double path
                      const double value[]);
 /* A driver by a function of time, to be given in pieces. */
 int scene_add_moving_driver(scene *s, const char *name);
-/* A piece of the function of a driver or of the factor of a load, behind those that it has; until
+/* A piece of the function of a driver or of the factor of a load, after those that it has; until
  * [s]: of the last one for ever. */
 void scene_drive_piece(scene *s, int driver, double until, const char *text);
 void scene_load_piece(scene *s, int load, double until, const char *text);
@@ -814,12 +814,12 @@ void scene_hold(scene *s, int node, int first,
 void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component,
                  int driver); /* a translation, or a spatial rotation component */
-/* A fork: its guides stand on both sides of the web, and their normal n = web x axis is fixed.  The
+/* A fork: its guides are on both sides of the web, and their normal n = web x axis is fixed.  The
  * web stays between them, R web . n = 0, whichever way the section is bent: R = exp(n t_1) exp(web
  * t_2).  While the bending is in the plane of axis and web, the section does not turn about its own
  * present axis, R axis, and the fork's moment is along it.  (A held SCENE_RX is a moment along the
  * fixed x axis.) axis, web: of the undeformed section, at right angles, of any length. Translations
- * are held by themselves. */
+ * are fixed by themselves. */
 void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
 /* A body of its own, at the node itself or beside it, rigidly joined to it. */
 void scene_set_body(scene *s, int node, scene_body body);
@@ -828,12 +828,12 @@ int scene_has_body(const scene_node *n);
 /* Has anything? */
 int scene_has_mass(const scene *s);
 /* Turns of a node that all its members release and nothing else meets, so that it has no angle of
- * its own there and is held: 0: none; SCENE_IDLE_AXIS: about `axis`, which turns with it. */
+ * its own there and is fixed: 0: none; SCENE_IDLE_AXIS: about `axis`, which turns with it. */
 enum { SCENE_IDLE_AXIS = 1, SCENE_IDLE_ALL };
 int scene_idle_turn(const scene *s, int node, double axis[3]);
 /* Convention of moments that a quantity depends on, or NULL. */
 const char *scene_convention(const scene *s, const scene_quantity *q);
-/* The axis across the plane that the scene is held in, 0 to 2, or SCENE_NONE. */
+/* The axis across the plane that the scene is fixed in, 0 to 2, or SCENE_NONE. */
 int scene_normal(const scene *s);
 /* "xy"; "" in space. */
 const char *scene_plane_name(const scene *s);
@@ -855,7 +855,7 @@ status scene_constants(const scene *s, int i, section *out, fault *f);
 status scene_validate(const scene *s, fault *f);
 
 /* Values along the path of a static analysis: on a line from station to station, before the first
- * and behind the last as there. */
+ * and after the last as there. */
 
 /* Factor of the load at a path parameter; without stations the parameter itself. */
 double along_path_factor(const scene_load *, double path);
@@ -1017,8 +1017,8 @@ int entry_stands(const entry_field *, const void *entry);
 /* "at least 0" */
 const char *entry_range(const entry_field *, char text[FAULT_TEXT]);
 int entry_in_range(const entry_field *, double value);
-/* REFUSED: a number is none or beyond its range ("damping = -1; give at least 0"), a name is that
- * of no entry, a word is none of its words. */
+/* REFUSED: a value is no number or out of its range ("damping = -1; give at least 0"), a name is
+ * that of no entry, a word is none of its words. */
 status entry_check(const scene *s, const entry_field *table, const void *entry, fault *f);
 
 typedef enum entry_base { ENTRY_LENGTH, ENTRY_FORCE } entry_base;
@@ -1078,7 +1078,7 @@ typedef struct expression_function {
 
 /* The function or constant with that name of `length` bytes, or NULL. */
 const expression_function *functions_find(const char *name, int length);
-/* The i-th name, or NULL behind the last. */
+/* The i-th name, or NULL after the last. */
 const char *functions_name(int i);
 
 /* Which entries of a scene affect which analysis: the only place that determines it, by which
@@ -1141,7 +1141,7 @@ double *scene_copy(scene *s, int n, const double from[]);
 
 /* Parts of the words of a quantity: nodes, members, coordinates and ordinals. */
 
-/* " of node_1 (0.1, 0, 0)" behind the preposition. */
+/* " of node_1 (0.1, 0, 0)" after the preposition. */
 void meaning_node(FILE *to, const scene *s, const char *preposition, int node);
 /* " of member_0 (node_0 to node_1)" */
 void meaning_member(FILE *to, const scene *s, int member);
@@ -1173,7 +1173,7 @@ void scene_omission_words(unsigned omits, char words[SCENE_OMISSION_WORDS]);
 /* "haringx" */
 const char *scene_shear_word(scene_shear theory);
 
-/* A kind of quantity: all that is to be said of it, but for how a solution is asked for it
+/* A kind of quantity: all that is to be said of it, but for how a solution is requested it
  * (harness/analysis) where it is more than a reading of nodes.  One file each in cases/quantities:
  * the build finds it. */
 

@@ -313,7 +313,7 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
     return a->kind == SCENE_COMPLIANCE ? check_compliance(s, a, i, f) : STATUS_OK;
 }
 
-/* Only places and rates are followed between the stations of a motion. */
+/* Only positions and rates are followed between the stations of a motion. */
 static status check_passing(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_analysis *a = &s->analysis[q->analysis];

@@ -230,7 +230,7 @@ int scene_idle_turn(const scene *s, int node, double axis[3])
         return 0;
     if (what == LOOSE_ALL)
         return free_angles(n) == 7 ? SCENE_IDLE_ALL : 0;
-    for (int k = 0; k < 3; k++) /* a node of a plane frame: the others are held */
+    for (int k = 0; k < 3; k++) /* a node of a plane frame: the others are fixed */
         if (free_angles(n) == 1 << k)
             return SCENE_IDLE_AXIS;
     return free_angles(n) == 7 ? SCENE_IDLE_AXIS : 0;

@@ -46,7 +46,7 @@ int joint_add(const double value[], scene *s, int profile, const double centre[3
 
 enum { HEXAPOD_LEGS = 6 };
 
-/* Parameters of every case with such a hexapod, behind those of its joints. */
+/* Parameters of every case with such a hexapod, after those of its joints. */
 enum {
     HEXAPOD_BASE_RADIUS = JOINT_PARAMETERS,
     HEXAPOD_CRANK_LENGTH,

@@ -234,7 +234,7 @@ static void without_warping(beamw_condensed *out, parts *of)
     memset(out->hg + 2 * E, 0, E * sizeof(double));
 }
 
-/* Terms with as many variables of z as are asked for. */
+/* Terms with as many variables of z as are requested. */
 static void list_terms(const parts *of, int inside, beamw_condensed *out)
 {
     static const short from[BEAMW_CONDENSED_ROWS] = {0, 1, 2, 3, EVEN, EVEN + 1};

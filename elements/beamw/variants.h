@@ -13,7 +13,7 @@
 typedef struct beamw_quadratic_term {
     double c;
     short row, i, j;
-    short to, mirrored; /* where c y_j and c y_i belong in the rows' derivatives, row-major; behind
+    short to, mirrored; /* where c y_j and c y_i belong in the rows' derivatives, row-major; after
                            them: nowhere, since i = j */
     short entry;        /* of a matrix of second derivatives */
 } beamw_quadratic_term;
@@ -86,7 +86,7 @@ enum {
 }; /* e, and z: the parts of h [3] that are bending (y, z) and warping */
 
 /* From the full shear interpolation: consistent with shear and eccentricity (reference/ERRATA.md),
- * either theory of shear in stability, with the monosymmetric Wagner moments where asked for.  ebar
+ * either theory of shear in stability, with the monosymmetric Wagner moments where requested.  ebar
  * = e + 1/2 y^T Q y, y = (e, z). */
 void beamw_modified_consistent(
     const section *c, unsigned features, double l0, const beamw_twist *t,
@@ -126,7 +126,7 @@ typedef struct beamw_condensed {
     double hg[3 * BEAMW_STRAINS];              /* z = hg e without stress */
     double share;                              /* of the quadratic part of u2 in h_w [1/m^2] */
     double odd[BEAMW_STRAINS * BEAMW_STRAINS]; /* d2/de2 of 1/2 k5 u5^2 [N/m] */
-    int linears;                               /* (u, h), rows as in k and behind them, of e */
+    int linears;                               /* (u, h), rows as in k and after them, of e */
     beamw_condensed_linear linear[BEAMW_CONDENSED_ALL * BEAMW_STRAINS];
     int mixed, own, terms; /* of e alone, for an entry of [8 x 8]; of e_i, z_j from `mixed`, of (j,
                               i) in [3 x 8]; of z alone from `own`, of [3 x 3] */

@@ -99,7 +99,7 @@ static inline void exact_along_column(const double xi[3], double column[9])
 void exact_prestress_derivatives(
     const exact_stages *s, double Q[EXACT_STAGES_OUTER][EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);
 
-/* The same in the direction of loads along the element between held nodes, which add along[stages]
+/* The same in the direction of loads along the element between fixed nodes, which add along[stages]
  * to F at the points: Q [strains x strains]. */
 void exact_prestress_load(const exact_stages *s, double along[][3],
                           double Q[EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);

@@ -112,7 +112,7 @@ enum {
     EXACT_STAGE_SLOPE = 3,
     EXACT_STAGE_FORCE = 6,
     EXACT_STAGE_SPACE = 9
-}; /* places of x, x' and F */
+}; /* positions of x, x' and F */
 
 typedef struct exact_stage {
     real x[3], slope[3], kappa[3], N[3]; /* kappa: less that of the undeformed state */

@@ -118,7 +118,7 @@ int field_points(const displacement_field *f, double from, double to, double x[F
     return beamw_twist_points(&f->twist, from, to, x, weight);
 }
 
-enum { PSI = FIELD_FUNCTIONALS }; /* warping amplitude, behind the others */
+enum { PSI = FIELD_FUNCTIONALS }; /* warping amplitude, after the others */
 /* Exact for the square of a cubic; hyperbolic twist within 1e-9 up to ten lengths of its layer. */
 enum { CUBIC_POINTS = 4, HYPERBOLIC_POINTS = BEAMW_GAUSS };
 

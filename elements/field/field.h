@@ -63,7 +63,7 @@ typedef struct field_load {
 } field_load;
 
 /* forces[7 nodes] += what the loads do on the coordinates of the nodes, K[7 nodes x 7 nodes] -= its
- * derivative in the exponential chart (NULL: not wanted): symmetric for forces in fixed axes, which
+ * derivative in the exponential chart (NULL: not needed): symmetric for forces in fixed axes, which
  * have a potential.  rows[count]: where each of them acts; what acts on the line without an arm may
  * be integrated. */
 void field_add_loads(const displacement_field *, const node_state x[], int count,

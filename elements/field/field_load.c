@@ -15,7 +15,7 @@ enum {
     TERMS = 2
 };
 
-/* y = part of director (or of the places of the nodes) and sum sign m_k functional. */
+/* y = part of director (or of the positions of the nodes) and sum sign m_k functional. */
 typedef struct field_vector {
     int director; /* NONE: a place */
     struct {

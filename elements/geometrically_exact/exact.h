@@ -8,7 +8,7 @@
 
 /* Polynomials on the unit interval: Lagrange's basis.  All dimensionless. */
 
-/* L[n], dL[n] (NULL: not wanted): Lagrange polynomials on the points p[n] and their derivatives at
+/* L[n], dL[n] (NULL: not needed): Lagrange polynomials on the points p[n] and their derivatives at
  * x. */
 void exact_line_lagrange(int n, const double p[], double x, double L[], double dL[]);
 

@@ -16,8 +16,8 @@ void dense_mul_vec(int m, int n, const double *A, const double *x, double *y);
 /* K(n x n) += J^T S J with J(m x n), S(m x m) (S need not be symmetric); work: m*n doubles. */
 void dense_add_congruence(int m, int n, const double *J, const double *S, double *K, double *work);
 
-/* A (n x n) becomes the mean of itself and its transpose; the largest difference of the two, in
- * parts of the roots of its diagonal: 0 where they are equal, INFINITY where it has no scale. */
+/* A (n x n) becomes the mean of itself and its transpose; the largest difference of the two,
+ * relative to the roots of its diagonal: 0 where they are equal, INFINITY where it has no scale. */
 double dense_symmetrise(int n, double *A);
 /* Cholesky A = L L^T in place (lower triangle, n x n); 0, or 1 + the index of the failing pivot. */
 int dense_cholesky(int n, double *A);

@@ -9,7 +9,7 @@ enum { N = 6 };
 
 static const char *const stress[N] = {"N", "Qy", "Qz", "Mx", "My", "Mz"};
 
-/* A becomes symmetric; *asymmetry: the greater of it and what A was off, in parts of its
+/* A becomes symmetric; *asymmetry: the greater of it and what A was off, relative to its
  * diagonal. */
 static status make_symmetric(double A[36], const char *name, double *asymmetry, fault *f)
 {

@@ -33,7 +33,7 @@ typedef struct section {
     double centroid[2];             /* in wall coordinates [m] */
     int matrices;                   /* 1: a section by its matrices */
     double stiffness[36], mass[36]; /* of that; else zero */
-    double asymmetry; /* of them as they were given, in parts of the diagonal: the mean is taken */
+    double asymmetry; /* of them as they were given, relative to the diagonal: the mean is taken */
     int rectangle;    /* 1: a solid rectangle with the sizes below */
     double width, height; /* of the rectangle: `width` along z (the sheet's w), `height` along y
                              (its t) [m] */
@@ -47,7 +47,7 @@ typedef enum section_kind {
     SECTION_MATRICES
 } section_kind;
 
-/* Constants of SECTION_CONSTANTS that are zero because a scene says so. */
+/* Constants of SECTION_CONSTANTS that are zero because a scene specifies so. */
 typedef enum section_zero {
     SECTION_ZERO_SHEAR = 1 << 0,    /* D or F */
     SECTION_ZERO_WARPING = 1 << 1,  /* Iw */
@@ -122,7 +122,7 @@ status section_compute(const section_spec *spec, section *out, fault *f);
  * only: with E = G = 1 Pa, A = C_11, Iy = C_55, Iz = C_66, It = C_44, shear rigidities C_22 and
  * C_33; nothing warps, the centroid is on the line. */
 
-/* Largest asymmetry of matrices that were measured or printed, in parts of the diagonal. */
+/* Largest asymmetry of matrices that were measured or printed, relative to the diagonal. */
 #define SECTION_MATRICES_SYMMETRIC 1e-6
 
 /* Fills a zeroed section.  REFUSED: C not symmetric or not positive definite; M not that of a
@@ -133,7 +133,7 @@ status section_matrices(const section_spec *spec, section *out, fault *f);
 
 /* Is there more in the matrices than constants have?  Anything off the diagonal of C; where inertia
  * matters, anything off that of M, and moments of inertia J other than those of a section of one
- * material, where they are asked for, or other than Jxx. */
+ * material, where they are requested, or other than Jxx. */
 int section_matrices_couple(const section *c, int inertia, int rotary);
 
 /* Centre of mass [m]; (0, 0, 0) without mass. */
@@ -146,8 +146,8 @@ void section_matrices_centre(const section *c, double centre[3]);
  * member's line: the shear stresses due to the taper itself are omitted, as usual in beam
  * theory. */
 
-/* May one description change into the other?  REFUSED: another form (rectangle, walls that hang
- * together in another way, D in one and F in the other ...), and, where the section warps, a shear
+/* May one description change into the other?  REFUSED: another form (rectangle, walls that are
+ * connected in another way, D in one and F in the other ...), and, where the section warps, a shear
  * centre that moves, walls that do not stay in their planes, closed cells that are not the same:
  * the sectorial coordinate of a fibre would change along the member, which couples its warping with
  * torsion in a way that no prismatic piece has. ends: what the two come to. */

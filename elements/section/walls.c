@@ -13,7 +13,7 @@ double tree_wall_length(const section_spec *s, int w)
     return hypot(q[0] - p[0], q[1] - p[1]);
 }
 
-/* Entries of `t` that reach a point; the walls that close cells are put behind them. */
+/* Entries of `t` that reach a point; the walls that close cells are put after them. */
 static status connect(const section_spec *s, section_tree *t, fault *f)
 {
     int reached[SECTION_MAX_POINTS] = {0}, used[SECTION_MAX_WALLS] = {0}, count = 0;

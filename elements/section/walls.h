@@ -1,4 +1,4 @@
-/* Sections of straight thin walls: how the walls hang together: a spanning tree of their mid-lines,
+/* Sections of straight thin walls: how the walls are connected: a spanning tree of their mid-lines,
  * and the walls that close cells.
  *
  * A flow that is constant around each cell and zero elsewhere is what equilibrium leaves open;
@@ -10,7 +10,7 @@
 #include "elements/section/section.h"
 
 /* Root: point 0.  The first walls - cells entries are the tree, from the root outwards; each entry
- * behind closes a cell. */
+ * after closes a cell. */
 typedef struct section_tree {
     int wall[SECTION_MAX_WALLS]; /* wall of an entry */
     int near[SECTION_MAX_WALLS],
@@ -97,7 +97,7 @@ status walls_lines_of(const section_spec *spec, walls_lines *lines, section *out
  * line. */
 status section_walls(const section_spec *spec, section *out, fault *f);
 
-/* int omega r^2 dA in parts of the square root of int omega^2 dA int r^4 dA: by it a bimoment turns
+/* int omega r^2 dA relative to the square root of int omega^2 dA int r^4 dA: by it a bimoment turns
  * the section on, and a twist to one side is not that to the other; no element has it. 0 of
  * symmetric sections, and of those that are no walls. */
 double walls_one_sided(const section_spec *spec);

@@ -1,5 +1,5 @@
 /* Section constants made dimensionless with the length l0 of an element and one of its bending
- * stiffnesses, and only those of the physics that is asked for. */
+ * stiffnesses, and only those of the physics that is requested. */
 #ifndef BEAMWORK_SHARED_BEAM_CONSTANTS_H
 #define BEAMWORK_SHARED_BEAM_CONSTANTS_H
 

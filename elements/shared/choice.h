@@ -6,7 +6,7 @@
 
 /* Numbers that a user writes. */
 
-/* The number that `text` begins with; *end: behind it. 0: there is none, or a double does not hold
+/* The number that `text` begins with; *end: after it. 0: there is none, or a double does not hold
  * it: it is infinite, or so small (below 2.2e-308) that it would become zero or lose digits. */
 int number_read(const char *text, const char **end, double *out);
 

@@ -251,9 +251,9 @@ lanes_equations_force(int strains, int columns, const real J[], const real s[], 
             out[j] += s[i] * J[i * columns + j];
 }
 
-/* K += J^T C J.  Of two nodes that count by their difference, the coordinates of the places of the
- * first one have minus the entries of the second, but for the block of both: it is as symmetric as
- * H is. */
+/* K += J^T C J.  Of two nodes that count by their difference, the coordinates of the positions of
+ * the first one have minus the entries of the second, but for the block of both: it is as symmetric
+ * as H is. */
 static inline __attribute__((always_inline)) void lanes_equations_stiffness(lanes_sizes n,
                                                                             lanes_equations *q)
 {

@@ -23,7 +23,7 @@ void moving_clear(int n, inertia_output *out);
  * the upper half counts until moving_complete. */
 void moving_add(const moving_vector *v, const element_rotating_frame *frame, int n,
                 inertia_output *out, double F[3]);
-/* Lower halves from the upper ones; once, behind everything that is added. */
+/* Lower halves from the upper ones; once, after everything that is added. */
 void moving_complete(int n, inertia_output *out);
 /* Matrix to which second derivatives of y are added; NULL: not requested. */
 static inline double *moving_stiffness(const element_rotating_frame *frame,

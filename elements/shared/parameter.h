@@ -13,13 +13,13 @@ typedef struct parameter_type {
     const char *summary; /* one line */
 } parameter_type;
 
-/* Tables one behind the other, so that entries which several have in common stand once; NULL behind
+/* Tables one after the other, so that entries which several have in common stand once; NULL after
  * the last one where they are fewer. */
 enum { PARAMETER_PARTS = 5 };
 
 /* Entries of all parts. */
 int parameter_count(const parameter_type *const part[PARAMETER_PARTS]);
-/* NULL: behind the last one. */
+/* NULL: after the last one. */
 const parameter_type *parameter_at(const parameter_type *const part[PARAMETER_PARTS], int i);
 /* -1: there is none of that name. */
 int parameter_index(const parameter_type *const part[PARAMETER_PARTS], const char *name);

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A line that is too long loses its middle (of a long path): culprit and remedy stand at its ends.
+/* A line that is too long loses its middle (of a long path): culprit and remedy are at its ends.
  */
 static void shorten(const char *line, size_t length, char text[FAULT_TEXT])
 {

@@ -31,7 +31,7 @@ typedef struct sheet_potential {
 status sheet_coefficients_prepare(const element_request *request, int printed, sheet_potential *out,
                                   fault *f);
 
-/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not wanted.  SINGULAR when A is not positive
+/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not needed.  SINGULAR when A is not positive
  * definite there. */
 status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                                 double *P, double *gradient, double *hessian);
@@ -173,7 +173,7 @@ static inline real sheet_stationary_value(const sheet_potential *p, const sheet_
     return P;
 }
 
-/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not wanted.  Returns where A is positive
+/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not needed.  Returns where A is positive
  * definite; where it is nowhere, nothing is written.
  * P,k = P0,k + s.b,k - s^T A,k s/2,
  * P,kl = P0,kl + s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l s). */

@@ -92,7 +92,7 @@ typedef struct sheet_fields {
     double phi_z[SHEET_LOCAL_COORDINATES], dphi_z[SHEET_LOCAL_COORDINATES];
 } sheet_fields;
 
-/* 1: phi_x is cubic (N Eq. 19); 0: where nothing warps or no amplitude is asked for it is linear.
+/* 1: phi_x is cubic (N Eq. 19); 0: where nothing warps or no amplitude is requested it is linear.
  */
 int sheet_fields_warp(const element_request *request);
 
@@ -188,7 +188,7 @@ typedef struct sheet_wagner_term {
 /* Inactive without FEATURE_WAGNER_TORQUE; refuses initial torsion beside it. */
 status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f);
 
-/* Adds to energy[1], sigma[8], C[8 x 8], of one element or of several in lanes; NULL: not wanted.
+/* Adds to energy[1], sigma[8], C[8 x 8], of one element or of several in lanes; NULL: not needed.
  */
 static inline void sheet_wagner_add(const sheet_wagner_term *w, const real e[SHEET_STRAINS],
                                     real *energy, real *sigma, real *C)

@@ -100,7 +100,7 @@ typedef struct unsymmetric_result {
     int n, count;
     double *frequency, *growth; /* [count] [rad/s], [1/s]; growth 0: below what rounding makes of a
                                    double value */
-    double *split; /* [count] imaginary part of s^2 in parts of its size; 1: divergence */
+    double *split; /* [count] imaginary part of s^2 relative to its size; 1: divergence */
     double *error; /* [count] estimate of the rounding error, relative to |s| */
     double *mode;  /* [count x n] real */
     long solutions;
@@ -144,7 +144,7 @@ const char *flutter_name(const flutter_system *, flutter_kind);
 /* The path parameter at which stability is first lost, from path 0. The state is on the path. *mode
  * [free], which the caller frees. */
 typedef struct flutter_point {
-    double path, error, frequency; /* error: in parts of the path; [rad/s] */
+    double path, error, frequency; /* error: relative to the path; [rad/s] */
     const char *what;              /* flutter_name */
     int massless;
     double *mode;
@@ -176,8 +176,8 @@ void flutter_judge_free(flutter_judge *);
 /* Replacement of the count of negative pivots where a tangent K is not symmetric: the eigenvalues
  * next to zero of D^-1 K, D the metric, and the number of those left of the imaginary axis. That
  * number changes where one passes zero, which is a critical point, and where a pair crosses the
- * imaginary axis away from zero, which is none. Pairs that meet on the real axis do not change it,
- * nor does rounding that turns a double value into a pair. A symmetric K has as many of them as
+ * imaginary axis away from zero, which is not one. Pairs that meet on the real axis do not change
+ * it, nor does rounding that turns a double value into a pair. A symmetric K has as many of them as
  * negative pivots. */
 
 enum { LEFT_NEAREST = 6 };
@@ -211,7 +211,7 @@ typedef struct path_point {
                    */
     int determinant; /* sign of det K */
     double least;    /* eigenvalue of K of least size, its real part where K is not
-                        symmetric; NAN: not wanted */
+                        symmetric; NAN: not needed */
     int nearest;
     double complex mu[LEFT_NEAREST]; /* [nearest] eigenvalues next to zero, least size first, where
                                         K is not symmetric */
@@ -287,7 +287,7 @@ status continuation_sound_report_jump(continuation *, const rival *, double from
  * The step was found with the goal. *jump: 1 when the tangent stiffness changes its inertia without
  * a critical point, which is another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
-/* Where critical points are asked for: *hidden 1 when something changes within the step and back,
+/* Where critical points are requested: *hidden 1 when something changes within the step and back,
  * as far as that lasts a fifth of it. */
 status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
@@ -360,7 +360,7 @@ int modal_wanted(const analysis_context *, int analysis);
 
 status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Enters the stability of the stations, as the modes found show it, after the steps have been
- * judged. */
+ * evaluated. */
 void rotation_judge_stations(analysis_context *, int analysis, const analysis_outcome *);
 
 /* Nonlinear equilibrium along a path. */

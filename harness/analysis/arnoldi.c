@@ -137,7 +137,7 @@ static status ritz(solver *s, fault *f)
     return STATUS_OK;
 }
 
-/* The vector of value i of the order, into x; its residual in parts of the value. */
+/* The vector of value i of the order, into x; its residual relative to the value. */
 static double vector_of(const solver *s, int i, double complex x[])
 {
     const int k = s->count, n = s->p->n, at = s->order[i], second = s->im[at] < 0;

@@ -58,7 +58,7 @@ static double least_of(continuation *p, const path_point *at)
     return at->symmetric ? least_eigenvalue(p) : at->least;
 }
 
-/* Is what stands next to zero a pair whose real part vanishes beside its size? */
+/* Is what is next to zero a pair whose real part vanishes beside its size? */
 static int is_aside(const path_point *at)
 {
     return !at->symmetric && at->nearest > 0 && fabs(creal(at->mu[0])) < aside * cabs(at->mu[0]);
@@ -128,7 +128,7 @@ static double next_part(const bound *low, const bound *high)
 }
 
 /* Narrows the interval; the state is then the critical point, up to rounding. *gone: the test
- * function has no zero; *behind: part of the step after which the point was passed. */
+ * function has no zero; *after: part of the step after which the point was passed. */
 static status locate(continuation *p, path_goal goal, const sought *s, int *gone, double *behind,
                      fault *f)
 {
@@ -169,7 +169,7 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
     return STATUS_OK;
 }
 
-/* The pivots behind the point, where all eigenvalues that vanish at it have passed zero; *at: part
+/* The pivots after the point, where all eigenvalues that vanish at it have passed zero; *at: part
  * of the step there. */
 static status count_behind(continuation *p, path_goal goal, const sought *s, double *at,
                            int *negative, fault *f)
@@ -193,7 +193,7 @@ static int is_pair(const continuation *p, const sought *s)
            p->next.negative >= 0;
 }
 
-/* A node that is held about some axes and free about others: its tangent has no part of the moment
+/* A node that is fixed about some axes and free about others: its tangent has no part of the moment
  * that holds it, so that what passes beside zero may be what passes through it. */
 static int holds_some_turns(const model *m)
 {
@@ -264,7 +264,7 @@ static status report_all(continuation *p, path_goal goal, int by_rate, int *jump
 }
 
 /* The part of the step becomes the trial point; its first one, or the next. Two corrections are
- * near enough to a state that is looked at only. */
+ * near enough to a state that is examined only. */
 static status look_at(continuation *p, path_goal goal, double part, int first, fault *f)
 {
     const path_goal to = part_of(p, goal, part);

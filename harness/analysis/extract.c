@@ -155,7 +155,7 @@ void extract_spectrum_buckling(const scene_quantity *q, const analysis_outcome *
     quantity_no_value(r, side->status, why);
 }
 
-/* *found: the mode of the kind and order that is asked for; -1: there is none. x[free + driven] is
+/* *found: the mode of the kind and order that is requested; -1: there is none. x[free + driven] is
  * work space. */
 static status find_mode(const analysis_context *c, const scene_mode *wanted,
                         const outcome_side *side, double x[], int *found, fault *f)

@@ -7,7 +7,7 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
-/* A value with its error, in parts of it; NAN with the reason where no digit is left. */
+/* A value with its error, relative to it; NAN with the reason where no digit is left. */
 static double known(const analysis_context *c, double value, double error, const char *what,
                     quantity_result *r)
 {
@@ -69,7 +69,7 @@ static double force_at(const analysis_context *c, const scene_quantity *q,
     return outcome == STATUS_OK ? value : NAN;
 }
 
-/* NULL: no quantity asked for them. */
+/* NULL: no quantity requested them. */
 static const rotation_modes *modes_at(const analysis_outcome *o, int i)
 {
     rotation_modes *const modes = outcome_rotation_of(o)->modes;
@@ -157,7 +157,7 @@ static void path_ends(const analysis_context *c, const scene_quantity *q, const 
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason_of_path(c, q));
 }
 
-/* Is the station where the quantity is taken? Those of a largest or least value are all looked at.
+/* Is the station where the quantity is taken? Those of a largest or least value are all examined.
  */
 static int is_taken_at(const scene_quantity *q, int stations, const double path[], int station)
 {

@@ -98,7 +98,7 @@ const char *flutter_name(const flutter_system *s, flutter_kind kind)
     return s->damped ? "flutter, growth with the members' damping" : "flutter, undamped";
 }
 
-enum { MOTIONS = 8 };                  /* least ones that are looked at */
+enum { MOTIONS = 8 };                  /* least ones that are examined */
 static const double most_error = 1e-2; /* beyond it nothing is known of a motion */
 static const double real_part = 1e-6;  /* beside which an imaginary one is rounding */
 
@@ -191,7 +191,7 @@ void flutter_judge_free(flutter_judge *j)
 }
 
 enum { PARTS = 6 };
-static const double near_enough = 1e-5; /* correction that ends at a state that is looked at only */
+static const double near_enough = 1e-5; /* correction that ends at a state that is examined only */
 
 /* How unstable the present state is: negative eigenvalues, or 1 where a motion grows; -1: not
  * known. */
@@ -261,7 +261,7 @@ enum {
     FEWEST = 6,
     MOST = 48,
     SPARE = 3
-}; /* eigenvalues that are looked at; beyond the last on the left */
+}; /* eigenvalues that are examined; beyond the last on the left */
 /* relative to the eigenvalues examined: a smaller one may have the wrong sign. */
 static const double rounding = 1e-6;
 
@@ -282,7 +282,7 @@ static void apply(void *context, const double x[], double y[])
         y[k] *= sqrt(of->weight[k]);
 }
 
-/* How many lie on the left; 0 for *sure: others may, beyond those that were looked at. */
+/* How many lie on the left; 0 for *sure: others may, beyond those that were examined. */
 static int count_of(const arnoldi_result *r, int wanted, int determinant, int *sure)
 {
     int left = 0;

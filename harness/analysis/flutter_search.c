@@ -168,7 +168,7 @@ static status look_between(search *s, station a, station b, station c, int i, fa
     return STATUS_OK;
 }
 
-/* The search ends behind `last`. */
+/* The search ends after `last`. */
 static status is_lost(const search *s, const char *why, fault *f)
 {
     return fault_set(f, STATUS_NOT_CONVERGED,

@@ -345,7 +345,7 @@ static status predict_twice(loaded_search *s, fault *f)
 }
 
 /* Is sigma as small as the way that is left makes it, in proportion or, at a limit point, by its
- * root? Else what lies behind is another equilibrium. */
+ * root? Else what lies after is another equilibrium. */
 static int falls_to_zero(const loaded_search *s)
 {
     const double noise = 2e-3, steep = 5;
@@ -409,7 +409,7 @@ static status count_at(loaded_search *s, double path, int *negative, fault *f)
     return STATUS_OK;
 }
 
-/* Loads behind the first one, by the inertia on the way: value[] of those that are wanted, up to a
+/* Loads after the first one, by the inertia on the way: value[] of those that are wanted, up to a
  * thousand times the first. *count: how many there are. */
 static status find_more(loaded_search *s, double value[], int *count, fault *f)
 {
@@ -502,7 +502,7 @@ static double thrust_of_elements(const newton_run *n)
     return most;
 }
 
-/* Without a mass flutter is not looked for, and a divergence may be one of the mesh. */
+/* Without a mass flutter is not searched for, and a divergence may be one of the mesh. */
 static status judge_massless(const newton_run *n, const flutter_point *first, fault *f)
 {
     const double most = first->massless ? thrust_of_elements(n) : 0;

@@ -18,7 +18,7 @@ typedef struct tangent_parts {
     const linear_memory *memory;
     const model_state *state;
     const sparse *geometric;
-    double *x, *y; /* [free + driven], driven coordinates zero */
+    double *x, *y; /* [free + driven], prescribed coordinates zero */
     int free_count, all;
 } tangent_parts;
 

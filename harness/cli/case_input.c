@@ -155,7 +155,7 @@ const case_type *case_input_scene(case_options *r)
         message_fail(STATUS_REFUSED, "a case and --scene: give one of them");
         return NULL;
     }
-    /* values that are asked for count, not the defaults beside them */
+    /* values that are requested count, not the defaults beside them */
     const int code = read_by(r->set.count > 0 ? scene_file_read_form : scene_file_read, r->line,
                              r->scene_path, &r->scene);
     if (code == EXIT_AS_EXPECTED)

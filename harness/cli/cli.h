@@ -41,7 +41,7 @@ struct verb_option {
     const char *argument, *help; /* argument NULL: a switch; "[N]": optional */
     size_t member;               /* of the group, or of the verb's request */
     unsigned traits;
-    long least, most;    /* of a whole number, or so many values; 0: text, COMMAND_MOST_WORDS */
+    long least, most;    /* of a whole number, or that many values; 0: text, COMMAND_MOST_WORDS */
     option_reader *read; /* NULL: as above */
 };
 
@@ -91,8 +91,8 @@ struct verb {
     const experiment_type *experiment; /* whose records it leaves in a group; NULL: none */
 };
 
-/* The i-th option of a verb, in the order of its help; NULL behind the last. at: where its group is
- * in the request; NULL: not wanted. */
+/* The i-th option of a verb, in the order of its help; NULL after the last. at: where its group is
+ * in the request; NULL: not needed. */
 const verb_option *verb_option_at(const verb *, int i, size_t *at);
 /* The name that an option had in version 0.2; NULL where it has not changed. */
 const char *verb_former_name(const verb_option *);
@@ -109,7 +109,7 @@ extern const verb_option verb_help[];
 int verb_optional(const verb_option *);
 /* Finds the verb of that name; NULL: none. */
 const verb *verb_find(const verb *const *verbs, const char *name);
-/* So many arguments at most. */
+/* that many arguments at most. */
 int verb_most_arguments(const char *arguments);
 
 /* The last value that was given, "" of a switch; NULL: it was not. */
@@ -168,7 +168,7 @@ extern const option_group options_own_truths; /* FILE.csv as well */
 /* The packed truths: --truths, or their place (harness/study/study.h). */
 const char *own_tables_packed(const truths_options *);
 /* Adds the truths of --truths FILE.csv, of one case where only is not NULL. run: the cases of the
- * run, NULL behind the last. REFUSED: the first mistake, as file:line:column, and how many there
+ * run, NULL after the last. REFUSED: the first mistake, as file:line:column, and how many there
  * are. */
 status own_tables_truths(const truths_options *, const case_type *const run[],
                          const case_type *only, truths *t, fault *f);
@@ -256,7 +256,7 @@ int command_run(const verb *, const verb *const *verbs, int count, char **argume
 /* Help page of a verb: usage, description, options, examples, within PARAGRAPH_WIDTH columns. */
 void help_write(FILE *to, const verb *v);
 
-/* The files of a command line, looked at before the work begins. */
+/* The files of a command line, examined before the work begins. */
 
 /* Every output can be written and is a file of its own, and none is an input. whole_file: -o is
  * HDF5. truths_path: NULL where no truths are read. */
@@ -337,11 +337,11 @@ typedef struct offer {
  * shell. */
 void offer_text(const offer *o, const char *text, const char *summary);
 
-/* The words behind the verb up to the cursor; the last one, which may be empty, is begun. */
+/* The words after the verb up to the cursor; the last one, which may be empty, is begun. */
 void completion_write(FILE *to, const verb *v, int count, char *const *word);
 
 /* The formulations of a command line: those that -f names and those that --element loads, which may
- * stand behind the -f that names them. */
+ * are after the -f that names them. */
 
 enum { COMMAND_MAX_FORMULATIONS = 64 };
 
@@ -353,16 +353,16 @@ typedef struct chosen_formulations {
 } chosen_formulations;
 extern const option_group options_formulations; /* -f, --element */
 extern const option_group options_element;      /* --element alone */
-extern const option_group options_time_limit;   /* behind one of these, of the same member */
+extern const option_group options_time_limit;   /* after one of these, of the same member */
 
-/* 1: every formulation of the request was asked for by its name; 0: all were, or none. */
+/* 1: every formulation of the request was requested by its name; 0: all were, or none. */
 int named_alone(const chosen_formulations *);
 /* One more of the request's formulations, or "all". What is refused ends the program. */
 void named_add(chosen_formulations *, const char *text);
 
 enum { DEFAULTS_NOTE = 2 * FAULT_TEXT + 200 };
 
-/* The one cell that is asked for, where its -f and -n may be missing. */
+/* The one cell that is requested, where its -f and -n may be missing. */
 typedef struct defaults {
     solution_request wanted;
     chosen_formulations *chosen;

@@ -95,7 +95,7 @@ typedef struct results_record {
     const record_type *type;
 } results_record;
 
-/* Number i, of the verbs too, or a type of NULL behind the last one. */
+/* Number i, of the verbs too, or a type of NULL after the last one. */
 results_record results_record_at(const verb *const *verbs, int i);
 extern const char *const results_about[]; /* paragraphs, ending with NULL */
 /* "text *", "int", ...; the unit as it is shown; what it is, with its words. */
@@ -114,7 +114,7 @@ void manual_write_scene(FILE *to);
 /* beamwork-results(5): what a result file consists of. */
 void manual_write_results(FILE *to, const verb *const *verbs);
 
-/* Pages as mdoc(7): what a text means stands in macros, what it says in lines that no formatter
+/* Pages as mdoc(7): what a text means is in macros, what it says in lines that no formatter
  * takes for one. */
 /* Running text: lines of its words, each as it is written: hyphens, quotes and '^' can be copied.
  */

@@ -1,4 +1,4 @@
-/* Completion of a command line: words that may stand at the cursor, for shells: fixed words, names
+/* Completion of a command line: words that may are at the cursor, for shells: fixed words, names
  * of the program, and values that depend on the words before the cursor. */
 #include "harness/cli/cli.h"
 
@@ -28,7 +28,7 @@ static void offer_choices(const offer *o, const char *choices)
     }
 }
 
-/* The same offer behind the last of the characters in what was begun (else: itself). */
+/* The same offer after the last of the characters in what was begun (else: itself). */
 static offer offer_behind(const offer *o, const char *characters)
 {
     offer behind = *o;
@@ -51,7 +51,7 @@ static void names_formulations(const offer *o)
         offer_text(o, formulations_at(i)->name, formulations_at(i)->summary);
 }
 
-/* "NAME=" of a table, or behind "NAME=" the choices. */
+/* "NAME=" of a table, or after "NAME=" the choices. */
 static void offer_assignment(const offer *o, const parameter_type *p)
 {
     char name[100];
@@ -159,11 +159,11 @@ enum { SAID = 400 };
 typedef struct completion_reading {
     const verb *verb;
     const verb_option *open; /* the option whose value the word at the cursor is; or NULL */
-    int only_arguments;      /* behind "--" */
+    int only_arguments;      /* after "--" */
     const char *last;        /* argument; NULL: none yet */
-    int arguments;           /* so many */
+    int arguments;           /* that many */
     const char *scene;       /* value of --scene */
-    char said[SAID];         /* arguments, with a blank behind each */
+    char said[SAID];         /* arguments, with a blank after each */
 } completion_reading;
 
 static void keep_value(completion_reading *r, const verb_option *o, const char *value)
@@ -299,7 +299,7 @@ static void offer_options(const offer *o, const completion_reading *r)
     }
 }
 
-/* "-hf" or "--formulation=", and behind it the beginning of a value. */
+/* "-hf" or "--formulation=", and after it the beginning of a value. */
 static void offer_begun_option(FILE *to, const completion_reading *r, const char *word)
 {
     const offer whole = {to, word, 0, word};

@@ -14,11 +14,11 @@
 
 enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
 
-/* A and B on all meshes of the case, and the errors that are asked for. */
+/* A and B on all meshes of the case, and the errors that are requested. */
 typedef struct duel {
     sweep s; /* two series: A and B */
     truths t;
-    int levels, asked; /* asked: so many by --error */
+    int levels, asked; /* asked: that many by --error */
     double level[LEVELS];
     char note[DEFAULTS_NOTE];
 } duel;
@@ -167,7 +167,7 @@ static void show_json(const duel *d, const bout m[])
     json_decref(root);
 }
 
-/* The levels that are asked for, or those of reach_level that both reach; their number. */
+/* The levels that are requested, or those of reach_level that both reach; their number. */
 static int choose_levels(duel *d, bout m[LEVELS])
 {
     for (int i = 0; i < REACH_LEVELS && d->asked == 0; i++) {

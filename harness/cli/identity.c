@@ -38,7 +38,7 @@ static void name_request(const json_t *words, char out[IDENTITY_TEXT])
         snprintf(out + KEPT, IDENTITY_TEXT - KEPT, " ... %s", hash);
 }
 
-/* How files are named: as they were, by paths that hold in any folder, by what stands behind their
+/* How files are named: as they were, by paths that hold in any folder, by what is after their
  * folders. */
 typedef enum path_form { PATHS_GIVEN, PATHS_ABSOLUTE, PATHS_LEAVES } path_form;
 

@@ -11,7 +11,7 @@
 
 enum { WIDTH = 78 };
 
-/* As it is typed: what formatters would set in another way stands behind a backslash. Returns the
+/* As it is typed: what formatters would set in another way is after a backslash. Returns the
  * characters written. */
 static int write_escaped(FILE *to, const char *text, size_t length)
 {
@@ -27,7 +27,7 @@ static int write_escaped(FILE *to, const char *text, size_t length)
     return written;
 }
 
-/* A word that a formatter would take for a request is none behind "\&". */
+/* A word that a formatter would take for a request is not one after "\&". */
 static int write_word(FILE *to, const char *word, size_t length)
 {
     const int guard = length > 0 && word[0] == '.';
@@ -250,7 +250,7 @@ static void close_to(keys *k, int depth)
         fprintf(k->to, ".El\n");
 }
 
-/* A list for each depth: that of the keys below stands in the item of the key above them. */
+/* A list for each depth: that of the keys below is in the item of the key above them. */
 static void write_key(void *context, int depth, const char *name, const char *form,
                       const char *text)
 {

@@ -234,7 +234,7 @@ static int others_take(const verb *const *verbs, const char *word)
     return 0;
 }
 
-/* The verb has no such option; another verb may. begun: so many options begin so. */
+/* The verb has no such option; another verb may. begun: that many options begin so. */
 static status refuse_word(const verb *v, const verb *const *verbs, const char *text, int begun,
                           fault *f)
 {

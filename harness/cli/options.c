@@ -215,7 +215,7 @@ status option_take(const verb_option *o, void *member, const char *value, fault 
     return STATUS_OK;
 }
 
-/* One of the list; returns where it ends, NULL: it is none. */
+/* One of the list; returns where it ends, NULL: it is not one. */
 static const char *parse_one(const char *at, double *out)
 {
     char *end;

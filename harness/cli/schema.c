@@ -32,7 +32,7 @@ const char *const results_about[] = {
     "marked * as columns, too.",
     NULL};
 
-/* Place i of a list that ends with NULL, counted down; NULL: it is behind. */
+/* Place i of a list that ends with NULL, counted down; NULL: it is after. */
 static const record_type *take(const record_type *const *list, int *i)
 {
     for (; *list != NULL; list++)

@@ -139,7 +139,7 @@ static int write_page(const char *name)
     return help_of(bare, manual_write_verb);
 }
 
-/* The verb itself, and what is none. */
+/* The verb itself, and what is not one. */
 static void complete_verb(const char *begun, int others)
 {
     const offer o = {stdout, begun, 0, begun};

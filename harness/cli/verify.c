@@ -131,7 +131,7 @@ static void tell_supports(const scenes *own, const sweep *s)
         }
 }
 
-/* Here, or by batches of shards, which are judged when all of them are there. */
+/* Here, or by batches of shards, which are evaluated when all of them are there. */
 static status run_and_judge(const verify_request *r, const scenes *own,
                             const sweep_request *request, trial *v, fault *f)
 {

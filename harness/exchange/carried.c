@@ -86,7 +86,7 @@ static int held_rotations(const scene_node *n)
 }
 
 /* A rotation node has a rotation vector: increments about fixed axes are the same where nothing is
- * held, all is, or one axis is left. */
+ * fixed, all is, or one axis is left. */
 static status check_node(const scene *s, int node, fault *f)
 {
     const scene_node *n = &s->node[node];
@@ -200,7 +200,7 @@ static status check_component(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* CalculiX forgets a state behind a linear step about it: one at the end of the path. */
+/* CalculiX forgets a state after a linear step about it: one at the end of the path. */
 static status check_last(const scene *s, const scene_quantity *q, fault *f)
 {
     const int about = s->analysis[q->analysis].follows;

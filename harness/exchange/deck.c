@@ -18,7 +18,7 @@ status deck_check(const deck_request *r, fault *f)
     return carried_asked_check(r->scene, f);
 }
 
-/* Bricks of all members; bodies: the numbers behind the last one. */
+/* Bricks of all members; bodies: the numbers after the last one. */
 static status make_bricks(const deck_request *r, brick out[], body_numbers *bodies, fault *f)
 {
     int node = 1, element = 1;

@@ -74,7 +74,7 @@ typedef struct import_block {
  */
 import_block import_block_open(import_set *set, const import_header *h, const char *path,
                                mistakes *m);
-/* One value as the file says it. */
+/* One value as the file specifies it. */
 void import_block_add(import_block *b, const imported_row *row);
 /* Sorts the values into cells and adds the series to the sweep, unless there are mistakes. */
 status import_block_close(import_block *b, fault *f);

@@ -57,7 +57,7 @@ typedef struct brick {
  * of its face. REFUSED: a section without a face. */
 status brick_init(brick *out, const scene *s, int member, int along, int first_node,
                   int first_element, fault *f);
-/* First numbers behind it. */
+/* First numbers after it. */
 int brick_next_node(const brick *);
 int brick_next_element(const brick *);
 /* The cards below *NODE and *ELEMENT. */
@@ -119,7 +119,7 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
 
 /* Sorts the values by elements, quantity, abscissa. */
 void import_cells_order(imported *found);
-/* A series of the point, behind those that the point has; it owns what was found, also after a
+/* A series of the point, after those that the point has; it owns what was found, also after a
  * failure. REFUSED: more meshes than a series has room for. */
 status import_cells_add(sweep *s, int point_index, imported *found, fault *f);
 

@@ -14,13 +14,13 @@
 enum { SIX = 6, END = 1 };
 
 static const double L = 0.7, force = 3, moment = 2; /* [m, N/m, N m/m] */
-static const double rounding = 1e-8;                /* in parts of what a cantilever has */
+static const double rounding = 1e-8;                /* relative to what a cantilever has */
 
 typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
 static const char *const support_name[SUPPORTS] = {
     "held at its first node", "clamped at both nodes",
     "clamped at one node and propped at the other", "hinged at both nodes"};
-/* Components of its two nodes that are held, a bit each. */
+/* Components of its two nodes that are fixed, a bit each. */
 static const unsigned held[SUPPORTS][2] = {{63, 0}, {63, 63}, {63, 15}, {15, 7}};
 
 /* Displacement and turn of a plane, and the sign of the turn in it. */

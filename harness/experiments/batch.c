@@ -174,7 +174,7 @@ static int get_text(const json_t *from, const char *key, char *out, size_t size)
     return 0;
 }
 
-/* A whole number from 0; -1: it is none. */
+/* A whole number from 0; -1: it is not one. */
 static int get_index(const json_t *from, const char *key)
 {
     const json_int_t value = json_integer_value(json_object_get(from, key));
@@ -203,7 +203,7 @@ static int get_label(const json_t *from, batch_label *b)
     return b->batch >= 0 && b->batch < b->batches && b->shard >= 0 ? 0 : -1;
 }
 
-/* The stream stands behind the line. *size: of the bytes that follow. */
+/* The stream is after the line. *size: of the bytes that follow. */
 static status read_line(FILE *from, const char *path, batch_label *out, long *size, fault *f)
 {
     char *line = NULL;
@@ -237,7 +237,7 @@ status batch_read_label(const char *path, batch_label *out, fault *f)
     return outcome;
 }
 
-/* The bytes are all that stands between the two lines. */
+/* The bytes are all that is between the two lines. */
 static status check_size(FILE *from, const char *path, long size, fault *f)
 {
     const long begin = ftell(from);

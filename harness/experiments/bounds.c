@@ -220,7 +220,7 @@ enum { STATELESS_M = SPECIMEN_STRAINS, STATELESS_N = SPECIMEN_COORDINATES };
 
 static const double longer = 1.7 * 0.2385; /* [m] */
 
-/* Everything that an element says of one state. */
+/* Everything that an element specifies of one state. */
 typedef struct call_account {
     status stress, inertia;
     double e[STATELESS_M], J[STATELESS_M * STATELESS_N], H[STATELESS_N * STATELESS_N], energy,

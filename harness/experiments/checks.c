@@ -169,7 +169,7 @@ static int all_finite(int n, const double a[])
     return 1;
 }
 
-/* 1: nothing says that the state is none. */
+/* 1: nothing says that the state is not one. */
 static int swallowed(const specimen *s, const node_state x[])
 {
     double e[UNSOUND_M], sigma[UNSOUND_M], inner[SPECIMEN_INNER], energy = 0;

@@ -272,7 +272,7 @@ static status read_end(const sweep_axis *a, const char *text, size_t length, dou
                      a->of->name, one, a->of->name);
 }
 
-/* Number of parts behind the '/'. */
+/* Number of parts after the '/'. */
 static status read_parts(const char *text, size_t length, sweep_axis *a, fault *f)
 {
     char one[TEXT], *end;

@@ -9,7 +9,7 @@
 
 enum { ENERGY_M = SPECIMEN_STRAINS };
 
-static const double moved_by = 0.02; /* [lengths] of the strains that are looked at */
+static const double moved_by = 0.02; /* [lengths] of the strains that are examined */
 
 /* Where differences are taken: a unit of a strain is a twentieth of the length. */
 typedef struct energy_place {
@@ -99,7 +99,7 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
     }
 }
 
-/* Without strains: no energy, no stress; what bends a curved element straight is not looked at. */
+/* Without strains: no energy, no stress; what bends a curved element straight is not examined. */
 static void check_rest(const specimen *s, claims *c)
 {
     const double none[ENERGY_M] = {0};

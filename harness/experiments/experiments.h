@@ -147,7 +147,7 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
 /* Takes away what processes that were killed left of a batch; gone: 1, its writer is known to be.
  */
 void batch_clean(const char *folder, const char *name, int gone);
-/* The label; *from (may be NULL) stands at the first of the bytes, and *end behind the last.
+/* The label; *from (may be NULL) is at the first of the bytes, and *end after the last.
  * FAULT: cut short, damaged, or no batch. */
 status batch_open(const char *path, batch_label *out, FILE **from, long *end, fault *f);
 /* The label alone: nothing is said of the bytes. */
@@ -166,8 +166,8 @@ typedef struct element_measure {
     int points;
     double at[MEASURE_POINTS];    /* numbers of elements, or thickness by length */
     double error[MEASURE_POINTS]; /* relative to the exact value; NAN: none */
-    double order;                 /* of the errors; NAN: not asked for, or none is seen */
-    int least, highest;           /* orders that the type declares; 0: not asked for */
+    double order;                 /* of the errors; NAN: not requested, or none is seen */
+    int least, highest;           /* orders that the type declares; 0: not requested */
     int locks;                    /* 1: the errors grow where it becomes thin */
     int astray; /* 1: the error of a linear state is that of one element with every mesh */
     char words[MEASURE_WORDS]; /* why there is nothing, or what it comes to */
@@ -283,7 +283,7 @@ typedef struct claims {
     int count;
     claim claim[CLAIMS_MOST];
     char doing[CLAIM_SENTENCE]; /* what is called now: for what does not come back */
-    int complete;               /* 1: all was looked at */
+    int complete;               /* 1: all was examined */
 } claims;
 
 /* The claim of that name; a new one holds until something departs. */
@@ -488,7 +488,7 @@ typedef struct convergence_request {
     const double *parameter;
     const int *mesh; /* [meshes] 0: those of the case */
     int meshes;
-    double level; /* error that is asked for */
+    double level; /* error that is requested */
     int verbose;  /* 1: each formulation by itself, with values and times */
     sweep_request cells;
 } convergence_request;
@@ -524,7 +524,7 @@ typedef enum design_kind { DESIGN_GRID, DESIGN_SOBOL, DESIGN_HALTON, DESIGN_RAND
 /* Words of --design, in that order. */
 #define DESIGN_CHOICES "grid|sobol|halton|random"
 
-/* State of a sequence after so many of its points. */
+/* State of a sequence after that many of its points. */
 typedef struct design_mark {
     gsl_qrng *quasi;
     gsl_rng *random; /* the other one is NULL */
@@ -569,7 +569,7 @@ typedef enum outcome_kind {
     OUTCOME_REFUSED,
     OUTCOME_NO_VALUE, /* the mesh has no such mode, load or state */
     OUTCOME_FAULT,    /* crashed, or out of memory */
-    OUTCOME_SKIP,     /* needs what the formulation does not offer */
+    OUTCOME_SKIP,     /* needs what the formulation does not support */
     OUTCOME_KINDS
 } outcome_kind;
 
@@ -638,7 +638,7 @@ typedef struct extreme_request {
     const char *select; /* expression over "name/group/case/formulation", or NULL */
     int jobs, formulations;
     const formulation *formulation; /* restrict to these; 0: all */
-    int named; /* 1: these were asked for by name: they affect the exit status */
+    int named; /* 1: these were requested by name: they affect the exit status */
     FILE *progress;
 } extreme_request;
 
@@ -690,7 +690,7 @@ typedef struct pace_method {
 extern const char pace_method_all[];
 /* One of PACE_METHODS, R in [0, 1], A in [0, 1/3]. REFUSED: the culprit. */
 status pace_method_read(const char *text, int length, pace_method *out, fault *f);
-/* "NAME,NAME,...", each once, behind those that there are. */
+/* "NAME,NAME,...", each once, after those that there are. */
 status pace_method_read_list(const char *text, int most, pace_method list[], int *count, fault *f);
 
 /* Integrators side by side on motions in time: what each step costs, and what comes of it.
@@ -710,7 +710,7 @@ typedef enum pace_fate {
 /* Tolerances of the reference and of its checks, radau on the same mesh. */
 enum { PACE_CHECKS = 2 };
 extern const double pace_reference[1 + PACE_CHECKS];
-/* Limits of E/E0 - 1, and of energy and momenta in parts of their size. */
+/* Limits of E/E0 - 1, and of energy and momenta relative to their size. */
 extern const double pace_growth, pace_energy, pace_momentum;
 
 /* One motion: an integrator with a step or a tolerance. */
@@ -742,7 +742,7 @@ typedef struct pace_group {
     double step, end;   /* of the scene [s] */
     double from;        /* [s] from here on nothing acts; INFINITY: never */
     int first, runs;    /* in the list of all */
-    int reference;      /* series, and behind it those of its checks; -1: no errors are wanted */
+    int reference;      /* series, and after it those of its checks; -1: no errors are wanted */
     double uncertainty; /* of the reference; NAN: there is none */
     double order;       /* of the reference, by the steps and errors of its checks; NAN */
     char reason[FAULT_TEXT]; /* why not */
@@ -796,7 +796,7 @@ typedef struct pace_verdicts {
     pace_verdict *verdict;
 } pace_verdicts;
 
-/* Is it what the table says? */
+/* Is it what the table specifies? */
 int pace_verdict_is_expected(const pace_verdict *);
 /* Reads the table and plans its motions. REFUSED: its first mistake, with its line. */
 status pace_verdict_plan(const char *path, pace *, pace_verdicts *, fault *);
@@ -928,7 +928,7 @@ typedef struct parameter_ranges {
     formulation formulation[RANGES_FORMULATIONS];
     int mesh[SERIES_MAX_MESHES]; /* ascending */
     ranges_quantity quantity[RANGES_QUANTITIES];
-    char left_out[FAULT_TEXT]; /* formulations that run at no point that was looked at, in words */
+    char left_out[FAULT_TEXT]; /* formulations that run at no point that was examined, in words */
     char
         omitted[SCENE_OMISSION_WORDS]; /* physics that the scene leaves out, at the first of them */
     char assumed[RANGES_ASSUMED];      /* of its sections (harness/records/records.h), there */
@@ -950,7 +950,7 @@ int ranges_batch(const parameter_ranges *, int batch, long *first);
 enum { SHARD_MOST_JOBS = 64, SHARD_MOST = 100000 };
 
 typedef struct shard_request {
-    int index, count; /* 0-based: of so many shards the one */
+    int index, count; /* 0-based: of that many shards the one */
     const char *into; /* folder; it is made where it is not there */
     int jobs;         /* processes, >= 1 */
     int stop;         /* ends once this descriptor can be read; 0: SIGINT, SIGTERM, SIGHUP end it */
@@ -1034,7 +1034,7 @@ void stock_missing(const stock *, const shard_work *, char *out, size_t size);
 /* A line for each kind of machine where there are several. */
 void stock_tell_kinds(const stock *, FILE *to);
 /* The first batch of a folder that can be read, by its name: what merge asks again. REFUSED: there
- * is none. */
+ * is not one. */
 status stock_first(const char *folder, batch_label *out, fault *f);
 
 /* The batches of one or several folders, taken in canonical order, one at a time in memory. */
@@ -1214,7 +1214,7 @@ status regressions_find(const stored_results *former, const char *name, const sw
 typedef struct solution_request {
     const case_type *type;
     const double *parameter; /* of the case */
-    const char *select;      /* quantities that are asked for, as of harness/study/study.h; NULL:
+    const char *select;      /* quantities that are requested, as of harness/study/study.h; NULL:
                                 all */
     formulation formulation; /* type NULL: to be chosen */
     int elements;            /* of each member; 0: to be chosen */
@@ -1231,7 +1231,7 @@ typedef struct solution_request {
 typedef struct solution_choice {
     char formulation[FAULT_TEXT], elements[FAULT_TEXT];
     double *change; /* of each quantity, from the mesh before; NULL: elements were given */
-    int short_of;   /* 1: of the error that was asked for */
+    int short_of;   /* 1: of the error that was requested */
 } solution_choice;
 void solution_choice_free(solution_choice *);
 
@@ -1244,8 +1244,8 @@ status solution_choose(solution_request *, const rule *rules, int count, int ele
  * them, also after a failure. */
 status solution_plan(const solution_request *, sweep *, fault *);
 /* Solves the one cell in this process. A cell that is not solved is a result all the same: not
- * after REFUSED and FAULT. NOT_CONVERGED also where the choice is short of the error that was asked
- * for. */
+ * after REFUSED and FAULT. NOT_CONVERGED also where the choice is short of the error that was
+ * requested. */
 status solution_run(const solution_request *, const solution_choice *, sweep *, fault *);
 
 /* Final states of motions in a file: another run continues from there, bit-for-bit identical where
@@ -1283,7 +1283,7 @@ typedef struct runs_on {
 
 void runs_on_scene(const scene *s, const element_type *type, runs_on *out);
 /* The built-in cases at their defaults, at most `room`; their number. Whether as another model is
- * not looked at: `other` is 0. */
+ * not examined: `other` is 0. */
 int runs_on_cases(const element_type *type, runs_on out[], int room);
 
 /* How long runs of cells take: rounds over the cells of a parameter point, for all cells of a sweep
@@ -1314,11 +1314,11 @@ void rounds_single_thread(char **arguments);
  * comes.
  */
 
-/* Receiver of results that are judged while the rest is run. */
+/* Receiver of results that are evaluated while the rest is run. */
 typedef struct verification_reader {
     void *context;
-    /* A case, once, when all its series have been judged, in the order of the last of them; of an
-     * interrupted run only what came before. */
+    /* A case, once, when all its series have been evaluated, in the order of the last of them; of
+     * an interrupted run only what came before. */
     void (*judged)(void *context, const case_type *);
 } verification_reader;
 
@@ -1330,14 +1330,14 @@ typedef struct verification_reader {
 status verification_run(const sweep_request *, int whole, const verification_reader *reader,
                         truths *, sweep *, judgement *out, fault *);
 
-/* The cells of a planned sweep, or of some of its series, and their noise: not judged. */
+/* The cells of a planned sweep, or of some of its series, and their noise: not evaluated. */
 status verification_cells(const sweep_request *, truths *, sweep *, fault *);
 /* Judges a sweep whose cells have been run for the request. */
 status verification_judge(const sweep_request *, int whole, truths *, const sweep *, judgement *out,
                           fault *);
 
 /* The files that a verification leaves: HDF5, JSON, JUnit, Markdown, and the findings that it would
- * need. What they say of a case is put together as soon as the case is judged. */
+ * need. What they say of a case is put together as soon as the case is evaluated. */
 
 typedef struct verification_files {
     const char *output, *json, *junit, *markdown, *propose; /* NULL: none */
@@ -1350,7 +1350,8 @@ typedef struct verification_files {
 
 /* The paths are given; sweep and judgement live until the files are closed. */
 status verification_files_open(verification_files *, const sweep *, const judgement *, fault *f);
-/* A case, all of whose series have been judged: for a verification, with the files as context. */
+/* A case, all of whose series have been evaluated: for a verification, with the files as context.
+ */
 void verification_files_case(void *files, const case_type *);
 /* Writes all, with what it was computed on; of an interrupted run under names that say so. */
 status verification_files_close(verification_files *, const overview *, const environment *e,

@@ -12,7 +12,7 @@
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
 
-/* A beam that is held at its beginning and loaded at its end, straight or bent into a quarter of a
+/* A beam that is fixed at its beginning and loaded at its end, straight or bent into a quarter of a
  * circle, solved with one formulation. */
 
 typedef enum beam_analysis { BEAM_LINEAR, BEAM_LARGE, BEAM_BUCKLING, BEAM_VIBRATION } beam_analysis;
@@ -24,7 +24,7 @@ typedef struct beam_request {
     int elements;            /* of equal length */
     const double *fraction;  /* [elements] of the length; NULL: equal */
     double thickness, width; /* of a rectangle, along y (towards the centre) and z [m] */
-    int profile;             /* 1: an I that warps and is held at the beginning, in its place */
+    int profile;             /* 1: an I that warps and is fixed at the beginning, in its place */
     int quarter;             /* 1: bent */
     unsigned needs;          /* FEATURE_* bits */
     beam_analysis analysis;
@@ -37,7 +37,7 @@ typedef struct beam_request {
 status beam_section(const beam_request *, section *out);
 /* Solves it; one more point of the measure, the error of what is read against the exact value; NAN
  * where there is none, and the words of the first say why. 0: no more need be
- * asked: the formulation does not offer it, or the first three have no value. */
+ * asked: the formulation does not support it, or the first three have no value. */
 int beam_point(const beam_request *, double at, double exact, element_measure *one);
 
 /* Certificates for people, a screen each. */
@@ -116,13 +116,13 @@ _Noreturn void labour_work(const labour *, int self, int to);
 
 /* From when on nothing acts on a structure: its energy and its momenta stay. */
 
-/* [s] INFINITY: it is held, driven, or loaded for ever. */
+/* [s] INFINITY: it is fixed, driven, or loaded for ever. */
 double pace_alone_from(const scene *s);
 
 /* How far a motion is from another one of the same mesh. */
 
 /* Largest over the stations of the analysis and over nodes and centre lines: of the distance of two
- * places in parts of the size of the structure, and of the angle between two sections [rad]. NAN: a
+ * places relative to the size of the structure, and of the angle between two sections [rad]. NAN: a
  * station is missing. */
 double pace_distance(const cell_result *, const cell_result *other, int analysis);
 /* Distance for a quantity of the scene, relative to the other value or near_zero; NAN: one is
@@ -191,7 +191,7 @@ typedef struct pace_plan_request {
 
 /* Steps or tolerances of the request, where none are given: from that of the scene. */
 status pace_plan_usual(pace_plan_request *, fault *);
-/* A group behind those that there are. REFUSED: no motion, or nothing to run. */
+/* A group after those that there are. REFUSED: no motion, or nothing to run. */
 status pace_plan_add(pace *, const pace_plan_request *, fault *);
 
 /* Cost of an error: which integrator, with which step or tolerance, reaches it at the lowest
@@ -236,7 +236,7 @@ status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const row
 
 /* The request, before any point. */
 void ranges_file_request(record_file *, hid_t at, const parameter_ranges *, const char *plan);
-/* The worst points, behind all of them. */
+/* The worst points, after all of them. */
 void ranges_file_worst(record_file *, hid_t at, const parameter_ranges *, const tally *);
 
 /* The parameters of a point of a sweep. */
@@ -294,7 +294,7 @@ status restart_text(const scene *, char **out, fault *);
 /* REFUSED: it differs from the former text, with the first line that does. */
 status restart_text_check(const char *former, const scene *, fault *);
 
-/* The elements of a formulation that are looked at: with everything that it offers, of each section
+/* The elements of a formulation that are examined: with everything that it offers, of each section
  * that it takes, each choice of each option, straight and curved. */
 
 typedef void specimens_check(const specimen *s, claims *c);

@@ -272,7 +272,7 @@ static void cell_text(const extreme_outcome *o, char *text, size_t size)
     }
 }
 
-/* Columns of a cell of an extreme with so many values. */
+/* Columns of a cell of an extreme with that many values. */
 static int width_of_cells(const extreme *e)
 {
     const int width = (PARAGRAPH_WIDTH - INDENT - NAME_WIDTH - CONDITION_WIDTH) / e->values;

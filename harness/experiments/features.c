@@ -249,8 +249,8 @@ void effects_check(const formulation *chosen, claims *c)
 {
     /* Without FEATURE_ECCENTRIC: the shear centre is a constant of the section, and elements take
      * it from there. Without FEATURE_TRAPEZE: it is one of the terms of second order, and a
-     * formulation that leaves them all out to show what they are worth (beamw_first) is asked for
-     * what the whole one is asked for. What belongs to the structure, mass or shape is looked at
+     * formulation that leaves them all out to show what they are worth (beamw_first) is requested
+     * what the whole one is requested. What belongs to the structure, mass or shape is examined
      * elsewhere. */
     static const unsigned sections[] = {FEATURE_WARPING, FEATURE_SHEAR, FEATURE_WAGNER_MOMENTS,
                                         FEATURE_WAGNER_TORQUE};

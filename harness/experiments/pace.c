@@ -103,7 +103,7 @@ static double momentum_drift(const track *t, int first)
     return largest;
 }
 
-/* Energy that no work explains, in parts of the largest. */
+/* Energy that no work explains, relative to the largest. */
 static double unexplained(const track *t)
 {
     double most = 0, size = 0;

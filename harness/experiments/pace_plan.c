@@ -97,7 +97,7 @@ static status add_motion(pace *p, const pace_group *g, const pace_plan_request *
     return STATUS_OK;
 }
 
-/* Between stations: errors are looked at where all steps end, which is where a whole number of the
+/* Between stations: errors are examined where all steps end, which is where a whole number of the
  * coarsest ones divides the time. */
 static double spacing_of(const pace_group *g, const pace_plan_request *q)
 {
@@ -174,7 +174,7 @@ static status add_runs(pace *p, const pace_plan_request *q, fault *f)
     return STATUS_OK;
 }
 
-/* The structure is looked at once, for its motion. */
+/* The structure is examined once, for its motion. */
 static status look(pace_group *g, const pace_plan_request *q, fault *f)
 {
     scene s;
@@ -356,7 +356,7 @@ static int is_held(const scene_node *n)
     return n->rotation != SCENE_ROTATION_SPATIAL;
 }
 
-/* Zero wherever it is looked at. */
+/* Zero wherever it is examined. */
 static int is_over(const scene_function *f, double from)
 {
     static const double later[] = {0, 0.37, 1, 7.3, 61};

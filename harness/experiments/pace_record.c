@@ -341,7 +341,7 @@ const record_type *const pace_records[] = {&record_pace_reference,
                                            &record_pace_verdict,
                                            NULL};
 
-/* All formulations that are asked for at one point. */
+/* All formulations that are requested at one point. */
 static status plan_point(const motion_request *r, motions *m, pace_plan_request *q, fault *f)
 {
     TRY(pace_plan_usual(q, f));

@@ -291,7 +291,7 @@ static void edge_text(const tally *t, int index, int place, char *text, int size
         snprintf(text, (size_t)size, "%.3g", tally_edge(t, index, place));
 }
 
-/* The values of the first axis, behind what stands in their lines. */
+/* The values of the first axis, after what is in their lines. */
 static void write_columns(FILE *to, const tally *t)
 {
     char edge[ASSIGNMENT_VALUE];

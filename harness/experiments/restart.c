@@ -186,7 +186,7 @@ typedef struct source {
     const char *path;
 } source;
 
-/* All of a data set of rank 1, with a zero behind; NULL: it is not there, or not so. count: how
+/* All of a data set of rank 1, with a zero after; NULL: it is not there, or not so. count: how
  * many there are; less than 0 on entry: any number. */
 static void *take(const source *from, const char *name, hid_t type, size_t size, long *count)
 {

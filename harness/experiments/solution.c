@@ -105,7 +105,7 @@ status solution_run(const solution_request *r, const solution_choice *why, sweep
     request.solve.shapes = r->shapes;
     request.solve.systems = r->systems;
     request.solve.keep_ends = r->keep_ends;
-    /* what is drawn, written or gone on from is asked for */
+    /* what is drawn, written or gone on from is requested */
     request.solve.all_analyses = r->shapes > 0 || r->systems || r->keep_ends;
     request.solve.looks = 1;
     request.solve.restarts = r->restarts;
@@ -303,7 +303,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     return added;
 }
 
-/* Has every quantity that is asked for one of the same model? */
+/* Has every quantity that is requested one of the same model? */
 static int all_stored(const parameter_ranges *r, const sweep_point *p, const truths *t)
 {
     for (int i = 0; i < r->quantities; i++)

@@ -9,7 +9,7 @@ static int least_of(long a, long b)
     return (int)(a < b ? a : b);
 }
 
-/* Places of an axis in the map, of at most so many. */
+/* Places of an axis in the map, of at most that many. */
 static int places_of(const parameter_ranges *r, int index, int most)
 {
     if (index >= r->design.axes)

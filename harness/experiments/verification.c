@@ -26,7 +26,7 @@ static const case_type *case_of(const sweep *s, int series_index)
     return s->point[s->series[series_index].point].type;
 }
 
-/* Hands over the case of a series, if none of it comes behind. */
+/* Hands over the case of a series, if none of it comes after. */
 static void hand_over(verification *v, const sweep *s, int series_index)
 {
     const case_type *type = case_of(s, series_index);
@@ -96,7 +96,7 @@ static status add_breach(const certificate *c, judgement *out, fault *f)
     return memory_append(&out->breach, &out->breaches, &one, sizeof one, "broken contracts", f);
 }
 
-/* They are held against the interface before anything is run: what they give is worth nothing if
+/* They are fixed against the interface before anything is run: what they give is worth nothing if
  * they break it. */
 static status hold_contracts(const sweep *s, int jobs, int time_limit, judgement *out, fault *f)
 {

@@ -1,4 +1,4 @@
-/* Data of an element whose type is completed: the type's own behind those of the adapter. */
+/* Data of an element whose type is completed: the type's own after those of the adapter. */
 #ifndef BEAMWORK_ADAPTED_H
 #define BEAMWORK_ADAPTED_H
 
@@ -20,7 +20,7 @@ static inline const element_data *adapted_own(const element_data *d)
     return (const element_data *)d->own;
 }
 
-/* The types' own data of at most so many elements; returns of how many. */
+/* The types' own data of at most that many elements; returns of how many. */
 enum { ADAPTED_TOGETHER = 1024 };
 static inline int adapted_owns(int count, const element_data *const data[],
                                const element_data *own[ADAPTED_TOGETHER])

@@ -93,7 +93,7 @@ static int always(const double options[])
     return 1;
 }
 
-/* The same beam with data behind those of the adapter. */
+/* The same beam with data after those of the adapter. */
 static void wrap(const element_type *given, element_type *out)
 {
     *out = *given;

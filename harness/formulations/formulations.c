@@ -255,7 +255,7 @@ static int next_is(scanner *s, const char *word)
 
 static int expression_holds(scanner *s);
 
-/* A word is looked for in the text; "=NAME" is one of the parts between its slashes. */
+/* A word is searched for in the text; "=NAME" is one of the parts between its slashes. */
 static int is_called(const char *text, const char *word)
 {
     if (word[0] != '=')
@@ -408,7 +408,7 @@ status select_begin(const char *expression, select_words *words, fault *f)
     return STATUS_OK;
 }
 
-/* The name nearest to the first part of case/parameters/formulation that is none; NULL: none. */
+/* The name nearest to the first part of case/parameters/formulation that is not one; NULL: none. */
 static const char *nearest(const char *word)
 {
     for (const char *at = word + (word[0] == '='); *at != '\0'; at += *at == '/') {

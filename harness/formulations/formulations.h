@@ -218,7 +218,7 @@ extern const case_type *const registry_cases[];
 enum { SELECT_WORDS = 256, SELECT_WORD = 128, SELECT_DEPTH = 64 };
 
 /* Does an expression (words joined by and, or, not, in brackets where they belong together; a word
- * is looked for in text, =NAME is one of its parts between slashes) hold? -1: malformed. */
+ * is searched for in text, =NAME is one of its parts between slashes) hold? -1: malformed. */
 int select_matches(const char *expression, const char *text);
 /* Does it hold of every text that this one is a part of? Of an expression with a not: 0. NULL: all
  * is chosen. */

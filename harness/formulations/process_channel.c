@@ -294,7 +294,7 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
     return channel_break(c, why, f);
 }
 
-/* Reads a line; where it is JSON, nothing may stand behind it. */
+/* Reads a line; where it is JSON, nothing may are after it. */
 static status first_line(channel *c, char line[], fault *f)
 {
     size_t count = 0;

@@ -296,7 +296,7 @@ void frames_serve(process *p)
     t->force_many = p->whole ? force_many : NULL;
 }
 
-/* Inertia of a formulation that brings its own: one element in each request, as it is asked for. */
+/* Inertia of a formulation that brings its own: one element in each request, as it is requested. */
 
 enum { OUTPUTS = 8, TURNING = 1 << 8, RATE = 1 << 9, ACCELERATION = 1 << 10 };
 

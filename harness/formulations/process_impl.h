@@ -41,10 +41,10 @@ channel *frame_channel(const frame_question *);
 int frame_nodes(const element_data *);
 /* Parts first, first + most, ...: how many elements of `each` bytes fit into a request. */
 int frame_fitting(size_t each);
-/* Room behind the kinds of the elements for `each` bytes of every one. FAULT: the process does not
+/* Room after the kinds of the elements for `each` bytes of every one. FAULT: the process does not
  * know these elements any more. */
 status frame_begin(const frame_question *, size_t each, char **to, fault *f);
-/* Numbers behind each other: into a request, out of an answer. */
+/* Numbers after each other: into a request, out of an answer. */
 void frame_put(char **to, const void *from, size_t bytes);
 void frame_take(const char **from, double to[], size_t count);
 /* *body: the answers. */

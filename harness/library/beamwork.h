@@ -1,14 +1,14 @@
 /* beamwork.h: scenes, solutions and verdicts from your own program.
  *
  * Handles are opaque and documents are text: no struct crosses the border. SI units, UTF-8.
- * A function that can fail returns a bw_status. *why (NULL: not wanted) is then one line that names
+ * A function that can fail returns a bw_status. *why (NULL: not needed) is then one line that names
  * culprit and remedy; for a scene with mistakes it is a JSON list of all of its mistakes, with
  * file, line and column. It is NULL after BW_OK. Texts that are handed over (char **) are freed
  * with bw_free_text; const char * belong to the handle. After a failure the result is NULL.
  * Wherever a handle or a name is required, NULL is refused.
  *
  * The library prints nothing, ends no program, and leaves no signal handler, no locale, no rounding
- * mode and no handler of GSL or HDF5 behind; what the host has set of these changes no number. A
+ * mode and no handler of GSL or HDF5 after; what the host has set of these changes no number. A
  * loaded formulation runs inside the host's process: where it crashes, the host does; bw_converge
  * and bw_verify run it in processes of their own.
  *
@@ -85,7 +85,7 @@ BW_API void bw_scene_free(bw_scene *scene); /* NULL: nothing; its results stay *
  * "error" from the one before; NOT_CONVERGED where the finest still does. options (NULL: none): a
  * JSON object with any of "all_dofs" (true: no degree of freedom is eliminated), "steps" (initial
  * number between stations; the step size adapts), "shapes" (most states of a path whose shapes are
- * kept; for a motion so many instants, 60 where 5 or fewer are requested), "threads", "error"
+ * kept; for a motion that many instants, 60 where 5 or fewer are requested), "threads", "error"
  * (default 0.001). After NOT_CONVERGED, SINGULAR and NO_VALUE *out is a result all the same, with
  * the values that were found. */
 BW_API bw_status bw_solve(const bw_scene *scene, const char *formulation, int elements,
@@ -109,7 +109,7 @@ BW_API double bw_result_error(const bw_result *result, const char *quantity);
 /* Point of the value: for a largest or least value of a motion, or one at an instant, the time [s];
  * along other paths the path parameter; NaN: none, or no value. */
 BW_API double bw_result_at(const bw_result *result, const char *quantity);
-/* Points of a curve; 0: the quantity is none. The arrays [points] are the result's. */
+/* Points of a curve; 0: the quantity is not one. The arrays [points] are the result's. */
 BW_API size_t bw_result_curve(const bw_result *result, const char *quantity, const double **x,
                               const double **y);
 /* A column of numbers of its load steps, as `beamwork schema` names them ("path", "iterations",
@@ -121,7 +121,7 @@ BW_API size_t bw_result_steps(bw_result *result, const char *column, const doubl
  * ...). Returns the number of rows; 0: the result has no motion, or there is no such column. The
  * array is the result's. */
 BW_API size_t bw_result_motion(bw_result *result, const char *column, const double **values);
-/* Shapes that were asked for: *points of all centre lines together; *position [states x points x
+/* Shapes that were requested: *points of all centre lines together; *position [states x points x
  * 3] [m]; the number of states, the first of them undeformed. */
 BW_API size_t bw_result_shapes(bw_result *result, size_t *points, const double **position);
 /* *first [members + 1]: the point where each member begins; the number of members. */

@@ -114,7 +114,7 @@ struct bw_result {
     truths own;                     /* of a scene file */
     const truths *truths;           /* NULL: none are known */
     double *error;                  /* [quantities] NAN: there is no truth */
-    double *step[RESULT_COLUMNS];   /* [steps] of the fields of a step, once they are asked for */
+    double *step[RESULT_COLUMNS];   /* [steps] of the fields of a step, once they are requested */
     double *motion[RESULT_COLUMNS]; /* [motions] of those of a motion, likewise */
     double *position;               /* [states x points x 3], likewise */
 };

@@ -106,7 +106,7 @@ size_t bw_result_curve(const bw_result *r, const char *quantity, const double **
     return (size_t)points;
 }
 
-/* Numbers of a result that are put into arrays when they are asked for. */
+/* Numbers of a result that are put into arrays when they are requested. */
 
 /* The field of a type, among those that are numbers; -1: none. */
 static int field_of(const record_type *type, const char *name, const schema_field **out)

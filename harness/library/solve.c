@@ -239,7 +239,7 @@ static int character(const unsigned char *at)
     return 1 + more;
 }
 
-/* One line of UTF-8, whatever names were given: what is none becomes '?'. */
+/* One line of UTF-8, whatever names were given: what is not one becomes '?'. */
 static char *line_of(const fault *f)
 {
     char *out = strdup(f->text);

@@ -26,7 +26,7 @@ status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     return STATUS_OK;
 }
 
-/* Does the component leave the plane that the scene is held in? */
+/* Does the component leave the plane that the scene is fixed in? */
 static int leaves_plane(const model *m, int vertex, int component)
 {
     const int normal = scene_normal(m->scene), turn = component - SCENE_RX;
@@ -93,7 +93,7 @@ static void number_release(model *m, int index)
     }
 }
 
-/* How many coordinates are held, and how many of them because they leave the plane; vertices that
+/* How many coordinates are fixed, and how many of them because they leave the plane; vertices that
  * nothing reaches. */
 typedef struct coordinates_tally {
     int held, across, unused;

@@ -37,7 +37,7 @@ static int list_cuts(const scene *s, division_cut out[])
     return count;
 }
 
-/* The places of one member, from its cuts on; returns how many cuts those are. */
+/* The positions of one member, from its cuts on; returns how many cuts those are. */
 static int place_pieces(int member, const division_cut cuts[], int count, double place[],
                         int *pieces)
 {
@@ -184,7 +184,8 @@ void division_words(const scene *s, int elements, char *text, size_t room)
     division_free(&d);
 }
 
-/* A change from one section of the scene to another in so many steps, from m->section[first] on. */
+/* A change from one section of the scene to another in that many steps, from m->section[first] on.
+ */
 typedef struct taper {
     int p, q, steps, even, first; /* even: of one length */
 } taper;
@@ -247,7 +248,7 @@ static status fill(model *m, int member, const taper *t, fault *f)
     return STATUS_OK;
 }
 
-/* Index of the taper of a member in the list; behind its end where it is new. */
+/* Index of the taper of a member in the list; after its end where it is new. */
 static int find(int tapers, const taper *list, const taper *t)
 {
     for (int i = 0; i < tapers; i++)

@@ -219,7 +219,7 @@ unsigned features_theory(const scene *s, const element_type *type)
         return SHEAR_OWN;
     if (needs & FEATURE_HARINGX)
         return SHEAR_HARINGX;
-    /* of two, Engesser's where none is asked for */
+    /* of two, Engesser's where none is requested */
     return needs & FEATURE_ENGESSER || type->shear_theories & SHEAR_ENGESSER ? SHEAR_ENGESSER
                                                                              : type->shear_theories;
 }

@@ -21,7 +21,7 @@ void kinematics_offset(const model *m, const model_state *s, int index, double r
     rotation_apply(&s->q[4 * v->body], v->offset, rho);
 }
 
-/* Orientation after a sequence's present angles, and its spatial axes b (NULL: not wanted). */
+/* Orientation after a sequence's present angles, and its spatial axes b (NULL: not needed). */
 static void sequence_orientation(const model *m, const model_state *s, int index, double b[][3],
                                  double q[4])
 {
@@ -136,7 +136,7 @@ double kinematics_component(const model *m, const model_state *s, int node, int 
     if (v->body == node && v->angles == 0 && v->vector_driver[0] == NONE &&
         m->scene->node[node].angle[component - SCENE_RX] != SCENE_FREE)
         return s->angle[3 * node + component -
-                        SCENE_RX]; /* held or driven about a fixed axis: also beyond pi */
+                        SCENE_RX]; /* fixed or prescribed about a fixed axis: also beyond pi */
     return turns_of_node(s, node)[component - SCENE_RX];
 }
 
@@ -261,7 +261,7 @@ int kinematics_coordinate(const model *m, int node, int component)
     return m->mesh.vertex[node].body == node ? m->mesh.vertex[node].coordinate[component] : NONE;
 }
 
-/* Coordinates of a released end behind those of its body: turns, shifts. Returns how many there
+/* Coordinates of a released end after those of its body: turns, shifts. Returns how many there
  * are. */
 static int append_own(const model *m, int vertex, int size, int count, int index[])
 {

@@ -94,7 +94,7 @@ typedef struct pairs {
 } pairs;
 
 /* Columns by rows first: then the rows of each column come in ascending order. Squeezed, for a pair
- * stands in it once. */
+ * is in it once. */
 static void sort_pairs(const pairs *all, sparse *out)
 {
     const int n = out->n;

@@ -23,7 +23,7 @@ static void add_axis(const double axis[3], mesh_vertex *v)
     v->angles++;
 }
 
-/* A node that turns about an axis by itself is held against that: as a plane one against its free
+/* A node that turns about an axis by itself is fixed against that: as a plane one against its free
  * angle, else it turns about two axes across, of which the last carries the axis with it. */
 static void hold_idle(const scene *s, int node, mesh_vertex *v)
 {
@@ -75,7 +75,7 @@ static int same_vector(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Where frequencies are asked for. */
+/* Where frequencies are requested. */
 static status set_inner(const model *m, const element_request *request, mesh_kind *k, fault *f)
 {
     int modal = 0;

@@ -16,7 +16,7 @@
  * times it). Beyond it a rigid section is another model, not a discretisation. */
 static const double largest_phi = 0.01;
 
-/* Box around members that hang together. */
+/* Box around members that are connected. */
 typedef struct box {
     double low[3], high[3];
 } box;
@@ -74,7 +74,7 @@ static double phi_along_y(const scene *s)
             section c;
             if (scene_constants(s, end[k], &c, NULL) == STATUS_OK)
                 largest = fmax(largest, 12 * c.young * c.Iz * c.F[0] / (c.shear_modulus * l * l));
-        } /* model_alloc says why a section is none */
+        } /* model_alloc says why a section is not one */
         free(reached);
     }
     return largest;
@@ -359,7 +359,7 @@ static int warps(const scene *s, int member, int end)
            c.Iw > 0;
 }
 
-/* HELD, SHARED or FREE; STATES: not asked for. */
+/* HELD, SHARED or FREE; STATES: not requested. */
 static int state_of(const held_ends *e, int member, int end)
 {
     const int warp = warp_of(e->scene, member, end);

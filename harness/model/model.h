@@ -193,7 +193,7 @@ typedef struct mesh_vertex {
     int body;           /* vertex that moves this one rigidly; itself: it has its own coordinates */
     double offset[3];   /* from the body, undeformed [m] */
     int coordinate[6];  /* of a body: global coordinate or NONE where fixed */
-    int angles;         /* > 0: rotation is a sequence of so many angles about the axes */
+    int angles;         /* > 0: rotation is a sequence of that many angles about the axes */
     double axis[3][3];
     int idle;             /* bits of angles that are fixed: nothing depends on them */
     int vector_driver[3]; /* prescribed rotation vector: its drivers; NONE: not prescribed so */
@@ -249,7 +249,7 @@ typedef struct mesh_kind {
     element_data *data;
     size_t data_size;         /* [bytes] */
     displacement_field field; /* displacements between the nodes, for loads */
-    double *inner; /* field_inner where frequencies are asked for, or NULL: the type has another
+    double *inner; /* field_inner where frequencies are requested, or NULL: the type has another
                       mass */
 } mesh_kind;
 
@@ -434,7 +434,7 @@ status discrete_build(model *, fault *);
 void discrete_equations(const model *, const model_state *, const mesh_discrete *,
                         const element_rotating_frame *, const spring_rates *, double force[],
                         double K[]);
-/* M, G += theirs (rotating_frame_inertia); G NULL: not wanted. */
+/* M, G += theirs (rotating_frame_inertia); G NULL: not needed. */
 void discrete_inertia(const model *, const model_state *, const element_rotating_frame *, sparse *M,
                       sparse *G);
 /* The tangent in two parts, as in newton.h: y += its product with x[free + driven], out +=
@@ -467,11 +467,11 @@ double discrete_stored(const model *, const model_state *);
 void discrete_node_force(const model *, const model_state *, const element_rotating_frame *,
                          int node, double F[6]);
 
-/* Members that have more elements than was asked for, in words. */
+/* Members that have more elements than was requested, in words. */
 
 /* "beam has 6 elements, 2 in each of 3 pieces: its loads begin, end or act at 0.3, 0.5 of its
  * length"; of many the first ones are named.  elements 0: of any number n.  "" where each has as
- * many as was asked for. */
+ * many as was requested. */
 void division_words(const scene *, int elements, char *text, size_t room);
 
 /* Element coordinates -> coordinates of the model, in place; K[columns x columns]. force: internal,
@@ -497,7 +497,7 @@ typedef struct mesh_layout {
     mesh_entry *entry; /* [entries] */
 } mesh_layout;
 
-/* Pattern with the places of every element's entries in it. */
+/* Pattern with the positions of every element's entries in it. */
 typedef struct mesh_pattern {
     int made;
     sparse matrix;
@@ -510,7 +510,7 @@ typedef struct mesh_pattern {
 /* Returns the pattern that the matrix was made on. */
 const mesh_pattern *assemble_of(const assemble_patterns *, const sparse *a);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
-/* The same of a discrete element, whose places are looked for. */
+/* The same of a discrete element, whose places are searched for. */
 void assemble_discrete(const mesh_element *el, const double K[], sparse *out);
 void assemble_vector(const mesh_element *el, const double local[], double out[]);
 /* Nothing where it is not stored. */
@@ -518,7 +518,7 @@ void assemble_subtract(sparse *a, int row, int column, double value);
 
 /* Features that a scene needs (FEATURE_* bits). */
 
-/* Feature bits the scene needs and those of them the type does not offer, or a limit it hits, in
+/* Feature bits the scene needs and those of them the type does not support, or a limit it hits, in
  * words; 0: it can run. */
 /* 1: in this motion elements of the type spread their mass along themselves. */
 int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
@@ -542,7 +542,7 @@ unsigned features_needed_of(const scene *, const element_type *);
 unsigned features_theory(const scene *, const element_type *);
 /* Is there shear, and stability that its theory matters to? */
 int features_sheared(const scene *);
-/* Its name: "Haringx"; of SHEAR_OWN what the type says of it; "" of 0. */
+/* Its name: "Haringx"; of SHEAR_OWN what the type specifies of it; "" of 0. */
 const char *features_theory_words(const element_type *, unsigned theory);
 /* Returns those that one quantity depends on: inertia only where it is a frequency or belongs to a
  * rotating structure. */
@@ -697,7 +697,7 @@ void movable_prescribed(int columns, const double *T, const double m[3], double 
 void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
               size_t room);
 
-/* Sections of the elements: those of the scene and, behind them, of members whose section changes
+/* Sections of the elements: those of the scene and, after them, of members whose section changes
  * along them one for each element, at its middle.  Members that change between the same two and
  * have as many elements, all of one length, share theirs.
  *
@@ -714,11 +714,11 @@ int profile_at(const model *m, int member, int number);
 
 /* Ends of members that keep turns and shifts to themselves (scene_release).
  *
- * Such an end has a vertex of its own behind all others, in the list `release`.  With the frame r,
+ * Such an end has a vertex of its own after all others, in the list `release`.  With the frame r,
  * R of its node's body, the node at the offset rho from it, and the member's undeformed axes a, d
  * at the end, R_end = R exp(a_1 t_1) exp(a_2 t_2),  r_end = r + R rho + R_end (sum d_i s_i). Three
  * turns have no order: R_end is free, its increments are spatial ones.  The end's coordinates t, s
- * stand behind those of the element's nodes; forces and matrices of the element are taken to all of
+ * are after those of the element's nodes; forces and matrices of the element are taken to all of
  * them by the chain rule with the second derivatives of the frame (turns: 1/2 b_i x b_j for i
  * before j, those of the body before all; shifts: turns of the end before them). */
 
@@ -727,7 +727,7 @@ int release_count(const scene *);
 /* Their vertices, when the elements are made. */
 status release_build(model *, fault *);
 
-/* The end at this vertex; NULL: it is none. */
+/* The end at this vertex; NULL: it is not one. */
 static inline const mesh_release *release_of(const model *m, int vertex)
 {
     const int first = model_first_release(m);
@@ -755,7 +755,7 @@ void release_slide_axes(const model *, const model_state *, int vertex, double a
 /* force[7 at, its six]: of the end's frame becomes that of its node's place; own[]: of its
  * coordinates. */
 void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);
-/* Room for the columns of ends behind those of the nodes: K[7 nodes x 7 nodes] -> K[columns x
+/* Room for the columns of ends after those of the nodes: K[7 nodes x 7 nodes] -> K[columns x
  * columns]. */
 void release_widen(const mesh_element *, double K[]);
 /* The same of K, whose six coordinates of the end begin at `at`, its own ones at `own`. force[6] as
@@ -783,10 +783,10 @@ void spring_strain(int nodes, const node_state x[], const double near[3], strain
 
 /* 1: the supports leave a part of the undeformed structure loose: a node of it, and a rigid motion
  * (displacement of that node [m], turn [rad], of any size) that they allow. Coordinates that are
- * driven are held. */
+ * prescribed are fixed. */
 int supports_loose_part(const model *, int *node, double motion[6]);
 
-/* Least eigenvalue of the supports' squares beside the largest: held points closer to each other
+/* Least eigenvalue of the supports' squares beside the largest: fixed points closer to each other
  * than its root times the length count as one. */
 extern const double supports_loose;
 

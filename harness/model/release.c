@@ -172,7 +172,7 @@ status release_build(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Orientation behind the turns of an end of a body; of a ball that of the body. b[turns x 3]:
+/* Orientation after the turns of an end of a body; of a ball that of the body. b[turns x 3]:
  * spatial axes of the turns, of a ball the fixed ones. */
 static void follow_turns(const mesh_release *r, const double angle[3], const double body[4],
                          double b[3][3], double q[4])

@@ -55,7 +55,7 @@ static int small_product(int n, const double F[], const double W[])
     return 1;
 }
 
-/* Eigenvalues that become negative when the stiffness B is added behind the row. */
+/* Eigenvalues that become negative when the stiffness B is added after the row. */
 static int more_negative(int n, const double F[], const double B[], const double W[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT];
@@ -249,7 +249,7 @@ INLINED void forward(chain *s, int c, int y, const double r[], const double firs
     }
 }
 
-/* Forces between the links when g[joint] acts on the last joint, into s->a behind its first;
+/* Forces between the links when g[joint] acts on the last joint, into s->a after its first;
  * begin[joint]: what the first joint exerts on the row. r NULL: nothing else acts, nor do joints
  * move without forces. */
 INLINED void backward(chain *s, int c, int y, const double r[], const double last[], double begin[])
@@ -314,7 +314,7 @@ static void force_to(const chain *s, const double x[], const double from[], doub
 
 static const double still[CHAIN_JOINT] = {0};
 
-/* Where the last joint is without forces behind it. */
+/* Where the last joint is without forces after it. */
 static const double *last_of(const chain *s)
 {
     return s->a + (size_t)s->links * (size_t)s->c;

@@ -311,8 +311,8 @@ void linear_system_free(linear_system *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Right-hand side less K x of the driven coordinates and of x itself and less the forces of initial
- * strains, from element strains: its error does not grow with the mesh. */
+/* Right-hand side less K x of the prescribed coordinates and of x itself and less the forces of
+ * initial strains, from element strains: its error does not grow with the mesh. */
 static status residual_of(analysis_context *c, const double load[], const double x[],
                           double sigma[], double r[], fault *f)
 {

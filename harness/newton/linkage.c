@@ -88,7 +88,7 @@ static void take(const link_element *el, double J_p[], double J_y[], double H[])
             H[i * n + j] = el->H[place(el, i) * all + place(el, j)];
 }
 
-/* T[wanted x joint]: all nodes move as one body with the first one; warping stays behind. */
+/* T[wanted x joint]: all nodes move as one body with the first one; warping is not moved. */
 static void carry_along(const link_element *el, double T[])
 {
     const int c = el->joint;

@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Asymmetry of a moment's stiffness that is round-off, in parts of the moment. */
+/* Asymmetry of a moment's stiffness that is round-off, relative to the moment. */
 static const double potential = 1e-12;
 
 /* Returns which loads along members are lumped at the ends of elements: weights where mass is

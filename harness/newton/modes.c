@@ -297,7 +297,7 @@ static status separate_cluster(const model *m, const scene *s, int count, size_t
     return STATUS_OK;
 }
 
-/* One behind the last of the values that are equal to the first. */
+/* One after the last of the values that are equal to the first. */
 static int cluster_end(int first, int count, const double value[])
 {
     const double equal = 1e-8; /* relative */

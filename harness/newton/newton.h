@@ -35,7 +35,7 @@ typedef struct counters {
     double dense_operations; /* n^3 of every eigenvalue problem solved densely */
     long negative_pivots;    /* most of a symmetric tangent at a state that was reached */
     double condition; /* largest estimate of the solved systems (factor_condition), where it was
-                         asked for; else 0 */
+                         requested; else 0 */
 } counters;
 
 /* Derivatives of elements at rest: harness/newton/newton_impl.h. */
@@ -86,7 +86,7 @@ struct run_ahead;
 struct element_part;
 
 typedef struct run_state {
-    assemble_patterns *patterns; /* of the matrices of the model, made when they are asked for */
+    assemble_patterns *patterns; /* of the matrices of the model, made when they are requested */
     counters counters;
     phases phases;
     thread_team *team;         /* of the loop over elements; NULL: one thread */
@@ -124,7 +124,7 @@ typedef struct advance_stress {
 /* After linearise_state with that memory and K dx = residual: strains, stresses, inner unknowns of
  * every element and then the frames take their increments. dx[free + driven]. Returns the largest
  * correction, dimensionless: translations by the size of the scene, rotations in rad, warping by
- * the element length, inner unknowns as the element defines. stress: NULL: not wanted. */
+ * the element length, inner unknowns as the element defines. stress: NULL: not needed. */
 double advance_state(const equations *, const linear_memory *, model_state *, const double dx[],
                      double path, advance_stress *);
 /* The state is in equilibrium: the next increments start from it with the tangent of the last
@@ -185,8 +185,8 @@ typedef struct arrival {
 } arrival;
 
 /* differences 1: derivatives are differences, whose noise keeps corrections from contracting: the
- * first small one is the last. elements: rounding of the places of very many keeps corrections from
- * becoming smaller. */
+ * first small one is the last. elements: rounding of the positions of very many keeps corrections
+ * from becoming smaller. */
 void arrival_start(double criterion, int differences, int elements, arrival *);
 /* A correction was made, with what it did to the stresses; `first` of its step. */
 void arrival_take(double correction, const advance_stress *, int first, arrival *);
@@ -209,7 +209,7 @@ typedef struct condensation condensation;
 enum { CONDENSATION_ELEMENTS = 1000 };
 
 /* *out NULL: members have fewer elements than `from`, or something acts between their ends that has
- * a stiffness, or frames turn. released[count]: driven coordinates that are unknown too. */
+ * a stiffness, or frames turn. released[count]: prescribed coordinates that are unknown too. */
 status condensation_alloc(const equations *, int from, int count, const int released[],
                           condensation **out, fault *);
 /* The members of `of`, which must outlive it, with other released coordinates: condensation_take.
@@ -408,7 +408,7 @@ int outcome_has_spectrum(const analysis_outcome *);
 void outcome_free(analysis_outcome *);
 /* The values and modes of a side; they are taken from `from`. */
 void outcome_take(eigen_side *from, outcome_side *to);
-/* Room for the states of so many stations. */
+/* Room for the states of that many stations. */
 status outcome_stations(outcome_path *, int stations, fault *);
 /* A copy of the state becomes that of the next station; whole 0: of its nodes
  * (kinematics_nodes_alloc). */
@@ -434,7 +434,7 @@ typedef struct shape_state {
 } shape_state;
 
 typedef struct shapes {
-    int states, members, points, nodes; /* states 0: not asked for */
+    int states, members, points, nodes; /* states 0: not requested */
     int *first;                         /* [members + 1] point where each member begins */
     shape_state *state;                 /* [states] */
     centreline_point *point;            /* [states x points] */
@@ -447,7 +447,7 @@ enum { SHAPES_ALL = 1 << 30, SHAPES_MODES = 6, SHAPES_FRAMES = 60, SHAPES_FEW = 
 status shapes_alloc(shapes *, fault *);
 void shapes_free(shapes *);
 const char *shapes_kind_name(shape_kind);
-/* Frames of a motion, evenly over its time, where at most so many states of a path are kept: as
+/* Frames of a motion, evenly over its time, where at most that many states of a path are kept: as
  * many, and SHAPES_FRAMES where these are all or few. */
 int shapes_frames(int most);
 
@@ -457,7 +457,7 @@ typedef struct row_label {
     int node;   /* of the scene; SCENE_NONE: inside a member, or an end that keeps motions to itself
                  */
     int member; /* SCENE_NONE: of the node alone */
-    double along; /* from the member's beginning, in parts of its length; NAN: of a node alone */
+    double along; /* from the member's beginning, relative to its length; NAN: of a node alone */
     double position[3];    /* undeformed [m] */
     const char *component; /* "ux", ..., "rz", "angle 1" of a sequence, "turn 1" and "shift 1" of a
                               released end, "warping" */
@@ -487,7 +487,7 @@ typedef struct state_matrices {
 typedef struct system_matrices {
     int rows;         /* free coordinates */
     row_label *label; /* [rows] */
-    int states, room; /* 0: not asked for */
+    int states, room; /* 0: not requested */
     state_matrices *state;
 } system_matrices;
 
@@ -514,7 +514,7 @@ typedef struct solve_options {
     int restarts;
     const outcome_end *restart; /* [restarts] ends in another run that motions resume from */
     int all_analyses;           /* 1: those that no quantity reads run, too */
-    int looks;       /* 1: static paths are judged where pivots do not, and within their steps */
+    int looks;       /* 1: static paths are evaluated where pivots do not, and within their steps */
     int values_only; /* 1: what only curves and matrices show at a station is not computed */
 } solve_options;
 
@@ -528,7 +528,7 @@ typedef struct quantity_result {
     double value;    /* NAN where it does not exist */
     double x;        /* abscissa where a maximum or minimum was found */
     double rounding; /* critical loads, frequencies: estimate of |error| by round-off; of a motion
-                        what reading it between its steps adds; in parts of the value; else 0 */
+                        what reading it between its steps adds; relative to the value; else 0 */
     double change;   /* from the mesh that was solved before, by the value; of a curve, by its
                         largest; NAN: not known */
     curve curve;     /* of SCENE_CURVE, else 0 points */
@@ -567,7 +567,7 @@ typedef struct step_record {
     int iterations, rejected,
         negative_pivots;   /* rejected: tries of longer steps that failed before this one */
     int by_eigenvalues;    /* 1: its tangent is not symmetric; its eigenvalues were followed: */
-    int passed;            /* so many have passed zero */
+    int passed;            /* that many have passed zero */
     step_stability judged; /* by the frequencies of small motions; STEP_OPEN: not asked or known */
     double residual, correction, incompatibility; /* of the last iteration */
     double remaining; /* what the next one would have changed, as the contraction so far predicts;
@@ -583,7 +583,7 @@ typedef struct nodal_matrices {
     scene_moments moments; /* convention */
     int stations;
     double *path;                   /* [stations] */
-    double *compliance, *stiffness; /* [stations x 36]; held components: zero; not computed because
+    double *compliance, *stiffness; /* [stations x 36]; fixed components: zero; not computed because
                                        nothing asked: NAN */
 } nodal_matrices;
 /* Event on a continued path. */
@@ -632,7 +632,7 @@ typedef struct solve_result {
     double seconds_setup,
         seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
     counters counters; /* its work; of shapes and matrices none */
-    double phase[PHASES]; /* [s] of seconds_solve, when asked for */
+    double phase[PHASES]; /* [s] of seconds_solve, when requested */
     shapes shapes;
     system_matrices systems;
 } solve_result;
@@ -663,7 +663,7 @@ typedef struct analysis_context {
     context_work *work;
 } analysis_context;
 
-/* Is the analysis asked for, by what is read from it or by the options? */
+/* Is the analysis requested, by what is read from it or by the options? */
 int context_runs(const analysis_context *, int analysis);
 /* Returns the context of an analysis, with its loading. In a motion, loads without a function of
  * time keep the value of the state that it starts from. */
@@ -686,7 +686,7 @@ status context_symmetric(const matrix_factor *, const char *what, fault *f);
 void context_leave_factor(analysis_context *, matrix_factor *);
 /* NULL: none was left. */
 matrix_factor *context_take_factor(analysis_context *);
-/* When it was asked for: the condition of a matrix just factored, into the counters. */
+/* When it was requested: the condition of a matrix just factored, into the counters. */
 void context_count_condition(const analysis_context *, matrix_factor *, const sparse *K);
 /* The work of a solution with a factor, into the counters; fresh 0: its numbers are those of a
  * solution before. *counted: factorisations of it that are there already, and then are all. */
@@ -797,7 +797,7 @@ void distributed_add_taken(const model *, const along_output *out, const double 
                            const double gap[], double forces[], double K[]);
 
 /* forces[7 nodes] += what a load along a member times `scale` does on an element, K[7 nodes x 7
- * nodes] -= its derivative (NULL: not wanted); 0: nothing. Of one that the element takes: the
+ * nodes] -= its derivative (NULL: not needed); 0: nothing. Of one that the element takes: the
  * derivative of its forces by the load's size in the state, K untouched. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
@@ -834,7 +834,7 @@ typedef struct element_part {
     double force[MODEL_MAX_COORDINATES], K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
 } element_part;
 
-/* rotating_frame.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element
+/* rotating_frame.c: force -= centrifugal force, K += its stiffness (NULL: not needed), in element
  * coordinates; nothing where no frame turns. */
 status rotating_frame_add(const equations *eq, const node_state x[], int element, double path,
                           double force[], double K[], fault *f);
@@ -856,7 +856,7 @@ status loads_have_potential(const equations *eq, const model_state *s, double pa
 double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
                              double path, int node, int axis);
 /* Elements and loads give the derivatives of work in the exponential chart of a node's turn. Where
- * a node is held about one axis, equilibrium is that of the moments about the two others, which
+ * a node is fixed about one axis, equilibrium is that of the moments about the two others, which
  * that moment R about the axis h makes differ: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic
  * order. */
 void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K);
@@ -885,13 +885,13 @@ void loads_reference(const equations *, double path, double f[]);
 /* Is there a load, or a coordinate moved, at path 0? */
 int loads_begin(const equations *);
 
-/* Increments of the driven coordinates (dx[free .. free+driven)) that take the state to `path`; the
- * rest of dx untouched. */
+/* Increments of the prescribed coordinates (dx[free .. free+driven)) that take the state to `path`;
+ * the rest of dx untouched. */
 void loads_drive(const equations *, const model_state *, double path, double dx[]);
 
-/* An unknown driver: the driven coordinate `unknown` moves by what makes the free one `coordinate`
- * move by `increment`. The force on that coordinate stays free of reactions, the one on the driver
- * is whatever it takes. */
+/* An unknown driver: the prescribed coordinate `unknown` moves by what makes the free one
+ * `coordinate` move by `increment`. The force on that coordinate stays free of reactions, the one
+ * on the driver is whatever it takes. */
 enum { MODEL_MAX_CONDITIONS = 4 };
 typedef struct model_condition {
     int unknown, coordinate;
@@ -921,10 +921,10 @@ typedef struct model_linearisation {
     const double *drive; /* [free + driven] increments; only the driven part is read; NULL: none */
     int conditions;      /* columns of K wanted for the unknowns of conditions ... */
     const model_condition *condition;
-    double *column; /* ... [conditions x (free + driven)] */
-    sparse *K;      /* on a pattern of assemble_pattern; NULL: not wanted */
-    double
-        *residual; /* [free + driven] right-hand side; of driven coordinates: less their reaction */
+    double *column;   /* ... [conditions x (free + driven)] */
+    sparse *K;        /* on a pattern of assemble_pattern; NULL: not needed */
+    double *residual; /* [free + driven] right-hand side; of prescribed coordinates: less their
+                         reaction */
     double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
 /* One element's part of a linear_memory between linearise_state and advance_state. */
@@ -963,7 +963,7 @@ void linearise_add_internal(const equations *, const model_state *, int elements
 
 enum {
     CHUNK_MOST = 8,   /* elements in one go */
-    CHUNK_WINDOW = 32 /* elements among which those of one kind are looked for */
+    CHUNK_WINDOW = 32 /* elements among which those of one kind are searched for */
 };
 
 /* Elements in one go; 1 where they are evaluated one after the other. */
@@ -976,7 +976,7 @@ int chunk_next(const model *m, int first, int end, unsigned char done[], int ind
 typedef struct chunk_element {
     int index;     /* of the element: given */
     double *force; /* [7 nodes]: given */
-    double *K;     /* [7 nodes x 7 nodes] sum sigma_i H_i; NULL: not wanted: given */
+    double *K;     /* [7 nodes x 7 nodes] sum sigma_i H_i; NULL: not needed: given */
     node_state x[ELEMENT_MAX_NODES];
     distributed_taken along; /* loads that are in its stresses */
     status outcome;
@@ -995,7 +995,7 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
  * (Argyris et al. 1979). Spatial: K - m~/2 on the rotations; the moment is dead about fixed axes,
  * and the matrix is not symmetric. Symmetrised: the symmetric part of the spatial stiffness; K
  * itself where everything else has a potential. A tangent has one of the first two: the spatial one
- * at a node that is held about one axis alone, whose moment keeps its direction
+ * at a node that is fixed about one axis alone, whose moment keeps its direction
  * (coordinates_held_turn), else the semitangential one. */
 
 /* Does the convention change the stiffness of the tangent's?  Then one column of the compliance
@@ -1004,12 +1004,12 @@ int convention_changes(scene_moments of_tangent, scene_moments convention, const
 
 /* C[6 x 6] of the tangent, complete in the components that can move, becomes that of the
  * convention, and K[6 x 6] is its inverse on the motions the node can make; where nothing changes C
- * keeps all its digits.  m[3]: moment on the node [N m]. Rows and columns of held components: zero.
- * SINGULAR: C has no inverse there, up to its round-off. */
+ * keeps all its digits.  m[3]: moment on the node [N m]. Rows and columns of fixed components:
+ * zero. SINGULAR: C has no inverse there, up to its round-off. */
 status convention_apply(scene_moments of_tangent, scene_moments convention, const movable *motions,
                         const double m[3], double C[36], double K[36], fault *f);
 
-/* Where the next state of a path is looked for. */
+/* Where the next state of a path is searched for. */
 
 /* First guess of the state at `path` from the last `count` ones (two: a line, three: a parabola,
  * ...), oldest first. 0: there is none, because what is prescribed bends, or the step is too long;
@@ -1169,7 +1169,7 @@ void linear_system_free(linear_system *);
 /* Loads and drivers at `path`. */
 status linear_system_solve(analysis_context *, linear_system *, double path, double x[], fault *);
 
-/* The last states of a path, oldest first: where the next one is looked for. */
+/* The last states of a path, oldest first: where the next one is searched for. */
 
 typedef struct predictor {
     int count, iterations;                   /* of the last step */
@@ -1195,12 +1195,12 @@ typedef struct newton_run {
     predictor *predictor;    /* NULL: every step begins at the last state */
     condensation *condensed; /* NULL: no member is condensed; else K is not assembled */
     sparse K;
-    sparse whole; /* with the driven coordinates; no values: not asked for */
+    sparse whole; /* with the prescribed coordinates; no values: not requested */
     matrix_factor *factor;
     double *residual, *dx;   /* [free + driven] */
-    double *dense, *unknown; /* of the uncondensed system, allocated when it is asked for */
+    double *dense, *unknown; /* of the uncondensed system, allocated when it is requested */
     int *pivot;
-    double *column; /* [conditions x (free + driven)], behind dx */
+    double *column; /* [conditions x (free + driven)], after dx */
     double
         *weight;   /* [free + driven] of metric_of: what makes displacements and turns comparable */
     double energy; /* |r . K^-1 r| of the last residual r [J]; NAN: not known */
@@ -1213,7 +1213,7 @@ typedef struct newton_run {
 /* condense 1: members of many elements are condensed to their ends. */
 status newton_alloc(analysis_context *, int condense, newton_run *, fault *);
 void newton_free(newton_run *);
-/* From here on K is known of the driven coordinates too. */
+/* From here on K is known of the prescribed coordinates too. */
 status newton_keep_driven(newton_run *, fault *);
 
 /* One correction of an iteration. */
@@ -1276,7 +1276,7 @@ typedef struct quadratic_forms {
     double *load_x;    /* [free + driven] displacements by the loads, zero: no prestress ... */
     double *sigma;     /* ... and their stresses [elements x strains] */
     sparse loads;      /* what the loads add to K */
-    double *x, *force; /* [free + driven] driven coordinates of x: zero */
+    double *x, *force; /* [free + driven] prescribed coordinates of x: zero */
     double *stress, *product; /* [elements x strains], [free] */
 } quadratic_forms;
 
@@ -1305,7 +1305,7 @@ double quantity_scaled(const scene_quantity *, double value);
 
 /* The same for the abscissa of its curve. */
 double quantity_abscissa(const scene_quantity *, double x);
-/* Room for a curve of so many points; 0: there is none, which the result says. */
+/* Room for a curve of that many points; 0: there is none, which the result says. */
 int quantity_curve(quantity_result *, int points);
 
 /* When iterative refinement of a linear solution ends, and how many digits it has then.
@@ -1331,7 +1331,7 @@ typedef enum refinement_state {
 /* Begins as {0}. */
 typedef struct solution_refinement {
     int corrections; /* the first is the solution itself */
-    double last;     /* in parts of the solution */
+    double last;     /* relative to the solution */
 } solution_refinement;
 
 /* Decides from the size of a correction, relative to the solution: at least two corrections after
@@ -1348,11 +1348,11 @@ double refinement_part(int n, const double weight[], const double change[], cons
 /* A frame that turns steadily. */
 
 /* Mass matrix on the pattern of M about a state (NULL: undeformed); G: gyroscopic matrix of a
- * rotating frame, of which a symmetric pattern stores the upper triangle, or NULL: not wanted. */
+ * rotating frame, of which a symmetric pattern stores the upper triangle, or NULL: not needed. */
 status rotating_frame_inertia(const equations *, const model_state *, double path, sparse *M,
                               sparse *G, fault *);
 
-/* 1: mass is at nodes, as the scene says or a motion that starts there has it. */
+/* 1: mass is at nodes, as the scene specifies or a motion that starts there has it. */
 int rotating_frame_lumps(const equations *);
 
 /* x^T B x of the undeformed structure, x[free + driven]: what the mass inside of elements adds to a

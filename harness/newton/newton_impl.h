@@ -135,8 +135,7 @@ struct chain {
     int c, y, inside; /* coordinates of a joint; of a link; inside = y - c */
     int negative;
     double *kept;
-    double
-        *a; /* [(links + 1) x c] of joints, without forces behind them; then the forces on them */
+    double *a; /* [(links + 1) x c] of joints, without forces after them; then the forces on them */
     double F[CHAIN_JOINT * CHAIN_JOINT]; /* of the row */
     double A[CHAIN_JOINT * CHAIN_JOINT], B[CHAIN_JOINT * CHAIN_JOINT];
 };
@@ -220,7 +219,7 @@ double linear_springs_geometric_energy2(const model *, const double sigma[], con
 typedef struct link_element {
     int nodes, strains, joint; /* joint: the first coordinates of each node that are wanted */
     const double *J, *C, *H;   /* [strains x 7 nodes], [strains x strains], [7 nodes x 7 nodes] */
-    const double *r;           /* [nodes x 3] places of the nodes [m] */
+    const double *r;           /* [nodes x 3] positions of the nodes [m] */
 } link_element;
 
 /* Carrying the element along, R, strains it by E = J R, rounding but for warping; it follows by
@@ -233,7 +232,7 @@ status link_of(const link_element *, chain_link *, fault *);
 
 /* 1: held as it is, the undeformed structure moves without deformation where ends of members are
  * released: the node that moves most, or -1 and a member between nodes that stay, and its motion
- * (displacement [m], turn [rad], of any size). Not looked for among more than 200 parts. */
+ * (displacement [m], turn [rad], of any size). Not searched for among more than 200 parts. */
 int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 /* Small symmetric matrices whose rows may have different units. */
@@ -252,7 +251,7 @@ int symmetric_inverse(int n, const double A[], double inverse[]);
 
 /* de/dx [strains x 7 nodes], dsigma/de [strains x strains] and, of a member with initial strains,
  * the stresses [strains] of an element whose nodes do not move, to first order (NULL: none); until
- * the next one is asked for. */
+ * the next one is requested. */
 typedef struct undeformed_element {
     const double *J, *C, *initial;
 } undeformed_element;

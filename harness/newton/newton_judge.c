@@ -330,8 +330,8 @@ status newton_accept(const model *m, const model_state *from, model_state *s, fa
 
 /* Sizes of the corrections of one step. */
 typedef struct watch {
-    double last, first, largest; /* the largest behind the first */
-    int growing;                 /* so many after another */
+    double last, first, largest; /* the largest after the first */
+    int growing;                 /* that many after another */
 } watch;
 
 /* Limits of all iterations: a correction of several radians or lengths leads nowhere, nor do those

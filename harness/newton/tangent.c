@@ -418,7 +418,7 @@ enum { LEAST = 2, MOST = 30 };
  * tolerance of quantities (SCENE_TOLERANCE), since quantities derived from the solution may lose
  * further digits.  By the level of newton.h, eps (L/side)^2 times 2.5, bars beyond
  * L/side = 1300 leave the first, beyond 42000 the second; in a run of verify no correction that was
- * judged by it exceeded 2e-12. */
+ * evaluated by it exceeded 2e-12. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;
 
 refinement_state refinement_judge(solution_refinement *r, double correction)

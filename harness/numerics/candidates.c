@@ -185,7 +185,7 @@ double candidates_scale(candidates *p, long *solutions)
     return candidates_is_rounding(p, largest, x) ? 0 : largest;
 }
 
-/* The vector behind the last candidate becomes one, if its mu is large enough. */
+/* The vector after the last candidate becomes one, if its mu is large enough. */
 static void add_next(candidates *p, double least)
 {
     const eigen_problem *e = p->problem;

@@ -9,7 +9,7 @@
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
 enum { DENSE_AT_LAST_UP_TO = 700 }; /* where the iteration ends early: seconds, and the answer */
 
-/* Part of the largest size of an eigenvalue below which none is looked for by iteration. */
+/* Part of the largest size of an eigenvalue below which none is searched for by iteration. */
 static const double negligible = 1e-9;
 
 static void free_side(eigen_side *s)
@@ -73,7 +73,7 @@ static status count_existing(candidates *p, int enough, double scale, double lea
     return STATUS_OK;
 }
 
-/* Both sides (NULL: not asked for) from all eigenvectors. */
+/* Both sides (NULL: not requested) from all eigenvectors. */
 static status solve_densely(candidates *up, candidates *down, const int wanted[2], eigen_result *r,
                             fault *f)
 {
@@ -324,7 +324,7 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
                            "a dense eigenvalue problem of %d unknowns: LAPACK says %d", n, info);
 }
 
-/* Candidates of one or both sides (NULL: not asked for) from all eigenvectors; mu[n], x[n x n]. */
+/* Candidates of one or both sides (NULL: not requested) from all eigenvectors; mu[n], x[n x n]. */
 static status take_dense(candidates *const side[2], const int wanted[2], double mu[], double x[],
                          fault *f)
 {

@@ -204,7 +204,7 @@ static double share(const motion_estimate *e, int k)
     return creal(sum * conj(sum));
 }
 
-/* Twice what the vector misses, in parts of the eigenvalue: of other motions that were found, and
+/* Twice what the vector misses, relative to the eigenvalue: of other motions that were found, and
  * of those that were not, of which the first is known. */
 static double missed(motion_estimate *e, int i, double complex lambda, double own)
 {
@@ -320,7 +320,7 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
     return outcome;
 }
 
-/* x^H (K + |lambda|^2 M) x, in parts of the sizes of its terms; c^H c = 1 is x^H (K + shift M) x.
+/* x^H (K + |lambda|^2 M) x, relative to the sizes of its terms; c^H c = 1 is x^H (K + shift M) x.
  */
 static double index_energy(const ritz *r, const subspace *b, double shift, int i)
 {

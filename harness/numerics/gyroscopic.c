@@ -28,7 +28,7 @@ typedef struct gyroscopic_solver {
     double least;             /* the shift is no smaller */
     double nearest, furthest; /* of the eigenvalues of (K, M) at the start, by size, ... */
     double softest;           /* ... and of (S, M) */
-    int all_known;            /* at the start: all that were looked for */
+    int all_known;            /* at the start: all that were searched for */
     const sparse *S;          /* K, or ... */
     sparse shifted;           /* ... this */
     subspace basis;
@@ -176,7 +176,7 @@ static int unaccounted(const gyroscopic_solver *s)
            gyroscopic_index_of(&s->pairs, &s->basis, s->shift, s->found).negative;
 }
 
-/* K is indefinite: what the count below a gap behind the first `last` pairs proves of them. One
+/* K is indefinite: what the count below a gap after the first `last` pairs proves of them. One
  * that fails proves nothing. */
 static status prove(gyroscopic_solver *s, int last, status counted, int below, int *number)
 {

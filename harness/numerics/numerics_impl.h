@@ -49,7 +49,7 @@ status candidates_add(candidates *p, int count, const double x[], double least, 
 status candidates_take(candidates *p, int count, double *x, double least, fault *f);
 /* K times each candidate, [count x n], for the caller to free; NULL: out of memory. */
 double *candidates_products(const candidates *p);
-/* Residual of candidate i and estimated error of its mu, both in parts of mu. One solution. */
+/* Residual of candidate i and estimated error of its mu, both relative to mu. One solution. */
 void candidates_judge(candidates *p, int i, double *residual, double *error);
 
 /* Proof that no eigenvalue is missing among candidates. */
@@ -66,7 +66,7 @@ status candidates_count_above(candidates *p, double s, int *above, eigen_result 
 /* Eigenvectors of small problems: all of them, by LAPACK. */
 
 /* The first wanted[i] of the most positive (0) and of the most negative (1) side become candidates;
- * NULL: a side that is not asked for. */
+ * NULL: a side that is not requested. */
 status eigen_dense_add(candidates *const side[2], const int wanted[2], fault *f);
 
 /* A growing real basis V of a quadratic eigenvalue problem, orthonormal in K + shift M, with the
@@ -101,7 +101,7 @@ typedef struct ritz {
                            */
 } ritz;
 
-/* Real part of lambda that is round-off, in parts of |lambda|. */
+/* Real part of lambda that is round-off, relative to |lambda|. */
 static const double ritz_imaginary = 1e-7;
 
 status ritz_alloc(ritz *r, int room, const subspace *b, fault *f);

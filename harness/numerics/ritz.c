@@ -99,8 +99,8 @@ static void take_hermitian(const subspace *b, int found, const double mu[], cons
 }
 
 /* The largest `most` eigenvalues mu, ascending, with their vectors z. zgemv of some OpenBLAS
- * (0.3.21, Haswell) reads a few columns behind the matrices that it is given: there is room for
- * that behind H and the work array. */
+ * (0.3.21, Haswell) reads a few columns after the matrices that it is given: there is room for
+ * that after H and the work array. */
 static int largest_eigenvalues(int n, int most, double complex H[], double mu[], double complex z[],
                                lapack_int support[], lapack_int *found)
 {

@@ -139,7 +139,7 @@ static const result_value *value_named(const result_cell *c, int near, const cha
     return NULL;
 }
 
-/* Errors are judged by their size; a value without a truth can only have changed. */
+/* Errors are evaluated by their size; a value without a truth can only have changed. */
 static void compare_value(const listing *l, const result_value *a, const result_value *b)
 {
     const comparison_limits *m = l->limits;
@@ -257,7 +257,7 @@ void comparison_lines_cost(const listing *l, double before, double after)
 
 /* Two series side by side where one of them is known by its row of the short table only. */
 
-/* Relative to a number written with so many digits: how far it may be from what it was. */
+/* Relative to a number written with that many digits: how far it may be from what it was. */
 static double last_digit(int digits)
 {
     return 0.5 * pow(10, 1 - digits);
@@ -379,7 +379,7 @@ typedef struct lone {
     char where[NAME]; /* the last point */
 } lone;
 
-/* Begins the name of a cell beside `next` like this one, by so many characters? */
+/* Begins the name of a cell beside `next` like this one, by that many characters? */
 static int is_beside(const stored_results *r, int next, const char *name, size_t length)
 {
     for (int i = next - 1; i <= next; i++)
@@ -418,7 +418,7 @@ static void tell_column(const listing *l, lone *only, const char *key, int eleme
     tell(l, only->kind, name, elements);
 }
 
-/* A cell that only one of them has; in the other, cells beside it stand at `next`. */
+/* A cell that only one of them has; in the other, cells beside it are at `next`. */
 static void tell_cell(const listing *l, int next, lone *only)
 {
     const char *key = strrchr(l->name, '/');

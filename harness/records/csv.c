@@ -310,7 +310,7 @@ static void write_matrix(FILE *to, const void *what)
     matrix_market_write(to, t->matrix, t->comment);
 }
 
-/* A matrix without rows or columns is none. */
+/* A matrix without rows or columns is not one. */
 static status add_matrix(const output_folder *folder, const char *state, const char *letter,
                          const triplets *t, const char *comment, fault *f)
 {

@@ -176,7 +176,7 @@ static void write_defective(FILE *to, const reach_question *q, const reached lis
     }
 }
 
-/* The cheapest ones, those behind them, those with a defect. */
+/* The cheapest ones, those after them, those with a defect. */
 static void write_ranking(FILE *to, const reach_question *q, const reached list[], int count)
 {
     const int ties = reach_ties(list, count);

@@ -37,7 +37,7 @@ static status unfit(const char *path, fault *f)
                      path);
 }
 
-/* Waits for so many tenths of a second; patience -1: for ever. 0: it is held; -1 and errno. */
+/* Waits for that many tenths of a second; patience -1: for ever. 0: it is fixed; -1 and errno. */
 static int hold(int file, int kind, int patience)
 {
     const int wait = patience < 0 ? 0 : LOCK_NB;

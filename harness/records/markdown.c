@@ -139,7 +139,7 @@ static void write_row(FILE *to, const overview *o, int row)
     fprintf(to, " |\n");
 }
 
-/* Cases without a row, of which something is judged or nothing. */
+/* Cases without a row, of which something is evaluated or nothing. */
 static void write_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     int named = 0;

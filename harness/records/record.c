@@ -12,7 +12,7 @@ static void check(record_file *r, int good)
 }
 
 /* Access to a file of HDF5: of the oldest format, as an image of the newer ones carries a wrong
- * checksum of its head (HDF5 1.10). FAULT: nothing is held. */
+ * checksum of its head (HDF5 1.10). FAULT: nothing is fixed. */
 static status open_file(record_file *r, const char *name, hid_t access, fault *f)
 {
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
@@ -88,7 +88,7 @@ status record_drop(record_file *r, status outcome)
     return r->to.stream != NULL ? output_finish(&r->to, outcome, NULL) : outcome;
 }
 
-/* The last line behind what the library has written, and the file in its place. */
+/* The last line after what the library has written, and the file in its place. */
 static status close_on_disk(record_file *r, fault *f)
 {
     char line[CHECKSUM_LENGTH + 1];

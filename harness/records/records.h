@@ -1,7 +1,7 @@
 /* records/: result files and other formats of results, comparison of runs.
  *
  * Sections, in this order: assumptions; stored runs; comparison; csv; schema; lines of CSV;
- * digest; places of records; followed modes; gather; json; junit; paths; output; HDF5 files;
+ * digest; positions of records; followed modes; gather; json; junit; paths; output; HDF5 files;
  * kept (one file for all experiments); markdown; output folders; reach; rows; hash; store;
  * system folder; columns. */
 #ifndef BEAMWORK_RECORDS_H
@@ -121,7 +121,7 @@ typedef struct stored_results {
     results_part part;
     int cells, seriess;
     int whole;             /* 1: with cells, 0: with series only */
-    int limits;            /* 1: limits were judged */
+    int limits;            /* 1: limits were evaluated */
     int swept;             /* 1: a sweep; its cells of no mesh have the references of a point */
     result_cell *cell;     /* ascending by name and elements */
     result_series *series; /* ascending by name */
@@ -147,12 +147,12 @@ status results_series_summarise(stored_results *r, fault *f);
 
 /* Is the text one of the lines? lines NULL: no. */
 int results_part_has(const char *lines, const char *text);
-/* Was the quantity of a series (case/parameters/formulation) asked for? */
+/* Was the quantity of a series (case/parameters/formulation) requested? */
 int results_part_selects(const results_part *p, const char *series, const char *quantity);
-/* Was a series that `other` alone has asked for, of the run r: any of its quantities, as the two
+/* Was a series that `other` alone has requested, of the run r: any of its quantities, as the two
  * know them? */
 int results_part_wants(const stored_results *r, const stored_results *other, const char *series);
-/* Were other quantities of a series asked for in one run than in the other, as the two know them?
+/* Were other quantities of a series requested in one run than in the other, as the two know them?
  */
 int results_part_differ(const stored_results *a, const stored_results *b, const char *series);
 /* Is its formulation new to the run? */
@@ -286,8 +286,8 @@ struct schema_field {
     const char *summary;
     field_base base; /* that the offset refers to; where it is NULL there is no value */
     size_t offset;
-    int address;              /* 1: a TEXT of which the address stands there */
-    field_getter *get;        /* derived: instead of what stands at the offset */
+    int address;              /* 1: a TEXT of which the address is there */
+    field_getter *get;        /* derived: instead of what is at the offset */
     const char *(*word)(int); /* ENUM: its words ... */
     int words;                /* ... 0 to words - 1 */
     int count;                /* DOUBLE: numbers of an array (a square matrix); 0: a single one */
@@ -398,7 +398,7 @@ typedef struct subjects {
     int bad;           /* 1: out of memory */
 } subjects;
 
-/* Truths that quantities are compared with: those of the verdicts; where nothing was judged the
+/* Truths that quantities are compared with: those of the verdicts; where nothing was evaluated the
  * stored ones. Both may be NULL. */
 typedef struct gathering {
     const sweep *sweep;
@@ -444,7 +444,7 @@ typedef struct json_part {
 
 /* It stays where it is until it is freed. */
 void json_part_begin(json_part *);
-/* Adds what has been judged since. */
+/* Adds what has been evaluated since. */
 void json_part_add(json_part *, const sweep *s, const judgement *j);
 void json_part_free(json_part *);
 /* part: what is there already; NULL: nothing. */
@@ -495,7 +495,7 @@ typedef struct file_place {
 status place_find(const char *path, file_place *out, fault *f);
 /* The same file, by device and inode; of free places: the same name in the same folder. */
 int place_same(const file_place *a, const file_place *b);
-/* The part of a path behind its folder. */
+/* The part of a path after its folder. */
 const char *place_leaf(const char *path);
 
 /* Files that appear complete or not at all: written beside, then renamed onto the place that links
@@ -626,11 +626,11 @@ status output_folder_finish(output_folder *, status written, fault *f);
 
 /* Result of a table of convergence: which formulation, with how many elements. */
 
-#define REACH_LINE_LEVEL 0.01 /* where none is asked for */
+#define REACH_LINE_LEVEL 0.01 /* where none is requested */
 
 /* "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2 (0.4 ms): within noise
  * of each other; beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work;
- * behind it those that have a defect, those that are not within the level, and how far the ones
+ * after it those that have a defect, those that are not within the level, and how far the ones
  * that pass are from truths of another model. "in 5 of 6 quantities (without a reference:
  * frequency_1)" where some have neither a truth nor an agreement; curves do not count. Of the first
  * point. One line. */
@@ -679,13 +679,13 @@ typedef struct store {
 
 /* All live as long as the file is open. */
 status store_open(const char *experiment, const sweep *s, const judgement *j, store *out, fault *f);
-/* A case, all of whose series have been judged. */
+/* A case, all of whose series have been evaluated. */
 void store_case(store *, const case_type *);
 /* Adds the cases that are not there yet, and the description of the run. Written next to the file
- * and renamed: FAULT leaves no file behind. path NULL: nothing is written. */
+ * and renamed: FAULT leaves no file after. path NULL: nothing is written. */
 status store_close(store *, const char *path, const environment *e, fault *f);
 
-/* Written beside and renamed: FAULT leaves nothing behind. */
+/* Written beside and renamed: FAULT leaves no file behind. */
 status store_write(const char *path, const char *experiment, const sweep *s, const judgement *j,
                    const environment *e, fault *f);
 /* The first cell of a sweep in the same way, without verdicts, and its shapes for VTK too. */

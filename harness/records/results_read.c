@@ -150,7 +150,7 @@ static const table_column limit_columns[] = {
     {"limit", FIELD_DOUBLE, offsetof(limit_row, limit), 0}};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
-/* The tables of one case. limits: -1: nothing was judged. */
+/* The tables of one case. limits: -1: nothing was evaluated. */
 typedef struct case_tables {
     int points, cells, values, limits;
     case_point_row *point;

@@ -259,7 +259,7 @@ int results_part_differ(const stored_results *a, const stored_results *b, const 
 }
 
 /* Is what a run knows at `name` of the series, or, where the series has no options, of its case?
- * With options only those quantities are judged for which these matter: the ones with limits. */
+ * With options only those quantities are evaluated for which these matter: the ones with limits. */
 static int speaks_for(const char *name, const char *series_name)
 {
     return strchr(formulation_of(series_name), ':') != NULL

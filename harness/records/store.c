@@ -159,7 +159,7 @@ static void put_case(record_file *r, hid_t cases, const gathering *g, const case
     H5Gclose(here);
 }
 
-/* Attribute of names, a line each. at(s, i): name i, NULL behind the last. */
+/* Attribute of names, a line each. at(s, i): name i, NULL after the last. */
 static void put_names(record_file *r, hid_t group, const char *attribute, const sweep *s,
                       const char *(*at)(const sweep *s, int i))
 {

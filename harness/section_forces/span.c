@@ -75,7 +75,7 @@ static void about_origin(const span_end *end, double out[6])
         out[3 + i] += end->moment[i];
 }
 
-/* N, M at the points: equilibrium of the parts before and behind. */
+/* N, M at the points: equilibrium of the parts before and after. */
 static void resultants(span_work *w)
 {
     double load[N][6], gathered[N][6], from[2][6];

@@ -128,7 +128,7 @@ const double omission_safety = 2;
 static const double longest = 20;
 /* [s] of a solution, about, that is always made. */
 static const double brief = 0.2;
-/* A change beyond so many times omission_most is significant without further checks. */
+/* A change beyond that many times omission_most is significant without further checks. */
 static const double surely = 100;
 /* relative to the largest value in the same unit: smaller values count as zero. */
 static const double nothing = 1e-9;

@@ -6,11 +6,12 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Round-off is below a thousandth of these: of strains, of places and turns; and of other values.
+/* Round-off is below a thousandth of these: of strains, of positions and turns; and of other
+ * values.
  */
 static const double small_strain = 1e-14, small_part = 1e-12, small_beside = 1e-9;
 
-/* Largest extent of the places of nodes [m]. */
+/* Largest extent of the positions of nodes [m]. */
 static double size_of(const scene *s)
 {
     double sum = 0;

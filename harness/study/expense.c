@@ -224,7 +224,7 @@ static int get(FILE *from, void *data, size_t size)
     return size == 0 || fread(data, size, 1, from) == 1 ? 0 : -1;
 }
 
-/* Every array behind its length. */
+/* Every array after its length. */
 static int put_parts(FILE *to, const void *record, const branch parts[])
 {
     for (const branch *b = parts; b->size > 0; b++) {

@@ -212,8 +212,8 @@ status follow_solve(follow_walk *w, double value, const follow_shapes *before, f
 }
 
 enum { MOST_REFINEMENTS = 30 };
-static const double equal = 1e-9;       /* frequencies, in parts of themselves */
-static const double exact = 1e-12;      /* of a crossing's place, in parts of the step */
+static const double equal = 1e-9;       /* frequencies, relative to themselves */
+static const double exact = 1e-12;      /* of a crossing's place, relative to the step */
 static const double close_enough = 0.1; /* gap of a veering that is reported */
 
 /* f_i - f_j at a value, the modes matched with those of sample k; *mean of both [Hz]. */
@@ -237,7 +237,7 @@ static double difference_of(const follow_sample *s, const int mode[2])
     return s->frequency[mode[0]] - s->frequency[mode[1]];
 }
 
-/* Distance of the two in parts of their mean. */
+/* Distance of the two relative to their mean. */
 static double gap_of(const follow_sample *s, const int mode[2])
 {
     return 2 * fabs(difference_of(s, mode)) / (s->frequency[mode[0]] + s->frequency[mode[1]]);

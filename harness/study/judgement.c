@@ -193,7 +193,8 @@ static void judge_series(const sweep *s, truths *t, int index, judgement *out)
     const sweep_point *p = &s->point[one->point];
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *quantity = &p->scene.quantity[q];
-        /* a curve is drawn beside its truths; a point of it is judged by a quantity of its own */
+        /* a curve is drawn beside its truths; a point of it is evaluated by a quantity of its own
+         */
         if (one->imported != NULL && (quantity->reduction == SCENE_CURVE || !is_imported(one, q)))
             continue;
         if (quantity->reduction == SCENE_CURVE)

@@ -5,7 +5,7 @@
 /* of consecutive meshes; closer ones say nothing that noise does not drown */
 static const double least_refinement = 1.4;
 static const double unmeasured_noise = 3e-11, least_noise = 2.3e-16; /* relative */
-/* a change of so many noises says nothing of an order */
+/* a change of that many noises says nothing of an order */
 static const double noisy_changes = 10;
 static const double least_seen_order = 0.5; /* accepted as seen ... */
 /* ... and assumed of what remains */

@@ -95,7 +95,7 @@ static void add_columns(const sweep *s, overview *out, int of_new)
     }
 }
 
-/* New formulations stand behind the others. */
+/* New formulations are after the others. */
 static void find_columns(const sweep *s, overview *out, int joined)
 {
     out->joined = joined;

@@ -196,7 +196,7 @@ static void check(findings_reader *r, double *largest)
         WRONG(r, LARGEST_ERROR, "largest_error '%.40s' is not a number of at least zero", text);
 }
 
-/* The cases of the run and the built-in ones, NULL behind the last; the caller frees it. */
+/* The cases of the run and the built-in ones, NULL after the last; the caller frees it. */
 static const case_type **all_cases(const case_type *const run[])
 {
     int count = 0;

@@ -109,7 +109,7 @@ static int same_point(const truth *a, const truth *b)
     return 1;
 }
 
-/* Only one of them would ever be looked at. */
+/* Only one of them would ever be examined. */
 static const truth *known(const truths *t, const truth *row)
 {
     for (int i = 0; i < t->rows; i++) {

@@ -143,7 +143,7 @@ const char *reach_defect_words(verdict_kind kind)
     }
 }
 
-/* Is the quantity asked for: by itself, or as one that some formulation has a truth for? */
+/* Is the quantity requested: by itself, or as one that some formulation has a truth for? */
 static int is_asked(const reach_question *q, int quantity)
 {
     int known = 0;
@@ -221,7 +221,7 @@ static int reach_one(const reach_question *q, int series_index, reached *out)
     return 1;
 }
 
-/* Does a stand before b? */
+/* Sorts a before b where it is better. */
 static int is_before(const sweep *s, const reached *a, const reached *b)
 {
     if ((a->defect != NULL) != (b->defect != NULL))

@@ -124,14 +124,14 @@ void cell_result_free(cell_result *);
 
 enum { IMPORTED_UNIT = 48, IMPORTED_FILE = 256, IMPORTED_WORD = 48 };
 
-/* A value, in the units of the case: value = factor * (what the file says). */
+/* A value, in the units of the case: value = factor * (what the file specifies). */
 typedef struct imported_row {
     int line;               /* of the file */
     int elements, unknowns; /* unknowns: 0: not said */
     char quantity[SCENE_NAME];
     char unit[IMPORTED_UNIT]; /* of the file */
     double factor;
-    double seconds;            /* of the solution, as the file says; NAN: not said */
+    double seconds;            /* of the solution, as the file specifies; NAN: not said */
     double x;                  /* [SI] abscissa of a curve; NAN: no curve */
     double value, uncertainty; /* [unit of the quantity]; uncertainty NAN: not said */
 } imported_row;
@@ -168,8 +168,8 @@ typedef struct omission {
 
 /* Above this part of a value it is another model. */
 extern const double omission_most;
-/* So many times what two coarse solutions of a formulation that has the physics differ by, with it
- * and without it, bounds what it changes. */
+/* that many times what two coarse solutions of a formulation that has the physics differ by, with
+ * it and without it, bounds what it changes. */
 extern const double omission_safety;
 
 /* Fills the physics of a scene that the type omits. Where no formulation of the program has all of
@@ -277,7 +277,7 @@ status truths_read_rules(const char *path, truths *out, fault *f);
 /* Adds the exact values at the extremes, which no verification runs. On failure the truths read
  * before stay. */
 status truths_read_extremes(const char *path, truths *out, fault *f);
-/* Rows stay where they are until so many more are added. FAULT: out of memory. */
+/* Rows stay where they are until that many more are added. FAULT: out of memory. */
 status truths_reserve(truths *, int more, fault *f);
 /* One more row, all zero; NULL: out of memory. */
 truth *truths_add(truths *, fault *f);
@@ -306,7 +306,7 @@ typedef struct sweep_point {
 typedef struct series {
     int point;
     formulation formulation;
-    /* what it cannot do without and the formulation does not offer; empty: it runs, ... */
+    /* what it cannot do without and the formulation does not support; empty: it runs, ... */
     char missing[200];
     omission without; /* ... without this, as another model where that matters */
     int meshes, mesh[SERIES_MAX_MESHES];
@@ -318,7 +318,7 @@ typedef struct series {
 } series;
 
 typedef struct sweep {
-    /* of the request: unselected quantities are not judged either; NULL: all are selected */
+    /* of the request: unselected quantities are not evaluated either; NULL: all are selected */
     const char *select;
     /* of the request, as they live there: its cases (NULL: it was planned by hand), and its
      * formulations where it is restricted to some */
@@ -328,7 +328,7 @@ typedef struct sweep {
     int named;        /* of the request */
     double tolerance; /* of the request */
     int shapes;       /* of the request */
-    int whole_only;   /* 1: what a formulation does not offer keeps it from running */
+    int whole_only;   /* 1: what a formulation does not support keeps it from running */
     int values_only;  /* 1: what only curves and matrices show is not computed */
     int doublings;    /* of the request */
     int threads;      /* of the loop over elements in every cell; 0, 1: one */
@@ -364,10 +364,10 @@ typedef struct sweep_request {
     int interruptible; /* 1: who asks to end (Ctrl-C) ends the run, and what is finished is kept */
     int stop;          /* likewise once this descriptor can be read; 0: none */
     const case_type *const *cases; /* NULL-terminated; NULL: all that there are */
-    int doublings;    /* so many meshes beyond the scene's finest, each of twice the elements */
+    int doublings;    /* that many meshes beyond the scene's finest, each of twice the elements */
     int formulations; /* restrict to these, or 0: all */
     const formulation *formulation;
-    int named; /* 1: these were asked for by name: they affect the exit status, also where the
+    int named; /* 1: these were requested by name: they affect the exit status, also where the
                   project has not accepted them yet */
     /* relative tolerance in place of those of the cases: an error within it passes; 0: those of the
      * cases */
@@ -410,7 +410,7 @@ typedef enum verdict_kind {
     VERDICT_UNDECIDED, /* the limit is not known well enough for any of the others */
     VERDICT_DIVERGED,  /* the finest mesh has no value: not converged, singular, crashed */
     VERDICT_REFUSED,
-    VERDICT_SKIP,        /* needs what the formulation does not offer */
+    VERDICT_SKIP,        /* needs what the formulation does not support */
     VERDICT_NO_TRUTH,    /* none of its own theory of shear, at least */
     VERDICT_OTHER_MODEL, /* without physics of the scene that change the requested quantity */
     VERDICT_KINDS
@@ -455,8 +455,8 @@ int verdict_tells_defect(const rule *);
 element_analysis verdict_analysis(const scene *, const scene_quantity *);
 /* Limit of a quantity of a series, without its `left_out` finest meshes. */
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
-/* The truth that a formulation is judged by: of the same model and of its own theory of shear; or
- * NULL. */
+/* The truth that a formulation is evaluated by: of the same model and of its own theory of shear;
+ * or NULL. */
 const truth *verdict_truth(const truths *t, const sweep_point *p, const formulation *chosen,
                            int quantity);
 /* The same, or where there is none the agreement of the formulations, which is informative only and
@@ -549,10 +549,10 @@ void judgement_end(const sweep *s, truths *t, int whole, judgement *out);
 status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);
 void judgement_free(judgement *j);
 enum { JUDGED_AS_EXPECTED = 0, JUDGED_DIFFERS = 1, JUDGED_NOTHING = 3 };
-/* Exit code: 0 as expected, 1 a verdict that counts is not as expected, 3 nothing was judged. It is
- * the only place that determines how a run ended. */
+/* Exit code: 0 as expected, 1 a verdict that counts is not as expected, 3 nothing was evaluated. It
+ * is the only place that determines how a run ended. */
 int judgement_exit(const judgement *j);
-/* "pass", "fail", "nothing was judged". */
+/* "pass", "fail", "nothing was evaluated". */
 const char *judgement_outcome(const judgement *j);
 
 /* How far the values of two meshes are apart, with a scale for those that are zero but for
@@ -592,7 +592,7 @@ status checksum_check(const char *path, fault *f);
 /* In the child, before all else: ends with its parent, even one that is killed or was already gone;
  * an alarm ends it. */
 void child_begin(pid_t parent);
-/* In the child: from now on so many seconds are left; 0: no limit. */
+/* In the child: from now on that many seconds are left; 0: no limit. */
 void child_alarm(int seconds);
 /* In the parent: has it ended? It is not reaped. */
 int child_is_gone(pid_t process);
@@ -608,7 +608,8 @@ int child_ended(int how, int late, int seconds, char *words, size_t size);
 
 typedef struct claims claims;
 
-/* Room for so many things, shared with all processes that are started from now on; NULL: no memory.
+/* Room for that many things, shared with all processes that are started from now on; NULL: no
+ * memory.
  */
 claims *claims_alloc(int count);
 void claims_free(claims *);
@@ -665,7 +666,7 @@ int curve_error_reference(const sweep *, int quantity);
 int data_place(const char *name, char path[PATH_MAX]);
 /* The packed truths: BEAMWORK_TRUTHS, or data_place. */
 void data_place_truths(char path[PATH_MAX]);
-/* Processes that are started from now on find beamwork_element.py behind all that PYTHONPATH names:
+/* Processes that are started from now on find beamwork_element.py after all that PYTHONPATH names:
  * its folder, where there is one, is appended to it, and Python leaves no compiled files. */
 void data_place_modules(void);
 
@@ -866,7 +867,7 @@ typedef struct follow_request {
 
 typedef struct follow_sample {
     double value;      /* of the parameter */
-    int asked;         /* 0: between two values that were asked for */
+    int asked;         /* 0: between two values that were requested */
     double *frequency; /* [modes] [Hz] */
     double *match;     /* [modes] with the sample before; of the first: 1 */
 } follow_sample;
@@ -876,7 +877,7 @@ typedef struct follow_event {
     int mode[2];
     double value;     /* of the parameter */
     double frequency; /* [Hz] mean of both */
-    double gap;       /* of a veering: least distance of the two, in parts of it */
+    double gap;       /* of a veering: least distance of the two, relative to it */
 } follow_event;
 
 typedef struct follow_curves {
@@ -938,8 +939,8 @@ typedef struct interrupt {
     sigset_t before; /* the mask that interrupt_end restores */
 } interrupt;
 
-/* From here on the request is kept until it is looked for, in this process and in those it starts.
- * Signals that are ignored (nohup) stay ignored. */
+/* From here on the request is kept until it is searched for, in this process and in those it
+ * starts. Signals that are ignored (nohup) stay ignored. */
 void interrupt_begin(interrupt *);
 /* As before: asked again, the process ends at once. */
 void interrupt_end(interrupt *);
@@ -1028,9 +1029,9 @@ overview_mark overview_mark_of(verdict_kind kind);
 status overview_make(const sweep *s, const judgement *j, overview *out, fault *f);
 void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
-/* 1: nothing but passes in that row, and what is not judged. */
+/* 1: nothing but passes in that row, and what is not evaluated. */
 int overview_passes(const overview *, int row);
-/* 1: something in that row is judged. */
+/* 1: something in that row is evaluated. */
 int overview_judged(const overview *, int row);
 /* Has a row a line of its own? All have where they are few; else those that pass share lines, so
  * that the rest is one screen. */
@@ -1192,7 +1193,7 @@ typedef struct progress {
     int count;          /* of them */
     double begun;       /* [s] of clock_wall_seconds */
     double last;        /* [s] when something was said */
-    int width;          /* columns of what stands there now */
+    int width;          /* columns of what is there now */
 } progress;
 
 /* now: [s] of clock_wall_seconds, here and below. */
@@ -1227,7 +1228,7 @@ extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */
 typedef struct reached {
     int series, mesh; /* index of that mesh */
     double cost;      /* [s] of its counted work; INFINITY: it leaves derivatives to differences or
-                         is computed by another process, and ranks behind those that do not */
+                         is computed by another process, and ranks after those that do not */
     const verdict *defect; /* the first verdict that is not a pass; NULL: all are */
 } reached;
 
@@ -1257,7 +1258,7 @@ int reach_ties(const reached list[], int count);
 /* Returns how the question includes the series of the point: 1: every quantity has a reference
  * value of its theory; 0: some have none; -1: the series does not run. */
 int reach_asks(const reach_question *q, int series_index);
-/* Verdicts of every series and quantity of a sweep that was not judged, with what formulations
+/* Verdicts of every series and quantity of a sweep that was not evaluated, with what formulations
  * agree on where there is no truth; NULL: out of memory. The caller frees it. */
 verdict *reach_verdicts(const sweep *s, const truths *t, int *count);
 
@@ -1312,7 +1313,7 @@ typedef struct cell_timing {
     /* [s] of the solution in one run more, in which the clock is read between the parts of the
      * iterations */
     double phase[PHASES];
-    dense_reference dense; /* when asked for */
+    dense_reference dense; /* when requested */
 } cell_timing;
 
 /* All cells of a sweep, run by several processes. */
@@ -1336,7 +1337,7 @@ enum { SENTENCE_OF_RUN = 1000 };
 
 /* The whole run in one sentence, which begins with PASS or FAIL (INTERRUPTED where it was,
  * INCOMPLETE where batches are missing) and says what of it was expected although it is not a pass;
- * empty where nothing was judged. */
+ * empty where nothing was evaluated. */
 void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size);
 
 /* A cell's result as bytes, so that a process can hand it to its parent. */

@@ -74,16 +74,16 @@ status follow_events_rest(follow_walk *, fault *);
  * matches the name of the case alone. */
 int missed_rules(const sweep *s, truths *t, int whole);
 
-/* Counts the truths that a whole run has not judged by: unmet, waiting and unread. What is unread
- * counts as met (truth.met) and is not judged: a run takes a motion at few of the instants and
- * structures that its quantities are known at, `make lab L=motions` at all. */
+/* Counts the truths that a whole run has not evaluated by: unmet, waiting and unread. What is
+ * unread counts as met (truth.met) and is not evaluated: a run takes a motion at few of the
+ * instants and structures that its quantities are known at, `make lab L=motions` at all. */
 void missed_truths(const sweep *s, truths *t, judgement *out);
 
 /* Names in the tables of a project. */
 
 /* The case of this name: among those of the run (ends with NULL), or built in; NULL: none. */
 const case_type *own_names_case(const case_type *const run[], const char *name);
-/* Number i of the run's cases and the built-in ones that are not among them; NULL behind the
+/* Number i of the run's cases and the built-in ones that are not among them; NULL after the
  * last. */
 const case_type *own_names_case_at(const case_type *const run[], int i);
 /* The scene's quantity of that name, or NULL. */

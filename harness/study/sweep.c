@@ -309,7 +309,7 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
     return STATUS_OK;
 }
 
-/* Removes the quantities that no formulation is asked for. */
+/* Removes the quantities that no formulation is requested. */
 static void drop_quantities(scene *s, const char asked[])
 {
     int kept = 0;

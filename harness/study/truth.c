@@ -142,7 +142,7 @@ int truth_index_next(const truths *t, int i)
     return walk(t, row->type, row->quantity, i < t->indexed ? t->indexed : i + 1);
 }
 
-/* From the last row to the first, so that what stands at a place comes before what it found there.
+/* From the last row to the first, so that what is at a place comes before what it found there.
  */
 static void chain(truths *t)
 {

@@ -19,7 +19,7 @@ static const char *const names[VERDICT_KINDS] = {"pass",
                                                  "no truth",
                                                  "other model"};
 static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
-/* so many uncertainties from the truth, a limit is another one */
+/* that many uncertainties from the truth, a limit is another one */
 static const double surely = 3;
 
 const verdict_kind verdict_defects[VERDICT_DEFECTS] = {
@@ -149,7 +149,7 @@ static verdict_kind compare(const scene_quantity *q, const verdict *v)
     return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
 }
 
-/* Words of truth.theory that the formulation is judged by; NULL: any.  A form whose modes see no
+/* Words of truth.theory that the formulation is evaluated by; NULL: any.  A form whose modes see no
  * shear has no theory that anything else follows: its limits are shown against what there is. */
 static const char *theories_of(const scene *s, const element_type *type)
 {

@@ -242,7 +242,7 @@ double workload_share(const workload *w)
     for (int i = 0; i < w->all; i++) {
         const workload_task *t = &w->tasks[i];
         if (t->again > 0 && w->state[t->series] != SERIES_NOISE && !w->done[i])
-            continue; /* not asked for, or not yet */
+            continue; /* not requested, or not yet */
         const double cost = expense_of_cell(w->s, t->series, t->mesh);
         all += cost;
         done += w->done[i] ? cost : 0;
@@ -341,7 +341,7 @@ int noise_cells(const sweep *s)
 /* Lock of one task; key 0: free. */
 typedef struct process_claim {
     _Atomic uint64_t key, check;
-    atomic_int task; /* behind the first, 1 is added; 0: not yet said */
+    atomic_int task; /* after the first, 1 is added; 0: not yet said */
 } process_claim;
 
 struct claims {

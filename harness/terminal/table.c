@@ -121,7 +121,7 @@ void table_series(FILE *to, const sweep *s, int index)
         paragraph_write(to, 0, 2, words);
 }
 
-/* Columns of so many bytes of UTF-8. */
+/* Columns of that many bytes of UTF-8. */
 static int columns_of(const char *text, size_t bytes)
 {
     int columns = 0;
@@ -153,7 +153,7 @@ static size_t word_at(const char *text, int command)
 static void write_words(FILE *to, int at, int indent, const char *joint, const char *text)
 {
     const int width = PARAGRAPH_WIDTH - columns_of(joint, strlen(joint));
-    int column = at, begun = 0; /* begun: a word stands on this line */
+    int column = at, begun = 0; /* begun: a word is on this line */
     static const char blank[] = " \n";
     for (text += strspn(text, blank); *text != '\0'; text += strspn(text, blank)) {
         const size_t word = word_at(text, joint[0] != '\0');

@@ -328,7 +328,7 @@ static int width_of_names(const overview *o)
     return width;
 }
 
-/* Cases without a row, of which something is judged or nothing. */
+/* Cases without a row, of which something is evaluated or nothing. */
 static void print_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     paragraph words;
@@ -352,7 +352,7 @@ static void print_passing(FILE *to, const overview *o)
     print_unshown(to, o, 0, "more have nothing that is judged");
 }
 
-/* "text", behind what is in the line already or in a new one. */
+/* "text", after what is in the line already or in a new one. */
 static void print_entry(FILE *to, int *column, const char *text)
 {
     const int width = paragraph_columns(text);

@@ -318,7 +318,7 @@ void table_curves_values(FILE *to, const scene *s, const solve_result *r)
     for (int q = 0; q < s->quantities; q++) {
         int list[COLUMNS], count = 0, known = curve_of(s, r, q) == NULL;
         for (int k = 0; k < q && !known; k++)
-            known = beside(s, r, k, q); /* it stands there already */
+            known = beside(s, r, k, q); /* it is there already */
         for (int k = q; k < s->quantities && !known; k++) {
             if (beside(s, r, q, k))
                 list[count++] = k;

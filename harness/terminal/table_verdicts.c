@@ -39,7 +39,7 @@ static void print_other_model(const verdicts_block *b, const truth *other)
     paragraph_say(b->to, 0, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
 }
 
-/* A quantity and the truth that the verdict and those below it are judged by. */
+/* A quantity and the truth that the verdict and those below it are evaluated by. */
 static void print_quantity(const verdicts_block *b, const scene_quantity *q, const verdict *v)
 {
     const truth *row = v->truth;
@@ -71,7 +71,7 @@ static int number_of_rule(verdicts_block *b, const rule *r)
     return i + 1;
 }
 
-/* How far the limit is from what it is not judged by. */
+/* How far the limit is from what it is not evaluated by. */
 static void add_difference(const verdict *v, char *text, size_t size)
 {
     const truth *other = v->model_truth;

@@ -80,7 +80,7 @@ void table_convergence(FILE *to, const sweep *s, const truths *t);
 
 /* Modes followed over a parameter. */
 
-/* A line for each value that was asked for, a column for each mode [Hz]; crossings and veerings. */
+/* A line for each value that was requested, a column for each mode [Hz]; crossings and veerings. */
 void table_follow(FILE *to, const char *parameter, const follow_curves *);
 
 /* A run on one screen: a matrix of cases and formulations, a mark each, and what the marks say. */

@@ -159,10 +159,10 @@ void carried_free(carried_masses *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Where a translation of a frame is held beside free ones, that of the centre follows from the
+/* Where a translation of a frame is fixed beside free ones, that of the centre follows from the
  * turn: it is (w x s) at both ends, whose mean is not that of the step, h (v_c + v_c1)/2 - dr_c =
- * h/4 c x g,   g = (R_n + R_1)/2 (W1 - W) x s. The moment g x m (v_c1 - v_c)/4 of the held
- * components does the work that is behind, so that the step gains the kinetic energy that it works
+ * h/4 c x g,   g = (R_n + R_1)/2 (W1 - W) x s. The moment g x m (v_c1 - v_c)/4 of the fixed
+ * components does the work that is after, so that the step gains the kinetic energy that it works
  * for. */
 
 void carried_step_follow(const carried_mass *one, carried_step *p)

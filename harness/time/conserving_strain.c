@@ -183,7 +183,8 @@ status conserving_stresses(conserving *s, const instant *from, model_state *now,
  * centres' mean places. About a frame that only turns, the tensor of its mass is as constant as
  * about the centre. */
 
-/* How many translations of a frame are held, and not all: those of the centre follow from its turn.
+/* How many translations of a frame are fixed, and not all: those of the centre follow from its
+ * turn.
  */
 static int held_of(const model *m, int frame, int held[3])
 {

@@ -388,7 +388,8 @@ static double product(const outer_work *w, const model_state *s, const double al
     return sum;
 }
 
-/* All that acts on driven coordinates from outside, loads too: what stresses and inertia take. */
+/* All that acts on prescribed coordinates from outside, loads too: what stresses and inertia take.
+ */
 static void hold(outer_work *w, const model_state *s, const double v[], const double a[])
 {
     const model *m = w->m;

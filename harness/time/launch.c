@@ -15,7 +15,7 @@
 /* compliance of positions, relative to the square of a step. */
 static const double softness = 1e-12;
 
-/* Rates of a sequence's angles of which the spin is the sum; held and driven ones stay. */
+/* Rates of a sequence's angles of which the spin is the sum; fixed and prescribed ones stay. */
 static void start_angles(const model *m, const model_state *s, int index, const double spin[3],
                          double v[])
 {

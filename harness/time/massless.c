@@ -297,7 +297,7 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
 /* Newton on the motions without inertia alone: forces and increments are projected onto them
  * (massless_motion), and the tangent holds the others by their masses. */
 
-/* Stiffness that holds what has inertia, in parts of the largest of its own: no more is lost of
+/* Stiffness that holds what has inertia, relative to the largest of its own: no more is lost of
  * that of the rest, no more of Newton's order is either. */
 static const double firm = 1e6;
 
@@ -311,7 +311,7 @@ static double *diagonal_of(const sparse *S, double out[])
     return out;
 }
 
-/* Unbalanced forces at the known accelerations; K NULL: not wanted. */
+/* Unbalanced forces at the known accelerations; K NULL: not needed. */
 static status forces(motion_stage *s, instant *now, sparse *K, fault *f)
 {
     const model *m = s->c->model;

@@ -34,9 +34,9 @@ typedef struct motion_course {
     int looked_ahead;                                      /* 1: ahead is known */
     account account;
     extent extent, reaches; /* so far; with the step that is tried */
-    double rounding;        /* [J] energy that is none */
+    double rounding;        /* [J] energy that is not one */
     int quiet;              /* steps since what acts was last smooth no longer */
-    int unjudged;           /* steps whose balance was not yet looked at */
+    int unjudged;           /* steps whose balance was not yet examined */
 } motion_course;
 
 static status balance_at(motion_course *w, const instant *at, double balance[SCENE_BALANCES],
@@ -68,7 +68,7 @@ static status record_step(motion_course *w, const step_record *record, double er
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
 }
 
-/* last: what acts is smooth no longer behind it, or nothing follows. */
+/* last: what acts is smooth no longer after it, or nothing follows. */
 static status keep_step(motion_course *w, const step_record *record, double error, int last,
                         fault *f)
 {
@@ -112,14 +112,14 @@ static int allowed(motion_course *w, double step, double error)
     return of <= most;
 }
 
-/* The first steps behind a jump of what acts make energy by alpha however short they are. */
+/* The first steps after a jump of what acts make energy by alpha however short they are. */
 static int looks(const motion_course *w)
 {
     return w->how->tolerance > 0 && (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
 }
 
 /* Steps make energy from nothing where modes are not resolved; shorter ones make less. *grows: more
- * than may be, by this step or with those before it. Steps that stay as they are are not looked at.
+ * than may be, by this step or with those before it. Steps that stay as they are are not examined.
  */
 static status watch(motion_course *w, int *grows, fault *f)
 {

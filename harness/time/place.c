@@ -22,7 +22,7 @@ typedef struct place_chain {
     const double *F;
     double about[9];                       /* c of the node = about times its measures */
     double a[3][3], da[3][3 * PLACE_MOST]; /* its columns where they are mean axes of angles */
-    double c[3], dc[3 * PLACE_MOST];       /* behind all turns */
+    double c[3], dc[3 * PLACE_MOST];       /* after all turns */
     double x[3][3], dx[3][3 * PLACE_MOST];
     double rho[3], drho[3 * PLACE_MOST], moved[3 * PLACE_MOST]; /* rho_m; of rho_1 */
     double sigma[3], dsigma[3 * PLACE_MOST];                    /* shift of the mean, (a s)_m */
@@ -58,7 +58,7 @@ static void beside(place_chain *by, int columns)
     sweep(by, columns, 0.5, after, by->drho);
 }
 
-/* One turn more, about b: x[3] and dx[3 x columns], c and dc behind it. */
+/* One turn more, about b: x[3] and dx[3 x columns], c and dc after it. */
 static void turn(const double b[3], double angle, int column, double x[3], double dx[], int columns,
                  place_chain *by)
 {

@@ -269,7 +269,7 @@ static int arrive(complement_way *w, const double goal[])
     return 0;
 }
 
-/* From where it is, in parts of the way from its stresses to the goal. */
+/* From where it is, relative to the way from its stresses to the goal. */
 static int follow(complement_way *w, const double goal[])
 {
     const int n = model_strains(w->m);
@@ -333,7 +333,7 @@ static void find(const complement *c, int element, const double sigma[], double 
         memcpy(e, w.e, n * sizeof *e);
 }
 
-/* Elements of one go whose stresses are those asked for already. */
+/* Elements of one go whose stresses are those requested already. */
 static void settled(const complement *c, const model_state *s, int count, const int index[],
                     const double *const goal[], int is[])
 {

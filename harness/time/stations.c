@@ -271,7 +271,7 @@ static status keep(stations *s, const instant *at, const double balance[SCENE_BA
     return outcome_keep(&s->out->path, m, at->state, 1, next_of(s), f);
 }
 
-/* Is more read at this station than places and rates? */
+/* Is more read at this station than positions and rates? */
 static int reads_forces(const stations *s, double time)
 {
     const scene *what = s->c->scene;

@@ -103,7 +103,7 @@ typedef struct outer_work {
     const carried_masses *masses;
     double *force, *holding; /* [free + driven] room */
     double *dashpots;        /* [dashpots_room] */
-    int elements, *element;  /* that driven coordinates move */
+    int elements, *element;  /* that prescribed coordinates move */
 } outer_work;
 
 status work_alloc(const equations *, const carried_masses *, outer_work *, fault *);
@@ -206,13 +206,13 @@ status damping_now(const equations *, instant *, fault *);
 /* Power that rates of strains lose [W]. */
 double damping_power(const equations *, const double rate[]);
 
-/* Motion in time: states at the instants that were asked for. */
+/* Motion in time: states at the instants that were requested. */
 
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 /* Quantities of a motion at an instant that need no forces. */
 
-/* Is it read from places and rates alone? */
+/* Is it read from positions and rates alone? */
 int reading_is_kinematic(const scene_quantity *);
 /* As extracted, without factor and offset; kinematic kinds only. rate[free + driven] */
 double reading_of(const model *, const scene_quantity *, const model_state *, const double rate[]);

@@ -444,7 +444,7 @@ void deformable_evaluate(const conserving *, const instant *from, const model_st
 
 /* REFUSED: an unknown driver has no motion in time. */
 status drive_check(const model *, fault *);
-/* Entries [free, free + driven) of inc (from the state), v and a at `time`; each NULL: not wanted.
+/* Entries [free, free + driven) of inc (from the state), v and a at `time`; each NULL: not needed.
  */
 void drive_at(const equations *, const model_state *from, double time, double inc[], double v[],
               double a[]);
@@ -608,7 +608,7 @@ status stage_solve(motion_stage *, const model_state *from, double time, stage_r
 status launch_again(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
                     instant *room, fault *);
 /* now: the state and the time are given; `room` is work space. frame: the axes that the state is at
- * rest in turn so [rad/s, m]; omega zero: they do not. REFUSED: something is driven or held
+ * rest in turn so [rad/s, m]; omega zero: they do not. REFUSED: something is prescribed or held
  * otherwise than that turns. */
 status launch_turning(analysis_context *, const carried_masses *, const scene_motion *,
                       const scene_rotating_frame *frame, instant *now, instant *room, fault *);

@@ -7,7 +7,10 @@
 
 #include "harness/numerics/numerics.h"
 
-enum { PIECES = 4, MOST_HALVINGS = 200 }; /* of a step, between whose ends one root is looked for */
+enum {
+    PIECES = 4,
+    MOST_HALVINGS = 200
+}; /* of a step, between whose ends one root is searched for */
 
 static const double no_sign = 1e-13, /* of the size of what is read */
     a_jump =

@@ -7,7 +7,7 @@
 
 #include "cases/format/format.h"
 
-/* The tree in the order of scene_packed; texts one behind the other. */
+/* The tree in the order of scene_packed; texts one after the other. */
 typedef struct packing {
     const document_node **node; /* [nodes] */
     int *first;

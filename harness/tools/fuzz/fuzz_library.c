@@ -1,4 +1,4 @@
-/* Any bytes as the texts that a program gives the library: behind the number of the call, a text or
+/* Any bytes as the texts that a program gives the library: after the number of the call, a text or
  * two with a line between them. What is refused has a reason of one line, or a list of mistakes
  * that is JSON; what is made is JSON, or a scene that reads back; both are UTF-8. */
 #include <jansson.h>

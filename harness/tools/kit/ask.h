@@ -1,5 +1,5 @@
 /* Questions to formulations, and what became of them: for tests that walk over all formulations.
- * A question is a case or a scene on a mesh; its answer says whether the formulation offers the
+ * A question is a case or a scene on a mesh; its answer says whether the formulation supports the
  * physics of the scene, and a tally of the answers fails a test that would otherwise have checked
  * nothing. */
 #ifndef BEAMWORK_TEST_ASK_H
@@ -57,7 +57,7 @@ double answer_of(const answer *, const char *quantity);
 typedef struct ask_tally {
     int count[ASK_OUTCOMES];
     int values;               /* in all answers */
-    int most_refused;         /* refusals of what is offered that the test allows */
+    int most_refused;         /* refusals of what is supported that the test allows */
     char failure[FAULT_TEXT]; /* the last failure and its question */
     char refusal[FAULT_TEXT]; /* the last refusal and its question */
 } ask_tally;
