@@ -104,7 +104,7 @@ static void stress_many(int count, const element_data *const data[], const doubl
     REAL_CHOSEN(exact_lanes_stages_stress)(count, data, e, inner, out, outcome);
 }
 
-/* Those of one kind that follow each other, and want the same, go together. */
+/* Evaluates consecutive elements of one kind with equal requests together. */
 static void along(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[])
 {
@@ -141,9 +141,9 @@ static void geometric(const element_data *data, const double sigma[], double G[]
     }
 }
 
-/* What changes of forces are relative to. A force that is stiffness times elongation is known to
- * its rounding alone: where that is more than 1e-9 of the bending's own unit, against which
- * iterations end, it is not to keep them from ending. */
+/* Returns the force that changes of forces are relative to. A force that is stiffness times
+ * elongation has its rounding error: where that exceeds 1e-9 of the bending's own unit, against
+ * which iterations end, it must not keep them from ending. */
 static double force_scale(const beam_constants *c)
 {
     const double told = 1e-9, stiffness = c->coupled ? c->C[0] : c->EA;

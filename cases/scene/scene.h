@@ -1017,7 +1017,7 @@ int entry_stands(const entry_field *, const void *entry);
 /* "at least 0" */
 const char *entry_range(const entry_field *, char text[FAULT_TEXT]);
 int entry_in_range(const entry_field *, double value);
-/* REFUSED: a value is no number or out of its range ("damping = -1; give at least 0"), a name is
+/* REFUSED: a value is not numeric or out of its range ("damping = -1; give at least 0"), a name is
  * that of no entry, a word is none of its words. */
 status entry_check(const scene *s, const entry_field *table, const void *entry, fault *f);
 

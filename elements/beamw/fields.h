@@ -1,4 +1,4 @@
-/* What lies between the two nodes of an element: twist, bending and shear, mass. */
+/* Fields between the two nodes of an element: twist, bending and shear, mass. */
 #ifndef BEAMWORK_BEAMW_FIELDS_H
 #define BEAMWORK_BEAMW_FIELDS_H
 

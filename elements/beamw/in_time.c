@@ -117,7 +117,8 @@ typedef struct line_point {
     double F[3];        /* mass times acceleration */
 } line_point;
 
-/* Of the vector a in the axes of the section, turned by chi; of a place with nu. */
+/* Sets the functionals of the vector a in the axes of the section, rotated by chi, and of a
+ * position with nu. */
 static void set_functionals(const moving_line *c, int g, const double a[3], line_point *p)
 {
     static const int other[AXES][2] = {{1, 2}, {2, 0}, {0, 1}},
@@ -211,7 +212,7 @@ static void add_product(double mass, const row T[3], const row U[3], row A[N])
     }
 }
 
-/* Of a matrix of the modes. */
+/* Returns the row nu . A of a matrix of the modes. */
 static row along_modes(const double nu[MODES], const row A[MODES])
 {
     row out;
@@ -279,7 +280,8 @@ static void add_chart(const double F[3], const double f[3], double B[9])
     add_crossed(0.5, f, F, B);
 }
 
-/* Of F . d2y/dx2: turns of the fixed vectors, and what is made of turns and modes. */
+/* Gathers the second derivatives of F . d2y/dx2: rotations of the fixed vectors, and products of
+ * rotations and modes. */
 static void gather_curvature(moving_line *c, const line_point *p)
 {
     for (int node = 0; node < NODES; node++) {

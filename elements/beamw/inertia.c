@@ -43,8 +43,8 @@ typedef struct beamw_inertia_vector {
     } term[TERMS];
 } beamw_inertia_vector;
 
-/* What is not zero in the gradients of the strains: all modes but twist depend on where q is from
- * p, two of four bending modes turn with each node. */
+/* Nonzero entries of the gradients of the strains: all modes except twist depend on the position of
+ * q relative to p, and two of the four bending modes rotate with each node. */
 static void gradient_of(const double J[8 * N], const double f[8], double out[N])
 {
     for (int i = 0; i < 3; i++) {
@@ -191,7 +191,7 @@ static const beamw_inertia_vector position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU
                                                  {2, 2, {{0, CHI_Y, 1}, {1, CHI_X, -1}}}},
                                   warping = {NOTHING, 1, {{0, PSI, 1}}};
 
-/* Of F . m_k (field . e): what its second derivatives are made of. */
+/* Gathers the second derivatives of F . m_k (field . e). */
 static void gather_curvature(beamw_inertia_state *c, const double F[3],
                              const beamw_inertia_values *at, const beamw_inertia_vector *y)
 {
@@ -259,7 +259,8 @@ static void add_part(const beamw_inertia_state *c, const beamw_inertia_values *a
     }
 }
 
-/* Of a section by its matrices: the place of its centre of mass, and directions in it. */
+/* Adds vectors of a section given by matrices: the position of its centre of mass, and directions
+ * in it. */
 static void add_vectors(beamw_inertia_state *c, const beamw_spread *d,
                         const beamw_inertia_values *at)
 {

@@ -34,7 +34,7 @@ static void axis_of(const node_state *x, const double w[3], int k, double v[3], 
     vec3_cross(w, v, turns);
 }
 
-/* Of the gradient of c n . v, v an axis of the node whose rotations begin at `rotation`. */
+/* Gradient of c n . v, v an axis of the node whose rotations begin at `rotation`. */
 static void bending(const chord *d, double c, const node_state *x, int k, int rotation,
                     const double rate[N], double row[N])
 {

@@ -58,7 +58,8 @@ static void undeformed_axis(const element_request *request, double x, double out
     rotation_apply(q, strained, out);
 }
 
-/* Of a curved line: on a straight one the stages miss nothing of a load that is linear along it. */
+/* Corrections for a curved line; on a straight one the stages integrate a load that is linear along
+ * it exactly. */
 static void missed_of(const element_request *request, const exact_stages *s, const load_points *p,
                       double own[EXACT_STAGES_MAX][POINTS], exact_along *out)
 {

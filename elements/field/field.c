@@ -44,7 +44,7 @@ void field_prepare(const element_request *request, int nodes, displacement_field
     integrate_whole(out);
 }
 
-/* Of two nodes. */
+/* Functionals of a field with two nodes. */
 static void functionals_at(const displacement_field *f, double x,
                            double out[FIELD_FUNCTIONALS][FIELD_MODES])
 {

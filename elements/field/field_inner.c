@@ -115,7 +115,7 @@ static void deform(const inside *i, int columns, const double *s, double *out)
     }
 }
 
-/* Of matrices, has either an entry off its diagonal? */
+/* Returns whether one of the section's matrices has an entry off its diagonal. */
 static int is_coupled(const section *c)
 {
     int coupled = 0;

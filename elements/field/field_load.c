@@ -47,7 +47,7 @@ static double amplitude(const pulled *p, const field_rows *at, int functional)
     return dense_dot(FIELD_MODES, at->functional[functional], p->e);
 }
 
-/* What of y turns with each node. */
+/* fixed[node]: the part of y that rotates with each node. */
 static void fixed_of(const pulled *p, const field_rows *at, const field_vector *y,
                      double fixed[ELEMENT_MAX_NODES][3])
 {
@@ -289,7 +289,7 @@ static void add_one(pulled *p, const field_rows *at, const field_load *load)
             add_force_on_unit(p, at, &axis[k], load->arm[k], F);
 }
 
-/* What was gathered for e. */
+/* Adds the terms that were gathered for e. */
 static void add_functionals(pulled *p, const node_state x[])
 {
     double H[2 * NODE_COORDINATES * 2 * NODE_COORDINATES];

@@ -143,7 +143,7 @@ status stress_points_of(const section_spec *spec, const section *constants, stre
                      "it by sizes or walls, or ask for resultants");
 }
 
-/* Of a fibre, along it and across it in y and z. */
+/* Stresses at a fibre, along it and across it in y and z. */
 typedef struct stress {
     double along, y, z;
 } stress;

@@ -74,7 +74,8 @@ static double out_of_plane(const section_spec *p, const section_spec *q,
     return most;
 }
 
-/* Of sections with the same walls between the same points (check_walls). */
+/* Returns whether sections with the same walls between the same points differ in thickness
+ * (check_walls). */
 static int walls_change(const section_spec *p, const section_spec *q)
 {
     int change = 0;

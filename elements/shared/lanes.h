@@ -43,7 +43,7 @@ typedef struct lanes_sizes {
                      one are minus those of the other, to the bit */
 } lanes_sizes;
 
-/* Those of one kind that follow each other, at most LANES. */
+/* Returns the number of consecutive elements of one kind, at most LANES. */
 static inline int lanes_run(int count, const element_data *const data[])
 {
     int run = 1;

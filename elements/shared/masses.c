@@ -57,7 +57,7 @@ static void add_product(int columns, double factor, const double *T, const doubl
         add_upper(columns, factor, T, U, n, A);
 }
 
-/* What the frame does to the columns of T: P of each, and Omega x each. */
+/* Effect of the rotating frame on the columns of T: P of each, and Omega x each. */
 static void turn_columns(const moving_vector *v, const double omega[3], double P[3 * MOST],
                          double coriolis[3 * MOST])
 {

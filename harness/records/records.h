@@ -682,7 +682,7 @@ status store_open(const char *experiment, const sweep *s, const judgement *j, st
 /* A case, all of whose series have been evaluated. */
 void store_case(store *, const case_type *);
 /* Adds the cases that are not there yet, and the description of the run. Written next to the file
- * and renamed: FAULT leaves no file after. path NULL: nothing is written. */
+ * and renamed: FAULT leaves no file behind. path NULL: nothing is written. */
 status store_close(store *, const char *path, const environment *e, fault *f);
 
 /* Written beside and renamed: FAULT leaves no file behind. */
