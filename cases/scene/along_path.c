@@ -192,6 +192,7 @@ MEMBER(curvature, vec3_norm(m->curvature) > 0)
 MEMBER(imperfection, m->bow[0] != 0 || m->bow[1] != 0)
 MEMBER(taper, scene_member_tapers(m))
 MEMBER(offset, scene_is_beside(m, 0) || scene_is_beside(m, 1))
+MEMBER(foundation, scene_is_founded(m))
 MEMBER(release, m->release[0].count + m->release[1].count > 0)
 MEMBER(damping, m->damping > 0)
 MEMBER(matrices, s->section[m->section].kind == SECTION_MATRICES)
@@ -312,6 +313,7 @@ const scene_input scene_inputs[] = {
     {"section by its matrices", "uuuuuuuuuuuu", NULL, has_matrices},
     {"spring", "uuuuuuuuuuuu", NULL, has_spring},
     {"offset of an end", "uuuuuuuuuuuu", NULL, has_offset},
+    {"foundation", "uuuuuuuuuuuu", NULL, has_foundation},
     {"release", "uuuuuuuuuuuu", NULL, has_release},
     {"warping held", "uuuuuuuuuuuu", NULL, has_held_warping},
     {"warping shared", "uuuuuuuuuuuu", NULL, has_shared_warping},

@@ -80,6 +80,16 @@ static const entry_field imperfection[] = {
      ENTRY_IN(scene_member, half_waves), .least = 1, .most = 1000},
     {.name = NULL}};
 
+static const entry_field foundation[] = {
+    {"translation", ENTRY_VECTOR, .count = 3, .unit = "N/m^2",
+     .summary = "along its x, y, z: force per length and displacement", .usual = "[0, 0, 0]",
+     .at = offsetof(scene_member, foundation), .size = 3 * sizeof(double), .most = INFINITY},
+    {"rotation", ENTRY_VECTOR, .count = 3, .unit = "N",
+     .summary = "about its x, y, z: moment per length and rotation", .usual = "[0, 0, 0]",
+     .at = offsetof(scene_member, foundation) + 3 * sizeof(double), .size = 3 * sizeof(double),
+     .most = INFINITY},
+    {.name = NULL}};
+
 const entry_field entry_member[] = {
     {"from", ENTRY_NAME, .needed = 1, .summary = "node where its x axis begins",
      ENTRY_IN(scene_member, p), .of = SCENE_NODES},
@@ -102,6 +112,8 @@ const entry_field entry_member[] = {
      .left_out = "at the nodes"},
     {"imperfection", ENTRY_MAP, .below = imperfection,
      .summary = "initial shape beside its line, free of stress", .left_out = "none"},
+    {"foundation", ENTRY_MAP, .below = foundation,
+     .summary = "springs to the ground all along it, which stay in space", .left_out = "none"},
     {"release", ENTRY_MAP, .below = release,
      .summary = "what its ends do not pass on: hinges, slides", .left_out = "nothing"},
     {"damping", ENTRY_NUMBER, .unit = "s",

@@ -149,6 +149,11 @@ int scene_is_beside(const scene_member *m, int end)
     return vec3_norm(m->offset[end]) > 0;
 }
 
+int scene_is_founded(const scene_member *m)
+{
+    return vec3_norm(m->foundation) + vec3_norm(m->foundation + 3) > 0;
+}
+
 void scene_release_end(scene *s, int member, int end, int component)
 {
     scene_release *r = &scene_member_at(s, member)->release[end];

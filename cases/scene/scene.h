@@ -631,9 +631,12 @@ typedef struct scene_member {
     scene_release release[2]; /* at p, q */
     double offset[2][3];      /* from the nodes p, q to its ends, which move with them rigidly;
                                  undeformed, in fixed axes [m] */
-    int divisions;            /* 0: the mesh's -n; else this many elements always */
-    double damping; /* of motions: stresses gain damping x stiffness at rest x rates of the
-                       strains [s] */
+    double foundation[6]; /* springs to the ground along it, on the displacements and rotations of
+                             its sections since the undeformed state, along its axes there, y
+                             as above: they stay in space [N/m^2, N] */
+    int divisions;        /* 0: the mesh's -n; else this many elements always */
+    double damping;       /* of motions: stresses gain damping x stiffness at rest x rates of the
+                             strains [s] */
     char name[SCENE_NAME];
 } scene_member;
 
@@ -769,6 +772,7 @@ void scene_end(const scene *s, int member, int end, double at[3]);
 void scene_chord(const scene *s, int member, double chord[3]);
 /* Is an end of it beside its node? */
 int scene_is_beside(const scene_member *m, int end);
+int scene_is_founded(const scene_member *m);
 /* The end of a member (0 at p, 1 at q) does not transmit this component. It is added to those of
  * earlier calls; more than SCENE_RELEASED are refused by scene_validate. */
 void scene_release_end(scene *s, int member, int end, int component);

@@ -65,6 +65,10 @@ static status check_member(const scene *s, int member, fault *f)
                          "%s: released ends are not written as solids; join it, and let a node "
                          "with a rotation of its own turn",
                          scene_called(s, SCENE_MEMBERS, member).text);
+    if (scene_is_founded(m))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: foundations are not written beside solids; take it out",
+                         scene_called(s, SCENE_MEMBERS, member).text);
     if (scene_is_beside(m, 0) || scene_is_beside(m, 1))
         return fault_set(f, STATUS_REFUSED,
                          "%s: ends beside their nodes are not written as solids; give the place of "

@@ -392,6 +392,9 @@ double pace_alone_from(const scene *s)
     for (int i = 0; i < s->springs; i++)
         if (s->spring[i].p == SCENE_NONE || s->spring[i].q == SCENE_NONE)
             return INFINITY;
+    for (int i = 0; i < s->members; i++)
+        if (scene_is_founded(&s->member[i]))
+            return INFINITY;
     for (int i = 0; i < s->loads; i++)
         from = fmax(from, load_until(&s->load[i]));
     return from;

@@ -10,6 +10,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -152,24 +153,98 @@ static void begin(const int nodes, const int vertex[], mesh_discrete *d)
     }
 }
 
-static void add_spring(model *m, const scene_spring *spring)
+static mesh_discrete *add_spring(model *m, const scene_spring *spring)
 {
     const int both[2] = {spring->p, spring->q}, one = spring->p == SCENE_NONE;
     mesh_discrete *d = &m->mesh.discrete[m->mesh.discretes++];
     begin(one ? 1 : 2, one ? &both[1] : both, d);
     d->spring = spring;
     m->mesh.springs++;
+    return d;
+}
+
+/* Vertices of all members that have a foundation. */
+static int founded_vertices(const model *m)
+{
+    int count = 0;
+    for (int i = 0; i < m->scene->members; i++)
+        if (scene_is_founded(&m->scene->member[i]))
+            count +=
+                (m->mesh.first_element[i + 1] - m->mesh.first_element[i]) * (m->mesh.nodes - 1) + 1;
+    return count;
+}
+
+/* K += those of a length of the foundation, whose axes are R. */
+static void add_founded(const double foundation[6], double length, const double R[9], double K[36])
+{
+    for (int block = 0; block < 2; block++)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                for (int k = 0; k < 3; k++)
+                    K[6 * (3 * block + i) + 3 * block + j] +=
+                        length * foundation[3 * block + k] * R[3 * i + k] * R[3 * j + k];
+}
+
+/* Weights as those of masses: mesh.c. */
+static status found_member(model *m, int member, scene_spring *spring, int *used, fault *f)
+{
+    const scene_member *sm = &m->scene->member[member];
+    const int first = m->mesh.first_element[member], last = m->mesh.nodes - 1;
+    member_arc arc;
+    TRY(member_arc_of(m->scene, member, 0, &arc, f)); /* in the axes of the description */
+    for (int i = first; i < m->mesh.first_element[member + 1]; i++) {
+        const mesh_element *el = &m->mesh.element[i];
+        for (int k = 0; k <= last; k++) {
+            const double place = division_place(&m->division, member, i - first, (double)k / last);
+            double position[3], R[9];
+            member_arc_at(&arc, place * arc.length, position, R);
+            if (k > 0 || i == first) {
+                spring[*used].p = SCENE_NONE;
+                spring[(*used)++].q = el->vertex[k];
+            }
+            add_founded(sm->foundation, el->share[k] * m->mesh.kind[el->kind].length, R,
+                        spring[*used - 1].stiffness);
+        }
+    }
+    return STATUS_OK;
+}
+
+static status found_members(model *m, fault *f)
+{
+    int used = 0;
+    for (int i = 0; i < m->scene->members; i++) {
+        const int before = used;
+        if (!scene_is_founded(&m->scene->member[i]))
+            continue;
+        TRY(found_member(m, i, m->founded, &used, f));
+        for (int k = before; k < used; k++)
+            add_spring(m, &m->founded[k])->el.member = i;
+    }
+    return STATUS_OK;
+}
+
+scene_words model_spring_called(const model *m, int spring)
+{
+    scene_words out;
+    if (spring < m->scene->springs)
+        return scene_called(m->scene, SCENE_SPRINGS, spring);
+    const mesh_discrete *d = &m->mesh.discrete[m->mesh.discretes - m->mesh.springs + spring];
+    snprintf(out.text, sizeof out.text, "foundation of %.40s",
+             scene_called(m->scene, SCENE_MEMBERS, d->el.member).text);
+    return out;
 }
 
 status discrete_build(model *m, fault *f)
 {
-    int count = m->scene->springs;
+    const int founded = founded_vertices(m);
+    int count = m->scene->springs + founded;
     for (int i = 0; i < m->scene->nodes; i++)
         count += scene_has_body(&m->scene->node[i]);
     if (count == 0)
         return STATUS_OK;
     m->mesh.discrete = calloc((size_t)count, sizeof *m->mesh.discrete);
-    if (m->mesh.discrete == NULL)
+    m->founded = calloc((size_t)founded + 1, sizeof *m->founded);
+    if (m->mesh.discrete == NULL || m->founded == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for rigid bodies and springs");
     for (int i = 0; i < m->scene->nodes; i++)
         if (scene_has_body(&m->scene->node[i])) {
@@ -178,7 +253,7 @@ status discrete_build(model *m, fault *f)
         }
     for (int i = 0; i < m->scene->springs; i++)
         add_spring(m, &m->scene->spring[i]);
-    return STATUS_OK;
+    return found_members(m, f);
 }
 
 /* Strains, stresses and their derivatives of a spring in a state. */
@@ -188,7 +263,7 @@ typedef struct spring_state {
 
 static int number_of(const model *m, const mesh_discrete *d)
 {
-    return (int)(d->spring - m->scene->spring);
+    return (int)(d - m->mesh.discrete) - (m->mesh.discretes - m->mesh.springs);
 }
 
 static const mesh_discrete *numbered(const model *m, int spring)
@@ -400,7 +475,7 @@ double dashpots_power(const model *m, const double rate[])
 {
     double sum = 0;
     for (int i = 0; i < m->mesh.springs; i++)
-        sum += dense_quadratic(SPRING_STRAINS, m->scene->spring[i].damping,
+        sum += dense_quadratic(SPRING_STRAINS, numbered(m, i)->spring->damping,
                                rate + (ptrdiff_t)SPRING_STRAINS * i);
     return sum;
 }

@@ -317,6 +317,23 @@ static int put_masses(nodes_words *w, const scene *s, const element_type *type,
     return count;
 }
 
+static void put_foundations(nodes_words *w, const scene *s)
+{
+    int count = 0;
+    for (int i = 0; i < s->members; i++)
+        if (scene_is_founded(&s->member[i]) && ++count <= MOST_NAMES)
+            put(w, "%s%s",
+                count > 1     ? ", "
+                : w->used > 0 ? "; foundation of "
+                              : "foundation of ",
+                scene_called(s, SCENE_MEMBERS, i).text);
+    if (count > MOST_NAMES)
+        put(w, " and %d more", count - MOST_NAMES);
+    if (count > 0)
+        put(w, ": springs at nodes, weighted along each member, of order 4 in bending from 6 "
+               "elements on, of 2 below; internal forces jump there");
+}
+
 void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
               size_t room)
 {
@@ -330,6 +347,7 @@ void on_nodes(const scene *s, const element_type *type, const double options[], 
         put(&w, ": at nodes, weighted along each member, of order 4 in slender bending from 6 "
                 "elements on, of 2 with shear, stretch and twist (at three nodes 1/6, 4/6, 1/6, "
                 "of order 4)");
+    put_foundations(&w, s);
 }
 
 enum { HELD, SHARED, FREE, STATES };

@@ -219,6 +219,7 @@ void model_free(model *m)
     free(m->mesh.kind);
     free(m->mesh.warp);
     free(m->mesh.discrete);
+    free(m->founded);
     free(m->turn);
     free(m->mesh.first_element);
     division_free(&m->division);

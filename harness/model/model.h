@@ -229,7 +229,7 @@ typedef struct mesh_element {
 /* A rigid body's mass at a vertex, or a spring between vertices: an element in addition to
  * those of the members. */
 typedef struct mesh_discrete {
-    mesh_element el; /* no kind, no member, no warping */
+    mesh_element el; /* no kind, no warping; of a foundation its member */
     const scene_body *body;
     const scene_spring *spring; /* of both one, the other NULL */
     mesh_triad triad[ELEMENT_MAX_NODES];
@@ -363,7 +363,7 @@ static inline const mesh_kind *model_kind_of(const model *m, int element)
 {
     return &model_mesh_of(m)->kind[model_mesh_of(m)->element[element].kind];
 }
-/* Rigid bodies, followed by the springs. */
+/* Rigid bodies, followed by the springs: those of the scene, then those of foundations. */
 static inline int model_discretes(const model *m)
 {
     return model_mesh_of(m)->discretes;
@@ -461,6 +461,8 @@ void dashpots_matrix(const model *, const model_state *, sparse *C);
 void dashpots_strains(const model *, const model_state *, int spring, double d[], double J[]);
 void dashpots_stressed(const model *, const model_state *, int spring, const double sigma[],
                        double force[], double K[]);
+/* "spring s", or "foundation of beam": those of members stand behind those of the scene. */
+scene_words model_spring_called(const model *, int spring);
 /* Energy of all springs [J]. */
 double discrete_stored(const model *, const model_state *);
 /* F += what the structure needs on a node's frame to hold them in the state [6: N, N m]. */

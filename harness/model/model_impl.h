@@ -50,12 +50,13 @@ struct model {
     int *profile;             /* [members] section of the first element */
     mesh_triad *triad;        /* [triads], room for those of all nodes of all elements */
     int triads;
-    int *kind_of_section; /* [sections] the first, or NONE */
-    mesh_turn *turn;      /* [turns] in the order of model_turns */
-    double size;          /* length of the longest member [m] */
-    int asked;            /* elements of a piece of a member */
-    division division;    /* of the members into elements */
-    model_state *rest;    /* undeformed */
+    int *kind_of_section;  /* [sections] the first, or NONE */
+    scene_spring *founded; /* those of foundations, at the vertices of their members */
+    mesh_turn *turn;       /* [turns] in the order of model_turns */
+    double size;           /* length of the longest member [m] */
+    int asked;             /* elements of a piece of a member */
+    division division;     /* of the members into elements */
+    model_state *rest;     /* undeformed */
     int lines;
     char **line; /* eliminated coordinates, omitted physics */
 };

@@ -20,7 +20,7 @@ static int reads_turn(const scene_quantity *q)
 
 static int first_between(const model *m)
 {
-    return m->scene->nodes + m->scene->springs;
+    return m->scene->nodes + m->mesh.springs;
 }
 
 static int find_between(const model *m, int from, int node)
@@ -40,9 +40,11 @@ status turns_build(model *m, fault *f)
     m->mesh.turns = 0;
     for (int i = 0; i < s->nodes; i++)
         m->turn[m->mesh.turns++] = (mesh_turn){NONE, i};
-    for (int i = 0; i < s->springs; i++)
+    for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
+        const mesh_element *el = &m->mesh.discrete[i].el;
         m->turn[m->mesh.turns++] =
-            (mesh_turn){s->spring[i].p == SCENE_NONE ? NONE : s->spring[i].p, s->spring[i].q};
+            (mesh_turn){el->nodes == 1 ? NONE : el->vertex[0], el->vertex[el->nodes - 1]};
+    }
     for (int i = 0; i < s->quantities; i++) {
         if (!reads_turn(&s->quantity[i]))
             continue;

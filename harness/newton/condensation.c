@@ -21,6 +21,8 @@ static int applies(const equations *eq, int from)
     }
     for (int i = 0; i < model_scene(m)->members; i++) {
         const int count = model_first_element(m, i + 1) - model_first_element(m, i);
+        if (scene_is_founded(&model_scene(m)->member[i]))
+            return 0;
         longest = count > longest ? count : longest;
     }
     return longest >= from;

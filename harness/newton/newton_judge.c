@@ -282,8 +282,7 @@ static status judge_springs(const model *m, const model_state *from, const model
                              "axis, or with a moment across its turn, its rotation vector has no "
                              "direction; hold its other turns, use smaller steps, or put two in "
                              "series",
-                             scene_called(model_scene(m), SCENE_SPRINGS, i).text, vec3_norm(turn),
-                             s->path);
+                             model_spring_called(m, i).text, vec3_norm(turn), s->path);
     }
     return STATUS_OK;
 }

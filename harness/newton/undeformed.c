@@ -280,9 +280,9 @@ double linear_springs_geometric_energy2(const model *m, const double sigma[], co
         const mesh_element *el = &spring_of(m, i)->el;
         double H[X * X], own[X];
         geometric(m, spring_of(m, i), &sigma[SIX * i], H);
-        for (int k = 0; k < NODE_COORDINATES * el->nodes; k++)
+        for (int k = 0; k < el->columns; k++)
             own[k] = el->index[k] == NONE ? 0 : x[el->index[k]];
-        sum += dense_quadratic(NODE_COORDINATES * el->nodes, H, own);
+        sum += dense_quadratic(el->columns, H, own);
     }
     return sum;
 }

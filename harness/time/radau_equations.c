@@ -323,8 +323,9 @@ static void damp_spring(radau *r, int fresh, const instant *from, double h, int 
 {
     enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };
     const model *m = r->of.c->model;
-    const mesh_element *el = &model_discrete(m, model_discretes(m) - model_springs(m) + spring)->el;
-    const double *C = model_scene(m)->spring[spring].damping;
+    const mesh_discrete *of = model_discrete(m, model_discretes(m) - model_springs(m) + spring);
+    const mesh_element *el = &of->el;
+    const double *C = of->spring->damping;
     double d[STAGES][SIX], J[STAGES][SIX * X], begin[SIX], K[X * X], CJ[SIX * X], force[X];
     dashpots_strains(m, from->state, spring, begin, J[0]);
     for (int i = 0; i < STAGES; i++)
@@ -373,7 +374,8 @@ void radau_damp(radau *r, int fresh, const instant *from, double h)
             add_blocks(r, all, h, eta, S, i);
     }
     for (int i = 0; i < model_springs(m) && r->of.c->run->damping != NULL; i++)
-        if (scene_spring_damps(&model_scene(m)->spring[i]))
+        if (scene_spring_damps(
+                model_discrete(m, model_discretes(m) - model_springs(m) + i)->spring))
             damp_spring(r, fresh, from, h, i);
 }
 

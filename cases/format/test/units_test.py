@@ -220,7 +220,7 @@ nodes:
   end: {{at: {us(1, 0, 0.4, 0.3, 0.2)}}}
   far: {{at: {us(1, 0, 0.8, 0.3, 0.2)}, drive: {{uy: lift}}}}
 members:
-  a: {{from: root, to: bend, section: strip, y: [0, 1, 0], warping: fixed}}
+  a: {{from: root, to: bend, section: strip, y: [0, 1, 0], warping: fixed, foundation: {{translation: {us(-2, 1, 10.0, 300.0, 200.0)}, rotation: {us(0, 1, 1.0, 0.0, 2.0)}}}}}
   b: {{from: bend, to: tip, section: rail, y: [0, 0, 1], warping: fixed, imperfection: {{amplitude: {us(1, 0, 2e-3, 1e-3)}}}, offset: {{from: {us(1, 0, 0.0, 0.0, 0.02)}, to: {us(1, 0, 0.03, 0.0, 0.0)}}}}}
   c: {{from: tip, to: end, section: rod, y: [1, 0, 0], warping: fixed, curvature: {us(-1, 0, 0.0, 0.0, 0.3)}}}
   d: {{from: end, to: far, section: print, y: [0, 1, 0], warping: fixed}}

@@ -147,6 +147,9 @@ static void add(scene *s, const char *name)
         for (int i = 0; i < 6; i++)
             k[7 * i] = 1e4 * (i + 1);
         scene_add_spring(s, SCENE_NONE, TIP, k);
+    } else if (IS("foundation")) {
+        for (int i = 0; i < 6; i++)
+            scene_member_at(s, 1)->foundation[i] = 3e4 * (i + 1) / (1 + 9 * (i > 2));
     } else if (IS("offset of an end")) {
         scene_member_at(s, 1)->offset[0][1] = 0.003;
         scene_member_at(s, 1)->offset[1][2] = 0.02;
