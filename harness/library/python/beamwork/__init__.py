@@ -29,6 +29,7 @@ from .errors import (Error, Fault, Mistake, NotConverged, NoValue, Refused, Sing
 from .library import call as _call
 from .library import path, version
 from .library import text_of as _text_of
+from .outline import outline
 from .records import Convergence, Records, Verdicts
 from .result import Curve, Result, Shapes
 from .scene import Scene
@@ -37,7 +38,7 @@ from .scene import verified as _verified
 __version__ = version
 __all__ = ["Convergence", "Curve", "Error", "Fault", "Mistake", "NoValue", "NotConverged",
            "Records", "Refused", "Result", "Scene", "Shapes", "Singular", "TimeLimit", "Verdicts",
-           "cases", "formulations", "load", "path", "truths", "verify", "version"]
+           "cases", "formulations", "load", "outline", "path", "truths", "verify", "version"]
 
 
 def _listed(what):
