@@ -226,7 +226,7 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
 {
     const scene_analysis *a = &what->b->scene->analysis[q->analysis];
     char who[128] = "";
-    for (int k = SCENE_LINEAR; k <= SCENE_MOTION; k++)
+    for (int k = SCENE_LINEAR; k <= SCENE_HARMONIC; k++)
         if (scene_gives((scene_analysis_kind)k, q)) {
             const size_t used = strlen(who);
             snprintf(who + used, sizeof who - used, "%s%s", used > 0 ? ", " : "",

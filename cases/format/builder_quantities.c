@@ -71,10 +71,19 @@ static void read_abscissa(const fields *f, scene_quantity *q)
     const scene *s = f->b->scene;
     const int timed = q->analysis >= 0 && q->analysis < s->analyses &&
                       s->analysis[q->analysis].kind == SCENE_MOTION;
-    const int seconds = timed && !(fabs(fields_number(&x, "factor", 1) - 1) > 0);
-    scene_set_curve(q, fields_text(&x, "name", timed ? "time" : "path"),
-                    fields_text(&x, "unit", seconds ? "s" : "1"), fields_number(&x, "factor", 1),
-                    fields_number(&x, "offset", 0));
+    const int steady = q->analysis >= 0 && q->analysis < s->analyses &&
+                       s->analysis[q->analysis].kind == SCENE_HARMONIC;
+    const int seconds = (timed || steady) && !(fabs(fields_number(&x, "factor", 1) - 1) > 0);
+    scene_set_curve(q,
+                    fields_text(&x, "name",
+                                timed    ? "time"
+                                : steady ? "frequency"
+                                         : "path"),
+                    fields_text(&x, "unit",
+                                !seconds ? "1"
+                                : timed  ? "s"
+                                         : "Hz"),
+                    fields_number(&x, "factor", 1), fields_number(&x, "offset", 0));
 }
 
 /* Which stations: `at` a value, or last, max, min, curve. */
@@ -272,6 +281,8 @@ static void add_quantities(builder *b)
                          "xyz"[k]);
                 scene_add_quantity(s, name, "N/m", i, scene_stiffness_entry(SCENE_UX + k));
             }
+            break;
+        case SCENE_HARMONIC: /* which input is not known */
             break;
         case SCENE_CONTINUATION:
             scene_add_quantity(s, b->list[SCENE_ANALYSES].entry[i].name, "1", i, scene_factor_at());

@@ -207,6 +207,8 @@ static const char *path_name(const scene_analysis *a)
 {
     if (a->kind == SCENE_MOTION)
         return "motion";
+    if (a->kind == SCENE_HARMONIC)
+        return "frequencies";
     return a->kind == SCENE_CONTINUATION ? "path of the load factor" : "static path";
 }
 

@@ -341,6 +341,7 @@ scene_column scene_column_of(const scene *s, int analysis)
     case SCENE_BUCKLING:
         return a->follows == SCENE_NONE ? SCENE_OF_BUCKLING : SCENE_OF_BUCKLING_ABOUT;
     case SCENE_MODAL:
+    case SCENE_HARMONIC: /* the same states; damping, which it counts, has no row of its own */
         return a->follows == SCENE_NONE                       ? SCENE_OF_MODAL
                : s->analysis[a->follows].kind == SCENE_LINEAR ? SCENE_OF_MODAL_LINEAR
                                                               : SCENE_OF_MODAL_ABOUT;

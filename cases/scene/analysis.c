@@ -105,8 +105,9 @@ void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame
 
 const char *scene_analysis_name(scene_analysis_kind kind)
 {
-    static const char *const name[] = {"linear",     "static",       "buckling", "modal",
-                                       "compliance", "continuation", "rotation", "motion"};
+    static const char *const name[] = {"linear",   "static",     "buckling",
+                                       "modal",    "compliance", "continuation",
+                                       "rotation", "motion",     "harmonic"};
     return name[kind];
 }
 
@@ -175,6 +176,8 @@ const scene_path *scene_path_of(const scene_analysis *a)
         return &a->of.continuation.path;
     case SCENE_MOTION:
         return &a->of.motion.path;
+    case SCENE_HARMONIC:
+        return &a->of.harmonic;
     case SCENE_LINEAR:
     case SCENE_BUCKLING:
     case SCENE_MODAL:

@@ -148,6 +148,12 @@ static const entry_field in_time[] = {
      .left_out = "at rest, or as about has it"},
     {.name = NULL}};
 
+static const entry_field harmonic[] = {{"frequencies", ENTRY_NUMBERS, .needed = 1, .unit = "Hz",
+                                        .summary = "ascending",
+                                        ENTRY_IN(scene_analysis, of.harmonic)},
+                                       ABOUT("static or linear analysis about whose last state"),
+                                       {.name = NULL}};
+
 const entry_field entry_analysis[] = {
     {"linear", ENTRY_MAP, .needed = 1, .group = 1, .below = nothing, .summary = "loads at factor 1",
      ENTRY_IN(scene_analysis, kind), .first = SCENE_LINEAR},
@@ -168,4 +174,7 @@ const entry_field entry_analysis[] = {
     {"motion", ENTRY_MAP, .needed = 1, .group = 1, .below = in_time,
      .summary = "in time: dynamics; needs masses", ENTRY_IN(scene_analysis, kind),
      .first = SCENE_MOTION},
+    {"harmonic", ENTRY_MAP, .needed = 1, .group = 1, .below = harmonic,
+     .summary = "steady small vibration by frequency: responses; needs masses",
+     ENTRY_IN(scene_analysis, kind), .first = SCENE_HARMONIC},
     {.name = NULL}};

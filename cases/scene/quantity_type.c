@@ -10,9 +10,10 @@ enum { TYPES = sizeof types / sizeof types[0] };
 
 static const entry_field abscissa[] = {
     {"quantity", ENTRY_NAME, .summary = "whose curve, of the same path, it is",
-     .left_out = "the path, or time"},
-    {"name", ENTRY_TEXT, .summary = "its name", .left_out = "path, or time"},
-    {"unit", ENTRY_TEXT, .summary = "its unit", .left_out = "1; over time, with factor 1, s"},
+     .left_out = "the path, time or frequency"},
+    {"name", ENTRY_TEXT, .summary = "its name", .left_out = "path, time or frequency"},
+    {"unit", ENTRY_TEXT, .summary = "its unit",
+     .left_out = "1; with factor 1 over time s, over frequency Hz"},
     {"factor", ENTRY_NUMBER, .summary = "times the path parameter", .usual = "1"},
     {"offset", ENTRY_NUMBER, .summary = "added to it", .usual = "0"},
     {.name = NULL}};

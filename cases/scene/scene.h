@@ -34,7 +34,8 @@ typedef enum scene_analysis_kind {
     SCENE_COMPLIANCE, /* at every station of the static path before it */
     SCENE_CONTINUATION, /* path of a load factor, by arc length or by one coordinate */
     SCENE_ROTATION,     /* stationary: equilibrium and frequencies in the rotating frame */
-    SCENE_MOTION        /* in time: the path parameter is the time [s] */
+    SCENE_MOTION,       /* in time: the path parameter is the time [s] */
+    SCENE_HARMONIC /* steady small vibration about a state: path parameter is a frequency [Hz] */
 } scene_analysis_kind;
 
 /* Behaviour of a reaction's moment while its node turns (harness/newton/newton.h). */
@@ -145,6 +146,7 @@ typedef struct scene_analysis {
         scene_compliance compliance;
         scene_continuation continuation;
         scene_motion motion;
+        scene_path harmonic; /* frequencies [Hz] */
     } of;
     char name[SCENE_NAME]; /* "": none */
 } scene_analysis;
@@ -255,6 +257,7 @@ typedef enum scene_quantity_kind {
     SCENE_RATE,             /* velocity of a node, or its angular velocity in its own axes */
     SCENE_BALANCE,          /* energy or momentum of a motion */
     SCENE_RELATIVE,         /* displacement or rotation of a node in the axes of another */
+    SCENE_RESPONSE,         /* of a harmonic analysis */
     SCENE_READING           /* what a file of cases/quantities reads of nodes, as it says itself */
 } scene_quantity_kind;
 
@@ -393,6 +396,29 @@ typedef struct scene_reading {
     double number[4];
 } scene_reading;
 
+/* Steady vibration of a node for a harmonic force, or a harmonic motion of a driver, of size 1. */
+typedef enum scene_vibration {
+    SCENE_DISPLACED,
+    SCENE_VELOCITY,
+    SCENE_ACCELERATION
+} scene_vibration;
+typedef enum scene_vibration_part {
+    SCENE_AMPLITUDE,
+    SCENE_PHASE, /* [rad] by which it is ahead of the input, -pi to pi */
+    SCENE_REAL,
+    SCENE_IMAGINARY
+} scene_vibration_part;
+#define SCENE_VIBRATION_CHOICES "displacement|velocity|acceleration"
+#define SCENE_VIBRATION_PARTS   "amplitude|phase|real|imaginary"
+typedef struct scene_response {
+    int node, component;
+    int from;                 /* less the same of this node; SCENE_NONE: of none */
+    int forced, forced_along; /* node and component of a force or moment, or ... */
+    int driver;               /* ... what moves; SCENE_NONE: a force */
+    scene_vibration of;
+    scene_vibration_part part;
+} scene_response;
+
 typedef struct scene_entry {
     int row, column; /* response, load: SCENE_UX .. SCENE_RZ */
 } scene_entry;
@@ -430,6 +456,7 @@ typedef struct scene_extract {
         scene_stress stress;
         scene_balance balance;
         scene_relative relative;
+        scene_response response;
         scene_reading reading;
     } of;
 } scene_extract;

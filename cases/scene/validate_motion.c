@@ -262,8 +262,16 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
 static status check_about(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_analysis_kind about = s->analysis[a->follows].kind;
-    if (about == SCENE_STATIC || (about == SCENE_LINEAR && a->kind == SCENE_MODAL))
+    if (about == SCENE_STATIC || (about == SCENE_LINEAR && a->kind != SCENE_BUCKLING))
         return STATUS_OK;
+    if (a->kind == SCENE_HARMONIC)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a harmonic analysis is about the last state of a static path, or "
+                         "about a linear analysis, and %s is a %s analysis; name one of these, or "
+                         "leave about out",
+                         scene_called(s, SCENE_ANALYSES, i).text,
+                         scene_name(s, SCENE_ANALYSES, a->follows).text,
+                         scene_analysis_name(about));
     return fault_set(f, STATUS_REFUSED,
                      "%s: %s about a state are about the last one of a static path%s, and %s "
                      "is a %s analysis; name a static one, or leave about out%s",
@@ -300,7 +308,8 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
                          "%s: it is about a motion, whose forces are not in balance without those "
                          "of inertia; follow a static path",
                          scene_called(s, SCENE_ANALYSES, i).text);
-    if (a->follows != SCENE_NONE && (a->kind == SCENE_BUCKLING || a->kind == SCENE_MODAL))
+    if (a->follows != SCENE_NONE &&
+        (a->kind == SCENE_BUCKLING || a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC))
         TRY(check_about(s, a, i, f));
     if (scene_path_of(a) != NULL)
         TRY(check_path(s, a, i, f));
@@ -308,7 +317,10 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
         return check_continuation(s, i, f);
     if (a->kind == SCENE_MOTION)
         return scene_validate_motion(s, i, f);
-    if (a->kind == SCENE_MODAL && is_asked(s, i))
+    if (a->kind == SCENE_HARMONIC && !(a->of.harmonic.value[0] >= 0))
+        return fault_set(f, STATUS_REFUSED, "%s: a frequency of %g Hz; give none below 0",
+                         scene_called(s, SCENE_ANALYSES, i).text, a->of.harmonic.value[0]);
+    if ((a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC) && is_asked(s, i))
         return scene_validate_mass(s, i, f);
     return a->kind == SCENE_COMPLIANCE ? check_compliance(s, a, i, f) : STATUS_OK;
 }

@@ -356,6 +356,10 @@ status modal_analysis(analysis_context *, int analysis, analysis_outcome *, faul
 /* How many modes the quantities of an analysis ask for. */
 int modal_wanted(const analysis_context *, int analysis);
 
+/* Steady vibration by frequency. */
+
+status harmonic_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+
 /* Stationary rotation and small motions about it. */
 
 status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);

@@ -288,7 +288,8 @@ static status systems_keep_path(const analysis_context *c, int analysis, workspa
 {
     const outcome_path *path = outcome_path_of(&c->outcomes[analysis]);
     const scene_analysis_kind kind = c->scene->analysis[analysis].kind;
-    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION) /* about those of another; no balance */
+    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION ||
+        kind == SCENE_HARMONIC) /* about those of another; no balance */
         return STATUS_OK;
     for (int i = 0; i < path->reached; i++)
         TRY(keep_state(c, analysis, i, path->state[i], w, s, f));

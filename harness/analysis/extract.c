@@ -101,6 +101,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     case SCENE_STATIC:
     case SCENE_COMPLIANCE:
     case SCENE_MOTION:
+    case SCENE_HARMONIC:
         extract_path(c, q, o, r);
         break;
     case SCENE_ROTATION:

@@ -112,6 +112,9 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
         return force_at(c, q, o, i, r);
     case SCENE_BALANCE:
         return outcome_motion_of(o)->instant[i].balance[scene_balance_in(q)];
+    case SCENE_RESPONSE:
+        return o->left.harmonic
+            .response[(size_t)(q - c->scene->quantity) * (size_t)path->stations + (size_t)i];
     case SCENE_CRITICAL_FACTOR:
     case SCENE_CRITICAL_POINT:
         return NAN;

@@ -29,6 +29,8 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
         return continuation_analysis;
     case SCENE_ROTATION:
         return rotation_analysis;
+    case SCENE_HARMONIC:
+        return harmonic_analysis;
     case SCENE_MOTION:
         break;
     }
@@ -39,7 +41,7 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
 static int is_stuck(const analysis_outcome *o)
 {
     const int failed = o->status == STATUS_SINGULAR || o->status == STATUS_NOT_CONVERGED;
-    return failed && o->kind != SCENE_MOTION &&
+    return failed && o->kind != SCENE_MOTION && o->kind != SCENE_HARMONIC &&
            (!outcome_has_path(o) || outcome_path_of(o)->reached == 0);
 }
 
@@ -57,6 +59,7 @@ static int has_negative(const solve_result *r, int from)
 static status judge_rest(analysis_context *c, const analysis_outcome *o, int first_step, fault *f)
 {
     if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||
+        o->kind == SCENE_HARMONIC ||
         (o->status == STATUS_OK && !has_negative(c->result, first_step)) ||
         newton_judge_rest(c->model, NULL) != STATUS_OK) /* which is said already */
         return o->status;

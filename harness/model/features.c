@@ -29,6 +29,7 @@ static unsigned needs_of_analyses(const scene *s)
             needs |= FEATURE_GEOMETRIC | (scene_inputs_flutter(s, i) ? FEATURE_MASS : 0);
             break;
         case SCENE_MODAL:
+        case SCENE_HARMONIC:
             needs |= FEATURE_MASS | (s->analysis[i].follows != SCENE_NONE ? FEATURE_GEOMETRIC : 0);
             break;
         case SCENE_ROTATION:
@@ -55,8 +56,9 @@ unsigned features_of_quantities(const scene *s)
 static int elements_have_mass(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
-        if (s->analysis[i].kind == SCENE_MODAL || s->analysis[i].kind == SCENE_ROTATION ||
-            scene_rotates(&s->analysis[i]) || scene_spreads(&s->analysis[i]) ||
+        if (s->analysis[i].kind == SCENE_MODAL || s->analysis[i].kind == SCENE_HARMONIC ||
+            s->analysis[i].kind == SCENE_ROTATION || scene_rotates(&s->analysis[i]) ||
+            scene_spreads(&s->analysis[i]) ||
             (s->analysis[i].kind == SCENE_BUCKLING && scene_inputs_flutter(s, i)))
             return 1;
     return 0;
@@ -236,6 +238,7 @@ unsigned features_needed_by_quantity(const scene *s, int quantity)
     const unsigned inertia = FEATURE_MASS | FEATURE_ROTARY_INERTIA;
     const int analysis = s->quantity[quantity].analysis;
     const int moves = analysis >= 0 && (s->analysis[analysis].kind == SCENE_MODAL ||
+                                        s->analysis[analysis].kind == SCENE_HARMONIC ||
                                         s->analysis[analysis].kind == SCENE_ROTATION ||
                                         scene_rotates(&s->analysis[analysis]));
     return features_needed(s) & (moves ? ~0U : ~inertia);

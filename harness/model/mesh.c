@@ -80,7 +80,8 @@ static status set_inner(const model *m, const element_request *request, mesh_kin
 {
     int modal = 0;
     for (int i = 0; i < m->scene->analyses; i++)
-        modal |= m->scene->analysis[i].kind == SCENE_MODAL;
+        modal |= m->scene->analysis[i].kind == SCENE_MODAL ||
+                 m->scene->analysis[i].kind == SCENE_HARMONIC;
     if (!modal || m->scene->lumped || m->mesh.nodes != 2 || m->mesh.type->mass_of_field == NULL ||
         !m->mesh.type->mass_of_field(m->options))
         return STATUS_OK;

@@ -295,7 +295,8 @@ static const char *goes_with(const scene *s, const scene_motion *how)
 /* Analyses but motions that have a mass. */
 static int is_lumped(const scene *s, const scene_analysis *a)
 {
-    return s->lumped && (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_rotates(a));
+    return s->lumped && (a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC ||
+                         a->kind == SCENE_ROTATION || scene_rotates(a));
 }
 
 static int put_masses(nodes_words *w, const scene *s, const element_type *type,

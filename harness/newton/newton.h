@@ -364,6 +364,11 @@ typedef struct outcome_motion {
     outcome_end end;
 } outcome_motion;
 
+typedef struct outcome_harmonic {
+    outcome_path path; /* frequencies [Hz]; no states */
+    double *response;  /* [quantities of the scene x stations] as extracted */
+} outcome_harmonic;
+
 typedef struct outcome_continuation {
     outcome_path path;
     int points;               /* of the path, the first without load */
@@ -387,6 +392,7 @@ typedef struct analysis_outcome {
         outcome_rotation rotation;
         outcome_continuation continuation;
         outcome_motion motion;
+        outcome_harmonic harmonic;
     } left;
 } analysis_outcome;
 

@@ -53,7 +53,8 @@ static void free_side(outcome_side *side)
 int outcome_has_path(const analysis_outcome *o)
 {
     return o->kind == SCENE_STATIC || o->kind == SCENE_COMPLIANCE ||
-           o->kind == SCENE_CONTINUATION || o->kind == SCENE_ROTATION || o->kind == SCENE_MOTION;
+           o->kind == SCENE_CONTINUATION || o->kind == SCENE_ROTATION || o->kind == SCENE_MOTION ||
+           o->kind == SCENE_HARMONIC;
 }
 
 int outcome_has_spectrum(const analysis_outcome *o)
@@ -84,6 +85,8 @@ const outcome_path *outcome_path_of(const analysis_outcome *o)
         return &o->left.rotation.path;
     case SCENE_MOTION:
         return &o->left.motion.path;
+    case SCENE_HARMONIC:
+        return &o->left.harmonic.path;
     default:
         assert(o->kind == SCENE_STATIC);
         return &o->left.path;
@@ -171,6 +174,10 @@ void outcome_free(analysis_outcome *o)
         break;
     case SCENE_ROTATION:
         free_rotation(&o->left.rotation);
+        break;
+    case SCENE_HARMONIC:
+        free(o->left.harmonic.response);
+        free(o->left.harmonic.path.value);
         break;
     }
 }

@@ -160,9 +160,10 @@ static unsigned absent_in_analyses(const scene *s)
         const scene_analysis *a = &s->analysis[i];
         undeformed &=
             a->kind == SCENE_LINEAR ||
-            ((a->kind == SCENE_MODAL || a->kind == SCENE_COMPLIANCE) && a->follows == SCENE_NONE);
-        rests &= a->kind != SCENE_MODAL && a->kind != SCENE_ROTATION && a->kind != SCENE_MOTION &&
-                 !scene_rotates(a);
+            ((a->kind == SCENE_MODAL || a->kind == SCENE_COMPLIANCE || a->kind == SCENE_HARMONIC) &&
+             a->follows == SCENE_NONE);
+        rests &= a->kind != SCENE_MODAL && a->kind != SCENE_HARMONIC && a->kind != SCENE_ROTATION &&
+                 a->kind != SCENE_MOTION && !scene_rotates(a);
     }
     return (undeformed ? higher : 0) | (rests ? FEATURE_ROTARY_INERTIA : 0);
 }

@@ -41,6 +41,7 @@ static void count_analysis(const scene *s, const scene_analysis *a, int steps, d
         times[a->follows != SCENE_NONE ? EXPENSE_loaded_buckling : EXPENSE_buckling]++;
         break;
     case SCENE_MODAL:
+    case SCENE_HARMONIC:
         times[EXPENSE_modal]++;
         break;
     case SCENE_MOTION:

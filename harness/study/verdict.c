@@ -85,7 +85,8 @@ element_analysis verdict_analysis(const scene *s, const scene_quantity *q)
     if (q->analysis >= s->analyses)
         return ELEMENT_STATICS;
     const scene_analysis *a = &s->analysis[q->analysis];
-    if (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_rotates(a))
+    if (a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC || a->kind == SCENE_ROTATION ||
+        scene_rotates(a))
         return ELEMENT_VIBRATION;
     return a->kind == SCENE_BUCKLING ? ELEMENT_BUCKLING : ELEMENT_STATICS;
 }

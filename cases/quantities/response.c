@@ -1,0 +1,109 @@
+/* Steady vibration of a node by frequency: receptance, mobility, accelerance, transmissibility. */
+#include "cases/scene/scene.h"
+
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    QUANTITY_NODE(response.node),
+    QUANTITY_COMPONENT("of its small motion, in fixed axes", response.component),
+    {"from", ENTRY_NAME, .summary = "node whose same component is subtracted",
+     .left_out = "none: of the node alone", ENTRY_IN(scene_quantity, what.of.response.from),
+     .of = SCENE_NODES},
+    {"force", ENTRY_NAME, .group = 2,
+     .summary = "node at which a harmonic force or moment of 1 acts",
+     .left_out = "the input is a motion: drive", ENTRY_IN(scene_quantity, what.of.response.forced),
+     .of = SCENE_NODES},
+    {"drive", ENTRY_NAME, .group = 2,
+     .summary = "motion that is harmonic, of 1 m or 1 rad: of a base, of a drive",
+     .left_out = "the input is a force", ENTRY_IN(scene_quantity, what.of.response.driver),
+     .of = SCENE_DRIVERS},
+    {"along", ENTRY_WORD, .words = ENTRY_COMPONENTS, .summary = "of the force: its component",
+     .usual = "ux", ENTRY_IN(scene_quantity, what.of.response.forced_along),
+     .turns = ENTRY_COMPONENT},
+    {"of", ENTRY_WORD, .words = SCENE_VIBRATION_CHOICES, .summary = "what vibrates",
+     .usual = "displacement", ENTRY_IN(scene_quantity, what.of.response.of)},
+    {"part", ENTRY_WORD, .words = SCENE_VIBRATION_PARTS,
+     .summary = "of the complex response; phase: ahead of the input, -pi to pi",
+     .usual = "amplitude", ENTRY_IN(scene_quantity, what.of.response.part)},
+    QUANTITY_TAKEN,
+    {.name = NULL}};
+
+/* Does it turn a node? */
+static int driver_turns(const scene *s, int driver)
+{
+    for (int i = 0; i < s->nodes; i++)
+        for (int k = 0; k < 3; k++)
+            if (s->node[i].translation[k] == driver)
+                return 0;
+    return 1;
+}
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    static const char *const of[2][4][3] = {{{"m/N", "m/(N s)", "m/(N s^2)"},
+                                             {"1/N", "1/(N s)", "1/(N s^2)"},
+                                             {"1", "1/s", "1/s^2"},
+                                             {"m/rad", "m/(rad s)", "m/(rad s^2)"}},
+                                            {{"rad/N", "rad/(N s)", "rad/(N s^2)"},
+                                             {"rad/(N m)", "rad/(N m s)", "rad/(N m s^2)"},
+                                             {"rad/m", "rad/(m s)", "rad/(m s^2)"},
+                                             {"1", "1/s", "1/s^2"}}};
+    const scene_response *r = &q->what.of.response;
+    const int by = r->driver >= 0 ? 2 + driver_turns(s, r->driver) : r->forced_along >= SCENE_RX;
+    return r->part == SCENE_PHASE ? "rad" : of[r->component >= SCENE_RX][by][r->of];
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    static const char *const part[] = {"amplitude", "phase", "real part", "imaginary part"},
+                             *const of[] = {"displacement", "velocity", "acceleration"},
+                             *const turn[] = {"rotation", "angular velocity",
+                                              "angular acceleration"};
+    const scene_response *r = &q->what.of.response;
+    const int turns = r->component >= SCENE_RX;
+    fprintf(to, "%s of the harmonic %s", part[r->part], (turns ? turn : of)[r->of]);
+    meaning_node(to, s, "of", r->node);
+    fprintf(to, " %s %c", turns ? "about" : "along", meaning_axis(r->component));
+    if (r->from != SCENE_NONE)
+        meaning_node(to, s, "less that of", r->from);
+    if (r->driver != SCENE_NONE) {
+        fprintf(to, " for a unit motion %s", s->driver[r->driver].name);
+        return;
+    }
+    fprintf(to, " for a unit %s %c", meaning_load(r->forced_along), meaning_axis(r->forced_along));
+    meaning_node(to, s, "at", r->forced);
+}
+
+static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
+{
+    (void)s;
+    const scene_response *r = &q->what.of.response;
+    *out = i == 0 ? (scene_component){r->node, r->component}
+                  : (scene_component){r->forced, r->forced_along};
+    return i < 1 + (r->driver == SCENE_NONE);
+}
+
+static status check(const scene *s, const scene_quantity *q, fault *f)
+{
+    const scene_response *r = &q->what.of.response;
+    if ((r->driver == SCENE_NONE) == (r->forced == SCENE_NONE))
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: its input is not known; name the node of a force, or a "
+                         "motion with drive",
+                         q->name);
+    if (r->driver == SCENE_NONE || s->driver[r->driver].condition_driver == SCENE_NONE)
+        return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED,
+                     "quantity %s: motion %s is unknown, and a response is that for a known one; "
+                     "name another",
+                     q->name, s->driver[r->driver].name);
+}
+
+const quantity_type quantity_response = {.key = "response",
+                                         .summary = "of a node to a harmonic force or motion",
+                                         .kind = SCENE_RESPONSE,
+                                         .field = fields,
+                                         .analyses = 1u << SCENE_HARMONIC,
+                                         .unit = unit,
+                                         .meaning = meaning,
+                                         .turns = turns,
+                                         .check = check};
