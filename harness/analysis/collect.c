@@ -5,6 +5,7 @@
 
 #include "elements/math/scalar.h"
 #include "harness/model/model.h"
+#include "harness/time/time.h"
 
 static int least(int a, int b)
 {
@@ -241,6 +242,10 @@ static status systems_keep(const analysis_context *c, const model_state *state, 
         return STATUS_OK;
     TRY(rotating_frame_inertia(&c->eq, state, path, &w->M, out->turns ? &w->G : NULL, f));
     TRY(triplets_of(&w->M, 0, &out->M, f));
+    if (damping_acts(c->scene)) {
+        TRY(damping_matrix(&c->eq, state, &w->M, f));
+        TRY(triplets_of(&w->M, 0, &out->C, f));
+    }
     return out->turns ? triplets_of(&w->G, 1, &out->G, f) : STATUS_OK;
 }
 

@@ -196,18 +196,6 @@ static status prepare_ends(const solve_request *r, const restart *from, solution
     return r->restart != NULL ? restart_begin(from, what, s, f) : STATUS_OK;
 }
 
-/* Damping has no matrix among those that are written. */
-static status check_matrices(const solve_request *r, const scene *s, fault *f)
-{
-    for (int i = 0; i < s->members && r->matrices != NULL; i++)
-        if (s->member[i].damping > 0)
-            return fault_set(f, STATUS_REFUSED,
-                             "--matrices writes no damping, and %s has %g s times its stiffness; "
-                             "set that to 0, or leave --matrices out",
-                             scene_called(s, SCENE_MEMBERS, i).text, s->member[i].damping);
-    return STATUS_OK;
-}
-
 /* Prepares the solution; the caller, answer, frees *w, also after a failure. */
 static status prepare(solve_request *r, const case_type *type, solve_work *w, fault *f)
 {
@@ -226,7 +214,6 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
     TRY(defaults_fill(&missing, w->note, &w->why, f));
     w->what = defaults_request(&missing);
     TRY(solution_plan(&w->what, &w->s, f));
-    TRY(check_matrices(r, &w->s.point[0].scene, f));
     return prepare_ends(r, &w->from, &w->what, &w->s.point[0].scene, f);
 }
 

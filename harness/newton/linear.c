@@ -424,8 +424,8 @@ status linear_system_solve(analysis_context *c, linear_system *s, double path, d
 void system_matrices_free(system_matrices *s)
 {
     for (int i = 0; i < s->states; i++) {
-        triplets *const each[] = {&s->state[i].K, &s->state[i].M, &s->state[i].G,
-                                  &s->state[i].inside, &s->state[i].B};
+        triplets *const each[] = {&s->state[i].K, &s->state[i].M,      &s->state[i].G,
+                                  &s->state[i].C, &s->state[i].inside, &s->state[i].B};
         for (size_t k = 0; k < sizeof each / sizeof *each; k++)
             triplets_free(each[k]);
         free(s->state[i].frequency);

@@ -333,6 +333,7 @@ static status add_state(const output_folder *folder, const contents *c, const st
     TRY(add_matrix(folder, name, "K", &s->K, comment, f));
     TRY(add_matrix(folder, name, "M", &s->M, comment, f));
     TRY(add_matrix(folder, name, "G", &s->G, comment, f));
+    TRY(add_matrix(folder, name, "C", &s->C, comment, f));
     TRY(add_matrix(folder, name, "M_inside", &s->inside, comment, f));
     return add_matrix(folder, name, "B", &s->B, comment, f);
 }

@@ -197,11 +197,26 @@ class Had(ProgramTest):
         self.refused(2, "own.yaml", *words, "--set", "depth=0.3")
         self.refused(2, "did you mean 'depth'", *words, "--set", "deptj=0.2")
 
-    def test_matrices_without_damping(self):
-        words = ("solve", "--scene", self.scene(BAR), "-f", "collocation", "-n", "2", "--set",
-                 "depth=0.2", "--matrices", self.folder / "matrices")
-        self.refused(2, "member m has 0.001 s", *words, "--set", "damping=1e-3")
-        self.assertEqual(run(*words).returncode, 0)
+    def test_matrices_of_damping(self):
+        """C is that of members, in proportion to K at rest, and of dashpots; none where nothing is damped."""
+        def entries(folder, letter):
+            lines = (self.folder/folder/"undeformed"/f"{letter}.mtx").read_text(encoding="utf-8").splitlines()
+            rows = [line.split() for line in lines if not line.startswith("%")][1:]
+            return {(row, column): float(value) for row, column, value in rows}
+        dashpot = BAR + "springs: {d: {to: b, damping: [0, 7, 0, 0, 0, 0]}}\n"
+        for folder, text, eta in (("still", BAR, 0), ("damped", BAR, 1e-3), ("both", dashpot, 1e-3), ("pot", dashpot, 0)):
+            done = run("solve", "--scene", self.scene(text), "-f", "collocation", "-n", "2", "--set", "depth=0.2",
+                       "--set", f"damping={eta}", "--matrices", self.folder/folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual((self.folder/folder/"undeformed/C.mtx").exists(), folder != "still")
+            if folder == "still":
+                continue
+            K, C = entries(folder, "K"), entries(folder, "C")
+            rest = {at: C.get(at, 0) - eta*value for at, value in K.items()}
+            apart = sorted(abs(value) for value in rest.values())
+            largest = max(map(abs, K.values()))
+            self.assertLess(apart[-2], 1e-12*largest)
+            self.assertAlmostEqual(apart[-1], 7 if text is dashpot else 0, delta=1e-12*largest)
 
 
 # What solve and converge choose where nobody chose.
