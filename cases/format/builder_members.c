@@ -249,11 +249,6 @@ typedef struct written_out {
     size_t used;
 } written_out;
 
-static int is_own_name(const char *text, size_t length)
-{
-    return (length == 1 && *text == 't') || functions_find(text, (int)length) != NULL;
-}
-
 /* 0: there is no room. */
 static int put(written_out *to, const char *text, size_t length, int place)
 {
@@ -267,39 +262,34 @@ static int put(written_out *to, const char *text, size_t length, int place)
     return 1;
 }
 
-static int tell_unknown(const fields *f, const document_node *n, int place, int length)
+/* A word of functions of time as it is, any other name as its value, and *at after it; 0 after a
+ * mistake. */
+static int put_name(const fields *f, const document_node *n, int *at, written_out *to)
 {
-    char name[64], remedy[FAULT_TEXT];
-    snprintf(name, sizeof name, "%.*s", length, n->text + place);
-    const int is_time = strcmp(name, "time") == 0 || strcmp(name, "T") == 0;
-    document_mistake(f->b->mistakes, n, place, "unknown name '%s'%s", name,
-                     mistakes_remedy(is_time ? "t" : scope_nearest(f->names, name),
-                                     "; a function of time has t, pi, deg, functions such as sin "
-                                     "and exp, and the names of 'parameters' and 'let'",
-                                     remedy));
-    return 0;
-}
-
-/* A name becomes its value; 0 after a mistake. */
-static int put_name(const fields *f, const document_node *n, int place, int length, written_out *to)
-{
-    const char *at = n->text + place;
-    const scope *name = scope_find(f->names, at, (size_t)length);
+    const int from = *at, length = (int)expression_name_length(n->text + from);
+    const char *name = n->text + from;
+    const name_context context = {f->names, 1};
+    expression_mistake why;
     char number[40];
-    if (is_own_name(at, (size_t)length)) {
-        if (name != NULL)
-            document_mistake(f->b->mistakes, n, place,
+    double value;
+    if (name[length] != '.' &&
+        ((length == 1 && *name == 't') || expression_is_word(name, (size_t)length))) {
+        const scope *known = scope_find(f->names, name, (size_t)length);
+        if (known != NULL)
+            document_mistake(f->b->mistakes, n, from,
                              "'%.*s' is a word of functions of time and a name of this file; "
                              "rename the latter",
-                             length, at);
-        return name == NULL && put(to, at, (size_t)length, place);
+                             length, name);
+        *at += length;
+        return known == NULL && put(to, name, (size_t)length, from);
     }
-    if (name == NULL || name->word != NULL || name->constants != NULL)
-        return tell_unknown(f, n, place, length);
-    if (isnan(name->number)) /* its own mistake is already reported */
+    if (!names_number(&context, n->text, at, &value, &why)) {
+        if (why.what[0] != '\0')
+            document_mistake(f->b->mistakes, n, why.at, "%s", why.what);
         return 0;
-    snprintf(number, sizeof number, name->number < 0 ? "(%.17g)" : "%.17g", name->number);
-    return put(to, number, strlen(number), place);
+    }
+    snprintf(number, sizeof number, value < 0 ? "(%.17g)" : "%.17g", value);
+    return put(to, number, strlen(number), from);
 }
 
 /* 0 after a mistake. */
@@ -309,13 +299,14 @@ static int write_out(const fields *f, const document_node *n, written_out *to)
     to->used = 0;
     put(to, "", 0, 0);
     while (n->text[at] != '\0') {
-        const int length = (int)scope_name_length(n->text + at);
+        const int length = (int)expression_name_length(n->text + at);
         const char before = at > 0 ? n->text[at - 1] : ' ';
         /* the e of 1e-3 belongs to its number */
         const int named = length > 0 && before != '.' && !(before >= '0' && before <= '9');
         const int taken = length > 0 ? length : 1, errors = f->b->mistakes->count;
-        if (named ? put_name(f, n, at, length, to) : put(to, n->text + at, (size_t)taken, at)) {
-            at += taken;
+        int behind = at;
+        if (named ? put_name(f, n, &behind, to) : put(to, n->text + at, (size_t)taken, at)) {
+            at = named ? behind : at + taken;
             continue;
         }
         if (f->b->mistakes->count == errors && to->used + 60 >= MOST_TEXT)
@@ -331,7 +322,7 @@ static void add_piece(const fields *f, const document_node *n, double until, int
 {
     written_out one;
     formula *read = NULL;
-    formula_mistake why;
+    expression_mistake why;
     if (n == NULL || !write_out(f, n, &one))
         return;
     if (formula_parse(one.text, &read, &why) != STATUS_OK)

@@ -1,277 +1,83 @@
 #include "cases/format/format_impl.h"
 
-#include <errno.h>
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "cases/scene/scene.h"
 
-enum { DEEPEST = 60, NUMBER_TEXT = 64 };
-
-typedef struct parser {
-    const document_node *node;
-    const char *text; /* whole */
-    int at, end;      /* place in it; where the expression ends */
-    int depth, failed;
-    const scope *names;
-    mistakes *mistakes;
-} parser;
-
-static double sum(parser *p);
-
-/* The first mistake ends the expression. */
-#define FAIL(p, offset, ...)                                                                       \
-    do {                                                                                           \
-        if (!(p)->failed)                                                                          \
-            document_mistake((p)->mistakes, (p)->node, (offset), __VA_ARGS__);                     \
-        (p)->failed = 1;                                                                           \
-    } while (0)
-
-static char here(parser *p)
+static int tell_unknown(const name_context *c, const char *text, int from, int length,
+                        expression_mistake *why)
 {
-    while (p->at < p->end && p->text[p->at] == ' ')
-        p->at++;
-    return p->at < p->end ? p->text[p->at] : '\0';
-}
-
-static int is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
-/* Digits, a point that is not the first of "..", digits, an exponent. */
-static int number_length(const char *text, int most)
-{
-    int n = 0;
-    while (n < most && is_digit(text[n]))
-        n++;
-    if (n < most && text[n] == '.' && !(n + 1 < most && text[n + 1] == '.'))
-        for (n++; n < most && is_digit(text[n]); n++)
-            ;
-    if (n < most && (text[n] == 'e' || text[n] == 'E')) {
-        int more = n + 1;
-        more += more < most && (text[more] == '+' || text[more] == '-');
-        if (more < most && is_digit(text[more]))
-            for (n = more; n < most && is_digit(text[n]); n++)
-                ;
-    }
-    return n;
-}
-
-static double literal(parser *p)
-{
-    const int from = p->at, length = number_length(p->text + from, p->end - from);
-    char digits[NUMBER_TEXT];
-    if (length == 1 && !is_digit(p->text[from])) {
-        FAIL(p, from, "a point without digits; write a number");
-        return 0;
-    }
-    if (length >= NUMBER_TEXT) {
-        FAIL(p, from, "a number of more than 60 characters; shorten it");
-        return 0;
-    }
-    memcpy(digits, p->text + from, (size_t)length);
-    digits[length] = '\0';
-    errno = 0;
-    const double value = strtod(digits, NULL);
-    p->at += length;
-    if (errno == ERANGE && fabs(value) < 1)
-        FAIL(p, from, "'%s' is too small; write 0, or at least 2.3e-308", digits);
-    else if (!isfinite(value))
-        FAIL(p, from, "'%s' is too large; the largest number is 1.8e308", digits);
-    else if (here(p) != '\0' && scope_name_length(p->text + p->at) > 0)
-        FAIL(p, p->at,
-             "'%.20s' behind a number; values are SI without units: write 20e-3 for 20 mm, "
-             "45*deg for degrees, and * between factors",
-             p->text + p->at);
-    return value;
-}
-
-/* Arguments of a function after its "(", and the ")". */
-static double call(parser *p, const expression_function *f, int from)
-{
-    double value = 0;
-    int count = 0;
-    do {
-        p->at++;
-        const double one = sum(p);
-        value = count == 0 || f->of_two == NULL ? one : f->of_two(value, one);
-        count++;
-        if (f->of_one != NULL)
-            value = f->of_one(one);
-    } while (!p->failed && here(p) == ',');
-    if (!p->failed && here(p) != ')')
-        FAIL(p, p->at, "the arguments of %s are not closed; put ')'", f->name);
-    p->at++;
-    static const char *const several[] = {"no argument", "one argument", "two arguments"};
-    if (f->arguments < 0 ? count < 2 : count != f->arguments)
-        FAIL(p, from, "%s takes %s, not %d", f->name,
-             f->arguments < 0 ? "two arguments or more" : several[f->arguments], count);
-    else if (!isfinite(value))
-        FAIL(p, from, "%s has no value there; look at its arguments", f->name);
-    return value;
-}
-
-static void tell_unknown(parser *p, const char *name, int from)
-{
-    char remedy[FAULT_TEXT];
-    FAIL(p, from, "unknown name '%s'%s", name,
-         mistakes_remedy(scope_nearest(p->names, name),
-                         "; define it under 'parameters' or 'let', above", remedy));
-}
-
-/* SECTION.CONSTANT; `length` of the section's name with its point. */
-static double constant(parser *p, int length)
-{
-    const int from = p->at, behind = from + length;
-    const int rest = (int)scope_name_length(p->text + behind);
-    const scope *known = scope_find(p->names, p->text + from, (size_t)length);
-    const int index = section_names_index(p->text + behind, (size_t)rest);
-    p->at = behind + rest;
-    if (known == NULL)
-        FAIL(p, from,
-             "no section '%.*s' is known here; sections are named behind the list of "
-             "sections only",
-             length - 1 < 40 ? length - 1 : 40, p->text + from);
-    else if (index < 0)
-        FAIL(p, behind, "a section has no constant '%.*s'; it has %s", rest < 40 ? rest : 40,
-             p->text + behind, section_names_all);
-    else if (isnan(known->constants[index])) /* its own mistake is already reported */
-        p->failed = 1;
-    return known != NULL && index >= 0 ? known->constants[index] : 0;
-}
-
-static double named(parser *p)
-{
-    const int from = p->at;
-    int length = (int)scope_name_length(p->text + from);
-    if (p->text[from + length] == '.' && scope_name_length(p->text + from + length + 1) > 0)
-        return constant(p, length + 1);
-    length = length < p->end - from ? length : p->end - from;
-    char name[NUMBER_TEXT];
-    const size_t kept = length < NUMBER_TEXT ? (size_t)length : NUMBER_TEXT - 1;
-    memcpy(name, p->text + from, kept);
-    name[kept] = '\0';
-    p->at += length;
-    const expression_function *f = functions_find(p->text + from, length);
-    const scope *known = scope_find(p->names, p->text + from, (size_t)length);
-    if (f != NULL && f->arguments == 0)
-        return f->value;
-    if (f != NULL && here(p) == '(')
-        return call(p, f, from);
-    if (f != NULL)
-        FAIL(p, from, "%s is a function; write %s(...)", name, name);
-    else if (here(p) == '(' || known == NULL)
-        tell_unknown(p, name, from);
-    else if (isnan(known->number)) /* its own mistake is already reported */
-        p->failed = 1;
-    else if (known->word != NULL)
-        FAIL(p, from, "'%s' is a choice of words ('%.40s'), not a number", name, known->word);
-    return known != NULL ? known->number : 0;
-}
-
-static double primary(parser *p)
-{
-    const char c = here(p);
-    if (is_digit(c) || c == '.')
-        return literal(p);
-    if (c == '(') {
-        const int from = p->at++;
-        const double value = sum(p);
-        if (!p->failed && here(p) != ')')
-            FAIL(p, from, "'(' is not closed; put ')'");
-        p->at++;
-        return value;
-    }
-    if (c != '\0' && scope_name_length(p->text + p->at) > 0)
-        return named(p);
-    if (c == '\0')
-        FAIL(p, p->at, "the expression ends where a number, name or '(' is expected");
-    else
-        FAIL(p, p->at, "'%c' where a number, name or '(' is expected", c >= ' ' ? c : '?');
+    char name[64], remedy[FAULT_TEXT];
+    snprintf(name, sizeof name, "%.*s", length, text + from);
+    const int is_time = c->in_time && (strcmp(name, "time") == 0 || strcmp(name, "T") == 0);
+    const char *known = strcmp(name, "t") == 0 ? NULL : scope_nearest(c->names, name);
+    expression_wrong(why, from, "unknown name '%s'%s", name,
+                     mistakes_remedy(is_time ? "t" : known,
+                                     c->in_time
+                                         ? "; a function of time has t, pi, deg, functions such as "
+                                           "sin and exp, and the names of 'parameters' and 'let'"
+                                     : known == NULL && strcmp(name, "t") == 0
+                                         ? "; the time t is in functions of time only"
+                                         : "; define it under 'parameters' or 'let', above",
+                                     remedy));
     return 0;
 }
 
-static double power(parser *p);
-
-static double signed_power(parser *p)
+/* SECTION.CONSTANT; `length` of the section's name with its point. */
+static int constant(const name_context *c, const char *text, int *at, int length, double *out,
+                    expression_mistake *why)
 {
-    const char c = here(p);
-    if (c != '-' && c != '+')
-        return power(p);
-    p->at++;
-    if (++p->depth > DEEPEST)
-        FAIL(p, p->at, "too many signs or parentheses in one another; split it with 'let'");
-    const double value = p->failed ? 0 : signed_power(p);
-    p->depth--;
-    return c == '-' ? -value : value;
+    const int from = *at, behind = from + length;
+    const int rest = (int)expression_name_length(text + behind);
+    const scope *known = scope_find(c->names, text + from, (size_t)length);
+    const int index = section_names_index(text + behind, (size_t)rest);
+    *at = behind + rest;
+    if (known == NULL)
+        expression_wrong(why, from,
+                         "no section '%.*s' is known here; sections are named behind the list of "
+                         "sections only",
+                         length - 1 < 40 ? length - 1 : 40, text + from);
+    else if (index < 0)
+        expression_wrong(why, behind, "a section has no constant '%.*s'; it has %s",
+                         rest < 40 ? rest : 40, text + behind, section_names_all);
+    else
+        *out = known->constants[index];
+    return known != NULL && index >= 0 && !isnan(*out); /* its own mistake is already reported */
 }
 
-static double power(parser *p)
+int names_number(const void *context, const char *text, int *at, double *out,
+                 expression_mistake *why)
 {
-    const double base = primary(p);
-    if (p->failed || here(p) != '^')
-        return base;
-    const int at = p->at++;
-    if (++p->depth > DEEPEST)
-        FAIL(p, at, "too many powers of powers; split it with 'let'");
-    const double exponent = p->failed ? 0 : signed_power(p), value = pow(base, exponent);
-    p->depth--;
-    if (!p->failed && !isfinite(value))
-        FAIL(p, at, "%g^%g has no value", base, exponent);
-    return value;
-}
-
-static double product(parser *p)
-{
-    double value = signed_power(p);
-    for (char c = here(p); !p->failed && (c == '*' || c == '/'); c = here(p)) {
-        const int at = p->at++;
-        const double factor = signed_power(p);
-        if (c == '/' && factor == 0 && !p->failed)
-            FAIL(p, at, "division by zero");
-        value = c == '*' ? value * factor : value / factor;
-        if (!isfinite(value))
-            FAIL(p, at, "the result is too large for a number");
-    }
-    return value;
-}
-
-static double sum(parser *p)
-{
-    if (++p->depth > DEEPEST) {
-        FAIL(p, p->at, "too many parentheses in one another; split it with 'let'");
-        return 0;
-    }
-    double value = product(p);
-    for (char c = here(p); !p->failed && (c == '+' || c == '-'); c = here(p)) {
-        const int at = p->at++;
-        const double term = product(p);
-        value = c == '+' ? value + term : value - term;
-        if (!isfinite(value))
-            FAIL(p, at, "the result is too large for a number");
-    }
-    p->depth--;
-    return value;
+    const name_context *c = context;
+    const int from = *at, length = (int)expression_name_length(text + from);
+    why->what[0] = '\0';
+    if (text[from + length] == '.' && expression_name_length(text + from + length + 1) > 0)
+        return constant(c, text, at, length + 1, out, why);
+    const scope *known = scope_find(c->names, text + from, (size_t)length);
+    *at += length;
+    if (known == NULL || text[*at + (int)strspn(text + *at, " ")] == '(')
+        return tell_unknown(c, text, from, length, why);
+    if (known->word != NULL)
+        expression_wrong(why, from, "'%s' is a choice of words ('%.40s'), not a number",
+                         known->name, known->word);
+    *out = known->number;
+    return known->word == NULL && !isnan(*out); /* its own mistake is already reported */
 }
 
 int expression_part(const document_node *n, int from, int length, const scope *names, mistakes *m,
                     double *out)
 {
-    parser p = {.node = n,
-                .text = n->text,
-                .at = from,
-                .end = from + length,
-                .names = names,
-                .mistakes = m};
-    *out = sum(&p);
-    const char rest = here(&p);
-    if (!p.failed && rest == '.')
-        FAIL(&p, p.at, "a range where one number is expected");
-    else if (!p.failed && rest != '\0')
-        FAIL(&p, p.at, "'%.20s' behind the expression; is an operator missing?", n->text + p.at);
-    return !p.failed;
+    const name_context context = {names, 0};
+    expression_mistake why;
+    *out = 0;
+    if (expression_value(n->text, from, from + length, names_number, &context, out, &why) ==
+        STATUS_OK)
+        return 1;
+    if (why.what[0] != '\0')
+        document_mistake(m, n, why.at, "%s", why.what);
+    return 0;
 }
 
 int expression_number(const document_node *n, const scope *names, mistakes *m, double *out)

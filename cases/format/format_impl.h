@@ -36,8 +36,6 @@ const char *scope_nearest(const scope *names, const char *name);
 /* Can `key` be a new name: a letter, then letters, digits and _, not taken by another or by a
  * function? Else a mistake. */
 int scope_accepts(const scope *names, const document_node *key, mistakes *m);
-/* Length of the name that the text begins with: letters, digits, _, not a digit first; 0: none. */
-size_t scope_name_length(const char *text);
 
 /* A checked tree and values of its parameters -> a scene. */
 
@@ -221,11 +219,15 @@ int choose_holds(const document_node *conditions, const scope *names, mistakes *
  * itself. NULL after a mistake. */
 const document_node *choose_value(const document_node *n, const scope *names, mistakes *m);
 
-/* Numbers as expressions: + - * / ^, parentheses, functions, names.
- *
- * ^ binds strongest and to the right (-2^2 = -4, 2^3^2 = 512), then signs, then * and /, then + and
- * -. Values are SI; results must be finite. Mistakes are reported with the position of their
- * character. */
+/* Numbers as expressions (cases/scene/expression.c); mistakes are reported with the position of
+ * their character. */
+
+/* An expression_name of what a scope has; context: a name_context. */
+typedef struct name_context {
+    const scope *names;
+    int in_time; /* 1: of a function of time */
+} name_context;
+int names_number(const void *context, const char *text, int *at, double *out, expression_mistake *);
 
 /* 1 and the value, or 0 after a mistake. */
 int expression_number(const document_node *n, const scope *names, mistakes *m, double *out);

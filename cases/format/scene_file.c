@@ -43,7 +43,7 @@ static void read_name(scene_file *file, mistakes *m)
         return;
     file->type.name = text;
     const size_t length = strlen(text);
-    if (length == 0 || length >= SCENE_NAME || scope_name_length(text) != length)
+    if (length == 0 || length >= SCENE_NAME || expression_name_length(text) != length)
         document_mistake(m, n != NULL ? n : file->root, 0,
                          "name '%.60s': use at most %d letters, digits and _, a letter first", text,
                          SCENE_NAME - 1);

@@ -47,7 +47,7 @@ static const char *join_choices(scene_file *file, const document_node *list, mis
     for (int i = 0; good && i < list->count; i++) {
         const document_node *one = list->item[i];
         const size_t length = one->kind == DOCUMENT_TEXT ? strlen(one->text) : 0;
-        good = length > 0 && length < 40 && scope_name_length(one->text) == length &&
+        good = length > 0 && length < 40 && expression_name_length(one->text) == length &&
                used + length + 2 < sizeof text;
         if (good)
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", i > 0 ? "|" : "",

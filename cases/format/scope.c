@@ -61,7 +61,7 @@ static const char *name_at(const void *context, int i)
     const scope *at = context;
     for (; at != NULL && i > 0; i--)
         at = at->before;
-    return at != NULL ? at->name : functions_name(i);
+    return at != NULL ? at->name : expression_word(i);
 }
 
 const char *scope_nearest(const scope *names, const char *name)
@@ -69,18 +69,10 @@ const char *scope_nearest(const scope *names, const char *name)
     return choice_nearest(name, name_at, names);
 }
 
-size_t scope_name_length(const char *text)
-{
-    static const char digits[] = "0123456789",
-                      letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_"
-                                  "0123456789";
-    return strspn(text, digits) > 0 ? 0 : strspn(text, letters);
-}
-
 int scope_accepts(const scope *names, const document_node *key, mistakes *m)
 {
     const size_t length = strlen(key->text);
-    if (length == 0 || scope_name_length(key->text) != length || length > 40) {
+    if (length == 0 || expression_name_length(key->text) != length || length > 40) {
         document_mistake(
             m, key, 0,
             "'%.60s' is not a valid name of a value; use at most 40 letters, digits and _, a "
@@ -88,12 +80,11 @@ int scope_accepts(const scope *names, const document_node *key, mistakes *m)
             key->text);
         return 0;
     }
-    for (int i = 0; functions_name(i) != NULL; i++)
-        if (strcmp(functions_name(i), key->text) == 0) {
-            document_mistake(m, key, 0, "'%s' is a function or constant; choose another name",
-                             key->text);
-            return 0;
-        }
+    if (expression_is_word(key->text, length)) {
+        document_mistake(m, key, 0, "'%s' is a function or constant; choose another name",
+                         key->text);
+        return 0;
+    }
     if (scope_find(names, key->text, length) != NULL) {
         document_mistake(m, key, 0, "the name '%s' is taken already; choose another", key->text);
         return 0;
@@ -117,7 +108,7 @@ static int has_name(const document_node *n)
 static size_t substitute_name_at(const char *at, int *braces)
 {
     *braces = at[0] == '$' && at[1] == '{';
-    const size_t length = *at == '$' ? scope_name_length(at + 1 + *braces) : 0;
+    const size_t length = *at == '$' ? expression_name_length(at + 1 + *braces) : 0;
     return *braces && at[2 + length] != '}' ? 0 : length;
 }
 

@@ -46,7 +46,7 @@ static void unroll_loops(unroller *u, const document_node *loops, int depth, con
 /* A word of a loop's list: it is no expression with known names. */
 static int is_word(const document_node *n, const scope *names)
 {
-    const size_t length = n->kind == DOCUMENT_TEXT ? scope_name_length(n->text) : 0;
+    const size_t length = n->kind == DOCUMENT_TEXT ? expression_name_length(n->text) : 0;
     return length > 0 && n->text[length] == '\0' && scope_find(names, n->text, length) == NULL;
 }
 

@@ -1,10 +1,9 @@
 /* scene/: a scene: the structure, its loads and prescribed coordinates, its analyses and
  * quantities.
  *
- * Sections, in this order: analysis; formula and function of time; quantity; scene; values
- * along a path; edit; names; entry (keys of scene files); jet; functions of expressions; inputs
- * of analyses; lists; words of quantities and omission; quantity type; unit of length; warping
- * of ends. */
+ * Sections, in this order: analysis; expression, formula and function of time; quantity; scene;
+ * values along a path; edit; names; entry (keys of scene files); inputs of analyses; lists; words
+ * of quantities and omission; quantity type; unit of length; warping of ends. */
 #ifndef BEAMWORK_CASES_SCENE_SCENE_H
 #define BEAMWORK_CASES_SCENE_SCENE_H
 
@@ -186,20 +185,43 @@ const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);
 /* Do the axes turn? */
 int scene_rotates(const scene_analysis *a);
 
-/* Functions of time as text: + - * / ^, parentheses, sin cos tan asin acos atan sinh cosh tanh exp
- * log sqrt, pi, deg and the time t [s]. Values are SI, angles in radians (30*deg*t). ^ binds to the
- * right and before signs: -t^2 = -(t^2). What has kinks is given in pieces (scene_piece), so
- * that steps can end there. */
+/* Expressions as text, one language for numbers and functions of time: + - * / ^, parentheses,
+ * functions and constants (expression_word), names; in functions of time also the time t [s].
+ *
+ * ^ binds strongest and to the right (-2^2 = -4, 2^3^2 = 512), then signs, then * and /, then + and
+ * -. Values are SI, angles in radians (30*deg*t); what no t is in must be finite. A function that
+ * has kinks or no derivatives here is of numbers only: what has kinks in time is given in pieces
+ * (scene_piece), so that steps can end there. */
+
+typedef struct expression_mistake {
+    int at;                /* character of the text, from 0 */
+    char what[FAULT_TEXT]; /* and what to do; "": reported already */
+} expression_mistake;
+
+/* The number of the name that text[*at] begins, and *at after it; 0: a mistake. */
+typedef int expression_name(const void *names, const char *text, int *at, double *out,
+                            expression_mistake *);
+
+/* Length of the name that the text begins with: letters, digits, _, not a digit first; 0: none. */
+size_t expression_name_length(const char *text);
+/* The i-th function or constant, or NULL after the last. */
+const char *expression_word(int i);
+/* Is it one of them? */
+int expression_is_word(const char *name, size_t length);
+
+/* text[from .. end - 1] as a number; find NULL: there are no names. REFUSED: why. */
+status expression_value(const char *text, int from, int end, expression_name *find,
+                        const void *names, double *out, expression_mistake *);
+/* REFUSED: what is wrong, and where; `of`: printf's format. */
+status expression_wrong(expression_mistake *, int at, const char *of, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* A function of time: an expression without names. */
 
 typedef struct formula formula;
 
-typedef struct formula_mistake {
-    int at;           /* character of the text, from 0 */
-    const char *what; /* and what to do */
-} formula_mistake;
-
 /* REFUSED, FAULT out of memory: why. */
-status formula_parse(const char *text, formula **out, formula_mistake *);
+status formula_parse(const char *text, formula **out, expression_mistake *);
 /* REFUSED: what is wrong, and at which character (from 1). */
 status formula_read(const char *text, formula **out, fault *f);
 void formula_free(formula *);
@@ -1061,56 +1083,6 @@ void entry_scale(const entry_field *table, void *entry, entry_base, double times
 void entry_mirror(const entry_field *table, void *entry);
 /* Bit for bit, but for what functions of its own read and write. */
 int entry_same(const entry_field *table, const void *a, const void *b);
-
-/* A value with its first two derivatives by the time, and what formulas do with such. */
-
-typedef struct jet {
-    double v, d, dd;
-} jet;
-
-typedef enum jet_operation {
-    JET_NUMBER, /* a constant */
-    JET_TIME,
-    JET_NEGATE,
-    JET_ADD, /* of two, to JET_POWER */
-    JET_SUBTRACT,
-    JET_MULTIPLY,
-    JET_DIVIDE,
-    JET_POWER,
-    JET_SIN, /* of one */
-    JET_COS,
-    JET_TAN,
-    JET_ASIN,
-    JET_ACOS,
-    JET_ATAN,
-    JET_SINH,
-    JET_COSH,
-    JET_TANH,
-    JET_EXP,
-    JET_LOG,
-    JET_SQRT
-} jet_operation;
-
-/* The operation on a, and on b where it is of two; not finite where it has no value or no
- * derivative. Not of JET_NUMBER and JET_TIME. */
-jet jet_of(jet_operation what, jet a, jet b);
-
-/* Functions and constants of expressions, and which of them functions of time have. */
-
-typedef struct expression_function {
-    const char *name;
-    int arguments; /* 0: a constant; -1: two or more */
-    double value;  /* of a constant */
-    double (*of_one)(double);
-    double (*of_two)(double, double); /* of more: taken again and again */
-    int kinked;                       /* 1: it has kinks or jumps */
-    jet_operation in_time; /* JET_NUMBER: none, of what changes in time it cannot be taken */
-} expression_function;
-
-/* The function or constant with that name of `length` bytes, or NULL. */
-const expression_function *functions_find(const char *name, int length);
-/* The i-th name, or NULL after the last. */
-const char *functions_name(int i);
 
 /* Which entries of a scene affect which analysis: the only place that determines it, by which
  * analyses are refused, `beamwork explain inputs` is printed, and a test walks all cells. */

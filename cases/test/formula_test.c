@@ -134,7 +134,7 @@ static void check_edges(void)
 static void check_refused(const char *text, int character, const char *words)
 {
     formula *f = NULL;
-    formula_mistake mistake;
+    expression_mistake mistake;
     fault why = {""};
     gsl_test_int((int)formula_parse(text, &f, &mistake), STATUS_REFUSED, "'%s' is refused", text);
     gsl_test_int(mistake.at + 1, character, "'%s': its place", text);
@@ -146,33 +146,39 @@ static void check_refused(const char *text, int character, const char *words)
 static void check_refusals(void)
 {
     char deep[200], wide[1802];
-    check_refused("", 1, "ends where a value is due");
-    check_refused("2*", 3, "ends where a value is due");
-    check_refused("sin(t", 6, "missing )");
-    check_refused("sin t", 5, "argument in parentheses");
-    check_refused("(t", 3, "missing )");
-    check_refused("t)", 2, "an operator is due");
-    check_refused("t t", 3, "an operator is due");
-    check_refused("2 + x*t", 5, "no such name");
-    check_refused("abs(t)", 1, "give pieces");
+    check_refused("", 1, "ends where a number, name or '(' is expected");
+    check_refused("2*", 3, "ends where a number");
+    check_refused("sin(t", 6, "arguments of sin are not closed");
+    check_refused("sin t", 1, "sin is a function; write sin(...)");
+    check_refused("(t", 1, "'(' is not closed");
+    check_refused("t)", 2, "')' behind the expression; is an operator missing?");
+    check_refused("t t", 3, "is an operator missing?");
+    check_refused("2 + x*t", 5, "no such name; there are t, pi");
+    check_refused("abs(t)", 1, "abs is of numbers only, and t is in it; it makes kinks");
     check_refused("max(t, 1)", 1, "give pieces");
     check_refused("2*max(1, t)", 3, "give pieces");
-    check_refused("atan2(t, 1)", 1, "of numbers only");
-    check_refused("sin(t, 1)", 10, "too many arguments");
-    check_refused("min(1)*t", 7, "too few");
-    check_refused("mod(1, 0)*t", 10, "no finite value");
+    check_refused("atan2(t, 1)", 1, "of numbers only, and t is in it; write it with atan");
+    check_refused("sin(t, 1)", 1, "sin takes one argument, not 2");
+    check_refused("sin(t, t)", 1, "sin takes one argument, not 2");
+    check_refused("min(1)*t", 1, "min takes two arguments or more, not 1");
+    check_refused("mod(1, 0)*t", 1, "mod has no value there");
     check_refused("3mm", 2, "20e-3 for 20 mm");
-    check_refused("2*t + 4t", 8, "put * between");
-    check_refused("0x10", 1, "not a decimal number");
-    check_refused(".", 1, "not a decimal number");
+    check_refused("2*t + 4t", 8, "* between factors");
+    check_refused("2 t", 3, "* between factors");
+    check_refused("0x10", 2, "'x10' behind a number");
+    check_refused(".", 1, "a point without digits");
     check_refused("1e999*t", 1, "too large");
-    check_refused("t + 1/0", 8, "division by zero");
-    check_refused("t + 0^-1", 9, "no finite value");
-    check_refused("sqrt(-1)*t", 9, "no finite value");
-    check_refused("t*#", 3, "a value is due");
+    check_refused("1e-999*t", 1, "too small");
+    check_refused("1e300*1e300*t", 6, "too large for a number");
+    check_refused("t + 1/0", 6, "division by zero");
+    check_refused("t/(1 - 1)", 2, "division by zero");
+    check_refused("t + 0^-1", 6, "0^-1 has no value");
+    check_refused("sqrt(-1)*t", 1, "sqrt has no value there");
+    check_refused("1..2", 2, "a range where one number");
+    check_refused("t*#", 3, "'#' where a number");
     memset(deep, '(', sizeof deep - 1);
     deep[sizeof deep - 1] = '\0';
-    check_refused(deep, 33, "too deeply nested");
+    check_refused(deep, 61, "parentheses in one another");
     for (int i = 0; i < 1801; i++)
         wide[i] = i % 2 ? '+' : 't';
     wide[1801] = '\0';

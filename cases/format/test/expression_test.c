@@ -83,6 +83,7 @@ static void check_mistakes(const scope *names)
                {"1 2", 12, "operator missing"},
                {"corner", 10, "choice of words"},
                {"__import__(\"os\")", 10, "unknown name '__import__'"},
+               {"2*t", 12, "the time t is in functions of time only"},
                {".", 10, "point without digits"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         mistakes m = {.file = "f"};

@@ -21,7 +21,7 @@ static void check_read(const char *text, const formula *f)
 {
     char *wrapped = malloc(strlen(text) + 3);
     formula *again = NULL;
-    formula_mistake mistake;
+    expression_mistake mistake;
     fuzz_must(wrapped != NULL, "there is memory");
     sprintf(wrapped, "(%s)", text);
     /* one more parenthesis may be one too many */
@@ -41,13 +41,13 @@ static void check_read(const char *text, const formula *f)
 static void check_formula(const char *text)
 {
     formula *f = NULL;
-    formula_mistake mistake = {-1, NULL};
+    expression_mistake mistake = {-1, ""};
     const status outcome = formula_parse(text, &f, &mistake);
     fuzz_must((outcome == STATUS_OK) == (f != NULL), "read or refused");
     if (outcome == STATUS_OK)
         check_read(text, f);
     else
-        fuzz_must(mistake.at >= 0 && mistake.at <= (int)strlen(text) && mistake.what != NULL,
+        fuzz_must(mistake.at >= 0 && mistake.at <= (int)strlen(text) && mistake.what[0] != '\0',
                   "a refusal has its place");
     formula_free(f);
 }
