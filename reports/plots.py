@@ -277,7 +277,8 @@ def small_multiples(site, point, quantities, name, errors="errors", ylabel="rela
 
 
 def curves(site, point, quantity, name):
-    """The curve of every formulation on its finest mesh, of MOST_CURVES at most."""
+    """The curve of every formulation on its finest mesh, of MOST_CURVES at most. Over frequencies as in a Bode plot:
+    these by their logarithm, and values too where all are amplitudes."""
     found = [(s, [m for m in s.meshes if quantity in m.curves and len(m.curves[quantity][0])])
              for s in point.series]
     found = sorted((f for f in found if f[1]),
@@ -287,9 +288,13 @@ def curves(site, point, quantity, name):
     _, _, x_name, x_unit, unit = found[0][1][-1].curves[quantity]
     names = (f"{x_name} [{x_unit}]", f"{quantity} [{unit}]")
     chart = Chart(1, ONE)
-    panel = chart.panel("", *names, xlog=False, ylog=False)
-    for series, meshes in found[:MOST_CURVES]:
-        x, value = meshes[-1].curves[quantity][:2]
+    steady = (x_name, x_unit) == ("frequency", "Hz")
+    drawn = [(s, m, [(a, b) for a, b in zip(*m[-1].curves[quantity][:2]) if a > 0 or not steady])
+             for s, m in found[:MOST_CURVES]]
+    positive = all(b > 0 for _, _, pairs in drawn for _, b in pairs)
+    panel = chart.panel("", *names, xlog=steady, ylog=steady and positive)
+    for series, meshes, pairs in drawn:
+        x, value = [a for a, _ in pairs], [b for _, b in pairs]
         marks = range(0, len(x), max(1, len(x) // 12))
         look = site.points(series.key, names, [(float(x[i]), float(value[i])) for i in marks],
                            f"n = {meshes[-1].n}")
