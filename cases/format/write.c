@@ -219,6 +219,11 @@ static void write_release(writer *w, const void *entry)
 
 static void write_stiffness(writer *w, const void *entry)
 {
+    int tables = 0;
+    for (int k = 0; k < 6; k++)
+        tables |= ((const scene_spring *)entry)->table[k].at.stations > 0;
+    if (tables && !write_values_any(36, ((const scene_spring *)entry)->stiffness))
+        return;
     write_values_key(w, "stiffness");
     write_values_matrix(w, ((const scene_spring *)entry)->stiffness);
 }

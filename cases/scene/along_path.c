@@ -233,6 +233,25 @@ static int has_spring(const scene *s, int analysis, char *who, int size)
     return 0;
 }
 
+static int has_table(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    for (int i = 0; i < s->springs; i++)
+        for (int k = 0; k < 6; k++)
+            if (s->spring[i].table[k].at.stations > 0)
+                return called(s, SCENE_SPRINGS, i, who, size);
+    return 0;
+}
+
+static int has_kink(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    for (int i = 0; i < s->springs; i++)
+        if (scene_spring_kink(&s->spring[i]) != SCENE_NONE)
+            return called(s, SCENE_SPRINGS, i, who, size);
+    return 0;
+}
+
 /* A warping that the ends of two members have as one. */
 static int has_shared_warping(const scene *s, int analysis, char *who, int size)
 {
@@ -278,6 +297,9 @@ static int has_spin(const scene *s, int analysis, char *who, int size)
 static const char *const no_potential = "has no potential: the tangent is not symmetric and "
                                         "stability may be lost by flutter; ask for "
                                         "it about a static path, or for a motion",
+                         *const no_tangent =
+                             "has another stiffness on each side, and this analysis takes one at "
+                             "rest; ask for it about a static path that presses on one side",
                          *const no_drive =
                              "is moved, and a continuation changes loads only; take it away, or "
                              "ask for a static path",
@@ -314,6 +336,8 @@ const scene_input scene_inputs[] = {
     {"spring", "uuuuuuuuuuuu", NULL, has_spring},
     {"offset of an end", "uuuuuuuuuuuu", NULL, has_offset},
     {"foundation", "uuuuuuuuuuuu", NULL, has_foundation},
+    {"spring by a table", "uuuuuuuuuuuu", NULL, has_table},
+    {"spring with a kink at rest", "xuuxuxxuxuuu", no_tangent, has_kink},
     {"release", "uuuuuuuuuuuu", NULL, has_release},
     {"warping held", "uuuuuuuuuuuu", NULL, has_held_warping},
     {"warping shared", "uuuuuuuuuuuu", NULL, has_shared_warping},

@@ -125,14 +125,42 @@ const entry_field entry_member[] = {
      .left_out = "as the mesh says", ENTRY_IN(scene_member, divisions), .most = 10000000},
     {.name = NULL}};
 
+#define TABLE(which, k, length, force)                                                             \
+    static const entry_field table_##which[] = {                                                   \
+        {"at", ENTRY_NUMBERS, .needed = 1, .unit = (length), .summary = "ascending",               \
+         ENTRY_IN(scene_spring, table[k].at)},                                                     \
+        {"value", ENTRY_NUMBERS, .needed = 1, .unit = (force),                                     \
+         .summary = "at these, not falling; 0 at 0. Lines between and beyond",                     \
+         ENTRY_IN(scene_spring, table[k].value)},                                                  \
+        {.name = NULL}};
+TABLE(ux, 0, "m", "N")
+TABLE(uy, 1, "m", "N")
+TABLE(uz, 2, "m", "N")
+TABLE(rx, 3, "rad", "N m")
+TABLE(ry, 4, "rad", "N m")
+TABLE(rz, 5, "rad", "N m")
+#undef TABLE
+
+static const entry_field tables[] = {
+    {"ux", ENTRY_MAP, .below = table_ux, .summary = "force over displacement", .left_out = "none"},
+    {"uy", ENTRY_MAP, .below = table_uy, .summary = "force over displacement", .left_out = "none"},
+    {"uz", ENTRY_MAP, .below = table_uz, .summary = "force over displacement", .left_out = "none"},
+    {"rx", ENTRY_MAP, .below = table_rx, .summary = "moment over rotation", .left_out = "none"},
+    {"ry", ENTRY_MAP, .below = table_ry, .summary = "moment over rotation", .left_out = "none"},
+    {"rz", ENTRY_MAP, .below = table_rz, .summary = "moment over rotation", .left_out = "none"},
+    {.name = NULL}};
+
 const entry_field entry_spring[] = {
     {"from", ENTRY_NAME, .summary = "node in whose axes it deforms", .left_out = "the ground",
      ENTRY_IN(scene_spring, p), .of = SCENE_NODES},
     {"to", ENTRY_NAME, .needed = 1, .summary = "node at its other end", ENTRY_IN(scene_spring, q),
      .of = SCENE_NODES},
+    {"tables", ENTRY_MAP, .below = tables,
+     .summary = "of components, beside stiffness: gaps, stops, one-sided springs",
+     .left_out = "none"},
     {"stiffness", ENTRY_NUMBERS,
      .summary = "of ux, uy, uz [N/m], rx, ry, rz [N m]: six, or the 36 of a symmetric matrix",
-     .left_out = "none: needed without damping"},
+     .left_out = "none: needed without damping and tables"},
     {"damping", ENTRY_NUMBERS,
      .summary = "of a dashpot: forces by the rates of the same, ux, uy, uz [N s/m], rx, ry, rz "
                 "[N m s]: six, or 36",

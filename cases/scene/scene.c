@@ -31,6 +31,11 @@ void scene_free(scene *s)
     free(s->computed);
     free(s->node);
     free(s->member);
+    for (int i = 0; i < s->springs; i++)
+        for (int k = 0; k < 6; k++) {
+            free(s->spring[i].table[k].at.value);
+            free(s->spring[i].table[k].value.value);
+        }
     free(s->spring);
     free(s->driver);
     free(s->load);
@@ -187,6 +192,67 @@ int scene_add_spring(scene *s, int p, int q, const double stiffness[36])
         s->spring[i].asymmetry = dense_symmetrise(6, s->spring[i].stiffness);
     }
     return i;
+}
+
+void scene_set_table(scene *s, int spring, int component, int points, const double at[],
+                     const double value[])
+{
+    if (spring < 0) /* memory ran out */
+        return;
+    scene_table *t = &s->spring[spring].table[component];
+    t->at = (scene_path){points, scene_copy(s, points, at)};
+    t->value = (scene_path){points, scene_copy(s, points, value)};
+}
+
+/* The line that x is on: between points i and i + 1. */
+static int line_of(const scene_table *t, double x)
+{
+    int i = 0;
+    while (i + 2 < t->at.stations && x >= t->at.value[i + 1])
+        i++;
+    return i;
+}
+
+double scene_table_at(const scene_table *t, double x, double *slope)
+{
+    *slope = 0;
+    if (t->at.stations < 2)
+        return 0;
+    const int i = line_of(t, x);
+    const double *at = t->at.value + i, *value = t->value.value + i;
+    *slope = (value[1] - value[0]) / (at[1] - at[0]);
+    /* from the nearer point: exact at both */
+    return fabs(x - at[0]) <= fabs(x - at[1]) ? value[0] + *slope * (x - at[0])
+                                              : value[1] + *slope * (x - at[1]);
+}
+
+double scene_table_work(const scene_table *t, double from, double to)
+{
+    const double end = fmax(from, to);
+    double x = fmin(from, to), sum = 0, slope;
+    for (int i = 1; i < t->at.stations && x < end; i++) {
+        const double last = i + 1 < t->at.stations ? fmin(end, t->at.value[i]) : end;
+        if (last <= x)
+            continue;
+        sum += (scene_table_at(t, x, &slope) + scene_table_at(t, last, &slope)) / 2 * (last - x);
+        x = last;
+    }
+    return from <= to ? sum : -sum;
+}
+
+int scene_spring_kink(const scene_spring *p)
+{
+    for (int k = 0; k < 6; k++) {
+        const scene_table *t = &p->table[k];
+        double before, behind;
+        for (int i = 1; i + 1 < t->at.stations; i++) {
+            scene_table_at(t, t->at.value[i - 1], &before);
+            scene_table_at(t, t->at.value[i], &behind);
+            if (t->at.value[i] == 0 && fabs(behind - before) > 1e-9 * fmax(behind, before))
+                return k;
+        }
+    }
+    return SCENE_NONE;
 }
 
 static int add_driver(scene *s, const char *name)

@@ -689,6 +689,13 @@ typedef struct scene_member {
     char name[SCENE_NAME];
 } scene_member;
 
+/* A force over a displacement, or a moment over a rotation: lines between points, the first and the
+ * last one drawn on. */
+typedef struct scene_table {
+    scene_path at,
+        value; /* ascending [m, rad], not falling, zero at zero [N, N m]; none: no table */
+} scene_table;
+
 /* Between two nodes, or a node and the ground: energy 1/2 d^T K d with d of the six components of
  * q's frame against p's since the undeformed state, in axes that turn with p and were the fixed
  * ones: how far apart, from the initial distance [m], and the rotation vector [rad], of less than 3
@@ -700,6 +707,7 @@ typedef struct scene_spring {
     double damping[36];   /* of motions: forces gain damping x rates of d; symmetric [N s/m, N s,
                              N m s] */
     double damping_asymmetry; /* likewise */
+    scene_table table[6];     /* of its components, beside K */
     char name[SCENE_NAME];
 } scene_spring;
 
@@ -822,6 +830,15 @@ void scene_chord(const scene *s, int member, double chord[3]);
 /* Is an end of it beside its node? */
 int scene_is_beside(const scene_member *m, int end);
 int scene_is_founded(const scene_member *m);
+/* A table of one of its components. */
+void scene_set_table(scene *s, int spring, int component, int points, const double at[],
+                     const double value[]);
+/* What a table of a spring gives at x; *slope: of its line there, at a point of the next one. */
+double scene_table_at(const scene_table *, double x, double *slope);
+/* Its integral from one place to another. */
+double scene_table_work(const scene_table *, double from, double to);
+/* The component whose table has a kink at zero, so that it has no stiffness at rest; SCENE_NONE. */
+int scene_spring_kink(const scene_spring *);
 /* The end of a member (0 at p, 1 at q) does not transmit this component. It is added to those of
  * earlier calls; more than SCENE_RELEASED are refused by scene_validate. */
 void scene_release_end(scene *s, int member, int end, int component);

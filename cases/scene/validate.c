@@ -77,6 +77,28 @@ static int is_stiffness(const double K[36])
     return 1;
 }
 
+/* A table of a spring: lines that ascend, or a mistake in words. */
+static const char *table_mistake(const scene_table *t)
+{
+    const int n = t->at.stations;
+    double slope;
+    if (n == 0 && t->value.stations == 0)
+        return NULL;
+    if (n < 2 || t->value.stations != n)
+        return "give two points or more, 'at' and 'value' of each";
+    for (int i = 0; i < n; i++)
+        if (!isfinite(t->at.value[i]) || !isfinite(t->value.value[i]) ||
+            (i > 0 && !(t->at.value[i] > t->at.value[i - 1])))
+            return "'at' does not ascend; give finite numbers that do";
+    for (int i = 1; i < n; i++)
+        if (!(t->value.value[i] >= t->value.value[i - 1]))
+            return "'value' falls, so that it drives itself on; give values that do not fall";
+    double most = fmax(fabs(t->value.value[0]), fabs(t->value.value[n - 1]));
+    return fabs(scene_table_at(t, 0, &slope)) <= 1e-12 * most
+               ? NULL
+               : "its value at 0 is not 0, and springs have no stress at rest; move it by that";
+}
+
 static status check_spring(const scene *s, int i, fault *f)
 {
     const scene_spring *p = &s->spring[i];
@@ -84,6 +106,13 @@ static status check_spring(const scene *s, int i, fault *f)
         return fault_set(
             f, STATUS_REFUSED, "%s: both its ends are %s; join two, or one and the ground",
             scene_called(s, SCENE_SPRINGS, i).text, scene_called(s, SCENE_NODES, p->q).text);
+    for (int k = 0; k < 6; k++) {
+        static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+        const char *mistake = table_mistake(&p->table[k]);
+        if (mistake != NULL)
+            return fault_set(f, STATUS_REFUSED, "%s: its table of %s: %s",
+                             scene_called(s, SCENE_SPRINGS, i).text, component[k], mistake);
+    }
     if (!(p->asymmetry <= SECTION_MATRICES_SYMMETRIC) || !is_stiffness(p->stiffness))
         return fault_set(f, STATUS_REFUSED,
                          "%s: its stiffness is not symmetric, or gives energy away; give six "

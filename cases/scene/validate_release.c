@@ -118,7 +118,8 @@ static void add_springs(const scene *s, int node, double P[9])
 {
     for (int k = 0; k < s->springs; k++)
         for (int i = 0; i < 3 && (s->spring[k].p == node || s->spring[k].q == node); i++)
-            P[4 * i] += s->spring[k].stiffness[7 * (3 + i)] > 0;
+            P[4 * i] += s->spring[k].stiffness[7 * (3 + i)] > 0 ||
+                        s->spring[k].table[3 + i].at.stations > 0;
 }
 
 /* An axis that P keeps from nothing; 0: it has none. */
@@ -204,6 +205,8 @@ static int turn_matters(const scene *s, int node)
     for (int i = 0; i < s->springs; i++) {
         const scene_spring *spring = &s->spring[i];
         matters |= spring->p == node; /* with which its axes turn */
+        for (int k = 3; k < 6; k++)
+            matters |= spring->q == node && spring->table[k].at.stations > 0;
         for (int k = 0; k < 36 && spring->q == node; k++)
             matters |= (k / 6 >= SCENE_RX || k % 6 >= SCENE_RX) &&
                        (spring->stiffness[k] != 0 || spring->damping[k] != 0);

@@ -258,7 +258,8 @@ status discrete_build(model *m, fault *f)
 
 /* Strains, stresses and their derivatives of a spring in a state. */
 typedef struct spring_state {
-    double e[SPRING_STRAINS], sigma[SPRING_STRAINS], J[SPRING_STRAINS * X], H[X * X];
+    double e[SPRING_STRAINS], sigma[SPRING_STRAINS], S[SPRING_STRAINS * SPRING_STRAINS],
+        J[SPRING_STRAINS * X], H[X * X];
 } spring_state;
 
 static int number_of(const model *m, const mesh_discrete *d)
@@ -289,7 +290,7 @@ static void spring_at(const model *m, const model_state *s, const mesh_discrete 
     const double *turn = turns_of_spring(m, s, i);
     kinematics_gather(m, s, &d->el, x);
     spring_strain(d->el.nodes, x, turn, &(strain_output){.e = out->e, .J = out->J});
-    dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, out->e, out->sigma);
+    spring_law(d->spring, out->e, out->sigma, out->S);
     if (r != NULL) {
         double rate[SPRING_STRAINS];
         for (int k = 0; k < SPRING_STRAINS; k++)
@@ -315,7 +316,7 @@ static void evaluate(const model *m, const model_state *s, const mesh_discrete *
         dense_add_transpose_mul(n, SPRING_STRAINS, 1, p.J, p.sigma, force);
         memcpy(K, p.H, (size_t)(n * n) * sizeof *K);
         if (material)
-            dense_add_congruence(SPRING_STRAINS, n, p.J, d->spring->stiffness, K, work);
+            dense_add_congruence(SPRING_STRAINS, n, p.J, p.S, K, work);
         if (material && r != NULL && r->g != 0) {
             double C[SPRING_STRAINS * SPRING_STRAINS];
             for (int k = 0; k < SPRING_STRAINS * SPRING_STRAINS; k++)
@@ -375,7 +376,7 @@ void discrete_material_product(const model *m, const model_state *s, const doubl
         spring_at(m, s, d, NULL, &p);
         kinematics_local(m, s, &d->el, x, local);
         dense_mul_vec(SPRING_STRAINS, n, p.J, local, e);
-        dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, e, sigma);
+        dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, p.S, e, sigma);
         dense_add_transpose_mul(n, SPRING_STRAINS, 1, p.J, sigma, force);
         eliminate_forces(m, s, &d->el, force);
         assemble_vector(&d->el, force, y);
@@ -403,7 +404,7 @@ double discrete_material_rounding(const model *m, const model_state *s, const do
         spring_at(m, s, d, NULL, &p);
         kinematics_local(m, s, &d->el, x, local);
         dense_mul_vec(SPRING_STRAINS, n, p.J, local, e);
-        dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, e, sigma);
+        dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, p.S, e, sigma);
         for (int k = 0; k < SPRING_STRAINS; k++)
             for (int j = 0; j < n; j++)
                 sum += DBL_EPSILON * 2 * fabs(sigma[k] * p.J[k * n + j] * local[j]);
@@ -417,7 +418,7 @@ double discrete_stored(const model *m, const model_state *s)
     for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
         spring_state p;
         spring_at(m, s, &m->mesh.discrete[i], NULL, &p);
-        sum += dense_dot(SPRING_STRAINS, p.e, p.sigma) / 2;
+        sum += spring_energy(m->mesh.discrete[i].spring, p.e);
     }
     return sum;
 }

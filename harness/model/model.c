@@ -91,6 +91,31 @@ static status note_dashpots(model *m, fault *f)
     return STATUS_OK;
 }
 
+/* Is there an analysis that takes springs as they are at rest? */
+static int is_at_rest(const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++) {
+        const scene_column column = scene_column_of(s, i);
+        if (column == SCENE_OF_LINEAR || column == SCENE_OF_BUCKLING || column == SCENE_OF_MODAL ||
+            column == SCENE_OF_MODAL_LINEAR || column == SCENE_OF_COMPLIANCE)
+            return 1;
+    }
+    return 0;
+}
+
+static status note_tables(model *m, fault *f)
+{
+    const scene *s = m->scene;
+    for (int i = 0; i < s->springs && is_at_rest(s); i++)
+        for (int k = 0; k < SPRING_STRAINS; k++)
+            if (s->spring[i].table[k].at.stations > 2)
+                return coordinates_note_left_out(
+                    m, f, "tables of %s%s beyond their line at 0, in analyses without a path",
+                    scene_called(s, SCENE_SPRINGS, i).text,
+                    i + 1 < s->springs ? " and others" : "");
+    return STATUS_OK;
+}
+
 /* Matrices whose mean with their transpose is taken, and turns that nothing meets. */
 static status note_means(model *m, fault *f)
 {
@@ -154,6 +179,7 @@ static status build(model *m, const model_request *request, fault *f)
     TRY(turns_build(m, f));
     TRY(coordinates_number(m, f));
     TRY(note_means(m, f));
+    TRY(note_tables(m, f));
     if (lacks_of(s, type, words, sizeof words))
         TRY(coordinates_note_left_out(m, f, "%s", words));
     if (m->omits != 0) {

@@ -769,6 +769,17 @@ void release_matrix(const model *, const model_state *, int vertex, int n, int a
 
 enum { SPRING_STRAINS = 6 };
 
+/* Stress [N, N m] of deformations e, by stiffness and tables, and its derivative S[6 x 6] (NULL:
+ * not wanted). */
+void spring_law(const scene_spring *, const double e[6], double sigma[6], double S[36]);
+double spring_energy(const scene_spring *, const double e[6]);
+/* The stress whose work on the way to e is what the energy gains, component by component, and its
+ * derivative by e. */
+void spring_mean(const scene_spring *, const double from[6], const double e[6], double sigma[6],
+                 double S[36]);
+/* S at rest. */
+void spring_at_rest(const scene_spring *, double S[36]);
+
 /* Deformation d = (R_p^T (r_q - r_p) less its initial value [m], rotation vector of R_p^T R_q
  * [rad]) in the axes of p; with one node q, p is the ground.  x[nodes]: R is the turn since the
  * undeformed state.  out->e[6], out->J[6 x 7 nodes] and out->H[7 nodes x 7 nodes] of out->s[6], in

@@ -217,6 +217,59 @@ void turns_lose(const model *m, const model_state *from, model_state *s)
 
 enum { N = NODE_COORDINATES, SIX = SPRING_STRAINS };
 
+void spring_law(const scene_spring *p, const double e[6], double sigma[6], double S[36])
+{
+    dense_mul_vec(SIX, SIX, p->stiffness, e, sigma);
+    if (S != NULL)
+        memcpy(S, p->stiffness, SIX * SIX * sizeof *S);
+    for (int k = 0; k < SIX; k++) {
+        double slope;
+        sigma[k] += scene_table_at(&p->table[k], e[k], &slope);
+        if (S != NULL)
+            S[7 * k] += slope;
+    }
+}
+
+double spring_energy(const scene_spring *p, const double e[6])
+{
+    double sum = dense_quadratic(SIX, p->stiffness, e) / 2;
+    for (int k = 0; k < SIX; k++)
+        sum += scene_table_work(&p->table[k], 0, e[k]);
+    return sum;
+}
+
+void spring_mean(const scene_spring *p, const double from[6], const double e[6], double sigma[6],
+                 double S[36])
+{
+    double middle[SIX];
+    for (int k = 0; k < SIX; k++)
+        middle[k] = (from[k] + e[k]) / 2;
+    dense_mul_vec(SIX, SIX, p->stiffness, middle, sigma);
+    for (int k = 0; k < SIX * SIX; k++)
+        S[k] = p->stiffness[k] / 2;
+    for (int k = 0; k < SIX; k++) {
+        const scene_table *t = &p->table[k];
+        const double d = e[k] - from[k];
+        double before, behind;
+        const double first = scene_table_at(t, from[k], &before),
+                     last = scene_table_at(t, e[k], &behind);
+        double mean = (first + last) / 2, slope = behind / 2;
+        if (t->at.stations > 2 && d != 0) {
+            mean = scene_table_work(t, from[k], e[k]) / d;
+            slope = before == behind ? slope : (last - mean) / d;
+        }
+        sigma[k] += mean;
+        S[7 * k] += slope;
+    }
+}
+
+void spring_at_rest(const scene_spring *p, double S[36])
+{
+    static const double none[SIX];
+    double sigma[SIX];
+    spring_law(p, none, sigma, S);
+}
+
 static void cross_matrix(const double v[3], double A[9])
 {
     const double all[9] = {0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0};

@@ -266,11 +266,12 @@ void supports_add_springs(const model *m, const int part[], int root, const doub
 {
     for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
         const mesh_discrete *d = &m->mesh.discrete[i];
-        const double *K = d->spring->stiffness;
+        double K[SUPPORTS_N * SUPPORTS_N];
         const int node = d->el.vertex[0];
         double at[3], G[SUPPORTS_N * SUPPORTS_N], prevented[SUPPORTS_N * SUPPORTS_N];
         if (d->el.nodes == 2 || supports_root(part, m->mesh.vertex[node].body) != root)
             continue;
+        spring_at_rest(d->spring, K);
         for (int k = 0; k < 3; k++)
             at[k] = m->mesh.vertex[node].position[k] - origin[k];
         supports_rigid(at, m->size, G);

@@ -261,12 +261,12 @@ status newton_judge_rest(const model *m, fault *f)
 static int across(const mesh_discrete *d, const double turn[3])
 {
     const double near = 1e-3, size = vec3_norm(turn);
-    double moment[3] = {0}, aside[3];
+    const double e[SPRING_STRAINS] = {0, 0, 0, turn[0], turn[1], turn[2]};
+    double sigma[SPRING_STRAINS], aside[3];
+    const double *moment = sigma + 3;
     if (!turns_full(size, near))
         return 0;
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            moment[i] += d->spring->stiffness[6 * (3 + i) + 3 + k] * turn[k];
+    spring_law(d->spring, e, sigma, NULL);
     vec3_cross(turn, moment, aside);
     return vec3_norm(aside) > 1e-6 * size * vec3_norm(moment);
 }

@@ -177,9 +177,10 @@ void linear_springs_stiffness(const model *m, sparse *K)
 {
     for (int i = 0; i < model_springs(m); i++) {
         const mesh_discrete *d = spring_of(m, i);
-        double J[SIX * X], k[X * X] = {0}, work[SIX * X];
+        double J[SIX * X], k[X * X] = {0}, work[SIX * X], S[SIX * SIX];
         springs_evaluate(m, d, NULL, J, NULL);
-        dense_add_congruence(SIX, NODE_COORDINATES * d->el.nodes, J, d->spring->stiffness, k, work);
+        spring_at_rest(d->spring, S);
+        dense_add_congruence(SIX, NODE_COORDINATES * d->el.nodes, J, S, k, work);
         eliminate_matrix(m, kinematics_rest(m), &d->el, NULL, k);
         assemble_discrete(&d->el, k, K);
     }
@@ -188,9 +189,10 @@ void linear_springs_stiffness(const model *m, sparse *K)
 void linear_springs_stresses(const model *m, const double x[], double sigma[])
 {
     for (int i = 0; i < model_springs(m); i++) {
-        double e[SIX];
+        double e[SIX], S[SIX * SIX];
         strains(m, spring_of(m, i), x, e);
-        dense_mul_vec(SIX, SIX, spring_of(m, i)->spring->stiffness, e, &sigma[SIX * i]);
+        spring_at_rest(spring_of(m, i)->spring, S);
+        dense_mul_vec(SIX, SIX, S, e, &sigma[SIX * i]);
     }
 }
 
@@ -247,9 +249,10 @@ double linear_springs_energy2(const model *m, const double x[])
 {
     double sum = 0;
     for (int i = 0; i < model_springs(m); i++) {
-        double e[SIX];
+        double e[SIX], S[SIX * SIX];
         strains(m, spring_of(m, i), x, e);
-        sum += dense_quadratic(SIX, spring_of(m, i)->spring->stiffness, e);
+        spring_at_rest(spring_of(m, i)->spring, S);
+        sum += dense_quadratic(SIX, S, e);
     }
     return sum;
 }
@@ -261,11 +264,12 @@ double linear_springs_rounding(const model *m, const double x[])
     for (int i = 0; i < model_springs(m); i++) {
         const mesh_discrete *d = spring_of(m, i);
         const int n = NODE_COORDINATES * d->el.nodes;
-        double J[SIX * X], local[X], e[SIX], sigma[SIX];
+        double J[SIX * X], local[X], e[SIX], sigma[SIX], S[SIX * SIX];
+        spring_at_rest(d->spring, S);
         springs_evaluate(m, d, NULL, J, NULL);
         kinematics_local(m, kinematics_rest(m), &d->el, x, local);
         dense_mul_vec(SIX, n, J, local, e);
-        dense_mul_vec(SIX, SIX, d->spring->stiffness, e, sigma);
+        dense_mul_vec(SIX, SIX, S, e, sigma);
         for (int k = 0; k < SIX; k++)
             for (int j = 0; j < n; j++)
                 sum += DBL_EPSILON * 2 * fabs(sigma[k] * J[k * n + j] * local[j]);

@@ -187,7 +187,7 @@ static status allocate(conserving *s, fault *f)
     s->slot_size = s->strains * (NODE_COORDINATES * nodes + s->strains + 3) + model_memory(m) + 1;
     s->step = calloc(6 * all, sizeof *s->step);
     s->W = calloc(count * (2 * strains * strains + 1 + strains + (size_t)s->slot_size) +
-                      (size_t)(3 * SPRING_STRAINS * model_springs(m)) +
+                      (size_t)(4 * SPRING_STRAINS * model_springs(m)) +
                       (size_t)(9 * s->of.masses->masses) + elastic,
                   sizeof *s->W);
     if (s->of.c->options->newton != NEWTON_DISPLACEMENT)
@@ -205,7 +205,7 @@ static status allocate(conserving *s, fault *f)
     s->d = s->energy + count;
     s->slot = s->d + count * strains;
     s->spring = s->slot + count * (size_t)s->slot_size;
-    s->massless = s->spring + (size_t)(3 * SPRING_STRAINS * model_springs(m));
+    s->massless = s->spring + (size_t)(4 * SPRING_STRAINS * model_springs(m));
     if (elastic > 0)
         s->elastic = s->massless + (size_t)(9 * s->of.masses->masses);
     TRY(conserving_massless(s, f));

@@ -44,24 +44,18 @@ static status middle_stress_of(const equations *eq, int count, const int index[]
     return STATUS_OK;
 }
 
-static double energy_of_spring(const deformable *of)
-{
-    return dense_quadratic(SPRING_STRAINS, of->W, of->e) / 2;
-}
-
-/* Stresses of a spring are its stiffness times its strains. */
 static void begin_spring(conserving *s, const instant *from, int i)
 {
     deformable of = deformable_at(s, from, from->state, i);
     node_state x[ELEMENT_MAX_NODES];
-    memcpy(of.W, of.spring->spring->stiffness, SPRING_STRAINS * SPRING_STRAINS * sizeof *of.W);
     kinematics_gather(s->of.c->model, from->state, of.el, x);
     spring_strain(of.el->nodes, x,
                   turns_of_spring(s->of.c->model, from->state, i - model_elements(s->of.c->model)),
                   &(strain_output){.e = of.e});
-    dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, of.W, of.e, of.sigma);
+    spring_law(of.spring->spring, of.e, of.sigma, of.W);
     memcpy(of.sigma + SPRING_STRAINS, of.sigma, SPRING_STRAINS * sizeof *of.sigma);
-    s->energy[i] = energy_of_spring(&of);
+    memcpy(of.first, of.e, SPRING_STRAINS * sizeof *of.first);
+    s->energy[i] = spring_energy(of.spring->spring, of.e);
 }
 
 status conserving_begin(conserving *s, const instant *from, fault *f)
@@ -137,9 +131,13 @@ static void stress_spring(conserving *s, const instant *from, model_state *now, 
                           scalar_parts *sum)
 {
     const deformable of = deformable_at(s, from, now, i);
-    dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, of.W, of.e, of.present);
-    memcpy(of.C, of.W, SPRING_STRAINS * SPRING_STRAINS * sizeof *of.C);
-    take_energy(s, &of, energy_of_spring(&of), sum);
+    double mean[SPRING_STRAINS];
+    spring_mean(of.spring->spring, of.first, of.e, mean, of.C);
+    for (int k = 0; k < SPRING_STRAINS; k++) /* (before + present)/2 is the mean */
+        of.present[k] = 2 * mean[k] - of.before[k];
+    for (int k = 0; k < SPRING_STRAINS * SPRING_STRAINS; k++)
+        of.C[k] *= 2;
+    take_energy(s, &of, spring_energy(of.spring->spring, of.e), sum);
 }
 
 /* Kinetic energy and sizes of the strain energies at the start of the step [J]. */

@@ -42,13 +42,14 @@ deformable deformable_at(const conserving *s, const instant *from, model_state *
             of.S = s->of.c->run->damping->stiffness +
                    (size_t)of.el->kind * (size_t)model_strains(m) * (size_t)model_strains(m);
     } else {
-        double *own = s->spring + (size_t)(3 * SPRING_STRAINS * spring);
+        double *own = s->spring + (size_t)(4 * SPRING_STRAINS * spring);
         of.spring = model_discrete(m, model_discretes(m) - model_springs(m) + spring);
         of.el = &of.spring->el;
         of.strains = SPRING_STRAINS;
         of.e = own;
         of.sigma = own + SPRING_STRAINS;
         of.before = own + 2 * SPRING_STRAINS;
+        of.first = own + 3 * SPRING_STRAINS;
         of.damping = 1;
         of.S = scene_spring_damps(of.spring->spring) ? of.spring->spring->damping : NULL;
         of.length = model_length(m);

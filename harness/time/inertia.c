@@ -327,10 +327,13 @@ double balance_rounding(const model *m)
     double sum = 0;
     for (int i = 0; i < model_elements(m); i++)
         sum += rounding_of(m, model_element(m, i), i);
-    for (int i = model_discretes(m) - model_springs(m); i < model_discretes(m); i++)
+    for (int i = model_discretes(m) - model_springs(m); i < model_discretes(m); i++) {
+        double S[SPRING_STRAINS * SPRING_STRAINS];
+        spring_at_rest(model_discrete(m, i)->spring, S);
         for (int k = 0; k < 6; k++) {
             const double off = coordinate_rounding * (k < 3 ? model_length(m) : 1);
-            sum += model_discrete(m, i)->spring->stiffness[7 * k] * off * off / 2;
+            sum += S[7 * k] * off * off / 2;
         }
+    }
     return sum;
 }

@@ -401,6 +401,7 @@ typedef struct deformable {
     const double *before;        /* sigma_n */
     double *W, *C_before;        /* mean of P'' at the ends of the step; P''(e_n) */
     double *e, *sigma, *d;       /* of the present iteration */
+    double *first;               /* [strains] e_n of a spring */
     /* Kept from one iteration's evaluation to its update. */
     double *J;             /* [strains x coordinates] de/dx at the end by dr, c, da */
     double *C, *memory;    /* P''(e) [strains x strains]; of stress */

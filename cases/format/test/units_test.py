@@ -226,6 +226,7 @@ members:
   d: {{from: end, to: far, section: print, y: [0, 1, 0], warping: fixed}}
 springs:
   s: {{to: tip, stiffness: [{u(500.0, -1, 1)}, {u(50.0, -1, 1)}, {u(60.0, -1, 1)}, {u(3.0, 1, 1)}, 0, 0]}}
+  t: {{to: tip, tables: {{uy: {{at: {us(1, 0, -1.0, 0.002, 1.0)}, value: {us(0, 1, -50.0, 0.1, 150.0)}}}, rz: {{at: [-1, 1], value: {us(1, 1, -2.0, 2.0)}}}}}}}
 motions:
   lift: {{path: [0, 1], value: [0, {u(0.01, 1)}]}}
 loads:

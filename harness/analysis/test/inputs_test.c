@@ -431,7 +431,8 @@ static void part_of_inertia(const scene_input *in, scene_column column, const el
 static void cell(const scene_input *in, scene_column column, const element_type *e, int counts[])
 {
     static answer with, without;
-    const char part = in->part[column], *where = scene_column_name[column];
+    const char part = in->part[column];
+    const char *where = scene_column_name[column];
     /* a motion needs loads over time, and turns away with what it is fixed to */
     if (column == SCENE_OF_MOTION &&
         (is_called(in, "load that stays") || is_called(in, "motion of a node") ||
@@ -447,6 +448,8 @@ static void cell(const scene_input *in, scene_column column, const element_type 
         return;
     counts[part == 'x' ? 1 : part == '-' ? 2 : 0]++;
     const int refused = with.status == STATUS_REFUSED;
+    if (column == SCENE_OF_MODAL_LINEAR && in->part[SCENE_OF_LINEAR] == SCENE_PART_REFUSED)
+        where = scene_column_name[SCENE_OF_LINEAR]; /* which is refused before */
     if (part == SCENE_PART_REFUSED) {
         gsl_test(!refused || strstr(with.reason, in->name) == NULL ||
                      strstr(with.reason, where) == NULL,

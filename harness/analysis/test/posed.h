@@ -147,6 +147,14 @@ static void add(scene *s, const char *name)
         for (int i = 0; i < 6; i++)
             k[7 * i] = 1e4 * (i + 1);
         scene_add_spring(s, SCENE_NONE, TIP, k);
+    } else if (IS("spring by a table") || IS("spring with a kink at rest")) {
+        const int kink = IS("spring with a kink at rest");
+        double none[36] = {0};
+        const double at[4] = {-1, kink ? 0 : -1e-4, 1e-3, 1}, soft = 2e3,
+                     value[4] = {5e3 * at[1] - 0.5, soft * at[1], soft * 1e-3, 40};
+        const int i = scene_add_spring(s, SCENE_NONE, TIP, none);
+        scene_set_table(s, i, SCENE_UY, 4, at, value);
+        scene_set_table(s, i, SCENE_UZ, 4, at, value);
     } else if (IS("foundation")) {
         for (int i = 0; i < 6; i++)
             scene_member_at(s, 1)->foundation[i] = 3e4 * (i + 1) / (1 + 9 * (i > 2));
