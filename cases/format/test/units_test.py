@@ -73,6 +73,10 @@ quantities:
   spun: {static: {stations: [1], spin: {omega: [0, 0, 1]}}}
 quantities:
   grows: {growth: {analysis: turn}}
+""", """analyses:
+  shaken: {harmonic: {frequencies: [10, 20]}}
+quantities:
+  gives: {response: {analysis: shaken, node: b, component: ux, force: b}}
 """]
 
 
