@@ -74,6 +74,18 @@ static status prepare(const element_request *request, element_data *out, fault *
     return STATUS_OK;
 }
 
+static void unstressed(const element_data *d, const double more[3], const node_state x[],
+                       element_data *out)
+{
+    exact_stages *s = &out->stages;
+    (void)x;
+    *out = *d;
+    s->c.initial[0] += more[0];
+    for (int i = 0; i < s->stages; i++)
+        for (int j = 1; j < 3; j++)
+            s->rest_kappa[i][j] += s->line.l0 * more[j];
+}
+
 static void strain(const element_data *d, const node_state x[], strain_output *out)
 {
     REAL_CHOSEN(exact_alone_strain)(&d->stages.line, x, out);
@@ -207,6 +219,7 @@ const element_type element_collocation = {
     .stress = stress,
     .update = update,
     .rest = rest,
+    .unstressed = unstressed,
     .geometric = geometric,
     .lanes = LANES_TOGETHER,
     .strain_many = strain_many,

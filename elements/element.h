@@ -251,6 +251,12 @@ typedef struct element_type {
      * inside of the element.  0: they are those of the mass matrix alone.  Of a type without
      * `inertia`: 1. */
     int (*mass_of_field)(const double options[]);
+    /* Optional: the same element, but that it has an elongation and curvatures about y and z
+     * [1, 1/m, 1/m] more without stress; x: its nodes where it is free; out: its data, as large.
+     * Strains stay those of the nodes. Default (NULL): strains are counted from those of x, an
+     * error of second order in curvature where stresses follow from the sizes of strains. */
+    void (*unstressed)(const element_data *, const double more[3], const node_state x[],
+                       element_data *out);
 } element_type;
 
 static inline element_order element_order_in(const element_type *t, element_analysis a,

@@ -108,13 +108,23 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
 
+/* Keys of the table up to that of gravity are kinds of loads; behind it is a temperature. */
+enum { OF_TEMPERATURE = SCENE_GRAVITY + 1 };
+
+static int spreads(int given)
+{
+    return given == SCENE_DISTRIBUTED || given == SCENE_DISTRIBUTED_MOMENT ||
+           given == OF_TEMPERATURE;
+}
+
 /* A force or a moment with a place within a member is of another kind than one at a node. */
 static scene_load_kind kind_of(const fields *f, int given)
 {
     const int within = fields_have(f, "where");
-    return given == SCENE_FORCE    ? (within ? SCENE_MEMBER_FORCE : SCENE_FORCE)
-           : given == SCENE_MOMENT ? (within ? SCENE_MEMBER_MOMENT : SCENE_MOMENT)
-                                   : (scene_load_kind)given;
+    return given == SCENE_FORCE      ? (within ? SCENE_MEMBER_FORCE : SCENE_FORCE)
+           : given == SCENE_MOMENT   ? (within ? SCENE_MEMBER_MOMENT : SCENE_MOMENT)
+           : given == OF_TEMPERATURE ? SCENE_TEMPERATURE
+                                     : (scene_load_kind)given;
 }
 
 /* Returns a part of the member's length, or `otherwise` where the key is absent. */
@@ -140,12 +150,13 @@ static void check_keys(const fields *f, int given)
                        : "where: a place of a force or a moment; a distributed load begins and "
                          "ends at 'from' and 'to'");
     for (int k = 0; k < 3; k++) {
-        if (given == SCENE_DISTRIBUTED || given == SCENE_DISTRIBUTED_MOMENT ||
-            !fields_have(f, of_range[k]))
+        if ((spreads(given) && (k < 2 || given != OF_TEMPERATURE)) || !fields_have(f, of_range[k]))
             continue;
         document_mistake(f->b->mistakes, document_find(f->map, of_range[k]), 0,
                          "%s: of a distributed load; %s", of_range[k],
-                         given == SCENE_GRAVITY
+                         given == OF_TEMPERATURE
+                             ? "a temperature is the same from 'from' to 'to', take it away"
+                         : given == SCENE_GRAVITY
                              ? "gravity is on all of a member, take it away"
                              : "a force or a moment within a member is at one place, 'where'");
     }
@@ -155,9 +166,11 @@ static void check_keys(const fields *f, int given)
 static void read_range(const fields *f, int given, scene_load *what)
 {
     check_keys(f, given);
+    if (fields_have(f, "gradient") && given != OF_TEMPERATURE)
+        mistake_at(f, "gradient", "gradient: of a temperature; give temperature: 0 with it");
     if (scene_load_within(what))
         what->range[0] = what->range[1] = part_of(f, "where", 0);
-    if (given != SCENE_DISTRIBUTED && given != SCENE_DISTRIBUTED_MOMENT)
+    if (!spreads(given))
         return;
     what->range[0] = part_of(f, "from", 0);
     what->range[1] = part_of(f, "to", 1);
@@ -212,11 +225,12 @@ void builder_loads(builder *b)
     for (int i = 0; i < b->list[SCENE_LOADS].count; i++) {
         const fields f = fields_of(b, &b->list[SCENE_LOADS].entry[i]);
         int given = SCENE_FORCE;
-        while (given < SCENE_GRAVITY && !fields_have(&f, entry_load[given].name))
+        while (given < OF_TEMPERATURE && !fields_have(&f, entry_load[given].name))
             given++;
         scene_load what = scene_load_of(kind_of(&f, given), SCENE_NONE, 0, 0, 0);
         fields_read(&f, entry_load, &what);
-        fields_vector(&f, entry_load[given].name, 3, what.vector);
+        if (given != OF_TEMPERATURE)
+            fields_vector(&f, entry_load[given].name, 3, what.vector);
         what.varies = fields_vector(&f, "to_value", 3, what.last);
         turn_load(&f, &what);
         read_range(&f, given, &what);

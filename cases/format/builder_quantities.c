@@ -303,7 +303,7 @@ void builder_defaults(builder *b)
 /* Behind a word of the SI and its power; NULL: it is not one. */
 static const char *word_end(const char *at)
 {
-    static const char *const si[] = {"1", "m", "rad", "s", "kg", "N", "Pa", "J", "W", "Hz"};
+    static const char *const si[] = {"1", "m", "rad", "s", "kg", "N", "Pa", "J", "W", "Hz", "K"};
     const size_t length = strcspn(at, " /^()");
     for (size_t i = 0; i < sizeof si / sizeof si[0]; i++)
         if (strlen(si[i]) == length && strncmp(si[i], at, length) == 0) {
@@ -361,6 +361,8 @@ static const struct {
                {"GPa", "write 210 GPa as 210e9 and unit: Pa"},
                {"deg", "write 45 deg as 45*deg and unit: rad"},
                {"degree", "write 45 degrees as 45*deg and unit: rad"},
+               {"degC", "a change of temperature is in K: write unit: K"},
+               {"°C", "a change of temperature is in K: write unit: K"},
                {"g", "write 2 g as 2e-3 and unit: kg"},
                {"t", "write 2 t as 2e3 and unit: kg"},
                {"ms", "write 2 ms as 2e-3 and unit: s"},

@@ -287,6 +287,8 @@ static void write_known(writer *w, const void *entry)
 static void write_vector(writer *w, const void *entry)
 {
     const scene_load *load = entry;
+    if (load->kind == SCENE_TEMPERATURE)
+        return;
     write_values_key(w, entry_of_load(load->kind)->name);
     write_values_numbers(w, 3, load->vector);
 }
@@ -296,6 +298,16 @@ static void write_on(writer *w, const void *entry)
     const scene_load *load = entry;
     write_values_key(w, "on");
     write_values_name(w, scene_load_along(load) ? SCENE_MEMBERS : SCENE_NODES, load->where);
+}
+
+/* Also 0, beside a gradient. */
+static void write_temperature(writer *w, const void *entry)
+{
+    const scene_load *load = entry;
+    if (load->kind != SCENE_TEMPERATURE)
+        return;
+    write_values_key(w, "temperature");
+    write_values_number(w, load->temperature);
 }
 
 /* Which part of its member a load acts on. */
@@ -334,11 +346,9 @@ void write_structure(writer *w)
     static const write_own spring[] = {
         {"stiffness", write_stiffness}, {"damping", write_damping}, {NULL, NULL}};
     static const write_own driver[] = {{"path", write_known}, {NULL, NULL}};
-    static const write_own load[] = {{"force", write_vector},
-                                     {"on", write_on},
-                                     {"where", write_range},
-                                     {"path", write_factor},
-                                     {NULL, NULL}};
+    static const write_own load[] = {{"force", write_vector}, {"temperature", write_temperature},
+                                     {"on", write_on},        {"where", write_range},
+                                     {"path", write_factor},  {NULL, NULL}};
     write_list(w, "nodes", SCENE_NODES, entry_node, node);
     write_list(w, "members", SCENE_MEMBERS, entry_member, member);
     write_list(w, "springs", SCENE_SPRINGS, entry_spring, spring);

@@ -174,6 +174,7 @@ LOAD(following_force_within, l->kind == SCENE_MEMBER_FORCE && l->follower)
 LOAD(moment_within, l->kind == SCENE_MEMBER_MOMENT)
 LOAD(gravity, l->kind == SCENE_GRAVITY)
 LOAD(weight, l->kind == SCENE_WEIGHT)
+LOAD(temperature, l->kind == SCENE_TEMPERATURE)
 LOAD(staying, along_path_factor(l, 0) != 0)
 
 #define MEMBER(name, condition)                                                                    \
@@ -188,6 +189,9 @@ LOAD(staying, along_path_factor(l, 0) != 0)
         return 0;                                                                                  \
     }
 MEMBER(strain, vec3_norm(m->strain) > 0)
+MEMBER(pretension, m->pretension != 0)
+MEMBER(unstressed_length, m->unstressed_length != 0)
+MEMBER(free_curvature, m->free_curvature[0] != 0 || m->free_curvature[1] != 0)
 MEMBER(curvature, vec3_norm(m->curvature) > 0)
 MEMBER(imperfection, m->bow[0] != 0 || m->bow[1] != 0)
 MEMBER(taper, scene_member_tapers(m))
@@ -327,8 +331,12 @@ const scene_input scene_inputs[] = {
     {"moment within a member", "uusxu-xu-usu", no_potential, has_moment_within},
     {"gravity on members", "uuuuu-uu-uuu", NULL, has_gravity},
     {"weight of a body", "uuuuu-uu-uuu", NULL, has_weight},
+    {"temperature", "uuuuu-uu-uuu", NULL, has_temperature},
     {"load that stays", "uuuuu-uu-uuu", NULL, has_staying},
     {"strain of a member", "uuuuuuuuuuuu", NULL, has_strain},
+    {"pretension", "uuuuuuuuuuuu", NULL, has_pretension},
+    {"unstressed length", "uuuuuuuuuuuu", NULL, has_unstressed_length},
+    {"free curvature", "uuuuuuuuuuuu", NULL, has_free_curvature},
     {"initial curvature", "uuuuuuuuuuuu", NULL, has_curvature},
     {"imperfection", "uuuuuuuuuuuu", NULL, has_imperfection},
     {"taper", "uuuuuuuuuuuu", NULL, has_taper},

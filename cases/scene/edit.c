@@ -62,6 +62,7 @@ static void reverse_load(scene_load *load)
         load->last[k] = -load->last[k];
         load->at[k] = -load->at[k];
     }
+    entry_mirror(entry_load, load);
     load->range[0] = 1 - load->range[1];
     load->range[1] = 1 - begin;
     for (int k = 0; k < 3 && load->varies; k++) {

@@ -105,8 +105,19 @@ const entry_field entry_member[] = {
          "and no turn is released; shared where two members run on in one line; else free"},
     {"curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m", .summary = "initial twist, curvatures",
      .usual = "[0, 0, 0]", ENTRY_IN(scene_member, curvature), .mirrors = "++-"},
-    {"strain", ENTRY_VECTOR, .count = 3, .unit = "1", .summary = "initial elongation, shears",
-     .usual = "[0, 0, 0]", ENTRY_IN(scene_member, strain)},
+    {"strain", ENTRY_VECTOR, .group = 1, .count = 3, .unit = "1",
+     .summary = "elongation, shears that it would have without stress", .usual = "[0, 0, 0]",
+     ENTRY_IN(scene_member, strain)},
+    {"pretension", ENTRY_NUMBER, .group = 1, .unit = "N",
+     .summary = "its axial force while its nodes are where they are drawn, before equilibrium",
+     .usual = "0", ENTRY_IN(scene_member, pretension)},
+    {"unstressed_length", ENTRY_NUMBER, .group = 1, .unit = "m",
+     .summary = "as it was made, to be mounted between its nodes",
+     .left_out = "the length that is drawn", ENTRY_IN(scene_member, unstressed_length),
+     .most = INFINITY},
+    {"free_curvature", ENTRY_VECTOR, .count = 2, .unit = "1/m",
+     .summary = "about y and z, that it would have without stress, beyond 'curvature'",
+     .usual = "[0, 0]", ENTRY_IN(scene_member, free_curvature), .mirrors = "+-"},
     {"offset", ENTRY_MAP, .below = offset,
      .summary = "where its ends are, from the nodes, with which they move rigidly",
      .left_out = "at the nodes"},
@@ -221,11 +232,18 @@ const entry_field entry_load[] = {
     {"gravity", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "m/s^2",
      .summary = "on a member, whose section has a density, on a node, which has a mass, or on all "
                 "that has"},
+    {"temperature", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "K",
+     .summary = "change of a member's temperature, at its centroids",
+     ENTRY_IN(scene_load, temperature)},
+    {"gradient", ENTRY_VECTOR, .count = 2, .unit = "K/m",
+     .summary = "of a temperature: how it changes along y and z of the section", .usual = "[0, 0]",
+     ENTRY_IN(scene_load, gradient), .mirrors = "-+"},
     {"on", ENTRY_NAME, .needed = 1, .summary = "node or member; of gravity also: all"},
     {"where", ENTRY_NUMBER,
      .summary = "of a force or a moment within a member: 0 'from' to 1 'to', of its length",
      .left_out = "it is at a node"},
-    {"from", ENTRY_NUMBER, .summary = "of a distributed load: where it begins, of the length",
+    {"from", ENTRY_NUMBER,
+     .summary = "of a distributed load, a temperature: where it begins, of the length",
      .usual = "0"},
     {"to", ENTRY_NUMBER, .summary = "where it ends, of the length", .usual = "1"},
     {"to_value", ENTRY_VECTOR, .count = 3,
@@ -258,7 +276,7 @@ const entry_field entry_load[] = {
 
 const entry_field *entry_of_load(scene_load_kind kind)
 {
-    static const int key[] = {0, 1, 2, 3, 4, 4, 0, 1};
+    static const int key[] = {0, 1, 2, 3, 4, 4, 0, 1, 5};
     return &entry_load[key[kind]];
 }
 
@@ -415,4 +433,7 @@ const entry_field entry_section[] = {
      .otherwise = 1, .always = 1},
     {"density", ENTRY_NUMBER, .unit = "kg/m^3", .summary = "0: no inertia", .usual = "0",
      ENTRY_IN(section_spec, density)},
+    {"expansion", ENTRY_NUMBER, .unit = "1/K",
+     .summary = "strain by the temperature, free of stress", .usual = "0",
+     ENTRY_IN(section_spec, expansion)},
     {.name = NULL}};

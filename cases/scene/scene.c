@@ -336,6 +336,57 @@ scene_load *scene_load_at(scene *s, int i)
     return i >= 0 && i < s->loads ? &s->load[i] : &s->scrap.load;
 }
 
+int scene_member_is_free(const scene_member *m)
+{
+    return m->pretension != 0 || m->unstressed_length != 0 || m->free_curvature[0] != 0 ||
+           m->free_curvature[1] != 0;
+}
+
+int scene_is_free(const scene *s, scene_words *who)
+{
+    for (int i = 0; i < s->loads; i++)
+        if (s->load[i].kind == SCENE_TEMPERATURE && scene_load_acts(&s->load[i])) {
+            if (who != NULL)
+                *who = scene_called(s, SCENE_LOADS, i);
+            return 1;
+        }
+    for (int i = 0; i < s->members; i++)
+        if (scene_member_is_free(&s->member[i])) {
+            if (who != NULL)
+                *who = scene_called(s, SCENE_MEMBERS, i);
+            return 1;
+        }
+    return 0;
+}
+
+/* EA [N]; 0: an axial force makes more than an elongation, or not the same one all along. */
+static double axial_stiffness(const scene *s, const scene_member *m)
+{
+    section c;
+    int coupled = 0;
+    if (scene_member_tapers(m) || scene_constants(s, m->section, &c, NULL) != STATUS_OK)
+        return 0;
+    for (int k = 1; k < 6; k++)
+        coupled |= c.matrices && c.stiffness[k] != 0;
+    return coupled ? 0 : c.matrices ? c.stiffness[0] : c.young * c.A;
+}
+
+status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f)
+{
+    const scene_member *m = &s->member[member];
+    *out = m->unstressed_length != 0 ? (m->unstressed_length - length) / length : 0;
+    if (m->pretension == 0)
+        return STATUS_OK;
+    const double EA = axial_stiffness(s, m);
+    if (!(EA > 0))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: pretension needs one section all along, whose axial force makes an "
+                         "elongation alone; give its unstressed_length",
+                         scene_called(s, SCENE_MEMBERS, member).text);
+    *out = -m->pretension / EA;
+    return STATUS_OK;
+}
+
 int scene_load_along(const scene_load *load)
 {
     return load->kind != SCENE_FORCE && load->kind != SCENE_MOMENT && load->kind != SCENE_WEIGHT;
@@ -354,7 +405,8 @@ int scene_load_turns(const scene_load *load)
 
 int scene_load_acts(const scene_load *load)
 {
-    return vec3_norm(load->vector) > 0 || (load->varies && vec3_norm(load->last) > 0);
+    return vec3_norm(load->vector) > 0 || (load->varies && vec3_norm(load->last) > 0) ||
+           load->temperature != 0 || load->gradient[0] != 0 || load->gradient[1] != 0;
 }
 
 int scene_load_unsymmetric(const scene_load *load)

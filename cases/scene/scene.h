@@ -672,11 +672,15 @@ typedef struct scene_member {
     int warp_p, warp_q;  /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
     double curvature[3]; /* initial torsion, curvatures about local y and z [1/m]; position of
                             interior nodes follows the arc */
-    double bow[2];    /* amplitude of its initial shape beside its line, along y and z [m], free of
-                         stress: bow sin(half_waves pi s/length) */
-    int half_waves;   /* >= 1 */
-    double strain[3]; /* initial elongation and shear strains that would leave no stress: heat, a
-                         misfit */
+    double bow[2];     /* amplitude of its initial shape beside its line, along y and z [m], free of
+                          stress: bow sin(half_waves pi s/length) */
+    int half_waves;    /* >= 1 */
+    double strain[3];  /* initial elongation and shear strains that would leave no stress: heat, a
+                          misfit */
+    double pretension; /* axial force of the member as it is drawn [N], in place of strain */
+    double unstressed_length; /* of it when it was made [m], in place of both; 0: as drawn */
+    double free_curvature[2]; /* that would leave no stress, about y and z, beyond `curvature`
+                                 [1/m] */
     scene_release release[2]; /* at p, q */
     double offset[2][3];      /* from the nodes p, q to its ends, which move with them rigidly;
                                  undeformed, in fixed axes [m] */
@@ -731,7 +735,8 @@ typedef enum scene_load_kind {
     SCENE_GRAVITY,            /* [m/s^2] on the mass of a member */
     SCENE_WEIGHT,             /* [m/s^2] on the mass of the body of a node, at its centre */
     SCENE_MEMBER_FORCE,       /* [N] at a place within a member */
-    SCENE_MEMBER_MOMENT       /* [N m] at a place within a member */
+    SCENE_MEMBER_MOMENT,      /* [N m] at a place within a member */
+    SCENE_TEMPERATURE         /* [K] of a member, by which it would expand */
 } scene_load_kind;
 
 /* Axes of a load: fixed, or those of its member before it is deformed, y as in scene_member. */
@@ -751,7 +756,10 @@ typedef struct scene_load {
                         two */
     double at[3];    /* of forces, in `axes`: where they act, from the node or the centroids, with
                             which it turns [m] */
-    scene_load_axes axes; /* of both */
+    double temperature, gradient[2]; /* of SCENE_TEMPERATURE, whose vector is 0: change at the
+                                        centroids [K]; of it along y and z of the section as it is
+                                        described [K/m] */
+    scene_load_axes axes;            /* of both */
     int follower; /* 0: its direction stays (dead); 1: it turns with the node or the sections */
     int stations; /* 0: proportional to the path parameter (factor = path) */
     double *path, *factor;
@@ -781,6 +789,11 @@ typedef enum scene_shear {
 } scene_shear;
 /* Theories of shear in stability on which a reference value can depend. */
 #define SCENE_SHEAR_THEORIES "engesser|haringx"
+
+/* The name of an entry, in a message. */
+typedef struct scene_words {
+    char text[SCENE_NAME + 16];
+} scene_words;
 
 struct scene {
     char name[SCENE_NAME];
@@ -821,6 +834,13 @@ int scene_add_attached(scene *s, int body, double x, double y,
                        double z); /* absolute undeformed position */
 int scene_add_member(scene *s, int p, int q, int profile,
                      const double y_axis[3]); /* profile: a section of the scene, at both ends */
+/* Elongation that a member of that length [m] would have without stress, by its pretension or its
+ * unstressed length. REFUSED: a pretension that its section does not give an elongation. */
+status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
+/* Has it one, or a curvature that it would have without stress? */
+int scene_member_is_free(const scene_member *m);
+/* Is there such a member, or a temperature?  who: it; NULL: not wanted. */
+int scene_is_free(const scene *s, scene_words *who);
 /* Does its section change along it?  Does that of any member? */
 int scene_member_tapers(const scene_member *m);
 int scene_tapers(const scene *s);
@@ -864,7 +884,7 @@ int scene_add_load_within(scene *s, scene_load_kind kind, int member, double pla
                           double y, double z);
 /* Entry of the list, to say more of it; never NULL. */
 scene_load *scene_load_at(scene *s, int index);
-/* Does it act on a member: along it, or at a place within it? */
+/* Is it of a member: along it, or at a place within it? */
 int scene_load_along(const scene_load *load);
 /* At a place within a member? */
 int scene_load_within(const scene_load *load);
@@ -973,10 +993,6 @@ typedef enum scene_list {
     SCENE_QUANTITIES
 } scene_list;
 enum { SCENE_LISTS = SCENE_QUANTITIES + 1 };
-
-typedef struct scene_words {
-    char text[SCENE_NAME + 16];
-} scene_words;
 
 /* How many entries the list has; "node". */
 int scene_count(const scene *s, scene_list list);

@@ -45,6 +45,8 @@ static status check_member(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_MEMBERS, i).text);
     if (scene_member_tapers(m))
         TRY(check_taper(s, i, f));
+    if (m->pretension != 0 && scene_constants(s, m->section, &(section){0}, NULL) == STATUS_OK)
+        TRY(scene_member_elongation(s, i, sqrt(length), &d[0], f));
     return scene_validate_release(s, i, f);
 }
 
@@ -220,11 +222,45 @@ static status check_range(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
+/* A temperature has no direction and no place but its range. */
+static status check_temperature(const scene *s, int i, fault *f)
+{
+    const scene_load *load = &s->load[i];
+    const scene_member *m = &s->member[load->where];
+    const int profile[2] = {m->section, m->section_q};
+    int expands = 0;
+    section c;
+    if (load->lumped || load->follower || load->axes != SCENE_AXES_FIXED ||
+        vec3_norm(load->at) > 0 || load->varies)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a temperature is of the sections of its member; take 'to_value', "
+                         "'lumped', 'at', 'axes' and 'follower' away",
+                         scene_called(s, SCENE_LOADS, i).text);
+    if (!isfinite(load->temperature) || !isfinite(load->gradient[0]) ||
+        !isfinite(load->gradient[1]))
+        return fault_set(f, STATUS_REFUSED, "%s: it is not a number; give finite temperatures",
+                         scene_called(s, SCENE_LOADS, i).text);
+    for (int k = 0; k < 2; k++)
+        expands |= scene_constants(s, profile[k], &c, NULL) != STATUS_OK || c.expansion != 0;
+    if (!expands)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a temperature of %s, whose section has no expansion; give one [1/K]",
+                         scene_called(s, SCENE_LOADS, i).text,
+                         scene_called(s, SCENE_MEMBERS, load->where).text);
+    return STATUS_OK;
+}
+
 /* Refuses members that a kind of load cannot have. */
 static status check_load_kind(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
     section c;
+    if (load->kind == SCENE_TEMPERATURE)
+        return check_temperature(s, i, f);
+    if (load->temperature != 0 || load->gradient[0] != 0 || load->gradient[1] != 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a temperature or its gradient, and it is a %s; leave that out",
+                         scene_called(s, SCENE_LOADS, i).text, entry_of_load(load->kind)->name);
     if (vec3_norm(load->at) > 0 &&
         (scene_load_turns(load) || load->kind == SCENE_GRAVITY || load->kind == SCENE_WEIGHT))
         return fault_set(f, STATUS_REFUSED,

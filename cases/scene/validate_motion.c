@@ -153,6 +153,38 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     return STATUS_OK;
 }
 
+/* A temperature changes without a jump: strains would jump with it. */
+static status check_temperature(const scene *s, int l, int i, fault *f)
+{
+    const scene_load *load = &s->load[l];
+    const scene_path *path = scene_path_of(&s->analysis[i]);
+    const int origin = scene_origin_of(s, i);
+    const scene_path *before = origin != SCENE_NONE ? scene_path_of(&s->analysis[origin]) : NULL;
+    double time, at[3];
+    int derivative;
+    function_at(&load->function, 0, at);
+    const double begin =
+        before == NULL ? at[0] : along_path_factor(load, before->value[before->stations - 1]);
+    if (scene_motion_of(&s->analysis[i])->scheme == SCENE_CONSERVING)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s (conserving): %s changes in time and puts energy in; take the "
+                         "integrator alpha or radau, or a temperature that stays",
+                         scene_called(s, SCENE_ANALYSES, i).text,
+                         scene_called(s, SCENE_LOADS, l).text);
+    if (!(fabs(at[0] - begin) <= 1e-9 * (1 + fabs(begin))))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: at 0 s its factor is %g, and the motion starts with a temperature of "
+                         "factor %g; begin there",
+                         scene_called(s, SCENE_LOADS, l).text, at[0], begin);
+    if (!function_smooth(&load->function, path->value[path->stations - 1], &time, &derivative) &&
+        derivative == 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a temperature cannot jump, as it does at %g s; let it rise over a "
+                         "time",
+                         scene_called(s, SCENE_LOADS, l).text, time);
+    return STATUS_OK;
+}
+
 static status check_load(const scene *s, int l, int i, fault *f)
 {
     const scene_load *load = &s->load[l];
@@ -170,7 +202,7 @@ static status check_load(const scene *s, int l, int i, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "%s: at %g s its factor is not finite; give another function, or pieces",
                          scene_called(s, SCENE_LOADS, l).text, time);
-    return STATUS_OK;
+    return load->kind == SCENE_TEMPERATURE ? check_temperature(s, l, i, f) : STATUS_OK;
 }
 
 status scene_validate_motion(const scene *s, int i, fault *f)

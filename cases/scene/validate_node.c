@@ -261,15 +261,19 @@ static status check_member(const scene *s, int i, fault *f)
 {
     const scene_member *m = &s->member[i];
     const scene_words who = scene_called(s, SCENE_MEMBERS, i);
-    double R[9], curvature[3], strain[3], bow[3];
+    const double own[3] = {0, m->free_curvature[0], m->free_curvature[1]};
+    double R[9], curvature[3], strain[3], bow[3], bent[3];
     axes_of(s, i, R);
     to_fixed(R, (const double[3]){0, m->bow[0], m->bow[1]}, bow);
     to_fixed(R, m->curvature, curvature);
     to_fixed(R, m->strain, strain);
+    to_fixed(R, own, bent);
     if (is_beside(s, curvature))
         return refuse(s, who, "its initial curvature leaves the plane", f);
     if (is_across(s, bow))
         return refuse(s, who, "its imperfection leaves the plane", f);
+    if (is_beside(s, bent))
+        return refuse(s, who, "its free curvature leaves the plane", f);
     if (is_across(s, strain))
         return refuse(s, who, "its initial strain leaves the plane", f);
     if (is_across(s, m->offset[0]) || is_across(s, m->offset[1]))
@@ -283,6 +287,13 @@ static status check_load(const scene *s, int i, fault *f)
     const scene_words who = scene_called(s, SCENE_LOADS, i);
     const int turns = scene_load_turns(l);
     double R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, v[2][3], at[3];
+    if (l->kind == SCENE_TEMPERATURE) {
+        const double bends[3] = {0, l->gradient[1], -l->gradient[0]};
+        axes_of(s, l->where, R);
+        to_fixed(R, bends, at);
+        return is_beside(s, at) ? refuse(s, who, "its gradient bends out of the plane", f)
+                                : STATUS_OK;
+    }
     if (l->axes == SCENE_AXES_MEMBER && scene_load_along(l))
         axes_of(s, l->where, R);
     to_fixed(R, l->vector, v[0]);

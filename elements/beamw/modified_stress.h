@@ -46,12 +46,11 @@ static inline void beamw_modified_stress_stiffness(const element_data *d, const 
             C[E * i + j] = C[E * j + i];
 }
 
-/* As element_type.stress. */
-static inline void beamw_modified_stress_evaluate(const element_data *d,
-                                                  const real e[BEAMW_STRAINS], stress_real *out)
+/* D, and ebar. */
+static inline void beamw_modified_stress_strains(const element_data *d, const real e[BEAMW_STRAINS],
+                                                 real D[], real modified[BEAMW_STRAINS])
 {
     enum { E = BEAMW_STRAINS, M = BEAMW_MODIFIED };
-    real D[M * E + 1], modified[E], conjugate[E]; /* the last of D counts nowhere */
     for (int i = 0; i < M * E; i++)
         D[i] = real_of(0);
     for (int t = 0; t < d->terms; t++) {
@@ -59,13 +58,24 @@ static inline void beamw_modified_stress_evaluate(const element_data *d,
         D[of->to] += of->c * e[of->j];
         D[of->mirrored] += of->c * e[of->i];
     }
-    memcpy(modified, e, sizeof modified);
+    memcpy(modified, e, E * sizeof *modified);
     for (int k = 0; k < M; k++) {
         real sum = D[E * k] * e[0];
         for (int j = 1; j < E; j++)
             sum += D[E * k + j] * e[j];
         modified[k] += sum / 2;
     }
+}
+
+/* As element_type.stress. */
+static inline void beamw_modified_stress_evaluate(const element_data *d,
+                                                  const real e[BEAMW_STRAINS], stress_real *out)
+{
+    enum { E = BEAMW_STRAINS, M = BEAMW_MODIFIED };
+    real D[M * E + 1], modified[E], conjugate[E]; /* the last of D counts nowhere */
+    beamw_modified_stress_strains(d, e, D, modified);
+    for (int i = 0; i < E; i++)
+        modified[i] -= d->free[i];
     beamw_modified_stress_of(d, modified, conjugate);
     if (out->energy != NULL) {
         *out->energy = real_of(0);

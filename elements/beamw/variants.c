@@ -75,6 +75,16 @@ status beamw_variants_stress(const element_data *d, const double e[], const doub
     return STATUS_OK;
 }
 
+void beamw_variants_unstressed(const element_data *d, const double more[3], const node_state x[],
+                               element_data *out)
+{
+    double e[BEAMW_STRAINS], D[BEAMW_MODIFIED * BEAMW_STRAINS + 1];
+    (void)more;
+    *out = *d;
+    beamw_variants_strain(d, x, &(strain_output){.e = e});
+    beamw_modified_stress_strains(d, e, D, out->free);
+}
+
 void beamw_variants_stress_many(int count, const element_data *const data[],
                                 const double *const e[], const double *const inner[],
                                 stress_output out[], status outcome[])

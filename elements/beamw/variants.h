@@ -52,6 +52,7 @@ struct element_data {
         short i, j;
     } spring[BEAMW_STRAINS * BEAMW_STRAINS];
     beamw_spread spread;
+    double free[BEAMW_STRAINS]; /* modified strains without stress */
 };
 
 /* Q += c (a b^T + b a^T): the quadratic c (a . e)(b . e). */
@@ -70,6 +71,8 @@ void beamw_variants_strain_many(int count, const element_data *const data[], con
                                 strain_output out[]);
 status beamw_variants_stress(const element_data *d, const double e[], const double inner[],
                              stress_output *out);
+void beamw_variants_unstressed(const element_data *d, const double more[3], const node_state x[],
+                               element_data *out);
 void beamw_variants_stress_many(int count, const element_data *const data[],
                                 const double *const e[], const double *const inner[],
                                 stress_output out[], status outcome[]);
@@ -218,9 +221,10 @@ extern const unsigned beamw_prepare_judged[];
     .options = {beamw_prepare_mass}, .judged = beamw_prepare_judged,                               \
     .data_size = beamw_variants_data_size, .strain = beamw_variants_strain,                        \
     .stress = beamw_variants_stress, .geometric = beamw_variants_geometric,                        \
-    .strain_many = beamw_variants_strain_many, .stress_many = beamw_variants_stress_many,          \
-    .lanes = LANES_TOGETHER, .inertia = beamw_inertia_of, .spreads = 1,                            \
-    .mass_of_field = beamw_prepare_mass_of_field, .order = beamw_prepare_order
+    .unstressed = beamw_variants_unstressed, .strain_many = beamw_variants_strain_many,            \
+    .stress_many = beamw_variants_stress_many, .lanes = LANES_TOGETHER,                            \
+    .inertia = beamw_inertia_of, .spreads = 1, .mass_of_field = beamw_prepare_mass_of_field,       \
+    .order = beamw_prepare_order
 enum {
     BEAMW_OFFERS = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
                    FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA

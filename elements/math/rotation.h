@@ -44,6 +44,8 @@ int rotation_triad(const double x[3], const double y[3], double R[9]);
  * axes at its start q = exp(x rotation~) and r = int_0^x exp(t rotation~) e dt, 0 <= x <= 1; e:
  * direction of the axis in the triad that turns with it, (1, 0, 0) but for initial strains. */
 void arc_at(const double rotation[3], const double e[3], double x, double r[3], double q[4]);
+/* r of arc_at less that of no rotation, x e. */
+void arc_beyond(const double rotation[3], const double e[3], double x, double r[3]);
 
 /* From a point to the one that moves it rigidly.  Offset rho: dr = dr_b + theta x rho.  Second
  * derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho) I. */

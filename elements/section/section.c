@@ -278,8 +278,12 @@ static status constants_of(const section_spec *spec, section *out, fault *f)
 
 status section_compute(const section_spec *spec, section *out, fault *f)
 {
+    if (!isfinite(spec->expansion))
+        return fault_set(f, STATUS_REFUSED, "section: expansion = %g 1/K; give a finite number",
+                         spec->expansion);
     if (spec->kind == SECTION_MATRICES) {
         memset(out, 0, sizeof *out);
+        out->expansion = spec->expansion;
         return section_matrices(spec, out, f);
     }
     TRY(check_material(spec, f));
@@ -288,6 +292,7 @@ status section_compute(const section_spec *spec, section *out, fault *f)
     out->young = spec->young;
     out->shear_modulus = spec->shear_modulus;
     out->density = spec->density;
+    out->expansion = spec->expansion;
     /* Whichever of D and F is there gives the other; both zero: rigid in shear. */
     TRY(out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f)
                                          : invert_on_support(out->F, out->D, "F", f));

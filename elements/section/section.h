@@ -37,6 +37,7 @@ typedef struct section {
     int rectangle;    /* 1: a solid rectangle with the sizes below */
     double width, height; /* of the rectangle: `width` along z (the sheet's w), `height` along y
                              (its t) [m] */
+    double expansion;     /* strain of a free fibre by its temperature [1/K] */
 } section;
 
 typedef enum section_kind {
@@ -82,6 +83,7 @@ typedef struct section_spec {
                                their warping shear too */
     int sheet_warping; /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in
                           either case */
+    double expansion;  /* [1/K] */
     double diameter, wall_thickness; /* tube: outer diameter; half of it: a solid bar [m] */
     section constants; /* SECTION_CONSTANTS: taken as given; D or F must be given. SECTION_MATRICES:
                           stiffness and mass; no material */

@@ -179,6 +179,7 @@ void section_taper_at(const section_spec *p, const section_spec *q, double x, se
     blend(1, x, &q->young, &out->young);
     blend(1, x, &q->shear_modulus, &out->shear_modulus);
     blend(1, x, &q->density, &out->density);
+    blend(1, x, &q->expansion, &out->expansion);
     blend(2 * p->points, x, &q->point[0][0], &out->point[0][0]);
     for (int w = 0; w < p->walls; w++)
         blend(1, x, &q->wall[w].thickness, &out->wall[w].thickness);

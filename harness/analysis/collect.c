@@ -78,7 +78,7 @@ static status keep_displacements(const analysis_context *c, int analysis, double
 {
     const double *x = outcome_displacements(&c->outcomes[analysis]);
     shape_state what = {SHAPE_LINEAR, analysis, 1, 1};
-    TRY(linear_whole_stresses(&c->eq, x, sigma, f));
+    TRY(linear_whole_stresses(&c->eq, x, 1, sigma, f));
     return keep_displaced(c, &what, x, sigma, s, f);
 }
 
@@ -225,6 +225,7 @@ static status inputs(const analysis_context *c, const model_state *state, worksp
     for (int i = 0; i < c->scene->loads; i++) {
         memset(w->load, 0, (n + (size_t)size.driven) * sizeof *w->load);
         loads_add_one(&c->eq, state, &c->scene->load[i], 1, w->load);
+        loads_add_temperature(&c->eq, state, &c->scene->load[i], 1, w->load);
         memcpy(w->input + (size_t)i * n, w->load, n * sizeof *w->input);
     }
     return triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
@@ -259,7 +260,7 @@ static status systems_keep_linear(const analysis_context *c, int analysis, const
     out->analysis = analysis;
     TRY(linear_stiffness(&c->eq, &w->K, f));
     if (displaced != NULL) {
-        TRY(linear_whole_stresses(&c->eq, displaced, w->sigma, f));
+        TRY(linear_whole_stresses(&c->eq, displaced, path, w->sigma, f));
         TRY(linear_geometric_stiffness(&c->eq, w->sigma, path, &w->G, f));
         for (int i = 0; i < w->K.column[w->K.n]; i++)
             w->K.value[i] += w->G.value[i];

@@ -220,7 +220,8 @@ void extract_section_linear(const analysis_context *c, const scene_quantity *q,
     const internal_state at = {
         .s = kinematics_rest(c->model), .sigma = sigma, .x = outcome_displacements(o), .path = 1};
     fault f = {"out of memory for stresses"};
-    status outcome = sigma != NULL ? linear_whole_stresses(&c->eq, at.x, sigma, &f) : STATUS_FAULT;
+    status outcome =
+        sigma != NULL ? linear_whole_stresses(&c->eq, at.x, 1, sigma, &f) : STATUS_FAULT;
     if (outcome == STATUS_OK && q->what.kind == SCENE_REACTION)
         value = reaction_of(&c->eq, scene_component_of(q), sigma);
     else if (outcome == STATUS_OK)

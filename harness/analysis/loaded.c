@@ -22,6 +22,7 @@ static const double approached = 0.9; /* part of the way to the estimate */
 static const double farthest = 1e3;   /* path at which the search ends, of the path so far */
 static const double alike = 1e-3;     /* estimates one after the other, of the path */
 static const double steepest = 8;     /* rate of a state along the path, of that of the last step */
+static const double at_rest = 1e-9;   /* distance of states, by the size, that is rounding */
 static const double wanted_error = 1e-9;
 static const double closest =
     1e-5; /* distance from the estimate, of the path: nearer, round-off decides about stability */
@@ -266,7 +267,7 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
         return outcome;
     if (outcome == STATUS_OK) { /* an unstable state far away may lie on another path */
         const double rate = rate_to(s, path);
-        s->lost = s->rate > 0 && rate > steepest * s->rate;
+        s->lost = s->rate > 0 && rate > steepest * s->rate && rate * (path - s->p[0]) > at_rest;
         *stable &= !s->lost;
         if (s->lost)
             (void)fault_set(

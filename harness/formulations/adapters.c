@@ -66,6 +66,13 @@ static void stress_many(int count, const element_data *const data[], const doubl
     }
 }
 
+static void unstressed(const element_data *d, const double more[3], const node_state x[],
+                       element_data *out)
+{
+    memcpy(out, d, sizeof *out);
+    d->given->unstressed(adapted_own(d), more, x, (element_data *)out->own);
+}
+
 static double tension(const element_data *d, const double sigma[])
 {
     return d->given->tension(adapted_own(d), sigma);
@@ -112,6 +119,7 @@ static void wrap(const element_type *given, element_type *out)
     out->force_many = NULL;
     out->equations_many = NULL;
     out->along = given->along != NULL ? along : NULL;
+    out->unstressed = given->unstressed != NULL ? unstressed : NULL;
     out->tension = given->tension != NULL ? tension : NULL;
     out->trouble = given->trouble != NULL ? trouble : NULL;
 }

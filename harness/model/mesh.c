@@ -92,16 +92,34 @@ static status set_inner(const model *m, const element_request *request, mesh_kin
     return STATUS_OK;
 }
 
+/* What an element of a member has without stress: strains of the scene, and `free` of a kind. */
+typedef struct unstressed {
+    double strain[3], free[3];
+} unstressed;
+
+static status unstressed_of(const model *m, int member, int profile, double length, unstressed *out,
+                            fault *f)
+{
+    const scene_member *sm = &m->scene->member[member];
+    const double *k = sm->free_curvature, angle = m->section[profile].axes_angle, c = cos(angle),
+                 d = sin(angle);
+    memcpy(out->strain, sm->strain, sizeof out->strain);
+    out->free[1] = c * k[0] + d * k[1];
+    out->free[2] = c * k[1] - d * k[0];
+    return scene_member_elongation(m->scene, member, length, &out->free[0], f);
+}
+
 /* Index of the kind of element of a member with this section, length and curvature; made when it is
  * new. rounding [m]: of the length. */
-static status kind_of(model *m, const scene_member *member, int profile, double length,
-                      double rounding, const double curvature[3], int *out, fault *f)
+static status kind_of(model *m, const unstressed *own, int profile, double length, double rounding,
+                      const double curvature[3], int *out, fault *f)
 {
     int *end = &m->kind_of_section[profile];
     for (; *end != NONE; end = &m->mesh.kind[*end].next)
         if (fabs(m->mesh.kind[*end].length - length) <= 1e-12 * length + rounding &&
             same_vector(m->mesh.kind[*end].curvature, curvature) &&
-            same_vector(m->mesh.kind[*end].strain, member->strain)) {
+            same_vector(m->mesh.kind[*end].strain, own->strain) &&
+            same_vector(m->mesh.kind[*end].free, own->free)) {
             *out = *end;
             return STATUS_OK;
         }
@@ -109,13 +127,14 @@ static status kind_of(model *m, const scene_member *member, int profile, double 
     element_request request = {
         .section = &m->section[profile], .length = length, .options = m->options, .type = m->given};
     memcpy(request.curvature, curvature, sizeof request.curvature);
-    memcpy(request.strain, member->strain, sizeof request.strain);
+    memcpy(request.strain, own->strain, sizeof request.strain);
     TRY(features_of_section(m, profile, &request.features, f));
     k->section = profile;
     k->next = NONE;
     k->length = length;
     memcpy(k->curvature, curvature, sizeof k->curvature);
-    memcpy(k->strain, member->strain, sizeof k->strain);
+    memcpy(k->strain, own->strain, sizeof k->strain);
+    memcpy(k->free, own->free, sizeof k->free);
     k->data_size = m->mesh.type->data_size(&request);
     k->data = calloc(1, k->data_size);
     if (k->data == NULL)
@@ -182,7 +201,9 @@ static status add_element(model *m, const member_arc *along, int member, int num
     double ends[2], at[ELEMENT_MAX_NODES];
     const int in_piece = division_piece(&m->division, member, number, ends);
     member_arc here;
+    unstressed own;
     TRY(arc_of_element(m, member, profile, along, &here, f));
+    TRY(unstressed_of(m, member, profile, here.length, &own, f));
     const member_arc *a = &here;
     const int bowed = a->bow[0] != 0 || a->bow[1] != 0, bends = vec3_norm(a->k) > 0,
               curves = (m->mesh.type->offers & FEATURE_CURVATURE) != 0,
@@ -246,12 +267,12 @@ static status add_element(model *m, const member_arc *along, int member, int num
         }
         m->mesh.elements++;
         el->triad = keep_triads(m, triad);
-        return kind_of(m, sm, profile, arc.length, 4 * DBL_EPSILON * vec3_norm(position), arc.k,
+        return kind_of(m, &own, profile, arc.length, 4 * DBL_EPSILON * vec3_norm(position), arc.k,
                        &el->kind, f);
     }
     m->mesh.elements++;
     el->triad = keep_triads(m, triad);
-    return kind_of(m, sm, profile, a->length * (ends[1] - ends[0]) / each, 0, a->k, &el->kind, f);
+    return kind_of(m, &own, profile, a->length * (ends[1] - ends[0]) / each, 0, a->k, &el->kind, f);
 }
 
 /* Warping slot of a member's end: shared by name, own, or none. */

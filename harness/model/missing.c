@@ -136,6 +136,16 @@ static int mass_lacks(const scene *s, const element_type *type, char *words, int
     return 0;
 }
 
+/* Strains that members have without stress, where the places of nodes are the only ones. */
+static int strains_lack(const scene *s, const element_type *type, char *words, int size)
+{
+    scene_words who;
+    if (type->force == NULL || !scene_is_free(s, &who))
+        return 0;
+    snprintf(words, (size_t)size, "strains (it gives forces), which %s changes", who.text);
+    return 1;
+}
+
 /* Curved members can be made of straight elements: what a scene needs of this feature is the strain
  * of its members. */
 static void words_of(unsigned missing, char *words, int size)
@@ -154,8 +164,8 @@ int missing_words(const scene *s, const element_type *type, char *words, int siz
         words_of(missing, words, size);
         return 1;
     }
-    if (mass_lacks(s, type, words, size) || limit_hit(s, type, words, size) ||
-        lacks_of(s, type, words, size) > 1)
+    if (mass_lacks(s, type, words, size) || strains_lack(s, type, words, size) ||
+        limit_hit(s, type, words, size) || lacks_of(s, type, words, size) > 1)
         return 1;
     if (size > 0)
         words[0] = '\0';
@@ -180,7 +190,7 @@ int missing_refused(const scene *s, const element_type *type, char *words, int s
         words_of(missing, words, size);
         return 1;
     }
-    return mass_lacks(s, type, words, size);
+    return mass_lacks(s, type, words, size) || strains_lack(s, type, words, size);
 }
 
 /* Returns the properties of sections that exceed the limits of the type. */
@@ -283,7 +293,8 @@ static const char *goes_with(const scene *s, const scene_motion *how)
 {
     int weight = 0, other = 0;
     for (int i = 0; i < s->loads; i++) {
-        const int along = scene_load_along(&s->load[i]) && !s->load[i].lumped;
+        const int along = scene_load_along(&s->load[i]) && !s->load[i].lumped &&
+                          s->load[i].kind != SCENE_TEMPERATURE;
         weight |= along && s->load[i].kind == SCENE_GRAVITY;
         other |= along && s->load[i].kind != SCENE_GRAVITY;
     }

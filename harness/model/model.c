@@ -13,7 +13,8 @@ static int takes_loads(const model *m)
 {
     int along = 0, moves = 0;
     for (int i = 0; i < m->scene->loads; i++)
-        along |= scene_load_along(&m->scene->load[i]);
+        along |=
+            scene_load_along(&m->scene->load[i]) && m->scene->load[i].kind != SCENE_TEMPERATURE;
     for (int i = 0; i < m->scene->analyses; i++)
         moves |= m->scene->analysis[i].kind == SCENE_MOTION;
     return m->mesh.type->along != NULL && m->mesh.nodes == 2 && along && !moves;
@@ -34,6 +35,7 @@ static status choose_options(model *m, const double options[], fault *f)
     m->mesh.inner = element_inner(m->mesh.type, m->options);
     m->mesh.memory = element_memory(m->mesh.type, m->options);
     m->mesh.takes = takes_loads(m);
+    m->mesh.frees = scene_is_free(m->scene, NULL);
     m->mesh.work_size = m->mesh.strains * (m->mesh.coordinates + m->mesh.strains + 2) +
                         m->mesh.memory + (m->mesh.takes ? slot_along(m) : 0);
     return STATUS_OK;

@@ -245,7 +245,9 @@ typedef struct spring_rates {
 typedef struct mesh_kind {
     int section;
     double length, curvature[3], strain[3];
-    int next; /* kind of the same section, or NONE */
+    double free[3]; /* elongation, and curvatures about y and z, principal, beyond `curvature`, that
+                       it has without stress */
+    int next;       /* kind of the same section, or NONE */
     element_data *data;
     size_t data_size;         /* [bytes] */
     displacement_field field; /* displacements between the nodes, for loads */
@@ -272,6 +274,7 @@ typedef struct model_mesh {
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
     int takes;     /* elements take loads along them (element_type.along) */
+    int frees;     /* temperatures, or members that are drawn strained */
     int work_size; /* of an element in a linear_memory: harness/newton/newton.h */
 } model_mesh;
 static inline const model_mesh *model_mesh_of(const model *m)
@@ -309,6 +312,11 @@ static inline int model_memory(const model *m)
 static inline int model_takes_loads(const model *m)
 {
     return model_mesh_of(m)->takes;
+}
+/* 1: elements have strains without stress (free_strain_subtract). */
+static inline int model_frees(const model *m)
+{
+    return model_mesh_of(m)->frees;
 }
 /* Doubles of an element in a linear_memory (harness/newton/newton.h). */
 static inline int model_work_size(const model *m)

@@ -102,7 +102,7 @@ int applied_inside(double x)
 int applied_part(const model *m, int element, const scene_load *load, double part[2])
 {
     const int member = model_element(m, element)->member;
-    if (!scene_load_along(load) || load->where != member)
+    if (!scene_load_along(load) || load->where != member || load->kind == SCENE_TEMPERATURE)
         return 0;
     const int number = element - model_first_element(m, member);
     if (scene_load_within(load)) {

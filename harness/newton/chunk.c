@@ -59,7 +59,8 @@ static void strains_one_by_one(const equations *eq, const linear_memory *memory,
 }
 
 static void stresses_one_by_one(const equations *eq, const linear_memory *memory,
-                                const model_state *s, int count, chunk_element element[])
+                                const model_state *s, double path, int count,
+                                chunk_element element[])
 {
     const model *m = eq->m;
     for (int k = 0; k < count; k++) {
@@ -68,7 +69,7 @@ static void stresses_one_by_one(const equations *eq, const linear_memory *memory
         if (element[k].along.acts)
             continue;
         element[k].outcome = ahead_stress(
-            eq, i, of_strains(m, s->e, i), inner_of(m, s, i),
+            eq, i, free_strain_data(eq, i, path), of_strains(m, s->e, i), inner_of(m, s, i),
             &(stress_output){
                 .sigma = w.sigma, .C = w.C, .memory = model_memory(m) > 0 ? w.memory : NULL});
     }
@@ -121,9 +122,11 @@ static void stresses_together(const model *m, const linear_memory *memory, const
 }
 
 /* Stresses of elements that take loads along them into their own equilibrium. */
-static void stresses_under_loads(const model *m, const linear_memory *memory, const model_state *s,
-                                 int count, chunk_element element[])
+static void stresses_under_loads(const equations *eq, const linear_memory *memory,
+                                 const model_state *s, double path, int count,
+                                 chunk_element element[])
 {
+    const model *m = eq->m;
     const element_data *data[CHUNK_MOST];
     node_state x[2 * CHUNK_MOST];
     along_output out[CHUNK_MOST];
@@ -134,7 +137,7 @@ static void stresses_under_loads(const model *m, const linear_memory *memory, co
         const model_slot w = linearise_slot(m, memory, c->index);
         if (!c->along.acts)
             continue;
-        data[owned] = model_kind_of(m, c->index)->data;
+        data[owned] = free_strain_data(eq, c->index, path);
         memcpy(x + (ptrdiff_t)2 * owned, c->x, 2 * sizeof *x);
         out[owned] = c->along.out;
         out[owned].e = of_strains(m, s->e, c->index);
@@ -242,7 +245,7 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
             linearise_slot(m, memory, element[k].index).along[SLOT_TAKES] = element[k].along.acts;
     }
     if (together && model_type(m)->equations_many != NULL && !eq->loading.rotates &&
-        eq->run->damping == NULL && !model_takes_loads(m)) {
+        eq->run->damping == NULL && !model_takes_loads(m) && !model_frees(m)) {
         equations_together(m, memory, s, count, element);
         return;
     }
@@ -250,12 +253,14 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
         strains_together(m, memory, s, count, element, deformed);
     else
         strains_one_by_one(eq, memory, s, count, element, deformed);
-    if (together && model_type(m)->stress_many != NULL)
+    if (together && model_type(m)->stress_many != NULL && eq->run->free_strain == NULL)
         stresses_together(m, memory, s, count, element);
     else
-        stresses_one_by_one(eq, memory, s, count, element);
+        stresses_one_by_one(eq, memory, s, path, count, element);
     if (model_takes_loads(m))
-        stresses_under_loads(m, memory, s, count, element);
+        stresses_under_loads(eq, memory, s, path, count, element);
+    for (int k = 0; k < count; k++)
+        free_strain_subtract(eq, element[k].index, path, deformed[k]);
     for (int k = 0; k < count; k++)
         mix(m, memory, s, element[k].index, deformed[k]);
     for (int k = 0; k < count && eq->run->damping != NULL; k++)

@@ -211,6 +211,7 @@ int distributed_add_own(const equations *eq, const model_state *s, const node_st
     if (!of.acts)
         return 0;
     model_type(m)->strain(data, x, &(strain_output){.e = D, .J = J});
+    free_strain_subtract(eq, element, path, D);
     of.out.sigma = sigma;
     of.out.C = K != NULL || !linear ? C : NULL;
     of.out.H = K != NULL ? of.H : NULL;
@@ -218,7 +219,9 @@ int distributed_add_own(const equations *eq, const model_state *s, const node_st
         of.out.e = &s->e[first];
         of.out.inner = &s->inner[(size_t)element * (size_t)model_inner(m)];
     }
-    model_type(m)->along(1, &data, x, &of.out, &outcome); /* a state that has been evaluated */
+    const element_data *unstressed = linear ? data : free_strain_data(eq, element, path);
+    model_type(m)->along(1, &unstressed, x, &of.out,
+                         &outcome); /* a state that has been evaluated */
     for (int k = 0; k < model_strains(m) && !linear; k++)
         D[k] -= s->e[first + (size_t)k];
     distributed_add_taken(m, &of.out, J, linear ? NULL : D, forces, K);
@@ -239,7 +242,7 @@ int distributed_stress(const equations *eq, const model_state *s, const node_sta
                        double path, const stress_output *out, status *outcome)
 {
     const model *m = eq->m;
-    const element_data *data = model_kind_of(m, element)->data;
+    const element_data *data = free_strain_data(eq, element, path);
     distributed_taken of;
     distributed_take(eq, element, path, &of);
     if (!of.acts)
@@ -258,7 +261,8 @@ static void add_rate(const equations *eq, const model_state *s, const node_state
 {
     const model *m = eq->m;
     enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
-    const element_data *data = model_kind_of(m, element)->data;
+    const element_data *data = s == kinematics_rest(m) ? model_kind_of(m, element)->data
+                                                       : free_strain_data(eq, element, s->path);
     distributed_taken of;
     double rate[3 * ELEMENT_ALONG_POINTS] = {0}, J[S * X], sigma[S], work[X] = {0};
     status outcome;

@@ -233,6 +233,8 @@ static status recover(const equations *eq, const internal_state *s, int i, const
     TRY(features_of_section(m, kind->section, &request.features, f));
     memcpy(request.curvature, kind->curvature, sizeof request.curvature);
     memcpy(request.strain, kind->strain, sizeof request.strain);
+    if (!problem.linear)
+        free_strain_amounts(eq, i, s->path, request.strain, request.curvature);
     const int jump = distributed_jumps(&loads.loads);
     if (jump != SCENE_NONE)
         return fault_set(

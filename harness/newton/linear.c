@@ -63,15 +63,44 @@ status linear_stresses(const equations *eq, const double x[], double sigma[], fa
 double linear_initial(const model *m)
 {
     double largest = 0;
-    for (int i = 0; i < model_scene(m)->members; i++)
-        largest = fmax(largest, vec3_norm(model_scene(m)->member[i].strain));
+    for (int i = 0; i < model_kinds(m); i++) {
+        const mesh_kind *k = model_kind(m, i);
+        largest = fmax(largest, vec3_norm(k->strain) + fabs(k->free[0]) +
+                                    hypot(k->free[1], k->free[2]) * model_length(m));
+    }
     return largest;
 }
 
-status linear_whole_stresses(const equations *eq, const double x[], double sigma[], fault *f)
+/* sigma += times those of the temperatures at `path` in elements whose nodes stay. */
+static status add_free(const equations *eq, double path, double times, double sigma[], fault *f)
+{
+    const model *m = eq->m;
+    for (int i = 0; i < model_elements(m) && model_frees(m); i++) {
+        undeformed_element l;
+        double e[ELEMENT_MAX_STRAINS], own[ELEMENT_MAX_STRAINS];
+        TRY(undeformed_of(eq, i, &l, f));
+        free_strain_linear(eq, i, path, e);
+        dense_mul_vec(model_strains(m), model_strains(m), l.C, e, own);
+        for (int k = 0; k < model_strains(m); k++)
+            sigma[(size_t)i * (size_t)model_strains(m) + (size_t)k] -= times * own[k];
+    }
+    return STATUS_OK;
+}
+
+status linear_growing_stresses(const equations *eq, const double x[], double path, double sigma[],
+                               fault *f)
+{
+    TRY(linear_stresses(eq, x, sigma, f));
+    TRY(add_free(eq, 0, -1, sigma, f));
+    return add_free(eq, path, 1, sigma, f);
+}
+
+status linear_whole_stresses(const equations *eq, const double x[], double path, double sigma[],
+                             fault *f)
 {
     const model *m = eq->m;
     TRY(linear_stresses(eq, x, sigma, f));
+    TRY(add_free(eq, path, 1, sigma, f));
     for (int i = 0; i < model_elements(m) && linear_initial(m) > 0; i++) {
         undeformed_element l;
         TRY(undeformed_of(eq, i, &l, f));
@@ -157,8 +186,10 @@ static void linear_terms(const equations *eq, int i, const double x[], double st
     double local[ELEMENT_MAX_COORDINATES];
     undeformed_of(eq, i, &l, NULL);
     kinematics_local(m, kinematics_rest(m), model_element(m, i), x, local);
+    if (model_frees(m))
+        free_strain_linear(eq, i, 1, strain);
     for (int k = 0; k < model_strains(m); k++) {
-        strain[k] = 0;
+        strain[k] = model_frees(m) ? fabs(strain[k]) : 0;
         for (int j = 0; j < model_own_coordinates(m); j++)
             strain[k] += fabs(l.J[k * model_own_coordinates(m) + j] * local[j]);
     }
@@ -313,11 +344,11 @@ void linear_system_free(linear_system *s)
 
 /* Right-hand side less K x of the prescribed coordinates and of x itself and less the forces of
  * initial strains, from element strains: its error does not grow with the mesh. */
-static status residual_of(analysis_context *c, const double load[], const double x[],
+static status residual_of(analysis_context *c, double path, const double load[], const double x[],
                           double sigma[], double r[], fault *f)
 {
     const model_size size = model_sizes(c->model);
-    TRY(linear_whole_stresses(&c->eq, x, sigma, f));
+    TRY(linear_whole_stresses(&c->eq, x, path, sigma, f));
     linear_forces(&c->eq, sigma, r);
     for (int i = 0; i < size.free + size.driven; i++)
         r[i] = load[i] - r[i];
@@ -327,6 +358,8 @@ static status residual_of(analysis_context *c, const double load[], const double
 typedef struct system_workspace {
     double *load, *r, *weight, *shaken; /* [free + driven] */
     double *sigma;                      /* [elements x strains] */
+    double path, strained; /* largest strain without stress: held back, it leaves no displacement to
+                              compare with */
 } system_workspace;
 
 static status workspace_alloc(analysis_context *c, double path, system_workspace *w, fault *f)
@@ -340,17 +373,17 @@ static status workspace_alloc(analysis_context *c, double path, system_workspace
     w->r = w->load + all;
     w->weight = w->r + all;
     w->shaken = w->weight + all;
+    w->path = path;
+    w->strained = linear_initial(c->model) + free_strain_size(&c->eq, path);
     metric_of(c->model, w->weight);
     loads_reference(&c->eq, path, w->load);
     return STATUS_OK;
 }
 
-/* Initial strains that are held back leave no displacement to compare with but themselves. */
 static double part_of(const analysis_context *c, const system_workspace *w, const double change[],
                       const double x[])
 {
-    return refinement_part(model_sizes(c->model).free, w->weight, change, x,
-                           linear_initial(c->model));
+    return refinement_part(model_sizes(c->model).free, w->weight, change, x, w->strained);
 }
 
 /* x += K^-1 (load - K x); the size of what was added beside x. */
@@ -358,7 +391,7 @@ static status correct(analysis_context *c, linear_system *s, system_workspace *w
                       double *correction, fault *f)
 {
     const int n = model_sizes(c->model).free;
-    TRY(residual_of(c, w->load, x, w->sigma, w->r, f));
+    TRY(residual_of(c, w->path, w->load, x, w->sigma, w->r, f));
     factor_solve(s->factor, w->r);
     for (int k = 0; k < n; k++)
         x[k] += w->r[k];

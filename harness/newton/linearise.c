@@ -20,13 +20,15 @@ static status compatible_element(const equations *eq, model_state *s, int i)
     double *e = &s->e[(size_t)i * (size_t)model_strains(m)],
            *sigma = &s->sigma[(size_t)i * (size_t)model_strains(m)];
     ahead_strain(eq, i, x, &(strain_output){.e = e});
+    free_strain_subtract(eq, i, s->path, e);
     eq->run->counters.strain_evaluations++;
     eq->run->counters.stress_evaluations++;
     status outcome;
     if (model_takes_loads(m) &&
         distributed_stress(eq, s, x, i, s->path, &(stress_output){.sigma = sigma}, &outcome))
         return outcome;
-    return ahead_stress(eq, i, e, &s->inner[(size_t)i * (size_t)model_inner(m)],
+    return ahead_stress(eq, i, free_strain_data(eq, i, s->path), e,
+                        &s->inner[(size_t)i * (size_t)model_inner(m)],
                         &(stress_output){.sigma = sigma});
 }
 
@@ -35,7 +37,8 @@ status linearise_make_compatible(const equations *eq, model_state *s, fault *f)
     const model *m = eq->m;
     status outcome = STATUS_OK;
     ahead_strains(eq, s, AHEAD_E, NULL);
-    ahead_stresses(eq, NULL, s->inner);
+    if (!model_frees(m))
+        ahead_stresses(eq, NULL, s->inner);
     for (int i = 0; i < model_elements(m) && outcome == STATUS_OK; i++) {
         outcome = compatible_element(eq, s, i);
         if (outcome != STATUS_OK)

@@ -32,6 +32,7 @@ static status begin(run_state *run, const model *m, int threads, fault *f)
     const int most = model_sizes(m).elements / ELEMENTS_OF_A_THREAD;
     TRY(assemble_patterns_alloc(&run->patterns, f));
     TRY(linear_memory_alloc(m, &run->memory, f));
+    TRY(free_strain_begin(m, &run->free_strain, f));
     return team_alloc(threads < most ? threads : most, &run->team, f);
 }
 
@@ -50,6 +51,7 @@ void run_state_end(run_state *run)
     free(run->undeformed.value);
     free(run->ahead);
     free(run->part);
+    free_strain_end(run->free_strain);
     team_free(run->team);
     assemble_patterns_free(run->patterns);
     linear_memory_free(&run->memory);

@@ -142,13 +142,58 @@ void loads_add(const equations *eq, const model_state *s, double path, double ou
                       applied_factor(eq, &model_scene(m)->load[i], path), out);
 }
 
+/* C in the state, under the loads along the element. */
+static status tangent_of(const equations *eq, const model_state *s, const node_state x[],
+                         int element, double C[])
+{
+    const model *m = eq->m;
+    const int rest = s == kinematics_rest(m);
+    double sigma[ELEMENT_MAX_STRAINS];
+    stress_output out = {.sigma = sigma, .C = C};
+    status outcome;
+    if (model_takes_loads(m) && !rest &&
+        distributed_stress(eq, s, x, element, s->path, &out, &outcome))
+        return outcome;
+    return model_type(m)->stress(rest ? model_kind_of(m, element)->data
+                                      : free_strain_data(eq, element, s->path),
+                                 &s->e[(size_t)element * (size_t)model_strains(m)],
+                                 &s->inner[(size_t)element * (size_t)model_inner(m)], &out);
+}
+
+void loads_add_temperature(const equations *eq, const model_state *s, const scene_load *load,
+                           double scale, double out[])
+{
+    const model *m = eq->m;
+    enum { S = ELEMENT_MAX_STRAINS };
+    if (load->kind != SCENE_TEMPERATURE)
+        return;
+    for (int i = model_first_element(m, load->where); i < model_first_element(m, load->where + 1);
+         i++) {
+        const mesh_element *el = model_element(m, i);
+        double e[S], sigma[S], C[S * S], J[S * ELEMENT_MAX_COORDINATES],
+            force[MODEL_MAX_COORDINATES] = {0};
+        node_state x[ELEMENT_MAX_NODES];
+        kinematics_gather(m, s, el, x);
+        if (!free_strain_by_load(eq, s, i, load, scale, e) ||
+            tangent_of(eq, s, x, i, C) != STATUS_OK) /* of a state that was reached: never */
+            continue;
+        dense_mul_vec(model_strains(m), model_strains(m), C, e, sigma);
+        model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
+        dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J, sigma, force);
+        eliminate_forces(m, s, el, force);
+        assemble_vector(el, force, out);
+    }
+}
+
 void loads_rate(const equations *eq, const model_state *s, double path, double out[])
 {
     const model *m = eq->m;
     memset(out, 0, (size_t)model_all_coordinates(m) * sizeof *out);
-    for (int i = 0; i < model_scene(m)->loads; i++)
-        loads_add_one(eq, s, &model_scene(m)->load[i],
-                      along_path_rate(&model_scene(m)->load[i], path), out);
+    for (int i = 0; i < model_scene(m)->loads; i++) {
+        const scene_load *load = &model_scene(m)->load[i];
+        loads_add_one(eq, s, load, along_path_rate(load, path), out);
+        loads_add_temperature(eq, s, load, along_path_rate(load, path), out);
+    }
 }
 
 void loads_stiffness_at_vertices(const equations *eq, const model_state *s, double path,

@@ -83,6 +83,7 @@ static inline const spring_rates *damping_of_springs(const run_damping *d)
 }
 
 struct run_ahead;
+struct run_free;
 struct element_part;
 
 typedef struct run_state {
@@ -94,8 +95,9 @@ typedef struct run_state {
                                   yet */
     struct run_ahead *ahead; /* one block; NULL: nothing has been evaluated ahead: newton_impl.h */
     run_undeformed undeformed;
-    run_damping *damping; /* of a motion; NULL: none */
-    linear_memory memory; /* of callers that linearise one state at a time */
+    struct run_free *free_strain; /* free_strain.c; NULL: no type alters its data */
+    run_damping *damping;         /* of a motion; NULL: none */
+    linear_memory memory;         /* of callers that linearise one state at a time */
 } run_state;
 
 typedef struct equations {
@@ -884,6 +886,10 @@ void loads_driver_rates(const equations *, const scene_driver *d, double path, d
 /* out[free + driven] += the load times `scale` in a state. */
 void loads_add_one(const equations *, const model_state *, const scene_load *, double scale,
                    double out[]);
+/* out[free + driven] += forces by which a temperature, changed by `scale`, acts on nodes that are
+ * kept where they are in a state. */
+void loads_add_temperature(const equations *, const model_state *, const scene_load *, double scale,
+                           double out[]);
 /* Derivative of the loads by the path parameter in a state, out[free + driven]. */
 void loads_rate(const equations *, const model_state *, double path, double out[]);
 /* Loads of the undeformed state at `path`, f[free + driven]. */
@@ -1137,6 +1143,33 @@ status internal_stress_at(const equations *, const internal_state *, const inter
 status internal_stress_largest(const equations *, const internal_state *, int member,
                                stress_measure, double *out, fault *);
 
+/* Strains that elements have without stress beyond those of the undeformed state: of temperatures,
+ * which are loads, and of members that are drawn strained. Strains of a state are counted from
+ * them, or stresses are those of data that know them: both are mechanical. */
+
+/* e[strains] of positions of nodes, less them. */
+void free_strain_subtract(const equations *, int element, double path, double e[]);
+/* Data for the stresses of an element: those of its kind, or as its type alters them, until the
+ * next call for the element. */
+const element_data *free_strain_data(const equations *, int element, double path);
+/* Adds the elongation and the curvatures about principal axes. */
+void free_strain_amounts(const equations *, int element, double path, double strain[3],
+                         double curvature[3]);
+/* To first order about the undeformed state, out[strains]: of temperatures at `path`; of members
+ * by themselves. */
+void free_strain_linear(const equations *, int element, double path, double out[]);
+void free_strain_own(const model *, int element, double out[]);
+/* Of temperatures the largest one, of curvatures times the length of the model. */
+double free_strain_size(const equations *, double path);
+/* out[strains] in a state, by a temperature that changes by `scale`; 0: none. */
+int free_strain_by_load(const equations *, const model_state *, int element, const scene_load *,
+                        double scale, double out[]);
+/* What temperatures that change in time add to the energy: in an instant [W], and from a state to
+ * the next [J]. */
+double free_strain_power(const equations *, const model_state *, double time);
+double free_strain_work(const equations *, const model_state *from, double begin,
+                        const model_state *to, double end);
+
 /* About the undeformed state. */
 
 /* Linear analyses about the undeformed state. */
@@ -1145,8 +1178,13 @@ status linear_stresses(const equations *, const double x[], double sigma[],
                        fault *); /* sigma = S J x, [model_stresses] */
 /* Largest strain of a member that would leave no stress; 0: there is none. */
 double linear_initial(const model *);
-/* The same with what these strains add: of the structure as it is, not of a motion. */
-status linear_whole_stresses(const equations *, const double x[], double sigma[], fault *);
+/* The same with what these strains and temperatures at `path` add: of the structure as it is, not
+ * of a motion. */
+status linear_whole_stresses(const equations *, const double x[], double path, double sigma[],
+                             fault *);
+/* Of what grows from path 0 to `path`: x from there, temperatures too. */
+status linear_growing_stresses(const equations *, const double x[], double path, double sigma[],
+                               fault *);
 void linear_forces(const equations *, const double sigma[],
                    double f[]); /* f[free + driven] = sum J^T sigma */
 status linear_geometric_stiffness(const equations *, const double sigma[], double path, sparse *G,

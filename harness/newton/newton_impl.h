@@ -48,13 +48,17 @@ static inline void ahead_strain(const equations *eq, int i, const node_state x[]
         model_type(eq->m)->strain(model_kind_of(eq->m, i)->data, x, out);
 }
 
-static inline status ahead_stress(const equations *eq, int i, const double e[],
-                                  const double inner[], stress_output *out)
+static inline status ahead_stress(const equations *eq, int i, const element_data *data,
+                                  const double e[], const double inner[], stress_output *out)
 {
     if (eq->run->ahead != NULL && eq->run->ahead->stresses)
         return ahead_copy_stress(eq, i, out);
-    return model_type(eq->m)->stress(model_kind_of(eq->m, i)->data, e, inner, out);
+    return model_type(eq->m)->stress(data, e, inner, out);
 }
+
+/* Of a run: free_strain_data. */
+status free_strain_begin(const model *, struct run_free **, fault *);
+void free_strain_end(struct run_free *);
 
 /* Solutions with the tangent bordered by released coordinates (tangent.c). */
 

@@ -207,10 +207,12 @@ static status add_element(const equations *eq, const model_state *state, int i, 
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, state, el, x);
     model_type(m)->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
+    free_strain_subtract(eq, i, path, D);
     const stress_output stresses = {.sigma = P, .C = C};
     status outcome;
     if (!model_takes_loads(m) || !distributed_stress(eq, state, x, i, path, &stresses, &outcome))
-        outcome = model_type(m)->stress(data, e, &state->inner[(size_t)i * (size_t)model_inner(m)],
+        outcome = model_type(m)->stress(free_strain_data(eq, i, path), e,
+                                        &state->inner[(size_t)i * (size_t)model_inner(m)],
                                         &(stress_output){.sigma = P, .C = C});
     eq->run->counters.strain_evaluations++;
     eq->run->counters.stress_evaluations++;

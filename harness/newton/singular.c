@@ -40,8 +40,8 @@ status quadratic_forms_load(const equations *eq, quadratic_forms *p, double path
                             fault *f)
 {
     rotating_frame_load_stiffness(eq, kinematics_rest(eq->m), path, &p->loads);
-    return whole ? linear_whole_stresses(eq, p->load_x, p->sigma, f)
-                 : linear_stresses(eq, p->load_x, p->sigma, f);
+    return whole ? linear_whole_stresses(eq, p->load_x, path, p->sigma, f)
+                 : linear_growing_stresses(eq, p->load_x, path, p->sigma, f);
 }
 
 /* Returns x[free] with zeros for the prescribed coordinates. */

@@ -57,7 +57,7 @@ static int alike(const equations *eq, int i)
 
 static int is_strained(const model *m, int i)
 {
-    return vec3_norm(model_kind_of(m, i)->strain) > 0;
+    return vec3_norm(model_kind_of(m, i)->strain) + vec3_norm(model_kind_of(m, i)->free) > 0;
 }
 
 /* C is that at no strain: what initial stresses add to it is left to geometric stiffnesses. */
@@ -65,10 +65,13 @@ static status evaluate_strained(const model *m, int i, const double e[], const d
                                 double C[], double initial[])
 {
     static const double none[ELEMENT_MAX_STRAINS];
-    double own[ELEMENT_MAX_STRAINS];
+    double own[ELEMENT_MAX_STRAINS], own_free[ELEMENT_MAX_STRAINS], strain[ELEMENT_MAX_STRAINS];
     TRY(model_type(m)->stress(model_kind_of(m, i)->data, none, inner,
                               &(stress_output){.sigma = initial, .C = C}));
-    dense_mul_vec(model_strains(m), model_strains(m), C, e, own);
+    free_strain_own(m, i, own_free);
+    for (int k = 0; k < model_strains(m); k++)
+        strain[k] = e[k] - own_free[k];
+    dense_mul_vec(model_strains(m), model_strains(m), C, strain, own);
     for (int k = 0; k < model_strains(m); k++)
         initial[k] += own[k];
     return STATUS_OK;
@@ -87,7 +90,7 @@ static status evaluate(const equations *eq, int i, double J[], double C[], doubl
     ahead_strain(eq, i, x, &(strain_output){.e = e, .J = J});
     if (is_strained(m, i))
         return evaluate_strained(m, i, e, inner, C, initial);
-    return ahead_stress(eq, i, e, inner, &(stress_output){.C = C});
+    return ahead_stress(eq, i, model_kind_of(m, i)->data, e, inner, &(stress_output){.C = C});
 }
 
 /* Room for one more. */

@@ -268,9 +268,11 @@ static void write_extent(FILE *to, const scene_load *l)
 
 static void write_loads(FILE *to, const void *what)
 {
-    static const char *const kind[] = {"force",   "moment",  "distributed", "distributed moment",
-                                       "gravity", "gravity", "force",       "moment"};
-    static const char *const unit[] = {"N", "N m", "N/m", "N m/m", "m/s^2", "m/s^2", "N", "N m"};
+    static const char *const kind[] = {"force",      "moment",  "distributed", "distributed moment",
+                                       "gravity",    "gravity", "force",       "moment",
+                                       "temperature"};
+    static const char *const unit[] = {"N",     "N m", "N/m", "N m/m", "m/s^2",
+                                       "m/s^2", "N",   "N m", "K"};
     const scene *s = ((const contents *)what)->scene;
     fprintf(to, "column,kind,node,member,x,y,z,unit,axes,follower,from,to,x_to,y_to,z_to,lumped\n");
     for (int i = 0; i < s->loads; i++) {

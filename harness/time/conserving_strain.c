@@ -25,11 +25,11 @@ static status middle_stress_of(const equations *eq, int count, const int index[]
     const double *inner[CHUNK_MOST];
     status outcome[CHUNK_MOST];
     for (int k = 0; k < count; k++) {
-        data[k] = model_kind_of(m, index[k])->data;
+        data[k] = free_strain_data(eq, index[k], s->path);
         inner[k] = inner_of(m, s, index[k]);
     }
     eq->run->counters.stress_evaluations += count;
-    if (count > 1 && model_type(m)->stress_many != NULL)
+    if (count > 1 && model_type(m)->stress_many != NULL && eq->run->free_strain == NULL)
         model_type(m)->stress_many(count, data, e, inner, out, outcome);
     else
         for (int k = 0; k < count; k++)

@@ -161,8 +161,11 @@ void deformable_evaluate(const conserving *s, const instant *from, const model_s
             strains_alone(m, point, v);
         s->of.c->run->counters.strain_evaluations += v->of.spring == NULL ? count : 0;
     }
-    for (int k = 0; k < count; k++)
+    for (int k = 0; k < count; k++) {
+        if (v[k].of.spring == NULL)
+            free_strain_subtract(&s->of.c->eq, v[k].of.index, now->path, v[k].D);
         behind_turns(&v[k].of, &v[k].step);
+    }
 }
 
 static void add_at(const double rho[3], const double F[6], double out[6])

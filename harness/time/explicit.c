@@ -260,12 +260,12 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
 
 /* The unknowns of an element's own, where its strains are given: by Newton, whose steps it knows.
  */
-static status settle_rates(const explicit_scheme *s, int i, fault *f)
+static status settle_rates(const explicit_scheme *s, int i, double time, fault *f)
 {
     enum { MOST = 30 };
     const double none = 1e-15;
     const model *m = s->of.c->model;
-    const element_data *data = model_kind_of(m, i)->data;
+    const element_data *data = free_strain_data(&s->of.c->eq, i, time);
     const double *e = s->at->state->e + (size_t)i * (size_t)model_strains(m);
     double *inner = s->at->state->inner + (size_t)i * (size_t)model_inner(m), before = INFINITY;
     for (int k = 0; k < MOST; k++) {
@@ -289,7 +289,9 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
         model_type(m)->strain(
             model_kind_of(m, i)->data, x,
             &(strain_output){.e = s->at->state->e + (size_t)i * (size_t)model_strains(m)});
-        TRY(settle_rates(s, i, f));
+        free_strain_subtract(&s->of.c->eq, i, time,
+                             s->at->state->e + (size_t)i * (size_t)model_strains(m));
+        TRY(settle_rates(s, i, time, f));
     }
     TRY(linearise_make_compatible(&s->of.c->eq, s->at->state, f));
     TRY(linearise_state(&s->of.c->eq, &s->of.c->run->memory, s->at->state, &lin, f));
@@ -328,7 +330,8 @@ int explicit_rates(double t, const double y[], double dydt[], void *context)
         return GSL_EFAILED;
     turn_rates(s, s->inc, s->at->v, dydt);
     memcpy(dydt + s->free, s->at->a, (size_t)s->free * sizeof *dydt);
-    dydt[2 * s->free] = work_power(s->of.work, s->at->state, s->at->v, s->at->a, time, s->at->v);
+    dydt[2 * s->free] = work_power(s->of.work, s->at->state, s->at->v, s->at->a, time, s->at->v) +
+                        free_strain_power(&s->of.c->eq, s->at->state, time);
     dydt[2 * s->free + 1] = s->power;
     return GSL_SUCCESS;
 }
@@ -421,7 +424,9 @@ double work_trapezoid(outer_work *w, const instant *from, const instant *to, con
 {
     return (work_power(w, from->state, from->v, from->a, from->time, inc) +
             work_power(w, to->state, to->v, to->a, kinks_before(w->m, to->time), inc)) /
-           2;
+               2 +
+           free_strain_work(w->eq, from->state, from->time, to->state,
+                            kinks_before(w->m, to->time));
 }
 
 static double first_behind(const scene_function *f, double time)

@@ -256,15 +256,16 @@ void inertia_of(const model *m, const carried_masses *all, const model_state *s,
     }
 }
 
-static status stored(const model *m, const model_state *s, double *out, fault *f)
+static status stored(const equations *eq, const model_state *s, double time, double *out, fault *f)
 {
+    const model *m = eq->m;
     double none[1] = {0};
     *out = 0;
     for (int i = 0; i < model_elements(m); i++) {
         double energy = 0;
         const double *inner =
             model_inner(m) > 0 ? s->inner + (size_t)i * (size_t)model_inner(m) : none;
-        const status outcome = model_type(m)->stress(model_kind_of(m, i)->data,
+        const status outcome = model_type(m)->stress(free_strain_data(eq, i, time),
                                                      s->e + (size_t)i * (size_t)model_strains(m),
                                                      inner, &(stress_output){.energy = &energy});
         if (outcome != STATUS_OK)
@@ -276,12 +277,13 @@ static status stored(const model *m, const model_state *s, double *out, fault *f
     return STATUS_OK;
 }
 
-status balance_of(const model *m, const carried_masses *masses, const instant *at,
+status balance_of(const equations *eq, const carried_masses *masses, const instant *at,
                   double out[SCENE_BALANCES], fault *f)
 {
+    const model *m = eq->m;
     inertia_balance moving;
     inertia_of(m, masses, at->state, at->v, at->ends_known ? at->ends : NULL, &moving);
-    TRY(stored(m, at->state, &out[SCENE_STRAIN], f));
+    TRY(stored(eq, at->state, at->time, &out[SCENE_STRAIN], f));
     out[SCENE_KINETIC] = moving.kinetic;
     out[SCENE_ENERGY] = out[SCENE_KINETIC] + out[SCENE_STRAIN];
     out[SCENE_WORK] = at->work;

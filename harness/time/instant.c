@@ -214,7 +214,7 @@ static status read_at(const peaks *s, const scene_quantity *q, const instant *at
     if (q->what.kind != SCENE_BALANCE)
         return resultants_of(&s->c->eq, q, at->state, at->v, at->a, out, f);
     if (balance == NULL) {
-        TRY(balance_of(s->c->model, s->masses, at, own, f));
+        TRY(balance_of(&s->c->eq, s->masses, at, own, f));
         own[SCENE_DRIFT] -= s->out->origin;
         balance = own;
     }

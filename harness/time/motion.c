@@ -42,7 +42,7 @@ typedef struct motion_course {
 static status balance_at(motion_course *w, const instant *at, double balance[SCENE_BALANCES],
                          fault *f)
 {
-    TRY(balance_of(w->c->model, &w->masses, at, balance, f));
+    TRY(balance_of(&w->c->eq, &w->masses, at, balance, f));
     if (w->out->steps == 0 && w->from == NULL)
         w->out->origin = balance[SCENE_ENERGY];
     balance[SCENE_DRIFT] -= w->out->origin;

@@ -63,7 +63,9 @@ static double work_of_stages(radau *r, const instant *from, double h, const step
     for (int i = 0; i < STAGES; i++) {
         const radau_stage *one = &r->stage[i];
         const double time = kinks_before(r->of.c->model, radau_time(r, from, h, i, record));
-        sum += h * r->weights[i] * work_power(r->of.work, one->state, one->v, one->a, time, one->v);
+        sum += h * r->weights[i] *
+               (work_power(r->of.work, one->state, one->v, one->a, time, one->v) +
+                free_strain_power(&r->of.c->eq, one->state, time));
     }
     return sum;
 }

@@ -293,7 +293,7 @@ static status step_to(stations *s, const instant *from, double time, fault *f)
 {
     double balance[SCENE_BALANCES];
     TRY(aside_step(s->c, s->scheme, from, time, &s->at, f));
-    TRY(balance_of(s->c->model, s->masses, &s->at, balance, f));
+    TRY(balance_of(&s->c->eq, s->masses, &s->at, balance, f));
     balance[SCENE_DRIFT] -= s->out->origin;
     return keep(s, &s->at, balance, f);
 }

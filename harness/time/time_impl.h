@@ -35,7 +35,7 @@ status aside_step(analysis_context *, motion_scheme *, const instant *from, doub
 /* Energies and momenta of a motion at an instant. */
 
 /* out[SCENE_BALANCES]; the initial energy is not yet subtracted from the energy-balance error. */
-status balance_of(const model *, const carried_masses *, const instant *,
+status balance_of(const equations *, const carried_masses *, const instant *,
                   double out[SCENE_BALANCES], fault *);
 /* Strain energy [J] of rounding errors in all coordinates: a smaller one counts as zero. */
 double balance_rounding(const model *);

@@ -135,7 +135,10 @@ KINDS = ("force", "moment", "distributed", "distributed_moment", "gravity")
 
 
 def read_load(name, said):
-    kind = next(k for k in KINDS if k in said)
+    """None: a temperature, which is no arrow."""
+    kind = next((k for k in KINDS if k in said), None)
+    if kind is None:
+        return None
     factors = numbers(said.get("factor", (0, 1)))
     vector = numbers(said[kind]) * factors[-1]
     last = numbers(said["to_value"]) * factors[-1] if "to_value" in said else vector
@@ -194,7 +197,7 @@ def read(text):
         return {name: reader(name, what) for name, what in (said.get(key) or {}).items()}
 
     return Scene(said["name"], said["sections"], all_of("nodes", read_node),
-                 all_of("members", read_member), list(all_of("loads", read_load).values()),
+                 all_of("members", read_member), [load for load in all_of("loads", read_load).values() if load],
                  list(all_of("springs", read_spring).values()),
                  all_of("motions", lambda _, what: read_motion(what)), read_spin(said["analyses"]),
                  nodes_asked(said), tuple(words_of(said.get("omit", ()))))

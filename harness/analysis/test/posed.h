@@ -20,6 +20,7 @@ static section_spec spec_of(double size)
     spec.young = 2e11;
     spec.shear_modulus = 8e10;
     spec.density = 7800;
+    spec.expansion = 1e-5;
     return spec;
 }
 
@@ -79,6 +80,21 @@ static void ended_in_a_fork(scene *s)
     scene_fork(s, TIP, axis, web);
 }
 
+/* So that nothing of what is strained gives way along itself. */
+static void hold_tip(scene *s)
+{
+    scene_hold_all(s, TIP);
+    scene_node_at(s, TIP)->translation[1] = scene_node_at(s, TIP)->angle[2] = SCENE_FREE;
+}
+
+static double length_of(const scene *s, int member)
+{
+    const double *p = s->node[s->member[member].p].position,
+                 *q = s->node[s->member[member].q].position;
+    return sqrt((q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1]) +
+                (q[2] - p[2]) * (q[2] - p[2]));
+}
+
 /* What the base is without, so that the input has something to act on; then the input. */
 static void add(scene *s, const char *name)
 {
@@ -122,10 +138,25 @@ static void add(scene *s, const char *name)
         scene_add_load(s, SCENE_WEIGHT, TIP, -30, -9.81, 20);
     } else if (IS("load that stays"))
         scene_set_factor(s, scene_add_load(s, SCENE_FORCE, TIP, -300, 50, 20), 1, &from, &whole);
-    else if (IS("strain of a member")) {
+    else if (IS("temperature")) {
+        scene_load *load = scene_load_at(s, scene_add_load(s, SCENE_TEMPERATURE, 1, 0, 0, 0));
+        load->temperature = s->node[TIP].position[1] > 0 ? -20 : 20; /* an arch would rise */
+        load->gradient[0] = 80;
+        load->gradient[1] = -50;
+        hold_tip(s);
+    } else if (IS("strain of a member")) {
         scene_member_at(s, 0)->strain[0] = 2e-4;
-        scene_hold_all(s, TIP);
-        scene_node_at(s, TIP)->translation[1] = scene_node_at(s, TIP)->angle[2] = SCENE_FREE;
+        hold_tip(s);
+    } else if (IS("pretension")) {
+        scene_member_at(s, 0)->pretension = 3e4;
+        hold_tip(s);
+    } else if (IS("unstressed length")) {
+        scene_member_at(s, 1)->unstressed_length = length_of(s, 1) * (1 - 2e-4);
+        hold_tip(s);
+    } else if (IS("free curvature")) {
+        scene_member_at(s, 1)->free_curvature[1] = 0.01;
+        scene_member_at(s, 1)->free_curvature[0] = 0.02;
+        hold_tip(s);
     } else if (IS("initial curvature"))
         scene_member_at(s, 1)->curvature[2] = 0.3;
     else if (IS("taper")) {
@@ -208,10 +239,11 @@ static void add(scene *s, const char *name)
 /* Without the input, but with what was only added to carry it. */
 static void carry(scene *s, const char *name)
 {
-    if (strcmp(name, "strain of a member") == 0) {
-        scene_hold_all(s, TIP);
-        scene_node_at(s, TIP)->translation[1] = scene_node_at(s, TIP)->angle[2] = SCENE_FREE;
-    }
+    static const char *const held[] = {"temperature", "strain of a member", "pretension",
+                                       "unstressed length", "free curvature"};
+    for (int i = 0; i < 5; i++)
+        if (strcmp(name, held[i]) == 0)
+            hold_tip(s);
     if (strcmp(name, "fork") == 0 || strncmp(name, "warping", 7) == 0)
         twist(s);
     if (strcmp(name, "warping shared") == 0)
@@ -362,6 +394,17 @@ static void want(scene *s, scene_column column, int analysis)
     }
 }
 
+/* What a member has of strains by itself, times a number. */
+static void strain(scene_member *m, double length, double times)
+{
+    m->strain[0] *= times;
+    m->pretension *= times;
+    for (int k = 0; k < 2; k++)
+        m->free_curvature[k] *= times;
+    if (m->unstressed_length > 0)
+        m->unstressed_length = length + times * (m->unstressed_length - length);
+}
+
 /* All of it but analyses. */
 static void structure(const posed *p, scene *s)
 {
@@ -385,9 +428,10 @@ static void structure(const posed *p, scene *s)
                 p->size * (i < loads ? 1 : p->times) * (s->load[i].stations == 0 ? p->grown : 1);
             s->load[i].vector[k] *= scale;
             s->load[i].last[k] *= scale;
+            *(k == 2 ? &s->load[i].temperature : &s->load[i].gradient[k]) *= scale;
         }
     for (int i = 0; i < s->members; i++)
-        s->member[i].strain[0] *= p->times * p->size;
+        strain(scene_member_at(s, i), length_of(s, i), p->times * p->size);
     for (int i = 0; i < s->drivers; i++)
         s->driver[i].value[1] *= p->times * p->size;
     if (p->pull != 0)

@@ -1,0 +1,182 @@
+"""Temperature, pretension, lengths and curvatures without stress: closed forms, by all formulations."""
+import json
+import math
+import unittest
+
+from harness.cli.test.plugin import EXAMPLES, compile_shared
+from harness.tools.kit.program import ProgramTest, run
+
+
+L, E, G, A, I, ALPHA, RHO = 1.0, 200e9, 80e9, 2e-4, 2e-9, 12e-6, 7800.0
+FORMULATIONS = ("collocation", "geometrically_exact", "beamw", "beamw_consistent", "beamw_vlasov", "beamw_first",
+                "sheet_second", "sheet_second_consistent", "sheet_third", "sheet_third_printed")
+HEAD = f"""beamwork: 1
+sections:
+  s: {{constants: {{A: {A}, Iy: {I}, Iz: {I}, It: {2 * I}, F: [0, 0, 0, 0, 0, 0, 0, 0, 0], Iw: 0}}, young: {E},
+      shear_modulus: {G}, density: {RHO}, expansion: {ALPHA}}}
+"""
+
+
+def solved(text, formulation, elements=4):
+    """Values of the quantities."""
+    done = run("solve", "--scene", "/dev/stdin", "-f", formulation, "-n", elements, "--format", "json", input=HEAD + text)
+    assert done.returncode == 0, done.stderr + done.stdout
+    return {q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
+
+
+def beam(right, more="", loads="", keys=""):
+    return f"""nodes: {{a: {{at: [0, 0, 0], hold: all}}, b: {{at: [{L}, 0, 0], hold: {right}}}}}
+members: {{m: {{from: a, to: b, section: s, y: [0, 1, 0]{keys}}}}}
+loads: {{{loads}}}
+{more}"""
+
+
+class FreeStrains(ProgramTest):
+    def test_cantilever(self):
+        """Free to expand and to bend it does so, on an exact arc, without stress, in linear analyses to first order."""
+        kappa, warm = -ALPHA * 50e3, ALPHA * 100
+        text = beam("[]", loads="t: {temperature: 100, gradient: [50e3, 0], on: m}", more="""
+analyses: {li: {linear: {}}, st: {static: {stations: [0.5, 1]}}}
+quantities:
+""" + "".join(f"  {c}_{a}: {{displacement: {{analysis: {a}, node: b, component: {c}}}, unit: {u}}}\n"
+              for a in ("li", "st") for c, u in (("ux", "m"), ("uy", "m"), ("rz", "rad")))
+            + "".join(f"  {r}_{a}: {{internal: {{analysis: {a}, member: m, where: 0.3, resultant: {r}}}}}\n"
+                      for a in ("li", "st") for r in ("N", "Qy", "Mz")))
+        exact = {"ux_li": warm, "uy_li": kappa / 2, "rz_li": kappa, "rz_st": kappa,
+                 "ux_st": (1 + warm) * math.sin(kappa) / kappa - 1,
+                 "uy_st": (1 + warm) * (1 - math.cos(kappa)) / kappa}
+        for formulation in FORMULATIONS:
+            got = solved(text, formulation)
+            for name in got:
+                with self.subTest(formulation=formulation, quantity=name):
+                    self.assertAlmostEqual(got[name], exact.get(name, 0), delta=1e-9 if name in exact else 1e-6)
+
+    def test_clamped(self):
+        """Held at both ends it takes -EA alpha T and EI alpha g, about both axes, without moving."""
+        text = beam("all", loads="t: {temperature: 20, gradient: [300, 500], on: m}", more="""
+analyses: {li: {linear: {}}, st: {static: {stations: [1]}}}
+quantities:
+""" + "".join(f"  {r}_{a}: {{internal: {{analysis: {a}, member: m, where: 0.3, resultant: {r}}}}}\n"
+              for a in ("li", "st") for r in ("N", "My", "Mz")))
+        exact = {"N": -E * A * ALPHA * 20, "My": -E * I * ALPHA * 500, "Mz": E * I * ALPHA * 300}
+        for formulation in FORMULATIONS:
+            got = solved(text, formulation)
+            for name in got:
+                with self.subTest(formulation=formulation, quantity=name):
+                    size = exact[name[:-3]]
+                    rough = 1e-3 if formulation == "beamw_first" else 1e-5
+                    tolerance = 1e-11 if name.endswith("li") else rough
+                    self.assertAlmostEqual(got[name], size, delta=tolerance * abs(size))
+
+    def test_length(self):
+        """A member that is too short pulls, one that is pretensioned does so with that force; half of it is left where
+        a like member gives way."""
+        for keys, force in ((", pretension: 500", 500), (f", unstressed_length: {L * (1 - 1e-5)}", E * A * 1e-5),
+                            (", strain: [-1e-5, 0, 0]", E * A * 1e-5)):
+            text = f"""nodes: {{a: {{at: [0, 0, 0], hold: all}}, b: {{at: [{L}, 0, 0], hold: [uy, uz, rx, ry, rz]}},
+         c: {{at: [{2 * L}, 0, 0], hold: all}}}}
+members: {{m: {{from: a, to: b, section: s, y: [0, 1, 0]{keys}}}, n: {{from: b, to: c, section: s, y: [0, 1, 0]}}}}
+analyses: {{li: {{linear: {{}}}}, st: {{static: {{stations: [1]}}}}}}
+quantities: {{li: {{internal: {{analysis: li, member: n, end: to, resultant: N}}}},
+             st: {{internal: {{analysis: st, member: m, end: from, resultant: N}}}}}}
+"""
+            for formulation in FORMULATIONS if "strain" not in keys else FORMULATIONS[:2]:
+                got = solved(text, formulation)
+                for name in got:
+                    with self.subTest(formulation=formulation, keys=keys, analysis=name):
+                        self.assertAlmostEqual(got[name], force / 2, delta=1e-5 * force)
+
+    def test_bent(self):
+        """A straight blank along an arc between two clamps has the moment -EI k, a bent one that is mounted straight EI
+        k; loosened at one end, either takes its own shape."""
+        k = 0.5
+        for formulation in ("collocation", "geometrically_exact", "sheet_second_consistent"):
+            for own, free in ((k, -k), (0, k)):
+                quantities = """analyses: {st: {static: {stations: [1]}}}
+quantities:
+  M: {internal: {analysis: st, member: m, where: 0.3, resultant: Mz}, unit: N m}
+  N: {internal: {analysis: st, member: m, where: 0.3, resultant: N}}
+  rz: {displacement: {analysis: st, node: b, component: rz}, unit: rad}
+"""
+                keys = f", curvature: [0, 0, {own}], free_curvature: [0, {free}]"
+                held = solved(beam("all", quantities, keys=keys), formulation, 8)
+                loose = solved(beam("[]", quantities, keys=keys), formulation, 8)
+                length = 2 / own * math.asin(own * L / 2) if own else L
+                with self.subTest(formulation=formulation, own=own):
+                    self.assertAlmostEqual(held["M"], -E * I * free, delta=1e-5 * E * I * k)
+                    self.assertAlmostEqual(held["N"] / (E * A), 0, delta=1e-6)
+                    self.assertAlmostEqual(loose["M"], 0, delta=1e-6 * E * I * k)
+                    self.assertAlmostEqual(loose["rz"], free * length, delta=1e-6)
+
+    def test_stability_and_frequencies(self):
+        """Pinned and heated: alpha T = pi^2 I/(A L^2), of a path too; f = f_0 sqrt(1 + N/N_E). A string in tension."""
+        text = beam("[ux, uy, uz, rx]", loads="t: {temperature: 1, on: m}", more="""
+analyses: {cold: {modal: {}}, lin: {buckling: {}}, st: {static: {stations: [2, 4]}}, on: {buckling: {about: st}},
+           warm: {modal: {about: st}}}
+quantities:
+  lin: {critical_factor: {analysis: lin, which: 0}}
+  on:  {critical_factor: {analysis: on, which: 0}}
+  f_0: {frequency: {analysis: cold, which: 0}, unit: Hz}
+  f:   {frequency: {analysis: warm, which: 0}, unit: Hz}
+omit: [rotary_inertia, trapeze]
+""").replace("hold: all", "hold: [ux, uy, uz, rx]")
+        critical, square = math.pi**2 * I / (A * L**2) / ALPHA, math.pi**2 / (2 * math.pi) * math.sqrt(E * I / (RHO * A))
+        for formulation in FORMULATIONS:
+            got = solved(text, formulation, 32)
+            rough = 3e-3 if formulation == "beamw_first" else 1e-4
+            with self.subTest(formulation=formulation):
+                self.assertAlmostEqual(got["lin"] / critical, 1, delta=rough)
+                self.assertAlmostEqual(got["on"] / critical, 1, delta=rough)
+                self.assertAlmostEqual(got["f_0"] / square, 1, delta=1e-4)
+                self.assertAlmostEqual(got["f"] / square, math.sqrt(1 - 4 / critical), delta=rough)
+
+    def test_in_time(self):
+        """Heated slowly against a wall its force follows, by each integrator, and the energy is what the heat puts in."""
+        for formulation in ("collocation", "geometrically_exact", "beamw_consistent", "sheet_second"):
+            for integrator in ("alpha", "radau"):
+                text = beam("[uy, uz, rx, ry, rz]", loads="t: {temperature: 10, gradient: [100, 0], on: m, time: t^2}",
+                            more=f"""
+springs: {{wall: {{to: b, stiffness: [{E * A / L}, 0, 0, 0, 0, 0]}}}}
+analyses: {{mo: {{motion: {{stations: [1], step: 2e-4, integrator: {integrator}}}}}}}
+quantities:
+  N: {{internal: {{analysis: mo, member: m, where: 0.5, resultant: N}}}}
+  M: {{internal: {{analysis: mo, member: m, where: 0.5, resultant: Mz}}}}
+  drift: {{energy: {{analysis: mo, of: drift}}, unit: J}}
+  work: {{energy: {{analysis: mo, of: work}}, unit: J}}
+""").replace("step: 2e-4", "step: 2e-3")
+                got = solved(text, formulation, 2)
+                N, M = -E * A * ALPHA * 10 / 2, E * I * ALPHA * 100
+                work = E * A * (ALPHA * 10)**2 / 4 * L + E * I * (ALPHA * 100)**2 / 2 * L
+                with self.subTest(formulation=formulation, integrator=integrator):
+                    self.assertAlmostEqual(got["N"] / N, 1, delta=1e-3)
+                    self.assertAlmostEqual(got["M"] / M, 1, delta=1e-3)
+                    self.assertAlmostEqual(got["work"] / work, 1, delta=2e-3)
+                    self.assertAlmostEqual(got["drift"] / work, 0, delta=2e-4)
+
+    def test_part(self):
+        """A third of it is heated, from a fifth on: it elongates by that, and turns where it is bent."""
+        text = beam("[]", loads=f"t: {{temperature: 90, gradient: [900, 0], on: m, from: 0.2, to: {0.2 + 1 / 3}}}", more="""
+analyses: {li: {linear: {}}}
+quantities:
+  ux: {displacement: {analysis: li, node: b, component: ux}}
+  uy: {displacement: {analysis: li, node: b, component: uy}}
+""")
+        for formulation in FORMULATIONS:
+            got = solved(text, formulation, 2)
+            with self.subTest(formulation=formulation):
+                self.assertAlmostEqual(got["ux"], ALPHA * 30 * L, delta=1e-13)
+                self.assertAlmostEqual(got["uy"], -ALPHA * 300 * (0.8 - 1 / 6) * L**2, delta=1e-12)
+
+    def test_refused(self):
+        """An element that gives forces and no strains is refused, by what changes them."""
+        element = compile_shared(EXAMPLES / "corotational.c", self.folder / "corotational.so")
+        for text, who in ((beam("[]", loads="t: {temperature: 90, on: m}"), "load t"),
+                          (beam("[]", keys=", pretension: 9"), "member m")):
+            done = run("solve", "--scene", "/dev/stdin", "--element", element, "-f", "corotational", "-n", 1,
+                       input=HEAD + text)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(f"strains (it gives forces), which {who} changes", " ".join(done.stderr.split()))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,374 @@
+/* Strains that elements have without stress, beyond those of the undeformed state: of temperatures,
+ * and of members that are drawn strained. D(x) of the nodes of a free element gives them for all
+ * formulations alike, and strains of a state are counted from them; a type whose stresses depend on
+ * its curvature by more than that says how itself (element_type.unstressed). */
+#include "harness/newton/newton_impl.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/scene/scene.h"
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
+
+enum { POINTS = 6 }; /* along a part of an arc: exact to round-off up to a turn of 1 rad */
+
+/* Elongation, and curvatures about the principal axes y and z [1/m]. */
+enum { ELONGATION, ABOUT_Y, ABOUT_Z, AMOUNTS };
+
+/* Adds that of a temperature, of the part of the element that has it. */
+static void add_amounts(const model *m, int element, const scene_load *load, double scale,
+                        double out[AMOUNTS])
+{
+    const int member = model_element(m, element)->member,
+              number = element - model_first_element(m, member);
+    const section *c = model_section(m, model_kind_of(m, element)->section);
+    double part[2];
+    if (load->kind != SCENE_TEMPERATURE || load->where != member)
+        return;
+    for (int i = 0; i < 2; i++)
+        part[i] =
+            fmin(1, fmax(0, division_inside(model_division(m), member, number, load->range[i])));
+    const double strain = scale * c->expansion * (part[1] - part[0]), a = cos(c->axes_angle),
+                 b = sin(c->axes_angle), *along = load->gradient;
+    out[ELONGATION] += strain * load->temperature;
+    out[ABOUT_Y] += strain * (a * along[1] - b * along[0]);
+    out[ABOUT_Z] -= strain * (a * along[0] + b * along[1]);
+}
+
+/* Of all temperatures at `path`. */
+static void heat_at(const equations *eq, int element, double path, double out[AMOUNTS])
+{
+    const scene *s = model_scene(eq->m);
+    memset(out, 0, AMOUNTS * sizeof *out);
+    for (int i = 0; i < s->loads; i++)
+        if (s->load[i].kind == SCENE_TEMPERATURE)
+            add_amounts(eq->m, element, &s->load[i], applied_factor(eq, &s->load[i], path), out);
+}
+
+/* With those that its member has by itself. */
+static void amounts_at(const equations *eq, int element, double path, double out[AMOUNTS])
+{
+    const double *own = model_kind_of(eq->m, element)->free;
+    heat_at(eq, element, path, out);
+    for (int i = 0; i < AMOUNTS; i++)
+        out[i] += own[i];
+}
+
+/* Their derivative by the path parameter, or by the time. */
+static void rates_at(const equations *eq, int element, double path, double out[AMOUNTS])
+{
+    const scene *s = model_scene(eq->m);
+    memset(out, 0, AMOUNTS * sizeof *out);
+    for (int i = 0; i < s->loads; i++) {
+        const scene_load *load = &s->load[i];
+        double at[3] = {0};
+        if (load->kind != SCENE_TEMPERATURE || eq->loading.unloaded)
+            continue;
+        if (eq->loading.in_time && load->function.pieces > 0)
+            function_at(&load->function, path, at);
+        else if (!eq->loading.in_time)
+            at[1] = along_path_rate(load, path);
+        add_amounts(eq->m, element, load, at[1], out);
+    }
+}
+
+/* A free element in the axes of its first node. */
+typedef struct free_element {
+    double length, rotation[3], strained[3]; /* of its arc; R^T r' */
+    node_state x[ELEMENT_MAX_NODES];
+} free_element;
+
+static void place(const model *m, int element, const double amounts[AMOUNTS], free_element *out)
+{
+    static const double along[3] = {1, 0, 0};
+    const mesh_kind *k = model_kind_of(m, element);
+    double drawn[3], strain[3];
+    memset(out, 0, sizeof *out);
+    out->length = k->length;
+    for (int i = 0; i < 3; i++) {
+        drawn[i] = k->curvature[i] * k->length;
+        out->rotation[i] = drawn[i];
+        if (i > 0)
+            out->rotation[i] += amounts[i] * k->length;
+        strain[i] = k->strain[i] + (i == 0 ? amounts[ELONGATION] : 0);
+        out->strained[i] = along[i] + strain[i];
+    }
+    for (int n = 0; n < model_nodes(m); n++) {
+        const double x = (double)n / (model_nodes(m) - 1);
+        double q[4], before[3], after[3], more[3];
+        arc_at(out->rotation, out->strained, x, out->x[n].r, q);
+        rotation_matrix(q, out->x[n].R);
+        arc_beyond(drawn, along, x, before);
+        arc_beyond(out->rotation, along, x, after);
+        arc_at(out->rotation, strain, x, more, q);
+        for (int i = 0; i < 3; i++) {
+            out->x[n].r[i] *= k->length;
+            out->x[n].u[i] = k->length * (after[i] - before[i] + more[i]);
+        }
+    }
+}
+
+/* How the node at x moves and turns with the amounts: out[6]. */
+static void moved(const free_element *of, const double amounts[AMOUNTS], double x, double out[6])
+{
+    const double turn[3] = {0, amounts[ABOUT_Y] * of->length, amounts[ABOUT_Z] * of->length},
+                 longer[3] = {amounts[ELONGATION], 0, 0};
+    double at[POINTS], weight[POINTS], q[4];
+    arc_at(of->rotation, longer, x, out, q);
+    arc_at(of->rotation, turn, x, out + 3, q);
+    quadrature_points(POINTS, at, weight);
+    for (int g = 0; g < POINTS; g++) {
+        double turned[3], axis[3], shift[3];
+        const double t = x * at[g],
+                     rotation[3] = {t * of->rotation[0], t * of->rotation[1], t * of->rotation[2]};
+        arc_at(of->rotation, turn, t, turned, q);
+        rotation_exp(rotation, q);
+        rotation_apply(q, of->strained, axis);
+        vec3_cross(turned, axis, shift);
+        for (int i = 0; i < 3; i++)
+            out[i] += x * weight[g] * shift[i];
+    }
+    for (int i = 0; i < 3; i++)
+        out[i] *= of->length;
+}
+
+/* Derivative of the strains of a free element in the direction of the amounts. */
+static void strains_by(const model *m, int element, const free_element *of,
+                       const double amounts[AMOUNTS], double out[])
+{
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], dx[ELEMENT_MAX_COORDINATES] = {0};
+    model_type(m)->strain(model_kind_of(m, element)->data, of->x, &(strain_output){.J = J});
+    for (int n = 1; n < model_nodes(m); n++)
+        moved(of, amounts, (double)n / (model_nodes(m) - 1), dx + NODE_COORDINATES * n);
+    dense_mul_vec(model_strains(m), model_own_coordinates(m), J, dx, out);
+}
+
+void free_strain_amounts(const equations *eq, int element, double path, double strain[3],
+                         double curvature[3])
+{
+    double amounts[AMOUNTS];
+    if (!model_frees(eq->m))
+        return;
+    amounts_at(eq, element, path, amounts);
+    strain[0] += amounts[ELONGATION];
+    curvature[1] += amounts[ABOUT_Y];
+    curvature[2] += amounts[ABOUT_Z];
+}
+
+void free_strain_subtract(const equations *eq, int element, double path, double e[])
+{
+    static const double none[AMOUNTS];
+    const model *m = eq->m;
+    const mesh_kind *k = model_kind_of(m, element);
+    double amounts[AMOUNTS], own[ELEMENT_MAX_STRAINS], rest[ELEMENT_MAX_STRAINS] = {0};
+    free_element of;
+    if (!model_frees(m) || model_type(m)->unstressed != NULL)
+        return;
+    amounts_at(eq, element, path, amounts);
+    if (vec3_norm(amounts) == 0)
+        return;
+    place(m, element, amounts, &of);
+    model_type(m)->strain(k->data, of.x, &(strain_output){.e = own});
+    place(m, element, none, &of);
+    if (vec3_norm(k->strain) > 0)
+        model_type(m)->strain(k->data, of.x, &(strain_output){.e = rest});
+    for (int i = 0; i < model_strains(m); i++)
+        e[i] -= own[i] - rest[i];
+}
+
+/* Data of elements whose type alters them, as they were for the last amounts. */
+typedef struct run_free {
+    size_t size;     /* doubles of an element: amounts, data */
+    double *element; /* [elements x size] */
+} run_free;
+
+status free_strain_begin(const model *m, run_free **out, fault *f)
+{
+    size_t most = 0;
+    *out = NULL;
+    if (!model_frees(m) || model_type(m)->unstressed == NULL)
+        return STATUS_OK;
+    for (int i = 0; i < model_kinds(m); i++)
+        most = model_kind(m, i)->data_size > most ? model_kind(m, i)->data_size : most;
+    const size_t aligned = sizeof(max_align_t) / sizeof(double),
+                 size = ((most + AMOUNTS * sizeof(double)) / sizeof(max_align_t) + 2) * aligned;
+    run_free *made = calloc(1, sizeof *made);
+    double *element = calloc((size_t)model_elements(m) * size + 1, sizeof *element);
+    if (made == NULL || element == NULL) {
+        free(made);
+        free(element);
+        return fault_set(f, STATUS_FAULT, "out of memory for elements with strains without stress");
+    }
+    *made = (run_free){size, element};
+    *out = made;
+    return STATUS_OK;
+}
+
+void free_strain_end(run_free *r)
+{
+    if (r != NULL)
+        free(r->element);
+    free(r);
+}
+
+const element_data *free_strain_data(const equations *eq, int element, double path)
+{
+    enum {
+        ALIGNED = (AMOUNTS * sizeof(double) / sizeof(max_align_t) + 1) *
+                  (sizeof(max_align_t) / sizeof(double))
+    };
+    const model *m = eq->m;
+    const mesh_kind *k = model_kind_of(m, element);
+    const run_free *r = eq->run->free_strain;
+    double amounts[AMOUNTS];
+    if (r == NULL)
+        return k->data;
+    amounts_at(eq, element, path, amounts);
+    if (vec3_norm(amounts) == 0)
+        return k->data;
+    double *kept = r->element + (size_t)element * r->size;
+    element_data *data = (element_data *)(void *)(kept + ALIGNED);
+    if (memcmp(kept, amounts, sizeof amounts) != 0) {
+        free_element of;
+        place(m, element, amounts, &of);
+        model_type(m)->unstressed(k->data, amounts, of.x, data);
+        memcpy(kept, amounts, sizeof amounts);
+    }
+    return data;
+}
+
+void free_strain_linear(const equations *eq, int element, double path, double out[])
+{
+    static const double none[AMOUNTS];
+    double amounts[AMOUNTS];
+    free_element rest;
+    heat_at(eq, element, path, amounts);
+    place(eq->m, element, none, &rest);
+    strains_by(eq->m, element, &rest, amounts, out);
+}
+
+void free_strain_own(const model *m, int element, double out[])
+{
+    static const double none[AMOUNTS];
+    free_element rest;
+    place(m, element, none, &rest);
+    strains_by(m, element, &rest, model_kind_of(m, element)->free, out);
+}
+
+double free_strain_size(const equations *eq, double path)
+{
+    const model *m = eq->m;
+    double largest = 0;
+    for (int i = 0; i < model_elements(m) && model_frees(m); i++) {
+        double amounts[AMOUNTS];
+        heat_at(eq, i, path, amounts);
+        largest = fmax(largest, fabs(amounts[ELONGATION]) +
+                                    hypot(amounts[ABOUT_Y], amounts[ABOUT_Z]) * model_length(m));
+    }
+    return largest;
+}
+
+int free_strain_by_load(const equations *eq, const model_state *s, int element,
+                        const scene_load *load, double scale, double out[])
+{
+    static const double none[AMOUNTS];
+    const model *m = eq->m;
+    double amounts[AMOUNTS] = {0}, present[AMOUNTS];
+    free_element of;
+    add_amounts(m, element, load, scale, amounts);
+    if (vec3_norm(amounts) == 0)
+        return 0;
+    amounts_at(eq, element, s->path, present);
+    place(m, element, s == kinematics_rest(m) ? none : present, &of);
+    strains_by(m, element, &of, amounts, out);
+    return 1;
+}
+
+/* Energy of an element in a state, of a type that alters its data, with other amounts. */
+static double energy_with(const equations *eq, const model_state *s, int element,
+                          const double amounts[AMOUNTS], element_data *room)
+{
+    const model *m = eq->m;
+    double energy = 0;
+    free_element of;
+    place(m, element, amounts, &of);
+    model_type(m)->unstressed(model_kind_of(m, element)->data, amounts, of.x, room);
+    (void)model_type(m)->stress(room, &s->e[(size_t)element * (size_t)model_strains(m)],
+                                &s->inner[(size_t)element * (size_t)model_inner(m)],
+                                &(stress_output){.energy = &energy}); /* as of its own amounts */
+    return energy;
+}
+
+/* Energy that an element gains in a state from its amounts `before` to those `after`, of a type
+ * whose strains are counted from them; its stresses stay. */
+static double counted(const equations *eq, const model_state *s, int element,
+                      const double before[AMOUNTS], const double after[AMOUNTS])
+{
+    const model *m = eq->m;
+    const double *sigma = &s->sigma[(size_t)element * (size_t)model_strains(m)];
+    double first[ELEMENT_MAX_STRAINS], last[ELEMENT_MAX_STRAINS], sum = 0;
+    free_element of;
+    place(m, element, before, &of);
+    model_type(m)->strain(model_kind_of(m, element)->data, of.x, &(strain_output){.e = first});
+    place(m, element, after, &of);
+    model_type(m)->strain(model_kind_of(m, element)->data, of.x, &(strain_output){.e = last});
+    for (int k = 0; k < model_strains(m); k++)
+        sum -= sigma[k] * (last[k] - first[k]);
+    return sum;
+}
+
+static double gained(const equations *eq, const model_state *s, int element,
+                     const double before[AMOUNTS], const double after[AMOUNTS])
+{
+    const mesh_kind *k = model_kind_of(eq->m, element);
+    if (model_type(eq->m)->unstressed == NULL)
+        return counted(eq, s, element, before, after);
+    max_align_t *room = malloc(k->data_size + sizeof *room);
+    if (room == NULL)
+        return NAN;
+    const double energy = energy_with(eq, s, element, after, (element_data *)(void *)room) -
+                          energy_with(eq, s, element, before, (element_data *)(void *)room);
+    free(room);
+    return energy;
+}
+
+double free_strain_power(const equations *eq, const model_state *s, double time)
+{
+    const double small = 1e-4; /* strain, of a difference that is exact for quadratic energies */
+    const model *m = eq->m;
+    double power = 0;
+    for (int i = 0; i < model_elements(m) && model_frees(m); i++) {
+        double amounts[AMOUNTS], rates[AMOUNTS], before[AMOUNTS], after[AMOUNTS];
+        rates_at(eq, i, time, rates);
+        const double l = model_kind_of(m, i)->length,
+                     size = fabs(rates[ELONGATION]) + l * hypot(rates[ABOUT_Y], rates[ABOUT_Z]);
+        if (size == 0)
+            continue;
+        amounts_at(eq, i, time, amounts);
+        for (int k = 0; k < AMOUNTS; k++) {
+            before[k] = amounts[k] - small / size * rates[k];
+            after[k] = amounts[k] + small / size * rates[k];
+        }
+        power += gained(eq, s, i, before, after) / (2 * small / size);
+    }
+    return power;
+}
+
+double free_strain_work(const equations *eq, const model_state *from, double begin,
+                        const model_state *to, double end)
+{
+    const model *m = eq->m;
+    double work = 0;
+    for (int i = 0; i < model_elements(m) && model_frees(m); i++) {
+        double before[AMOUNTS], after[AMOUNTS];
+        amounts_at(eq, i, begin, before);
+        amounts_at(eq, i, end, after);
+        if (memcmp(before, after, sizeof before) != 0)
+            work += (gained(eq, from, i, before, after) + gained(eq, to, i, before, after)) / 2;
+    }
+    return work;
+}
