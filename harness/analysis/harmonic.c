@@ -44,7 +44,7 @@ static status linear_system_of(vibration *v, const double displaced[], fault *f)
         v->inside = rotating_frame_inner_matrix(eq, &v->B);
         return STATUS_OK;
     }
-    TRY(linear_whole_stresses(eq, displaced, v->room, f));
+    TRY(linear_whole_stresses(eq, displaced, 1, v->room, f));
     TRY(linear_geometric_stiffness(eq, v->room, 1, &v->C, f));
     for (int i = 0; i < v->K.column[v->K.n]; i++)
         v->K.value[i] += v->C.value[i];
