@@ -110,7 +110,7 @@ const entry_field entry_member[] = {
      ENTRY_IN(scene_member, strain)},
     {"pretension", ENTRY_NUMBER, .group = 1, .unit = "N",
      .summary = "its axial force while its nodes are where they are drawn, before equilibrium",
-     .usual = "0", ENTRY_IN(scene_member, pretension)},
+     .left_out = "none", ENTRY_IN(scene_member, pretension)},
     {"unstressed_length", ENTRY_NUMBER, .group = 1, .unit = "m",
      .summary = "as it was made, to be mounted between its nodes",
      .left_out = "the length that is drawn", ENTRY_IN(scene_member, unstressed_length),
