@@ -1,6 +1,8 @@
 /* Analyses and quantities of a scene. */
 #include "cases/scene/scene.h"
 
+#include <math.h>
+
 static const entry_field nothing[] = {{.name = NULL}};
 
 #define OMEGA(member)                                                                              \
@@ -46,6 +48,18 @@ static const entry_field path[] = {
     STEPS,
     {"spin", ENTRY_MAP, .below = spin, .summary = "the axes turn", .left_out = "they do not"},
     {.name = NULL}};
+
+static const entry_field proportional[] = {
+    {"mass", ENTRY_NUMBER, .unit = "1/s", .summary = "times the mass matrix", .usual = "0",
+     ENTRY_IN(scene_analysis, damping.mass), .most = INFINITY},
+    {"stiffness", ENTRY_NUMBER, .unit = "s",
+     .summary = "times the stiffness of members and springs, without that of stresses",
+     .usual = "0", ENTRY_IN(scene_analysis, damping.stiffness), .most = INFINITY},
+    {.name = NULL}};
+
+#define PROPORTIONAL                                                                               \
+    {"damping", ENTRY_MAP, .below = proportional,                                                  \
+     .summary = "Rayleigh damping, beside that of members and springs", .left_out = "none"}
 
 static const entry_field modes[] = {
     {"wanted", ENTRY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
@@ -151,6 +165,7 @@ static const entry_field in_time[] = {
 static const entry_field harmonic[] = {{"frequencies", ENTRY_NUMBERS, .needed = 1, .unit = "Hz",
                                         .summary = "ascending",
                                         ENTRY_IN(scene_analysis, of.harmonic)},
+                                       PROPORTIONAL,
                                        ABOUT("static or linear analysis about whose last state"),
                                        {.name = NULL}};
 

@@ -137,6 +137,12 @@ typedef struct scene_motion {
     scene_mass mass;
 } scene_motion;
 
+/* Proportional damping of small vibrations: mass x M + stiffness x the stiffness of members and
+ * springs, without that of stresses. */
+typedef struct scene_proportional {
+    double mass, stiffness; /* [1/s], [s] */
+} scene_proportional;
+
 typedef struct scene_analysis {
     scene_analysis_kind kind;
     int follows; /* analysis whose state(s) this one is about, or SCENE_NONE: undeformed */
@@ -147,7 +153,8 @@ typedef struct scene_analysis {
         scene_motion motion;
         scene_path harmonic; /* frequencies [Hz] */
     } of;
-    char name[SCENE_NAME]; /* "": none */
+    scene_proportional damping; /* of small vibrations, beside members' and dashpots */
+    char name[SCENE_NAME];      /* "": none */
 } scene_analysis;
 
 int scene_add_linear(scene *s);

@@ -244,7 +244,7 @@ static status systems_keep(const analysis_context *c, const model_state *state, 
     TRY(rotating_frame_inertia(&c->eq, state, path, &w->M, out->turns ? &w->G : NULL, f));
     TRY(triplets_of(&w->M, 0, &out->M, f));
     if (damping_acts(c->scene)) {
-        TRY(damping_matrix(&c->eq, state, &w->M, f));
+        TRY(damping_matrix(&c->eq, state, 0, &w->M, f));
         TRY(triplets_of(&w->M, 0, &out->C, f));
     }
     return out->turns ? triplets_of(&w->G, 1, &out->G, f) : STATUS_OK;

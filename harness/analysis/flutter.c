@@ -41,7 +41,7 @@ status flutter_motions(const newton_run *n, flutter_system *s, int wanted, int e
     if (!s->massless)
         TRY(rotating_frame_inertia(&n->c->eq, n->state, 0, &s->M, NULL, f));
     if (s->damped)
-        TRY(damping_matrix(&n->c->eq, n->state, &s->C, f));
+        TRY(damping_matrix(&n->c->eq, n->state, 0, &s->C, f));
     const status found = unsymmetric_solve(&p, r, f);
     n->c->run->counters.solutions += r->solutions;
     return found;

@@ -99,8 +99,14 @@ static status matrices(vibration *v, fault *f)
         TRY(tangent_of(v, &c->outcomes[follows], f));
     }
     TRY(rotating_frame_inertia(&c->eq, v->state, kinematics_state_path(v->state), &v->M, NULL, f));
-    v->damped = damping_acts(c->scene);
-    return v->damped ? damping_matrix(&c->eq, v->state, &v->C, f) : STATUS_OK;
+    const scene_proportional *damping = &c->scene->analysis[v->analysis].damping;
+    v->damped = damping_acts(c->scene) || damping->mass > 0 || damping->stiffness > 0;
+    if (!v->damped)
+        return STATUS_OK;
+    TRY(damping_matrix(&c->eq, v->state, damping->stiffness, &v->C, f));
+    for (int i = 0; i < v->C.column[v->C.n]; i++)
+        v->C.value[i] += damping->mass * v->M.value[i];
+    return STATUS_OK;
 }
 
 static void append(vibration *v, int column, int row, int source)

@@ -515,15 +515,16 @@ void dashpots_node_force(const model *m, const model_state *s, const double rate
     }
 }
 
-void dashpots_matrix(const model *m, const model_state *s, sparse *C)
+void dashpots_matrix(const model *m, const model_state *s, double more, sparse *C)
 {
     for (int i = 0; i < m->mesh.springs; i++) {
         const mesh_discrete *d = numbered(m, i);
-        double K[X * X] = {0}, work[SPRING_STRAINS * X];
+        double K[X * X] = {0}, work[SPRING_STRAINS * X], c[SPRING_STRAINS * SPRING_STRAINS];
         spring_state p;
         spring_at(m, s, d, NULL, &p);
-        dense_add_congruence(SPRING_STRAINS, NODE_COORDINATES * d->el.nodes, p.J,
-                             d->spring->damping, K, work);
+        for (int k = 0; k < SPRING_STRAINS * SPRING_STRAINS; k++)
+            c[k] = d->spring->damping[k] + more * d->spring->stiffness[k];
+        dense_add_congruence(SPRING_STRAINS, NODE_COORDINATES * d->el.nodes, p.J, c, K, work);
         eliminate_matrix(m, s, &d->el, NULL, K);
         assemble_discrete(&d->el, K, C);
     }

@@ -462,7 +462,8 @@ double dashpots_power(const model *, const double rate[]);
 void dashpots_add_forces(const model *, const model_state *, const double rate[], double out[]);
 void dashpots_node_force(const model *, const model_state *, const double rate[], int node,
                          double F[6]);
-void dashpots_matrix(const model *, const model_state *, sparse *C);
+/* C += of the damping of all springs, and `more` [s] times their stiffness. */
+void dashpots_matrix(const model *, const model_state *, double more, sparse *C);
 /* Of one spring: its deformations, their derivatives J[6 x columns] by the coordinates that move
  * it, and what stresses of a dashpot take: force[columns], and K[columns x columns] of what turns
  * with it. */

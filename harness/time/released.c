@@ -192,19 +192,17 @@ static size_t of_members(const model *m)
     return (size_t)model_elements(m) * (size_t)model_strains(m);
 }
 
-status damping_begin(const equations *eq, run_damping *d, fault *f)
+/* members: with the stiffnesses of elements. */
+static status begin(const equations *eq, int members, run_damping *d, fault *f)
 {
     const model *m = eq->m;
     const size_t n = (size_t)model_strains(m), all = (size_t)model_stresses(m);
-    memset(d, 0, sizeof *d);
-    if (!damping_acts(model_scene(m)))
-        return STATUS_OK;
     d->stiffness = calloc((size_t)model_kinds(m) * n * n + 1, sizeof *d->stiffness);
     d->none = calloc(2 * all + 1, sizeof *d->none);
     if (d->stiffness == NULL || d->none == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for damping");
     d->begin = d->none + all;
-    for (int i = 0; i < model_elements(m) && damping_of_members(model_scene(m)); i++) {
+    for (int i = 0; i < model_elements(m) && members; i++) {
         const int kind = model_element(m, i)->kind;
         const status outcome =
             model_type(m)->stress(model_kind(m, kind)->data, kinematics_rest(m)->e + (size_t)i * n,
@@ -217,6 +215,13 @@ status damping_begin(const equations *eq, run_damping *d, fault *f)
     eq->run->damping = d;
     damping_follow(eq, 0, d->none, NULL);
     return STATUS_OK;
+}
+
+status damping_begin(const equations *eq, run_damping *d, fault *f)
+{
+    const scene *s = model_scene(eq->m);
+    memset(d, 0, sizeof *d);
+    return damping_acts(s) ? begin(eq, damping_of_members(s), d, f) : STATUS_OK;
 }
 
 void damping_end(const equations *eq, run_damping *d)
@@ -245,19 +250,20 @@ void damping_follow(const equations *eq, double g, const double known[], const m
     d->springs = (spring_rates){g, known + of_members(eq->m), d->from + of_members(eq->m)};
 }
 
-status damping_matrix(const equations *eq, const model_state *s, sparse *C, fault *f)
+status damping_matrix(const equations *eq, const model_state *s, double more, sparse *C, fault *f)
 {
     const model *m = eq->m;
     enum { X = MODEL_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
     const mesh_pattern *p = assemble_of(eq->run->patterns, C);
     run_damping *const before = eq->run->damping;
-    run_damping d;
+    run_damping d = {0};
     sparse_zero(C);
     eq->run->damping = NULL;
-    const status begun = damping_begin(eq, &d, f);
-    for (int i = 0; begun == STATUS_OK && eq->run->damping != NULL && i < model_elements(m); i++) {
+    const int members = more > 0 || damping_of_members(model_scene(m));
+    const status begun = members ? begin(eq, 1, &d, f) : STATUS_OK;
+    for (int i = 0; begun == STATUS_OK && members && i < model_elements(m); i++) {
         const mesh_element *el = model_element(m, i);
-        const double eta = model_scene(m)->member[el->member].damping;
+        const double eta = model_scene(m)->member[el->member].damping + more;
         const size_t n = (size_t)model_strains(m);
         node_state x[ELEMENT_MAX_NODES];
         double J[E * ELEMENT_MAX_COORDINATES], S[E * E], A[X * X] = {0}, work[E * X];
@@ -272,7 +278,7 @@ status damping_matrix(const equations *eq, const model_state *s, sparse *C, faul
         assemble_matrix(p, i, A, C);
     }
     if (begun == STATUS_OK)
-        dashpots_matrix(m, s, C);
+        dashpots_matrix(m, s, more, C);
     damping_end(eq, &d);
     eq->run->damping = before;
     return begun;

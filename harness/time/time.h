@@ -183,8 +183,9 @@ int damping_of_members(const scene *);
 status damping_begin(const equations *, run_damping *, fault *);
 void damping_end(const equations *, run_damping *);
 
-/* C of small motions about a state, on a pattern of model.h. */
-status damping_matrix(const equations *, const model_state *, sparse *C, fault *);
+/* C of small motions about a state, on a pattern of model.h; more [s]: damping that all members and
+ * springs have besides, in proportion to their stiffness. */
+status damping_matrix(const equations *, const model_state *, double more, sparse *C, fault *);
 
 /* Rates of the strains now: known + g (e - those of `from`, as they are); known[model_stresses].
  * from NULL: g is 0. */

@@ -36,13 +36,14 @@ FORCED = reading("u", component="uy", force="tip", along="uy") + reading("t", co
 SHAKEN = reading("u", component="uy", drive="shake") + reading("r", component="uy", drive="shake", **{"from": "root"})
 
 
-def beam(hertz, tension, length):
-    """v(x) of EI v'''' - N v'' - mu w^2 v = 0 by its four exponentials: the roots. The mass stays, and moments go
-    by the rotation per initial length."""
-    w2, stiff = (2*math.pi*hertz)**2, EI*length
-    s = math.sqrt((tension/(2*stiff))**2 + MU/length*w2/stiff)
-    a, b = math.sqrt(tension/(2*stiff) + s), math.sqrt(s - tension/(2*stiff))
-    return a, -a, 1j*b, -1j*b
+def beam(hertz, tension, length, by_mass=0.0, by_stiffness=0.0):
+    """v(x) of EI v'''' - N v'' - mu w^2 v = 0 by its four exponentials: the roots, and EI. The mass stays, and
+    moments go by the rotation per initial length. Proportional damping: EI (1 + i w b), mu (1 - i a/w)."""
+    w = 2*math.pi*hertz
+    stiff = EI*length*(1 + 1j*w*by_stiffness)
+    s = cmath.sqrt((tension/(2*stiff))**2 + MU/length*w*(w - 1j*by_mass)/stiff)
+    a, b = cmath.sqrt(tension/(2*stiff) + s), cmath.sqrt(s - tension/(2*stiff))
+    return (a, -a, 1j*b, -1j*b), stiff/length
 
 
 def solve(rows, right):
@@ -59,12 +60,13 @@ def solve(rows, right):
     return [table[k][n]/table[k][k] for k in range(n)]
 
 
-def exact(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0):
+def exact(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
     """Deflection and slope at the tip, of a force there or a shift of the root."""
-    w, roots = 2*math.pi*hertz, beam(hertz, tension, length)
+    w = 2*math.pi*hertz
+    roots, stiff = beam(hertz, tension, length, **damping)
     at = [cmath.exp(k*length) for k in roots]
     rows = [[1]*4, list(roots), [k*k*e for k, e in zip(roots, at)],
-            [-EI*length*k**3*e + tension*k*e + 1j*w*C*e for k, e in zip(roots, at)]]
+            [-stiff*length*k**3*e + tension*k*e + 1j*w*C*e for k, e in zip(roots, at)]]
     amplitude = solve(rows, [shift, 0, 0, force])
     return (sum(a*e for a, e in zip(amplitude, at)),
             sum(a*k*e for a, k, e in zip(amplitude, roots, at)))
@@ -111,6 +113,32 @@ class HarmonicTest(ProgramTest):
         self.near(found["u"], expected, 2e-6, "base")
         self.near(found["r"], [u - 1 for u in expected], 2e-6, "as seen from the base")
 
+    def test_proportional_damping(self):
+        """Of all formulations; of a base that shakes, the mass is damped by its velocity in fixed axes."""
+        damping = {"by_mass": 7, "by_stiffness": 2e-3}
+        keys = ", damping: {mass: 7, stiffness: 2e-3}"
+        forced = BEAM % ("hold: all", "", "", keys, FORCED)
+        expected = [exact(f, force=1, **damping)[0] for f in FREQUENCIES]
+        for formulation in self.formulations():
+            self.near(self.curves(forced, formulation, 32)["u"], expected, 4e-6, formulation)
+        shaken = BEAM % ("hold: [ux, uz, rx, ry, rz], drive: {uy: shake}",
+                         "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}", "", keys, SHAKEN)
+        self.near(self.curves(shaken, "collocation", 32)["u"],
+                  [exact(f, shift=1, **damping)[0] for f in FREQUENCIES], 2e-6, "base")
+
+    def test_stiffness_is_that_of_all_members_and_springs(self):
+        """About a bent, stretched state and beside a spring and a foundation."""
+        loads = "loads: {pull: {force: [-300, 200, 50], on: tip}}"
+        with_spring = BEAM.replace("damping: [0, c", "stiffness: [0, 900, 0, 0, 0, 3], damping: [0, c")
+        keys = with_spring % ("hold: all", loads, "  before: {static: {stations: [1], steps: 4}}",
+                              ", about: before, damping: {stiffness: 1e-3}", FORCED)
+        each = (with_spring % ("hold: all", loads, "  before: {static: {stations: [1], steps: 4}}", ", about: before", FORCED)
+                ).replace("y: [0, 1, 0]}", "y: [0, 1, 0], damping: 1e-3}").replace(
+                    "damping: [0, c, 0, 0, 0, 0]", "damping: [0, c + 0.9, 0, 0, 0, 3e-3]")
+        self.assertNotEqual(keys, each)
+        one, other = (self.curves(text, "collocation", 4)["u"] for text in (keys, each))
+        self.near(one, other, 1e-12, "all")
+
     def test_about_a_state(self):
         """Under tension: about a static path, on which it is longer, and about a linear analysis."""
         loads = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
@@ -139,7 +167,9 @@ class HarmonicTest(ProgramTest):
                 (BEAM.replace("5, 8, 20", "-1, 8, 20") % ("hold: all", "", "", "", FORCED), "give none below 0"),
                 (BEAM.replace("5, 8, 20", "0, 8, 20") % ("hold: [uz, rx, ry]", "", "", "", FORCED), "at 0 Hz nothing holds"),
                 (BEAM % ("hold: all", "", "", "", "  u: {response: {analysis: steady, node: tip, component: uy}}"),
-                 "its input is not known")):
+                 "its input is not known"),
+                (BEAM % ("hold: all", "", "", ", damping: {mass: -1}", FORCED), "mass = -1; give at least 0"),
+                (BEAM % ("hold: all", "", "  modes: {modal: {damping: {mass: 1}}}", "", FORCED), "damping")):
             done = run("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 2)
             self.assertRegex(done.stdout + done.stderr, words.replace("\n", " "))
 
