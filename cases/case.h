@@ -29,7 +29,7 @@ typedef struct case_type {
 extern const parameter_type case_omit[], case_mass_omit[];
 int case_is_omit(const parameter_type *);
 int case_is_mass(const parameter_type *);
-/* Nothing, although the source may leave something out: what is known of the case is of another
+/* Nothing, although the source may omit something: what is known of the case is of another
  * model. */
 int case_omits_nothing(const case_type *, const double value[]);
 

@@ -9,10 +9,10 @@
 enum { CRANK_ANGLE = TIMED_PARAMETERS, DURATION };
 
 static const parameter_type timed[] = {
-    [TIMED_TIME] = {"time", "s", 0.25, 0, 100, NULL, "when it is looked at"},
+    [TIMED_TIME] = {"time", "s", 0.25, 0, 100, NULL, "instant of the output"},
     TIMED_HOW(0.01, "a fiftieth of the drive's time", 1e-3),
     [CRANK_ANGLE] = {"crank_angle", "rad", 0.2613, -1, 1, NULL,
-                     "to which the cranks turn: of a stroke of 50 mm"},
+                     "final angle of the cranks: for a stroke of 50 mm"},
     [DURATION] = {"duration", "s", 0.5, 1e-3, 100, NULL, "of the drive, which is smooth"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };

@@ -1,4 +1,4 @@
-/* A cantilever that turns steadily: flap and lag frequencies, stretch of the end, force on the root
+/* A cantilever in steady rotation: flap and lag frequencies, stretch of the end, force on the root
  * [EI/L^2].  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that frequencies are in sqrt(EI/(rho A
  * L^4)).  The root is at a distance from the axis, which is normal to the beam or inclined towards
  * it; flap is motion in the plane of beam and axis, lag across it.  No shear, no rotary inertia. */
@@ -122,7 +122,7 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_rotating_cantilever = {
     .name = "rotating_cantilever",
-    .summary = "cantilever that turns steadily: flap and lag frequencies, stretch",
+    .summary = "cantilever in steady rotation: flap and lag frequencies, stretch",
     .source =
         "exact flap and lag of the stretched beam (reference/derive/rotating.py); its stretch "
         "is tan k/k - 1",

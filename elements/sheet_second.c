@@ -1,4 +1,4 @@
-/* The second-order element of N section 2, whose generalized strains leave the shear terms out:
+/* The second-order element of N section 2, whose generalized strains omit the shear terms:
  * with flexible shear it converges to a biased limit (reference/ERRATA.md, N 37). */
 #include "elements/sheet/sheet.h"
 

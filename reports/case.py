@@ -109,7 +109,7 @@ def cell_of(series, name):
     if v is None or v.verdict in UNJUDGED:
         if series.other and v is not None:
             return Cell("○", "model", "; ".join([series.without, *away(v)]))
-        why = f"does not offer {series.missing}" if series.missing else v.verdict if v else ""
+        why = f"does not support {series.missing}" if series.missing else v.verdict if v else ""
         return Cell("·", "skip", why)
     kind = BY_NAME[v.verdict]
     words = [v.verdict, *remarks(v)] + ([f"known: {v.finding}"] if v.finding else [])

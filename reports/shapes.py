@@ -212,8 +212,8 @@ def bodies(s, state, scale):
     return faces
 
 
-# Shapes for the viewer in space (assets/viewer.js): a file for each case, loaded when it is looked
-# at.
+# Shapes for the viewer in space (assets/viewer.js): a file for each case, loaded when it
+# is looked at.
 #
 # Positions and axes of all stored states are whole numbers of 16 bits: a position is that part of
 # half

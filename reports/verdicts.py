@@ -34,10 +34,10 @@ KINDS = (
     Kind("wrong limit", "≠", "wrong", "a limit that is significantly beyond the tolerance"),
     Kind("refused", "R", "other", "the finest mesh was refused, with its reason"),
     Kind("diverged", "✗", "wrong", "the finest mesh has no value"),
-    Kind("skip", "·", "skip", "needs what the formulation does not offer"),
+    Kind("skip", "·", "skip", "needs what the formulation does not support"),
     Kind("no truth", "·", "skip", "there is none of its theory"),
     Kind("other model", "○", "skip",
-         "without physics that the formulation does not offer: shown, not judged"),
+         "without physics that the formulation does not support: shown, not judged"),
 )
 BY_NAME = {kind.name: kind for kind in KINDS}
 SEVERITY = {kind.name: i for i, kind in enumerate(KINDS)}

@@ -61,8 +61,8 @@ static void weigh_all(const fields *f, scene_load *what)
     const int before = s->loads, told = f->b->mistakes->count;
     if (f->placed != NULL)
         mistake_at(f, "on",
-                   "gravity on all is of the whole scene and not of a part; put it among "
-                   "the loads of the scene");
+                   "gravity on all members belongs to the scene, not to "
+                   "a part; move it to the loads of the scene");
     for (what->where = 0; what->where < s->members && f->b->mistakes->count == told; what->where++)
         if (is_heavy(s, &s->member[what->where]))
             add(f, what);
@@ -73,7 +73,7 @@ static void weigh_all(const fields *f, scene_load *what)
             add(f, what);
     if (s->loads == before && f->b->mistakes->count == told)
         mistake_at(f, "on",
-                   "nothing of the scene has a mass; give sections a density or nodes a "
+                   "the scene has no mass; give sections a density or nodes a "
                    "mass");
 }
 
@@ -100,7 +100,7 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
 {
     if (fields_have(f, "at") || what->axes == SCENE_AXES_MEMBER || what->follower)
         mistake_at(f, "gravity",
-                   "weight acts at centres of mass along fixed axes; leave out 'at', 'axes' and "
+                   "weight acts at centres of mass along fixed axes; remove 'at', 'axes' and "
                    "'follower'");
     if (whole >= 0 && !is_on_all(f))
         document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
@@ -143,22 +143,23 @@ static void check_keys(const fields *f, int given)
 {
     static const char *const of_range[] = {"from", "to", "to_value"};
     if (fields_have(f, "where") && given > SCENE_MOMENT)
-        mistake_at(f, "where",
-                   given == SCENE_GRAVITY
-                       ? "where: a place of a force or a moment, and gravity is on all of a "
-                         "member; take it away"
-                       : "where: a place of a force or a moment; a distributed load begins and "
-                         "ends at 'from' and 'to'");
+        mistake_at(
+            f, "where",
+            given == SCENE_GRAVITY
+                ? "where: the position of a force or a moment, and gravity is on all of a "
+                  "member; remove it"
+                : "where: the position of a force or a moment; a distributed load begins and "
+                  "ends at 'from' and 'to'");
     for (int k = 0; k < 3; k++) {
         if ((spreads(given) && (k < 2 || given != OF_TEMPERATURE)) || !fields_have(f, of_range[k]))
             continue;
         document_mistake(f->b->mistakes, document_find(f->map, of_range[k]), 0,
                          "%s: of a distributed load; %s", of_range[k],
                          given == OF_TEMPERATURE
-                             ? "a temperature is the same from 'from' to 'to', take it away"
+                             ? "a temperature is the same from 'from' to 'to'; remove it"
                          : given == SCENE_GRAVITY
-                             ? "gravity is on all of a member, take it away"
-                             : "a force or a moment within a member is at one place, 'where'");
+                             ? "gravity acts on the whole member; remove it"
+                             : "a force or a moment within a member acts at one position, 'where'");
     }
 }
 
@@ -189,12 +190,12 @@ static int place_of(const fields *f, const scene_load *what)
     const char *on = fields_text(f, "on", "");
     if (what->lumped && (!scene_load_along(what) || within))
         mistake_at(f, "lumped",
-                   "lumped: of distributed loads and of gravity on a member, and this acts at one "
-                   "place; take it away");
+                   "lumped: of distributed loads and of gravity on a member, and this load "
+                   "acts at one position; remove it");
     if (within && node && !member) {
         document_mistake(f->b->mistakes, document_find(f->map, "where"), 0,
                          "where: a part of a member's length, and '%.40s' is a node; name a "
-                         "member, or take it away",
+                         "member, or remove it",
                          on);
         return SCENE_NONE;
     }

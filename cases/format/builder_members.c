@@ -203,7 +203,7 @@ static void complete(const fields *f, int index, scene_analysis *a)
         builder_in_time(&motion, &a->of.motion);
     if (a->follows >= index) {
         document_mistake(f->b->mistakes, document_find(what.map, "about"), 0,
-                         "'%s' does not stand before this one; move it up",
+                         "'%s' is defined after this one; move it before",
                          fields_text(&what, "about", ""));
         a->follows = SCENE_NONE;
     }
@@ -345,11 +345,11 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
         const double until = fields_number(&piece, "until", 0);
         if (!last && !(ends && until > before))
             document_mistake(f->b->mistakes, piece.map, 0,
-                             "a piece ends behind the one before it; give until: [s]");
+                             "a piece must end after the one before it; give until: [s]");
         if (last && ends)
             document_mistake(f->b->mistakes, document_find(piece.map, "until"), 0,
-                             "the last piece has no end; remove 'until', or add the piece "
-                             "behind it");
+                             "the last piece has no end; remove 'until', or add the "
+                             "piece after it");
         before = until;
         add_piece(&piece, document_find(piece.map, "is"), until, index, add);
     }

@@ -139,7 +139,7 @@ static void check_masters(const fields *f, const scene_node *n)
         refuse_components(f, "rotation");
     if (rotation != NULL && (held || fields_have(f, "fork")))
         document_mistake(f->b->mistakes, rotation, 0,
-                         "'rotation' says all about turns; leave out rx, ry, rz and forks");
+                         "'rotation' sets all rotations; remove rx, ry, rz and forks");
 }
 
 /* Rotates the inertia of a body at rest with its instance: I <- A I A^T, row by row. */
@@ -329,7 +329,7 @@ void builder_sections(builder *b)
             static const char *const of_walls[] = {"points", "cells"};
             if (!fields_have(&f, "walls") && fields_have(&f, of_walls[k]))
                 document_mistake(b->mistakes, document_find(f.map, of_walls[k]), 0,
-                                 "%s are of walls; add them, or leave the %s out", of_walls[k],
+                                 "%s are of walls; add them, or remove the %s", of_walls[k],
                                  of_walls[k]);
         }
         if (spec.kind != SECTION_RECTANGLE && fields_have(&f, "shear_factor"))
@@ -430,7 +430,7 @@ static void read_steps(const fields *f, scene_motion *how)
         how->tolerance = how->scheme == SCENE_RADAU ? usual_of_radau : usual_tolerance;
     if (!steps && how->tolerance == 0)
         document_mistake(f->b->mistakes, document_find(f->map, "tolerance"), 0,
-                         "without a tolerance all steps are alike; give 'step' [s]");
+                         "without a tolerance all steps are equal; give 'step' [s]");
 }
 
 void builder_in_time(const fields *f, scene_motion *how)

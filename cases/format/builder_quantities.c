@@ -47,7 +47,8 @@ static void read_abscissa_of(const fields *x, scene_quantity *q)
     for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
         if (fields_have(x, own[i]))
             document_mistake(x->b->mistakes, document_find(x->map, own[i]), 0,
-                             "a curve over a quantity has its %s; say it there", own[i]);
+                             "a curve over a quantity takes the %s of that quantity; set it there",
+                             own[i]);
     scene_set_curve_over(q, over >= 0 ? x->b->list[SCENE_QUANTITIES].entry[over].name : "", "");
 }
 
@@ -150,7 +151,7 @@ static void settle(const fields *what, const quantity_type *type, scene_quantity
     if (fields_have(what, "side") && !fields_have(what, "where"))
         document_mistake(what->b->mistakes, document_find(what->map, "side"), 0,
                          "side: of a place of the member, at which a load acts; say which, with "
-                         "'where', or take it away");
+                         "'where', or remove it");
     if (q->analysis >= 0 && !scene_gives(s->analysis[q->analysis].kind, q))
         builder_no_quantity(what, type->key, q);
 }
@@ -473,8 +474,8 @@ void units_read(const document_node *n, mistakes *m, unit_system *out)
                  out->name_of_length);
     else if (!(stress > own * (1 - 1e-9) && stress < own * (1 + 1e-9))) {
         document_mistake(m, n, 0,
-                         "units: %s are not %s/%s^2, and numbers of one scene fit each other; "
-                         "leave the stress out, and give moduli in %s/%s^2",
+                         "units: %s are not %s/%s^2, and the units of one scene must be "
+                         "consistent; remove the stress, and give moduli in %s/%s^2",
                          out->name_of_stress, out->name_of_force, out->name_of_length,
                          out->name_of_force, out->name_of_length);
         return;

@@ -188,7 +188,8 @@ static document_node *read_collection(reader *r, const yaml_event_t *event, int 
 {
     const int map = event->type == YAML_MAPPING_START_EVENT;
     if (depth == DOCUMENT_DEPTH)
-        return refuse(r, event->start_mark, "deeper than 16 lists and maps; nothing needs that");
+        return refuse(r, event->start_mark,
+                      "lists and maps are nested deeper than 16; simplify the file");
     document_node *n = new_node(r, map ? DOCUMENT_MAP : DOCUMENT_LIST, event->start_mark);
     const yaml_event_type_t end = map ? YAML_MAPPING_END_EVENT : YAML_SEQUENCE_END_EVENT;
     return n != NULL && read_entries(r, n, depth, end) ? n : NULL;
@@ -236,11 +237,11 @@ static document_node *read_stream(reader *r)
             break;
         case YAML_DOCUMENT_START_EVENT:
             if (root != NULL)
-                refuse(r, at, "a second document; put it into a file of its own");
+                refuse(r, at, "a second YAML document; put it into another file");
             if (event.data.document_start.version_directive != NULL ||
                 event.data.document_start.tag_directives.start !=
                     event.data.document_start.tag_directives.end)
-                refuse(r, at, "a directive; leave out lines that begin with '%'");
+                refuse(r, at, "a YAML directive; remove lines that begin with '%'");
             done = root != NULL;
             break;
         case YAML_STREAM_END_EVENT:

@@ -36,8 +36,8 @@ static int constant(const name_context *c, const char *text, int *at, int length
     *at = behind + rest;
     if (known == NULL)
         expression_wrong(why, from,
-                         "no section '%.*s' is known here; sections are named behind the list of "
-                         "sections only",
+                         "no section '%.*s' is known here; a section can be named "
+                         "only after the list of sections",
                          length - 1 < 40 ? length - 1 : 40, text + from);
     else if (index < 0)
         expression_wrong(why, behind, "a section has no constant '%.*s'; it has %s",
@@ -173,8 +173,8 @@ static int read_range(const document_node *n, int dots, const scope *names, aren
     const double steps = (to - from) / step;
     if (!(step != 0 && steps >= -1e-9)) {
         document_mistake(m, n, word >= 0 ? word + 6 : 0,
-                         "from %g to %g with steps of %g there is nothing; correct the ends or the "
-                         "sign of the step",
+                         "from %g to %g with steps of %g there are no values; correct the "
+                         "ends or the sign of the step",
                          from, to, step);
         return -1;
     }

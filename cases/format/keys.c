@@ -83,7 +83,7 @@ const entry_field keys_instance[] = {
     {"turn", ENTRY_MAP, .group = 1, .below = angles, .summary = "one angle about an axis",
      .left_out = "none"},
     {"connect", ENTRY_NAMES, .below = outer, .summary = "PLACE: NODE",
-     .left_out = "none; needed for each place"},
+     .left_out = "none; required for each interface"},
     {.name = NULL}};
 
 const entry_field keys_loop[] = {
@@ -128,15 +128,15 @@ const entry_field keys_root[] = {
     {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "what is computed",
      .left_out = "static to the end of the motions' paths, without these linear"},
     {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "results requested of it",
-     .left_out = "of each analysis what is usual: displacements where it is loaded or driven, the "
-                 "first eigenvalue"},
+     .left_out = "the usual ones of each analysis: displacements "
+                 "of loaded or driven nodes, the first eigenvalue"},
     {"truths", ENTRY_LIST, .below = keys_truth, .summary = "what is known", .left_out = "none"},
     {"plane", ENTRY_WORD, .words = SCENE_PLANE_CHOICES,
      .summary = "all nodes, also those of the mesh, are held in it", .left_out = "nothing is"},
     {"omit", ENTRY_FORMS, .words = PHYSICS "|all|none",
      .summary = "physics that is omitted: a word, a list of them, or {WORD: yes, WORD: {NAME: "
                 "VALUE}}, the values that names have where it is",
-     .left_out = "none: all that sections, loads and analyses call for is there"},
+     .left_out = "none: all physics that sections, loads and analyses require is on"},
     {"shear_theory", ENTRY_WORD, .words = "haringx|engesser|own",
      .summary = "of shear in stability; own: that of each formulation", .usual = "haringx"},
     {"mass", ENTRY_WORD, .words = "consistent|lumped",
@@ -144,8 +144,8 @@ const entry_field keys_root[] = {
                 "(and in motions in time that say nothing else)",
      .usual = "consistent"},
     {"needs", ENTRY_WORDS, .words = PHYSICS "|engesser|haringx",
-     .summary = "of earlier versions: all physics but what it lists (and warping) is omitted; "
-                "omit stands for it now",
+     .summary = "of earlier versions: all physics except that "
+                "listed (and warping) is omitted; use omit instead",
      .left_out = "omit says it"},
     {"meshes", ENTRY_FORMS,
      .summary = "elements per member: [EXPR, ...], or a choice of such: {NAME: {VALUE: [...]}}",

@@ -270,7 +270,7 @@ static void passing(FILE *to, const scene_quantity *q)
 
 static void along_path(FILE *to, const scene *s, const scene_quantity *q, const scene_analysis *a)
 {
-    const char *name = a->kind == SCENE_ROTATION ? "speeds at which the axes turn" : path_name(a);
+    const char *name = a->kind == SCENE_ROTATION ? "speeds of rotation of the axes" : path_name(a);
     switch (q->reduction) {
     case SCENE_LAST:
     case SCENE_AT:
@@ -310,7 +310,7 @@ void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
     else
         fputs(", of the undeformed structure", to);
     if (path != NULL && path->kind == SCENE_STATIC && scene_rotates(path))
-        fprintf(to, ", while the axes turn at %.10g rad/s", speed(path));
+        fprintf(to, ", while the axes rotate at %.10g rad/s", speed(path));
     if (a->kind == SCENE_COMPLIANCE && scene_compliance_of(a)->moments != SCENE_MOMENTS_SPATIAL)
         fprintf(to, ", moments %s", scene_moments_name(scene_compliance_of(a)->moments));
 }

@@ -14,7 +14,7 @@ static void check_version(const scene_file *file, mistakes *m)
         document_mistake(m, n, 0, "format version '%.20s'; this program reads version %d", n->text,
                          VERSION);
     else if (strcmp(file->root->key[0]->text, "beamwork") != 0)
-        document_mistake(m, file->root, 0, "'beamwork: 1' stands first; move it up");
+        document_mistake(m, file->root, 0, "'beamwork: 1' must be the first key; move it up");
 }
 
 /* Returns the name of the file without its ending; each character that a name cannot have becomes

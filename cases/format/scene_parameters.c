@@ -262,7 +262,7 @@ static void read_physics(builder *b)
         if (strcmp(b->root->key[i]->text, "omit") == 0 ||
             strcmp(b->root->key[i]->text, "shear_theory") == 0)
             document_mistake(b->mistakes, b->root->key[i], 0,
-                             "%s: 'needs' of earlier versions stands beside it; take 'needs' out",
+                             "%s: 'needs' of earlier versions is given too; remove 'needs'",
                              b->root->key[i]->text);
     read_needs(&f);
 }

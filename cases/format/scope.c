@@ -86,7 +86,7 @@ int scope_accepts(const scope *names, const document_node *key, mistakes *m)
         return 0;
     }
     if (scope_find(names, key->text, length) != NULL) {
-        document_mistake(m, key, 0, "the name '%s' is taken already; choose another", key->text);
+        document_mistake(m, key, 0, "the name '%s' is in use; choose another", key->text);
         return 0;
     }
     return 1;
@@ -142,7 +142,7 @@ static int value_text(const document_node *n, int at, size_t length, int said, c
     }
     if (known != NULL) {
         document_mistake(m, n, at,
-                         "$%s is %g: only whole numbers and words can stand in names; count with "
+                         "$%s is %g: only whole numbers and words can be part of names; count with "
                          "one loop name and compute with 'let'",
                          known->name, known->number);
         return 0;

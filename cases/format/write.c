@@ -51,8 +51,8 @@ status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
     write_physics(&w);
     write_meshes(&w);
     return w.unwritable ? fault_set(f, STATUS_REFUSED,
-                                    "%s: a number is infinite; no scene "
-                                    "file can say it",
+                                    "%s: a number is infinite; "
+                                    "scene files cannot express it",
                                     head->name)
                         : STATUS_OK;
 }

@@ -305,11 +305,11 @@ static const char *const no_potential = "has no potential: the tangent is not sy
                              "has another stiffness on each side, and this analysis takes one at "
                              "rest; ask for it about a static path that presses on one side",
                          *const no_drive =
-                             "is moved, and a continuation changes loads only; take it away, or "
+                             "is moved, and a continuation changes loads only; remove it, or "
                              "ask for a static path",
                          *const no_spin = "turns, and this analysis does not count the Coriolis "
-                                          "forces on what moves there; ask a rotation of that "
-                                          "omega for its frequencies";
+                                          "forces on what moves there; use a 'rotation' analysis "
+                                          "with that omega for frequencies";
 
 /* Columns: linear, static, continuation, buckling and about a path, modal and about a linear
  * analysis and a path, compliance and about a path, rotation, motion. */
@@ -406,8 +406,8 @@ static status check_unknown(const scene *s, int analysis, scene_column column, f
         if (s->driver[d].value == NULL && s->driver[d].function.pieces == 0 &&
             (column == SCENE_OF_LINEAR || column == SCENE_OF_BUCKLING))
             return fault_set(f, STATUS_REFUSED,
-                             "%s (%s) and motion %s: its value is unknown, and this analysis seeks "
-                             "none; ask for a static path",
+                             "%s (%s) and motion %s: its value is unknown, and only a "
+                             "static path solves for it; use one",
                              scene_called(s, SCENE_ANALYSES, analysis).text,
                              scene_column_name[column], s->driver[d].name);
     return STATUS_OK;

@@ -36,7 +36,7 @@ static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
 #define STEPS                                                                                      \
     {"steps",                                                                                      \
      ENTRY_WHOLE,                                                                                  \
-     .summary = "load steps between two stations, to begin with; longer where that goes well",     \
+     .summary = "initial number of load steps between two stations; the step size adapts",         \
      .usual = "1",                                                                                 \
      ENTRY_IN(scene_analysis, of.walk.steps_between),                                              \
      .least = 1,                                                                                   \
@@ -76,7 +76,7 @@ static const entry_field compliance[] = {
     {"node", ENTRY_NAME, .needed = 1, .summary = "where",
      ENTRY_IN(scene_analysis, of.compliance.node), .of = SCENE_NODES},
     {"moments", ENTRY_WORD, .words = SCENE_MOMENTS_CHOICES,
-     .summary = "what a reaction's moment does while its node turns", .usual = "spatial",
+     .summary = "convention of a reaction's moment on a rotating node", .usual = "spatial",
      ENTRY_IN(scene_analysis, of.compliance.moments), .always = 1},
     {"released", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
      .summary = "prescribed components that are free", .usual = "[]",
@@ -139,7 +139,7 @@ static const entry_field in_time[] = {
      .summary = "of the error of time, relative to the largest motion so far (at most the size of "
                 "the structure): by alpha and conserving of all steps together, each has its share "
                 "by its length, by radau of the estimate of one step, which is far above its "
-                "error; 0: all steps are alike",
+                "error; 0: all steps are equal",
      .left_out = "0 where there is a step; else 1e-3, by radau 1e-5: 0.1 % of the motion",
      ENTRY_IN(scene_analysis, of.motion.tolerance)},
     {"rho", ENTRY_NUMBER, .group = 1,

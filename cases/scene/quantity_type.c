@@ -32,7 +32,7 @@ static const entry_field when[] = {
     {.name = NULL}};
 
 static const entry_field prediction[] = {
-    {"value", ENTRY_NUMBER, .needed = 1, .summary = "of a model with an error of its own",
+    {"value", ENTRY_NUMBER, .needed = 1, .summary = "of a model with its own error",
      ENTRY_IN(scene_quantity, prediction.value)},
     {"source", ENTRY_TEXT, .needed = 1, .summary = "of the model"},
     {.name = NULL}};

@@ -708,7 +708,7 @@ typedef struct scene_table {
 } scene_table;
 
 /* Between two nodes, or a node and the ground: energy 1/2 d^T K d with d of the six components of
- * q's frame against p's since the undeformed state, in axes that turn with p and were the fixed
+ * q's frame against p's since the undeformed state, in axes that rotate with p and were the fixed
  * ones: how far apart, from the initial distance [m], and the rotation vector [rad], of less than 3
  * rad. */
 typedef struct scene_spring {
@@ -1148,7 +1148,7 @@ typedef enum scene_column {
 typedef enum scene_part {
     SCENE_PART_USED = 'u',
     SCENE_PART_STATE = 's', /* used; refused in a state where the tangent is not symmetric */
-    /* used in axes that turn, and about a path where the tangent is not symmetric, so that what is
+    /* used in rotating axes, and about a path where the tangent is not symmetric, so that what is
      * in motion decides about stability; else it has no part */
     SCENE_PART_INERTIA = 'i',
     SCENE_PART_NONE = '-',   /* by what the analysis is: the answer is the same without */

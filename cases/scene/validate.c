@@ -198,8 +198,8 @@ static status check_range(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->lumped && (!scene_load_along(load) || within))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it acts at one place, and only loads along a member are lumped; "
-                         "leave that out",
+                         "%s: it acts at one position, and only loads along a member are lumped; "
+                         "remove that",
                          scene_called(s, SCENE_LOADS, i).text);
     if (within)
         return r[0] >= 0 && r[0] <= 1 && r[1] == r[0]
@@ -216,7 +216,7 @@ static status check_range(const scene *s, int i, fault *f)
                                "of it that ascend, from 0 to 1",
                                scene_called(s, SCENE_LOADS, i).text, r[0], r[1]);
     if (r[0] != 0 || r[1] != (load->kind == SCENE_GRAVITY))
-        return fault_set(f, STATUS_REFUSED, "%s: a part of a member, and it is %s; leave that out",
+        return fault_set(f, STATUS_REFUSED, "%s: a part of a member, and it is %s; remove that",
                          scene_called(s, SCENE_LOADS, i).text,
                          load->kind == SCENE_GRAVITY ? "the weight of all of one" : "at a node");
     return STATUS_OK;
@@ -276,7 +276,7 @@ static status check_load_kind(const scene *s, int i, fault *f)
         return STATUS_OK;
     if (load->axes != SCENE_AXES_FIXED || load->follower)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: gravity has fixed axes; leave 'axes' and 'follower' out",
+                         "%s: gravity has fixed axes; remove 'axes' and 'follower'",
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->kind == SCENE_WEIGHT)
         return s->node[load->where].body.mass > 0

@@ -11,14 +11,13 @@ static status check_steps(const scene *s, const scene_motion *m, int i, fault *f
     if (!(m->tolerance >= 0 && m->tolerance < 1))
         return fault_set(f, STATUS_REFUSED,
                          "%s: a tolerance of %g; give a part of the size of the structure, 1e-4 or "
-                         "so, or 0: all steps are alike",
+                         "so, or 0: all steps are equal",
                          scene_called(s, SCENE_ANALYSES, i).text, m->tolerance);
     for (int k = 0; k < m->path.stations; k++)
         if (!(m->path.value[k] >= 0 && isfinite(m->path.value[k])))
-            return fault_set(
-                f, STATUS_REFUSED,
-                "%s: a station at %g s; a motion begins at 0, give instants behind that",
-                scene_called(s, SCENE_ANALYSES, i).text, m->path.value[k]);
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: a station at %g s; a motion begins at 0, give later instants",
+                             scene_called(s, SCENE_ANALYSES, i).text, m->path.value[k]);
     return STATUS_OK;
 }
 
@@ -73,7 +72,7 @@ status scene_validate_mass(const scene *s, int i, fault *f)
         return STATUS_OK;
     return fault_set(
         f, STATUS_REFUSED,
-        "%s: nothing in it has a mass; give a section a density or a mass, or a node a body",
+        "%s: the structure has no mass; give a section a density or a mass, or a node a body",
         scene_called(s, SCENE_ANALYSES, i).text);
 }
 
@@ -306,15 +305,15 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
                          scene_analysis_name(about));
     return fault_set(f, STATUS_REFUSED,
                      "%s: %s about a state are about the last one of a static path%s, and %s "
-                     "is a %s analysis; name a static one, or leave about out%s",
+                     "is a %s analysis; name a static one, or remove 'about'%s",
                      scene_called(s, SCENE_ANALYSES, i).text,
                      a->kind == SCENE_MODAL ? "frequencies" : "critical loads",
                      a->kind == SCENE_MODAL ? ", or about a linear analysis" : "",
                      scene_name(s, SCENE_ANALYSES, a->follows).text, scene_analysis_name(about),
                      about == SCENE_ROTATION && a->kind == SCENE_MODAL
-                         ? ", or ask the rotation for its own frequencies"
+                         ? ", or request the frequencies of the rotation itself"
                      : about == SCENE_CONTINUATION && a->kind == SCENE_BUCKLING
-                         ? ", or ask the continuation for its critical points"
+                         ? ", or request the critical points of the continuation"
                          : "");
 }
 
@@ -368,8 +367,8 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
         scene_path_of(a) != NULL || (a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE);
     if (q->reduction != SCENE_LAST && !stations)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: %s has one state and no stations; leave at and take out, or "
-                         "ask for a static path",
+                         "quantity %s: %s has one state and no stations; remove 'at' and 'take', "
+                         "or use a static path",
                          q->name, scene_called(s, SCENE_ANALYSES, q->analysis).text);
     if (q->reduction > SCENE_CURVE && a->kind != SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,

@@ -89,7 +89,7 @@ static status check_body(const scene *s, int i, fault *f)
     const double *I = n->body.inertia, *c = n->body.centre;
     if (n->body.mass == 0 && vec3_norm(c) > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a centre without a mass; give the mass, or leave the centre out",
+                         "%s: a centre without a mass; give the mass, or remove the centre",
                          scene_called(s, SCENE_NODES, i).text);
     if (!is_inertia(I))
         return fault_set(f, STATUS_REFUSED,
@@ -99,7 +99,7 @@ static status check_body(const scene *s, int i, fault *f)
     if (!is_reached(s, i))
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: nothing holds its mass; join a member or a spring to it, or take it away",
+            "%s: its mass is not connected; join a member or a spring to it, or remove it",
             scene_called(s, SCENE_NODES, i).text);
     return STATUS_OK;
 }
@@ -128,10 +128,11 @@ status scene_validate_node(const scene *s, int i, fault *f)
     if (n->attached == SCENE_NONE)
         return STATUS_OK;
     if (n->attached == i || s->node[n->attached].attached != SCENE_NONE)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: attached to %s, which is no body; attach it to a node that is attached to nothing",
-            scene_called(s, SCENE_NODES, i).text, scene_called(s, SCENE_NODES, n->attached).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: attached to %s, which is attached to another node; attach it to a "
+                         "node with its own coordinates",
+                         scene_called(s, SCENE_NODES, i).text,
+                         scene_called(s, SCENE_NODES, n->attached).text);
     for (int k = 0; k < 3; k++)
         if (n->translation[k] != SCENE_FREE || n->angle[k] != SCENE_FREE)
             return fault_set(f, STATUS_REFUSED,
@@ -218,9 +219,9 @@ static status check_node(const scene *s, int i, fault *f)
     if (is_out(s, n->position))
         return refuse(s, who, "it does not lie in one plane with the first node", f);
     if (n->translation[scene_normal(s)] >= 0)
-        return refuse(s, who, "it is moved out of the plane", f);
+        return refuse(s, who, "it is prescribed out of the plane", f);
     if (scene_has_body(n) && is_across(s, n->body.centre))
-        return refuse(s, who, "the centre of its body lies beside the plane", f);
+        return refuse(s, who, "the centre of its body is outside the plane", f);
     return check_turns(s, i, f);
 }
 
@@ -277,7 +278,7 @@ static status check_member(const scene *s, int i, fault *f)
     if (is_across(s, strain))
         return refuse(s, who, "its initial strain leaves the plane", f);
     if (is_across(s, m->offset[0]) || is_across(s, m->offset[1]))
-        return refuse(s, who, "an end of it lies beside the plane", f);
+        return refuse(s, who, "an end of it is outside the plane", f);
     return check_release(s, i, R, f);
 }
 
@@ -303,7 +304,7 @@ static status check_load(const scene *s, int i, fault *f)
         if (turns ? is_beside(s, v[k]) : is_across(s, v[k]))
             return refuse(s, who, turns ? "it turns out of the plane" : "it acts out of the plane",
                           f);
-    return is_across(s, at) ? refuse(s, who, "it acts beside the plane", f) : STATUS_OK;
+    return is_across(s, at) ? refuse(s, who, "it acts outside the plane", f) : STATUS_OK;
 }
 
 /* An axis in the plane gives rise to forces in it, one across too; another one does not. */

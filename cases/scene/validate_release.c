@@ -16,7 +16,7 @@ static status check_end(const scene *s, const scene_release *r, int member, int 
     if (r->count < 0 || r->count > SCENE_RELEASED)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: its end '%s' passes nothing on; of its six components release %d at most",
+            "%s: its end '%s' transmits nothing; release at most %d of its six components",
             scene_called(s, SCENE_MEMBERS, member).text, name_of_end[end], SCENE_RELEASED);
     for (int k = 0; k < r->count; k++) {
         const int c = r->component[k];
@@ -248,11 +248,12 @@ status scene_validate_turns(const scene *s, int node, fault *f)
     return vec3_norm(axis) > 0
                ? fault_set(f, STATUS_REFUSED,
                            "%s: all members there release its turn about (%.3g, %.3g, %.3g), so it "
-                           "turns by itself; join one of them, or hold it against that",
+                           "can rotate "
+                           "freely; join one of them, or hold it against that",
                            scene_called(s, SCENE_NODES, node).text, axis[0], axis[1], axis[2])
                : fault_set(f, STATUS_REFUSED,
-                           "%s: all members there release its turns, so it turns by itself; join "
-                           "one of them, or hold its rotations",
+                           "%s: all members there release its turns, so it can rotate "
+                           "freely; join one of them, or hold its rotations",
                            scene_called(s, SCENE_NODES, node).text);
 }
 

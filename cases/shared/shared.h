@@ -143,7 +143,7 @@ enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETE
         0,                                                                                         \
         0.1,                                                                                       \
         NULL,                                                                                      \
-        "of the error of time, relative to the largest motion; 0: all steps are alike"}
+        "of the error of time, relative to the largest motion; 0: all steps are equal"}
 
 /* A motion that ends when it is observed; follows: SCENE_NONE, or a static path; start: initial
  * velocities. */

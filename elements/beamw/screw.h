@@ -1,7 +1,8 @@
 /* The screw displacement that takes node p and its triad to node q, of one element or of several in
  * lanes.  With R half way between the triads of the nodes, D the chord in its axes, psi the
- * rotation vector and a = psi/2, the translation along the way in axes that turn on it is U = V^-1
- * D,  V = int from -1/2 to 1/2 of exp(x psi~) dx,  V^-1 = mu + nu a a^T, mu = |a|/sin |a|,  nu = (1
+ * rotation vector and a = psi/2, the translation along the way in axes that rotate with it is U =
+ * V^-1 D,  V = int from -1/2 to 1/2 of exp(x psi~) dx,  V^-1 = mu + nu a a^T, mu = |a|/sin |a|,  nu
+ * = (1
  * - mu)/|a|^2. */
 #ifndef BEAMWORK_BEAMW_SCREW_H
 #define BEAMWORK_BEAMW_SCREW_H
@@ -378,7 +379,7 @@ static inline void beamw_screw_forms_second(const screw *w, const real f[3], con
 
 /* Helicoidal strains, those of a beam with uniform strains: the screw displacement that takes node
  * p and its triad to node q, with the rotation vector psi and the translation U along the way, in
- * axes that turn on it, e1 = U_x - l0,  e2 = l0 psi_x,  e3, e4 = l0 psi_y/2 -+ U_z,  e5, e6 = l0
+ * rotating axes on it, e1 = U_x - l0,  e2 = l0 psi_x,  e3, e4 = l0 psi_y/2 -+ U_z,  e5, e6 = l0
  * psi_z/2 +- U_y,  e7, e8 = l0^2 a. They are J Eq. 7 to first order and the same for p and q
  * exchanged.  Uniform strains of any size are measured exactly, U = l0 (e_x + gamma), psi = l0
  * kappa; J's sines of angles to the chord are not when sections shear. */

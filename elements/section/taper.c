@@ -43,10 +43,11 @@ static status check_walls(const section_spec *p, const section_spec *q, fault *f
     for (int w = 0; !differ && w < p->walls; w++)
         differ = p->wall[w].from != q->wall[w].from || p->wall[w].to != q->wall[w].to;
     if (differ)
-        return fault_set(f, STATUS_REFUSED,
-                         "its section changes from %d walls to %d that do not hang together in the "
-                         "same way; give both the same points and walls, with other sizes",
-                         p->walls, q->walls);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "its section changes from %d walls to %d that are "
+            "connected differently; give both the same points and walls, with other sizes",
+            p->walls, q->walls);
     return STATUS_OK;
 }
 
@@ -90,7 +91,7 @@ static int walls_change(const section_spec *p, const section_spec *q)
 static status check_warping(const section_spec *p, const section_spec *q,
                             const section *const ends[2], fault *f)
 {
-    static const char remedy[] = "leave its warping out (given: {Iw: 0} at both ends), or let only "
+    static const char remedy[] = "omit its warping (given: {Iw: 0} at both ends), or let only "
                                  "sizes change that keep both";
     const double size = sqrt(ends[0]->Ip / ends[0]->A) + sqrt(ends[1]->Ip / ends[1]->A);
     if (!(ends[0]->Iw > 0) && !(ends[1]->Iw > 0))
@@ -106,10 +107,11 @@ static status check_warping(const section_spec *p, const section_spec *q,
                          "their planes, which couples warping with torsion; %s",
                          remedy);
     if (p->cells > 0 && walls_change(p, q))
-        return fault_set(f, STATUS_REFUSED,
-                         "its closed cells change along it and with them their sectorial "
-                         "coordinate, which couples warping with torsion; leave its warping "
-                         "out (given: {Iw: 0} at both ends)");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "its closed cells change along it, "
+            "and so does their sectorial coordinate, which couples warping with torsion; omit "
+            "its warping (given: {Iw: 0} at both ends)");
     return STATUS_OK;
 }
 

@@ -122,8 +122,8 @@ typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES }
 typedef struct flutter_system {
     sparse M, C;
     int damped;   /* 1: C is that of members; else motions are those without damping */
-    int massless; /* 1: nothing has a mass; M is the metric, which knows no direction, so that
-                     double values stay real: only what diverges has a meaning */
+    int massless; /* 1: the structure has no mass; M is the metric, which knows no direction, so
+                     that double values stay real: only what diverges has a meaning */
 } flutter_system;
 
 status flutter_system_alloc(const newton_run *, flutter_system *, fault *);

@@ -333,7 +333,7 @@ const char *continuation_sound_doubt(const continuation *p, int last_resort, dou
     if (!(before <= largest_swing) || !(after <= largest_swing))
         return "its direction changes too much";
     if (!(turned <= largest_turn))
-        return "a node turns too far";
+        return "a node rotates too far";
     /* A limit point changes the sign of the rate and of the determinant by one pivot; bifurcations
      * only the latter, and may be several at one point. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);

@@ -251,13 +251,13 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
         quantity_no_value(r, o->status, o->reason);
     else if (p->undecided) {
         char reason[FAULT_TEXT];
-        snprintf(
-            reason, sizeof reason,
-            "undecided: between load factors %.6g and %.6g an eigenvalue of the tangent comes too "
-            "near to zero to decide whether it passes it; use smaller steps, or a load that "
-            "differs a "
-            "little",
-            p->undecided_from, p->undecided_to);
+        snprintf(reason, sizeof reason,
+                 "undecided: between load factors %.6g and %.6g an eigenvalue of the tangent is "
+                 "too close to zero "
+                 "to decide whether it changes sign; use smaller steps, or a load that "
+                 "differs a "
+                 "little",
+                 p->undecided_from, p->undecided_to);
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason);
     } else
         quantity_no_value(r, o->status, "no such point on the path");

@@ -30,7 +30,7 @@ static double frequency_of(const analysis_context *c, const scene_quantity *q,
     for (int i = 0; i < modes->count; i++)
         if (modes->growth[i] == 0 && modes_in_family(scene_mode_of(q), &modes->shape[i]) &&
             order++ == scene_mode_of(q)->order) {
-            snprintf(what, sizeof what, "frequency %d in axes that turn", i + 1);
+            snprintf(what, sizeof what, "frequency %d in rotating axes", i + 1);
             return known(c, modes->frequency[i] / (2 * PI), modes->error[i], what, r);
         }
     return NAN;

@@ -235,9 +235,9 @@ static status walk(search *s, fault *f)
         step *= fmin(quickest, wanted_change / changed);
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "no critical load from path 0 to %g: nothing diverges%s", s->last.path,
-                     s->of.massless ? " there, and nothing has a mass, so that flutter was not "
-                                      "looked for: give a section a density"
+                     "no critical load from path 0 to %g: there is no divergence%s", s->last.path,
+                     s->of.massless ? " there, and the structure has no mass, so that flutter was "
+                                      "not searched for: give a section a density"
                                     : " or flutters there");
 }
 

@@ -73,7 +73,8 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
     int mode = 0;
     status outcome = flutter_system_alloc(n, &of, f);
     if (outcome == STATUS_OK && of.massless)
-        outcome = fault_set(f, STATUS_REFUSED, "nothing has a mass: there are no frequencies");
+        outcome =
+            fault_set(f, STATUS_REFUSED, "the structure has no mass: there are no frequencies");
     if (outcome == STATUS_OK)
         outcome = flutter_motions(n, &of, modal_wanted(c, analysis), 1, &r, f);
     snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->scene, of.damped));
@@ -270,9 +271,8 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
         s->lost = s->rate > 0 && rate > steepest * s->rate && rate * (path - s->p[0]) > at_rest;
         *stable &= !s->lost;
         if (s->lost)
-            (void)fault_set(
-                f, STATUS_NOT_CONVERGED,
-                "the structure jumps near path %g, before which nothing loses stiffness", path);
+            (void)fault_set(f, STATUS_NOT_CONVERGED,
+                            "the structure jumps near path %g, before any loss of stiffness", path);
         else if (*stable)
             s->rate = rate;
     }
@@ -382,9 +382,9 @@ static status find_critical(loaded_search *s, fault *f)
                                       (left <= 2 * closest * size && s->change <= alike * size)))
             return falls_to_zero(s) ? STATUS_OK
                                     : fault_set(f, STATUS_NOT_CONVERGED,
-                                                "near path %g the structure goes to another "
-                                                "equilibrium, before which nothing loses "
-                                                "stiffness: follow a continuation",
+                                                "near path %g the structure jumps "
+                                                "to another equilibrium, before any "
+                                                "loss of stiffness: follow a continuation",
                                                 s->p[0]);
         target = fmin(
             s->p[0] + fmax(closest * size,
@@ -396,7 +396,7 @@ static status find_critical(loaded_search *s, fault *f)
                            "the critical load was not found: near path %g it still changes by %.1e",
                            s->estimate, s->change)
                : fault_set(f, STATUS_NOT_CONVERGED,
-                           "no critical load from path %g to %g: nothing loses stiffness there",
+                           "no critical load from path %g to %g: no stiffness is lost there",
                            s->begin, s->p[0]);
 }
 
@@ -411,7 +411,7 @@ static status count_at(loaded_search *s, double path, int *negative, fault *f)
 }
 
 /* Loads after the first one, by the inertia on the way: value[] of those that are wanted, up to a
- * thousand times the first. *count: how many there are. */
+ * thousand times the first. *count: their number. */
 static status find_more(loaded_search *s, double value[], int *count, fault *f)
 {
     const double apart = 1e-9;
@@ -507,12 +507,13 @@ static double thrust_of_elements(const newton_run *n)
 static status judge_massless(const newton_run *n, const flutter_point *first, fault *f)
 {
     const double most = first->massless ? thrust_of_elements(n) : 0;
-    return most < 1 ? STATUS_OK
-                    : fault_set(f, STATUS_NOT_CONVERGED,
-                                "the divergence near path %.6g is one of the mesh, whose elements "
-                                "bear %.3g times their own Euler load there: use more elements, or "
-                                "give a section a density, without which flutter is not looked for",
-                                first->path, most);
+    return most < 1
+               ? STATUS_OK
+               : fault_set(f, STATUS_NOT_CONVERGED,
+                           "the divergence near path %.6g is one of the mesh, whose elements "
+                           "bear %.3g times their own Euler load there: use more elements, or "
+                           "give a section a density, without which flutter is not searched for",
+                           first->path, most);
 }
 
 /* Where the loads have no potential: the first load, and what it is. */
@@ -539,15 +540,17 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
     outcome_side *out = &found->positive;
     *out = (outcome_side){.count = 1, .value = value, .mode = first.mode, .error = error};
     snprintf(out->reason, sizeof out->reason,
-             "of loads without a potential the first critical load alone is looked for");
+             "of loads without a potential the first critical load alone is searched for");
     if (first.frequency > 0)
         snprintf(how, sizeof how, " at %.6g Hz", first.frequency / (2 * PI));
     snprintf(found->meaning, sizeof found->meaning, "%s%s%s", first.what, how,
-             first.massless ? "; without a mass flutter was not looked for" : "");
+             first.massless ? "; without a mass flutter was not searched for" : "");
     if (c->result->reason[0] == '\0')
         snprintf(c->result->reason, sizeof c->result->reason,
                  "stability is lost at path %.6g: %s%s%s", first.path, first.what, how,
-                 first.massless ? "; nothing has a mass, so that flutter was not looked for" : "");
+                 first.massless
+                     ? "; the structure has no mass, so that flutter was not searched for"
+                     : "");
     return STATUS_OK;
 }
 
@@ -560,7 +563,7 @@ static status run(analysis_context *c, int analysis, loaded_search *s, outcome_s
     if (!factor_is_symmetric(s->n.factor) &&
         scene_rotates(&c->scene->analysis[c->scene->analysis[analysis].follows]))
         return fault_set(f, STATUS_REFUSED,
-                         "critical loads in axes that turn need loads that have a potential: how "
+                         "critical loads in rotating axes need loads that have a potential: how "
                          "others make it flutter hangs on Coriolis forces, which are not counted; "
                          "ask for a motion");
     if (!factor_is_symmetric(s->n.factor))

@@ -312,8 +312,8 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
     if (factored == STATUS_SINGULAR ||
         (factored == STATUS_OK && factor_count(s->factor).negative_pivots > 0))
         return fault_set(f, STATUS_REFUSED,
-                         "%s, which stay, are critical by themselves: nothing is left to grow; "
-                         "make them smaller",
+                         "%s, which stay, are critical without the "
+                         "scaled loads; make them smaller",
                          linear_initial(c->model) == 0 ? "the loads at path 0"
                          : !loads_begin(&c->eq)        ? "the strains of members"
                                                 : "the loads at path 0 and strains of members");
@@ -432,7 +432,8 @@ static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
     if (ratio < diverging)
         return;
     snprintf(side->reason, sizeof side->reason,
-             "%.4g is one of the mesh, whose nodes turn where they are: %s with elements half as "
+             "%.4g is an artefact of the mesh, whose nodes rotate without moving: %s with elements "
+             "half as "
              "long",
              1 / side->mu[i], is_there ? "it is several times as large" : "it is not there");
     side->count = i;

@@ -62,7 +62,7 @@ static void before(char **arguments)
 #define IN(at) .member = offsetof(bench_options, at)
 static const verb_option own[] = {
     {"output", 'o', "FILE",
-     "into that file of results in HDF5, beside what other experiments left there", IN(output),
+     "into that file of results in HDF5, next to the results of other experiments", IN(output),
      .traits = OPTION_OUTPUT},
     {"dense", 0, NULL, "also time the published algorithm (newton=dense) on every mesh", IN(dense)},
     {"against", 0, "OTHER",

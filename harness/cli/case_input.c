@@ -21,7 +21,7 @@ static status read_either(const verb_option *o, void *member, const char *value,
     if (t->packed != NULL)
         return fault_set(f, STATUS_REFUSED,
                          "--truths is given twice with packed truths; give one, and tables (.csv) "
-                         "beside");
+                         "in addition");
     t->packed = value;
     return STATUS_OK;
 }

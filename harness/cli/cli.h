@@ -168,8 +168,8 @@ extern const option_group options_own_truths; /* FILE.csv as well */
 /* The packed truths: --truths, or their place (harness/study/study.h). */
 const char *own_tables_packed(const truths_options *);
 /* Adds the truths of --truths FILE.csv, of one case where only is not NULL. run: the cases of the
- * run, NULL after the last. REFUSED: the first mistake, as file:line:column, and how many there
- * are. */
+ * run, NULL after the last. REFUSED: the first mistake, as file:line:column, and their
+ * number. */
 status own_tables_truths(const truths_options *, const case_type *const run[],
                          const case_type *only, truths *t, fault *f);
 /* Adds the rules of tables; where there is such a table, new formulations count towards the exit

@@ -191,7 +191,7 @@ static const verb_group shared[] = {SHARED(output, output), SHARED(select, selec
 const verb verb_compare = {
     "compare",
     "OLD [NEW]",
-    "two stored runs: what became worse or better",
+    "two stored runs: changes for better or worse",
     "Compares errors and work counts of two runs stored by 'verify -o' (HDF5), cell by cell, or, "
     "where one is the short table that is kept of a run, series by series, with the limits of the "
     "default points; a former run is never a truth. Two runs of 'sweep -o' are compared point by "

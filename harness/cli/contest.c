@@ -83,8 +83,9 @@ static void show_meeting(const duel *d, double level, const bout *m)
                  loser, low, high);
     else if (reach_unranked(d->s.series[0].formulation.type)[0] != '\0' ||
              reach_unranked(d->s.series[1].formulation.type)[0] != '\0')
-        snprintf(line, sizeof line, "no rank: beside %s, %s takes %.2f to %.2f times as long",
-                 winner, loser, low, high);
+        snprintf(line, sizeof line,
+                 "no rank: compared with %s, %s takes %.2f to %.2f times as long", winner, loser,
+                 low, high);
     else
         snprintf(line, sizeof line, "%s is faster: %s takes %.2f to %.2f times as long", winner,
                  loser, low, high);
@@ -184,7 +185,7 @@ static status check(const duel *d, const bench_options *r, fault *f)
 {
     for (int i = 0; i < d->s.seriess; i++)
         if (d->s.series[i].missing[0] != '\0')
-            return fault_set(f, STATUS_REFUSED, "%.60s does not offer %.100s, which %.60s needs",
+            return fault_set(f, STATUS_REFUSED, "%.60s does not support %.100s, which %.60s needs",
                              d->s.series[i].formulation.key, d->s.series[i].missing,
                              d->s.point[0].type->name);
     if (d->s.seriess != 2)
@@ -193,7 +194,7 @@ static status check(const duel *d, const bench_options *r, fault *f)
     return meeting_asked(&d->s, &d->t) > 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "nothing to measure errors by: no quantity has a truth, or an "
+                           "no reference value for errors: no quantity has a truth, or an "
                            "agreement, for both; give -n for meshes of your choice");
 }
 
@@ -247,7 +248,7 @@ static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
 /* For each error the least number of elements of either from which on the error of every asked
  * quantity is within it (study/study.h), then these two cells in alternation. Errors: --error, or
  * those of reach_level that both reach; quantities: -k, or all that both have a truth or an
- * agreement for. REFUSED: one does not run, nothing to measure errors by, none is reached. */
+ * agreement for. REFUSED: one does not run, no reference value for errors, none is reached. */
 static status against_error(bench_options *r, const case_type *type, fault *f)
 {
     duel d = {.levels = 0};
@@ -335,7 +336,7 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
                          r->against);
     if (is_program && (r->error != NULL || r->select != NULL))
         return fault_set(f, STATUS_REFUSED,
-                         "another program is compared at equal n: leave --error and -k away");
+                         "another program is compared at equal n: remove --error and -k");
     if (is_program && (r->slowdown > 0 || r->meshes.count > 1))
         return fault_set(f, STATUS_REFUSED,
                          "--inject-slowdown and a second mesh require another formulation "
@@ -344,7 +345,7 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
         return against_error(r, type, f);
     if (r->error != NULL || r->select != NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "--error and -k find the meshes by themselves: leave -n away");
+                         "--error and -k find the meshes by themselves: remove -n");
     return against_meshes(r, type, is_program, f);
 }
 
@@ -357,7 +358,7 @@ int contest_run(bench_options *r)
                                             "-f, and one -n or two (A's and B's) or none");
     if (r->output != NULL)
         return message_fail(STATUS_REFUSED,
-                            "--against writes no file; leave -o away, or give --format json");
+                            "--against writes no file; remove -o, or give --format json");
     if (r->format[0] == 'c')
         return message_fail(STATUS_REFUSED, "--against is written as text or json");
     const case_type *type = case_input_find(&r->of);

@@ -223,7 +223,7 @@ void contestant_unranked(const contestant *a, const contestant *b)
     for (int i = 0; i < 2; i++) {
         const char *why = reach_unranked(both[i]->request.formulation);
         if (why[0] != '\0')
-            printf("%s: %s, its times rank nothing\n", both[i]->name, why);
+            printf("%s: %s, its times are not ranked\n", both[i]->name, why);
     }
 }
 

@@ -88,8 +88,8 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(converge_request, at)
 static const verb_option own[] = {
-    {"error", 0, "R", "error that is asked for (default 1%)", IN(error), .read = option_error},
-    {"verbose", 'v', NULL, "values, times and limits of each formulation by itself", IN(verbose),
+    {"error", 0, "R", "requested error (default 1%)", IN(error), .read = option_error},
+    {"verbose", 'v', NULL, "values, times and limits of each formulation separately", IN(verbose),
      .traits = OPTION_ASIDE},
     {0}};
 static const verb_group shared[] = {

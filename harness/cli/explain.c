@@ -82,7 +82,7 @@ static int explain_inputs(const char *word)
 {
     if (!glossary_same("inputs", word))
         return 0;
-    printf("inputs (scenes): what has part in which analysis\n");
+    printf("inputs (scenes): inputs that each analysis uses\n");
     for (int k = 0; k < SCENE_COLUMNS; k++)
         printf("  %c  %s\n", 'a' + k, scene_column_name[k]);
     printf("  %-34s", "");
@@ -96,7 +96,7 @@ static int explain_inputs(const char *word)
         putchar('\n');
     }
     printf("  u used   s used, refused in a state whose tangent is not symmetric\n"
-           "  i used in axes that turn, and where the tangent is not symmetric; else no part\n"
+           "  i used in rotating axes, and where the tangent is not symmetric; else no part\n"
            "  - no part: the answer is the same without   x refused by name\n");
     return 1;
 }

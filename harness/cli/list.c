@@ -118,12 +118,12 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
         if (!rules_speak_of(r, chosen->key))
             continue;
         if (found++ == 0)
-            printf("known findings ('beamwork explain RULE' shows the proof)\n");
+            printf("known deviations ('beamwork explain RULE' shows the proof)\n");
         paragraph_write(stdout, printf("  %s: ", r->name), 4, r->cause);
         show_verdicts(r);
     }
     if (found == 0)
-        printf("known findings: none\n");
+        printf("known deviations: none\n");
 }
 
 /* Prints the entries of one kind with the same words as the first, in one group. */
@@ -170,7 +170,7 @@ static void list_formulation(const formulation *chosen, const rule *rules, int c
     show_declared(chosen, "restricted to", "limits");
     show_declared(chosen, "lacks", "lacks");
     show_features("offers", t->offers & ~theories);
-    show_features("does not offer", ~t->offers & (FEATURE_END - 1) & ~theories);
+    show_features("does not support", ~t->offers & (FEATURE_END - 1) & ~theories);
     show_options(t);
     if (rules != NULL)
         show_rules(chosen, rules, count);
@@ -221,7 +221,7 @@ static void list_offer(const scene *s, const element_type *type)
     const int at = printf("  %-28s ", type->name);
     runs_on_scene(s, type, &here);
     if (!here.runs)
-        paragraph_write(stdout, at + printf("does not offer "), at, here.words);
+        paragraph_write(stdout, at + printf("does not support "), at, here.words);
     else if (here.words[0] != '\0')
         paragraph_say(stdout, at + printf("runs without "), at, "%s%s", here.words,
                       here.other ? " (another model)" : "");
@@ -364,7 +364,7 @@ const verb verb_list = {
     "list",
     "[cases|formulations|CASE|FORMULATION]",
     "cases and formulations; of one: parameters, quantities, orders, findings",
-    "Shows what there is: all cases and formulations; of a case its parameters, quantities and the "
+    "Lists all cases and formulations; of a case its parameters, quantities and the "
     "formulations that "
     "support it; of a formulation its theory, orders, options, features, limitations, known "
     "deviations and the cases that it runs on.",

@@ -138,9 +138,9 @@ static struct {
 } mishap[] = {{SIGSEGV, "reaches for memory that is not its own", ""},
               {SIGBUS, "reaches for memory that is not there", ""},
               {SIGFPE, "divides whole numbers by zero", ""},
-              {SIGILL, "runs into what is no instruction", ""},
+              {SIGILL, "executes an invalid instruction", ""},
               {SIGABRT, "aborts", ""},
-              {SIGALRM, "did not come back within the time limit (--time-limit)", ""}};
+              {SIGALRM, "did not finish within the time limit (--time-limit)", ""}};
 
 enum { MISHAPS = sizeof mishap / sizeof mishap[0] };
 
@@ -258,7 +258,8 @@ static void report_former(const verb_option *o, const char *word)
     const char *was = verb_former_name(o);
     const size_t length = strcspn(word, "=");
     if (was != NULL && length == strlen(was) + 2 && strncmp(word + 2, was, length - 2) == 0)
-        fprintf(stderr, "beamwork: --%s is --%s now; the old name goes with the next version\n",
+        fprintf(stderr,
+                "beamwork: --%s is --%s now; the old name will be removed in the next version\n",
                 was, o->name);
 }
 
@@ -353,7 +354,8 @@ static error_t take(int key, char *value, struct argp_state *state)
     const verb_option *o =
         key >= FIRST_KEY ? verb_option_at(v, key - FIRST_KEY, &at) : verb_letter(v, (char)key, &at);
     if (o != NULL && key < FIRST_KEY && key != o->letter)
-        fprintf(stderr, "beamwork: -%c is --%s now; the letter goes with the next version\n", key,
+        fprintf(stderr,
+                "beamwork: -%c is --%s now; the letter will be removed in the next version\n", key,
                 o->name);
     if (o == NULL || o == verb_help) { /* -? as well */
         help_write(stdout, v);

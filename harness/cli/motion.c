@@ -84,7 +84,7 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(motion_options, at)
 static const verb_option own[] = {
     {"vary", 0, "NAME=A..B/N|A,B,C",
-     "one parameter: N equal parts (N + 1 values), with ':log' behind equal ratios; a list of "
+     "one parameter: N equal parts (N + 1 values), with ':log' added: equal ratios; a list of "
      "values or words",
      IN(vary), .traits = OPTION_REPEATS},
     {"integrator", 0, "NAME[,NAME...]",
@@ -96,13 +96,13 @@ static const verb_option own[] = {
      "and 1/4 of that of the motion)",
      IN(step_lengths)},
     {"tolerance", 0, "R[,R...]|R..R",
-     "errors of a step by which it is chosen, of integrators that estimate it; a range goes by "
+     "error per step that controls the step size, of integrators that estimate it; a range goes by "
      "hundredths",
      IN(tolerances)},
     {"conservation-only", 0, NULL,
      "only energy and momenta: no reference solution is computed, and no step is halved",
      IN(conservation_only)},
-    {"expected", 0, "FILE.csv", "verdicts that are expected, in the place of a case", IN(expected),
+    {"expected", 0, "FILE.csv", "table of expected verdicts, instead of a case", IN(expected),
      .traits = OPTION_INPUT},
     {"verbose", 'v', NULL, "with --expected: every motion", IN(verbose), .traits = OPTION_ASIDE},
     {0}};
@@ -115,8 +115,9 @@ const verb verb_motion = {
     "[CASE]",
     "integrators side by side: error of time, energy, momenta, cost",
     "Integrates a motion in time by several integrators with several steps or tolerances, and "
-    "shows for each the error of time (against radau at 1e-10 on the same mesh), its order, what "
-    "becomes of energy and momenta, and what it costs. With --conservation-only long motions of "
+    "shows for each the error of time (against radau at 1e-10 on the same mesh), its order, the "
+    "change of "
+    "energy and momenta, and what it costs. With --conservation-only long motions of "
     "large "
     "steps: does the energy grow, does a step fail? With --expected the verdicts of a table. Exit "
     "status: 0 as expected, 1 a verdict differs or no motion reaches its end, 2 refused, 3 nothing "

@@ -287,8 +287,8 @@ static const verb_option output_option[] = {
     {0}};
 static const verb_option cli_options_results[] = {
     {"output", 'o', "FILE",
-     "write there instead of to standard output; NAME.h5: into that file of results, beside what "
-     "other experiments left there",
+     "write there instead of to standard output; NAME.h5: into that file of results, next to the "
+     "results of other experiments",
      .traits = OPTION_OUTPUT},
     {0}};
 static const verb_option format[] = {{"format", 0, "text|json|csv",
@@ -297,8 +297,8 @@ static const verb_option format[] = {{"format", 0, "text|json|csv",
                                      {0}};
 static const verb_option selection[] = {
     {"select", 'k', "EXPRESSION",
-     "words joined by and, or, not, in brackets where they belong together; looked for in "
-     "case/parameters/formulation/quantity, where a part of a name is enough; =NAME: the whole "
+     "words joined by and, or, not, grouped by brackets; searched for in "
+     "case/parameters/formulation/quantity, also as parts of names; =NAME: the whole "
      "name",
      .traits = 0},
     {0}};
@@ -354,7 +354,7 @@ static status check_input(const void *context, const char *input, fault *f)
     if (input != NULL && input[0] != '\0' && place_find(input, &in, NULL) == STATUS_OK &&
         place_same(&in, &out->where))
         return fault_set(f, STATUS_REFUSED,
-                         "%s %.100s would replace %.100s, which is read; give it another name",
+                         "%s %.100s would replace %.100s, which is an input; give it another name",
                          out->option, out->path, input);
     return STATUS_OK;
 }

@@ -101,7 +101,7 @@ static status check_name(const case_type *one, const case_type *const *others, c
     for (; *others != NULL; others++)
         if (strcmp((*others)->name, one->name) == 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%.200s: a case or scene '%s' is judged already; give the scene "
+                             "%.200s: a case or scene '%s' is in this run already; give the scene "
                              "another name",
                              path, one->name);
     return STATUS_OK;

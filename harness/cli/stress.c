@@ -25,7 +25,7 @@ static status run(const command_line *l, const stress_request *r, extreme_sweep 
     TRY(files_check_results(l, to.results != NULL, request.truths, f));
     TRY(experiment_do(&experiment_stress, &request, &to, s, f));
     if (extreme_sweep_exit(s) == EXIT_NOTHING)
-        fprintf(stderr, "beamwork: nothing was tried; see 'beamwork list' and -k\n");
+        fprintf(stderr, "beamwork: nothing was run; see 'beamwork list' and -k\n");
     return STATUS_OK;
 }
 
@@ -52,10 +52,10 @@ static const verb_group shared[] = {SHARED(formulations, chosen), SHARED(select,
 const verb verb_stress = {
     "stress",
     "",
-    "every formulation at extremes: a value, or a named failure",
+    "every formulation at extremes: a value, or a reported failure",
     "Drives every formulation to the extremes where numbers become unstable, and judges every "
-    "answer: a value, coarse, a named failure, or wrong. Exit status: 0 all as expected, 1 one "
-    "differs, 2 refused, 3 nothing was tried, 4 file, disk or memory.",
+    "answer: a value, coarse, a reported failure, or wrong. Exit status: 0 all as expected, 1 one "
+    "differs, 2 refused, 3 nothing was run, 4 file, disk or memory.",
     "beamwork stress -k \"thin_sheet and collocation\"",
     shared,
     NULL,

@@ -273,7 +273,7 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(sweep_options, at)
 static const verb_option own[] = {
     {"vary", 0, "NAME=A..B/N|A,B,C",
-     "what the sweep is over: N equal parts (N + 1 values), with ':log' behind equal ratios; a "
+     "parameter of the sweep: N equal parts (N + 1 values), with ':log' added: equal ratios; a "
      "list of values or words; may be repeated for another parameter",
      IN(vary), .traits = OPTION_REPEATS, .most = CASE_MAX_PARAMETERS},
     {"design", 0, "grid|sobol|halton|random",
@@ -287,7 +287,7 @@ static const verb_option own[] = {
      "compute a reference value where none is stored: about half a second for each point (a "
      "scene: 4 s)",
      IN(derive)},
-    {"error", 0, "R", "error that is asked for (default 1%)", IN(error), .read = option_error},
+    {"error", 0, "R", "requested error (default 1%)", IN(error), .read = option_error},
     {"verbose", 'v', NULL, "also the least elements for each quantity", IN(verbose),
      .traits = OPTION_ASIDE},
     {"quiet", 'q', NULL, "no tables", IN(shards.quiet), .traits = OPTION_ASIDE},

@@ -173,7 +173,7 @@ static const verb_group shared[] = {SHARED(case, of), SHARED(own_truths, truths)
 const verb verb_truth = {
     "truth",
     "CASE",
-    "what is known of a case at a parameter point; derived on demand",
+    "reference values of a case at a parameter point; computed on demand",
     "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, source. Where "
     "the tables have none of the case's own model, the deriving program is run to solve for them. "
     "A scene of your own (--scene FILE) is solved as a network of geometrically exact beams and "

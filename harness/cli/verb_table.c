@@ -38,8 +38,9 @@ static const manual_row statuses[] = {
     {"2", "refused input"},
     {"3", "nothing was judged"},
     {"4", "file, disk or memory"},
-    {"5", "incomplete: interrupted (what was judged is in *.partial.*), or parts are missing; the "
-          "same command continues"},
+    {"5",
+     "incomplete: interrupted (the verdicts so far are in *.partial.*), or parts are missing; the "
+     "same command continues"},
     {NULL, NULL},
 };
 static const manual_program about = {

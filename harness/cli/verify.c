@@ -65,7 +65,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     if (e->ended)
         return e->code;
     if (s->unfinished > 0) {
-        fprintf(stderr, "beamwork: %s: %d cells were not done; what was judged is ",
+        fprintf(stderr, "beamwork: %s: %d cells were not done; the verdicts so far are ",
                 r->shards.partial ? "incomplete" : "interrupted", s->unfinished);
         if (file != NULL && output_partial(file->value, partial, NULL) == STATUS_OK)
             fprintf(stderr, "in %s\n", partial);
@@ -75,7 +75,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     }
     const int code = judgement_exit(j);
     if (code == EXIT_NOTHING)
-        fprintf(stderr, "beamwork: nothing was judged: no verdict against a truth; see %s\n",
+        fprintf(stderr, "beamwork: no verdict: there is no reference value; see %s\n",
                 r->scenes.scene.count > 0 ? "'truths' in 'beamwork scene --keys'"
                                           : "'beamwork list' and -k");
     return r->exit_zero ? EXIT_AS_EXPECTED : code;
@@ -256,7 +256,8 @@ static const verb_option own[] = {
      IN(tolerance), .traits = OPTION_VERDICT, .read = option_error},
     {"not-worse-than", 0, "FILE",
      "results of a former 'verify -o', or the short table of them that 'compare FILE -o' writes: "
-     "fail where the error of any mesh is larger than there by more than 2 %, its value is gone, "
+     "fail where the error of any mesh is larger than there by more than 2 %, it has lost its "
+     "value, "
      "or a limit has moved by more than 0.001 % that no exact value judges as closely",
      IN(former), .traits = OPTION_INPUT | OPTION_VERDICT},
     {"exit-zero", 0, NULL, "exit status 0 for any verdicts; files have the outcome", IN(exit_zero),

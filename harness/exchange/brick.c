@@ -328,7 +328,7 @@ status face_of(const section_spec *spec, const section *constants, face *out, fa
     memset(out, 0, sizeof *out);
     if (is_overridden(spec))
         return fault_set(f, STATUS_REFUSED,
-                         "a solid has the constants of its sizes; leave out 'given'");
+                         "a solid has the constants of its sizes; remove 'given'");
     if (spec->kind == SECTION_WALLS)
         return fill_walls(spec, constants->centroid, out, f);
     if (spec->kind != SECTION_RECTANGLE)

@@ -33,7 +33,7 @@ static status check_section(const scene *s, int member, fault *f)
         return STATUS_OK;
     return fault_set(
         f, STATUS_REFUSED,
-        "%s: a solid with E/(2 G) - 1 = %g is none; Poisson's ratio is between -1 and 0.5",
+        "%s: E/(2 G) - 1 = %g is impossible for a solid; Poisson's ratio is between -1 and 0.5",
         scene_called(s, SCENE_MEMBERS, member).text, poisson);
 }
 
@@ -70,10 +70,11 @@ static status check_member(const scene *s, int member, fault *f)
                          "%s: foundations are not written beside solids; take it out",
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (scene_is_beside(m, 0) || scene_is_beside(m, 1))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: ends beside their nodes are not written as solids; give the place of "
-                         "the end a node of its own (part_of)",
-                         scene_called(s, SCENE_MEMBERS, member).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: ends eccentric to their nodes are not written as solids; give the place of "
+            "the end a node of its own (part_of)",
+            scene_called(s, SCENE_MEMBERS, member).text);
     if (m->warp_p != SCENE_WARP_FIXED || m->warp_q != SCENE_WARP_FIXED)
         return fault_set(f, STATUS_REFUSED,
                          "%s: its ends warp, and rigid faces do not; say warping: fixed",
@@ -164,8 +165,8 @@ status carried_check(const scene *s, fault *f)
         return fault_set(f, STATUS_REFUSED, "a scene without members has no solid");
     if (s->springs > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "springs are not written beside solids; take them out, or make the spring "
-                         "a member");
+                         "springs are not written with solids; remove "
+                         "them, or make the spring a member");
     for (int i = 0; i < s->members; i++)
         TRY(check_member(s, i, f));
     for (int i = 0; i < s->nodes; i++)
@@ -173,7 +174,7 @@ status carried_check(const scene *s, fault *f)
     for (int i = 0; i < s->drivers; i++)
         if (s->driver[i].condition_driver != SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
-                             "driver '%s' is fixed by a condition, which no deck says",
+                             "driver '%s' is fixed by a condition, which decks cannot express",
                              s->driver[i].name);
     for (int i = 0; i < s->loads; i++)
         TRY(check_load(s, i, f));
@@ -246,7 +247,7 @@ static status check_quantity(const scene *s, const scene_quantity *q, fault *f)
                       "value of it",
                       f);
     if (scene_abscissa_of(s, q) != SCENE_NONE)
-        return refuse(q, "a curve over another quantity is not written for solids; leave x out", f);
+        return refuse(q, "a curve over another quantity is not written for solids; remove x", f);
     switch (q->what.kind) {
     case SCENE_COORDINATE:
     case SCENE_REACTION:

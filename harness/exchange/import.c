@@ -192,7 +192,7 @@ static const scene_quantity *find_quantity(const import_block *b, const imported
     return NULL;
 }
 
-/* Does its value depend on what a moment does while the node turns? */
+/* Does its value depend on the convention of moments on rotating nodes? */
 static int has_moments(const scene_quantity *q)
 {
     return (q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY) &&
@@ -206,10 +206,10 @@ static void check_row(const import_block *b, const imported_row *row, const scen
         mistakes_add(b->m, line_of(b, row), 2, "'%s' is a curve: give x, its %s [%s]", q->name,
                      q->x.name, q->x.unit);
     if (!is_curve && !isnan(row->x))
-        mistakes_add(b->m, line_of(b, row), 2, "'%s' is no curve: leave x empty", q->name);
+        mistakes_add(b->m, line_of(b, row), 2, "'%s' is not a curve: leave x empty", q->name);
     if (has_moments(q) && b->found->convention[0] == '\0')
         mistakes_add(b->m, line_of(b, row), 3,
-                     "'%s' depends on what a moment does while the node turns; write '# "
+                     "'%s' depends on the convention of moments on rotating nodes; write '# "
                      "convention: spatial|semitangential|symmetrised'",
                      q->name);
 }

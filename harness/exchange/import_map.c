@@ -250,7 +250,7 @@ static status read_keys(map_reader *r, const char *map, const char *const file[]
     r->unknowns = map_keys_count(r->m, r->root, "unknowns", 0);
     r->seconds = map_keys_number(r->m, r->root, "seconds", NAN);
     if (r->elements < 1)
-        mistakes_add(r->m, 1, 2, "elements: how many there are");
+        mistakes_add(r->m, 1, 2, "elements: their number");
     const document_node *values = document_find(r->root, "values");
     if (values != NULL && values->kind == DOCUMENT_MAP && values->count > 0)
         return read_values(r, values, map, file, files, into, f);

@@ -128,7 +128,7 @@ static status take_series(store_reader *r, const char *of, const tables *t, cons
     }
     if (is_there(r->s, place, first->formulation))
         return fault_set(r->f, STATUS_REFUSED,
-                         "%.100s: %.60s/%.60s of %.100s is beside this run already; give it once",
+                         "%.100s: %.60s/%.60s of %.100s is in this run already; give it once",
                          r->path, of, parameters[0] != '\0' ? parameters : "default",
                          first->formulation);
     imported *found = gather_rows(first, count);

@@ -44,7 +44,7 @@ static int untouched(const double *word)
 /* Looks at it and frees it. must: 1: it is filled whole. */
 static void look(guarded *g, int must, const specimen *s, claims *c)
 {
-    claim *beside = claims_open(c, "nothing beside an output is touched", 0),
+    claim *beside = claims_open(c, "no memory outside an output is changed", 0),
           *filled = claims_open(c, "outputs are filled whole", 0);
     for (int i = 0; i < GUARD; i++) {
         claims_asks(beside, untouched(&g->words[GUARD - 1 - i]),

@@ -7,7 +7,7 @@
 
 const checks_family checks_families[CHECKS_FAMILIES] = {
     {"declared", "its declarations are consistent", checks_declared},
-    {"features", "what it offers it can do: alone, in subsets, as the cases ask for it",
+    {"features", "it can do what it declares to support: alone, in subsets, as the cases need it",
      checks_features},
     {"derivatives", "J and H are the derivatives of the strains", checks_derivatives},
     {"energy", "stress, C and G derive from the energy, C and G are symmetric", checks_energy},
@@ -15,7 +15,7 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"motion", "rigid motion, order of the nodes and units change nothing", checks_motion},
     {"stateless", "the same call gives the same bits, whatever went before", checks_stateless},
     {"many", "many elements at once give what each gives alone", checks_many},
-    {"bounds", "outputs are filled whole, and nothing beside them is touched", checks_bounds},
+    {"bounds", "outputs are filled whole, and no memory outside them is changed", checks_bounds},
     {"unsound", "NaN and Inf are reported, not swallowed", checks_unsound},
     {"mass", "mass matrix: symmetric, positive, mass and moments of the beam", checks_mass},
     {"along", "loads along one element are as exact as forces at its nodes", checks_along},
@@ -39,7 +39,7 @@ static void rigid(const specimen *s, double size, const double turn[3], claim *o
     for (int i = 0; i < s->strains; i++)
         claims_departs(one, fabs(carried_e[i] - e[i]) / s->request.length,
                        "strain: turned by (%g, %g, %g) rad and shifted as a whole, strain %d goes "
-                       "from %.6g to %.6g m; measure it in axes that turn with the element%s",
+                       "from %.6g to %.6g m; measure it in axes that rotate with the element%s",
                        turn[0], turn[1], turn[2], i + 1, e[i], carried_e[i], s->words);
 }
 
@@ -130,7 +130,7 @@ static void check(const specimen *s, claims *c)
     static const double turn[][3] = {{0.71, -1.93, 1.37}, {0, 0, 2.2}, {3.1, 0, 0}, {0, -1.6, 0}};
     claims_doing(c, "strain of an element that is turned%s", s->words);
     for (size_t k = 0; k < sizeof turn / sizeof turn[0]; k++) {
-        rigid(s, 0, turn[k], claims_open(c, "rigid motion makes no strain", 1e-14));
+        rigid(s, 0, turn[k], claims_open(c, "rigid motion causes no strain", 1e-14));
         rigid(s, 0.2, turn[k], claims_open(c, "rigid motion changes no strain", 2e-14));
     }
     rest(s, claims_open(c, "the undeformed element has no strain", 1e-14));

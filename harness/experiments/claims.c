@@ -91,8 +91,8 @@ static void theories(const element_type *t, claim *one)
     claims_asks(one, flexible == (t->shear_theories != 0),
                 flexible ? "shear_theories: it offers shear and names no theory of it; set "
                            "SHEAR_ENGESSER, SHEAR_HARINGX or SHEAR_OWN"
-                         : "shear_theories: it has a theory of shear and does not offer "
-                           "FEATURE_SHEAR; set one or leave out the other");
+                         : "shear_theories: it has a theory of shear and does not support "
+                           "FEATURE_SHEAR; set one or remove the other");
     claims_asks(
         one,
         ((t->offers & FEATURE_ENGESSER) != 0) == ((t->shear_theories & SHEAR_ENGESSER) != 0) &&
@@ -100,8 +100,8 @@ static void theories(const element_type *t, claim *one)
         "shear_theories: FEATURE_ENGESSER or FEATURE_HARINGX is offered without its theory, "
         "or the other way round");
     claims_asks(one, !own || t->shear_theories == SHEAR_OWN,
-                "shear_theories: SHEAR_OWN stands beside another one; a theory of its own is the "
-                "only one");
+                "shear_theories: SHEAR_OWN excludes other theories; "
+                "set it alone");
     claims_asks(one, own == (t->own_theory != NULL),
                 own ? "own_theory: say in a line what SHEAR_OWN is and where it is derived"
                     : "own_theory: it is given, and shear_theories has no SHEAR_OWN");
@@ -122,11 +122,11 @@ static void words(const element_type *t, claim *one)
     claims_asks(one, !(t->lacks & LACKS_SHEAR_Y) || t->offers & FEATURE_SHEAR,
                 "lacks: LACKS_SHEAR_Y is for types that support shear; remove it");
     claims_asks(one, !(t->offers & FEATURE_ROTARY_INERTIA) || t->offers & FEATURE_MASS,
-                "offers: FEATURE_ROTARY_INERTIA goes with FEATURE_MASS");
+                "offers: FEATURE_ROTARY_INERTIA requires FEATURE_MASS");
     claims_asks(one, ((t->limits & LIMIT_TENSION) != 0) == (t->tension != NULL),
-                "tension: it goes with LIMIT_TENSION; give both or leave both out");
+                "tension: it requires LIMIT_TENSION; give both or none");
     claims_asks(one, !t->spreads || (t->inertia != NULL && t->offers & FEATURE_MASS),
-                "spreads: it goes with 'inertia' and FEATURE_MASS; give them or remove it");
+                "spreads: it requires 'inertia' and FEATURE_MASS; give them or remove it");
 }
 
 static void orders(const formulation *chosen, claim *one)
@@ -172,7 +172,7 @@ static void options(const element_type *t, claim *one)
 
 void checks_declared(const formulation *chosen, claims *out)
 {
-    claims_doing(out, "what it says of itself");
+    claims_doing(out, "its declarations");
     theories(chosen->type, claims_open(out, "theories of shear", 0));
     words(chosen->type, claims_open(out, "words and limits", 0));
     orders(chosen, claims_open(out, "orders", 0));

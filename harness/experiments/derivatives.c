@@ -150,7 +150,7 @@ void checks_derivatives(const formulation *chosen, claims *out)
     if (!(t->leaves & LEAVES_J))
         specimens_each(chosen, out, check);
     if (claims_open(out, claim_J, allowed)->outcome == CLAIM_BROKEN)
-        claims_not_made(out, claim_H, "not looked at before J is right");
+        claims_not_made(out, claim_H, "not checked before J is correct");
 }
 
 /* Many elements at once give what each gives alone: of two kinds, mixed, each in another state. */

@@ -19,10 +19,11 @@ static status count_grid(design *d, fault *f)
     for (int i = 0; i < d->axes; i++) {
         const sweep_axis *a = &d->axis[i];
         if (a->count == 0)
-            return fault_set(f, STATUS_REFUSED,
-                             "--vary %s: how many parts? write %s=%g..%g/N, or --design sobol "
-                             "--points N",
-                             a->of->name, a->of->name, a->from, a->to);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "--vary %s: give the number of parts: write %s=%g..%g/N, or --design sobol "
+                "--points N",
+                a->of->name, a->of->name, a->from, a->to);
         if (d->points > DESIGN_MOST_POINTS / a->count)
             return fault_set(f, STATUS_REFUSED,
                              "more than %d points; give fewer parts, or --design sobol --points N",
@@ -39,7 +40,7 @@ static status check_box(const design *d, fault *f)
     for (int i = 0; i < d->axes; i++)
         if (d->axis[i].count > 0 && d->axis[i].value == NULL)
             return fault_set(f, STATUS_REFUSED,
-                             "--vary %s: parts belong to a grid; leave out '/%d', --points says "
+                             "--vary %s: parts belong to a grid; remove '/%d', --points says "
                              "how many points there are",
                              d->axis[i].of->name, d->axis[i].count - 1);
     if (d->kind != DESIGN_RANDOM && d->axes > most)
@@ -116,7 +117,7 @@ static status set_marks(design *d, fault *f)
 static status fill_box(design *d, long points, fault *f)
 {
     if (points < 1 || points > DESIGN_MOST_POINTS)
-        return fault_set(f, STATUS_REFUSED, "--design %s: how many points? give --points N",
+        return fault_set(f, STATUS_REFUSED, "--design %s: give the number of points: --points N",
                          design_name(d->kind));
     d->points = points;
     TRY(check_box(d, f));
@@ -292,7 +293,7 @@ static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
     if (a->kind == AXIS_LOG && !(a->from > 0 && a->to > 0) && !(a->from < 0 && a->to < 0))
         return fault_set(f, STATUS_REFUSED,
                          "--vary %s: equal ratios from %g to %g do not exist; give ends of one "
-                         "sign, or leave out ':log'",
+                         "sign, or remove ':log'",
                          a->of->name, a->from, a->to);
     if (a->from == a->to)
         return fault_set(f, STATUS_REFUSED,

@@ -104,7 +104,7 @@ static void check_rest(const specimen *s, claims *c)
 {
     const double none[ENERGY_M] = {0};
     double inner[SPECIMEN_INNER], sigma[ENERGY_M], C[ENERGY_M * ENERGY_M], energy = NAN;
-    claim *one = claims_open(c, "nothing stresses the undeformed element", 1e-12);
+    claim *one = claims_open(c, "the undeformed element has no stress", 1e-12);
     specimen_rest(s, inner);
     if (specimen_settled(s, none, inner,
                          &(stress_output){.energy = &energy, .sigma = sigma, .C = C}) != STATUS_OK)

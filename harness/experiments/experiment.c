@@ -239,7 +239,7 @@ static const schema_field fields_of_certificate[] = {
     {0}};
 static const record_type record_certificate = {"certificate",
                                                "formulations",
-                                               "how a formulation stands to the interface",
+                                               "checks of a formulation against the interface",
                                                {key_of_formulation, fields_of_certificate}};
 
 static const schema_field fields_of_part[] = {

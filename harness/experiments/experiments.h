@@ -399,7 +399,7 @@ checks_run checks_force;       /* of types by force: force and stiffness come fr
 checks_run checks_motion;      /* rigid motion, order of the nodes, units */
 checks_run checks_stateless;   /* the same call gives the same, whatever went before */
 checks_run checks_many;        /* many at once give what each gives alone */
-checks_run checks_bounds;      /* outputs are filled, and nothing beside them is touched */
+checks_run checks_bounds;      /* outputs are filled, and no memory outside them is changed */
 checks_run checks_unsound;     /* NaN and Inf are reported, not passed over */
 checks_run checks_mass;        /* mass matrix: symmetric, positive, of the beam's mass */
 checks_run checks_rotating;    /* what a rotating frame does */
@@ -627,7 +627,7 @@ const quantity_result *extreme_sweep_result(const extreme_sweep *s, const extrem
 double extreme_sweep_value(const extreme_sweep *s, const extreme_outcome *o, int refinement);
 /* The same formulation and quantity at the x that others are compared with, or NULL. */
 extreme_outcome *extreme_sweep_base(const extreme_sweep *s, const extreme_outcome *o);
-/* Exit code: 0 as expected, 1 an outcome differs, 3 nothing was tried. */
+/* Exit code: 0 as expected, 1 an outcome differs, 3 nothing was run. */
 int extreme_sweep_exit(const extreme_sweep *s);
 void extreme_sweep_free(extreme_sweep *s);
 

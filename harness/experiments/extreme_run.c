@@ -334,7 +334,7 @@ static const schema_field key_of_count[] = {
      TEXT_OF(RECORD, extreme_count, formulation), .key = KEY},
     {0}};
 const record_type record_extreme_count = {
-    "count", "formulations", "what became of a formulation", {key_of_count, fields_of_count}};
+    "count", "formulations", "results of a formulation", {key_of_count, fields_of_count}};
 
 /* x, or the name of a quantity, of an extreme. */
 static const schema_field key_of_extreme[] = {

@@ -50,8 +50,8 @@ static void accepted(const formulation *chosen, unsigned features, const char *w
     fault why = {""};
     claims_doing(c, "prepare, strain and stress with %s", what);
     const feature_outcome found = evaluated(chosen, features, &why);
-    claims_asks(claims_open(c, "all it offers is given", 0), found == FINITE,
-                "offers: asked for %s, %s%s; give it, or do not offer it", what,
+    claims_asks(claims_open(c, "everything it supports is present", 0), found == FINITE,
+                "offers: asked for %s, %s%s; give it, or do not declare it", what,
                 why.text[0] != '\0' ? "it is refused: " : "the stiffness is not finite", why.text);
 }
 
@@ -118,8 +118,8 @@ static void feature_subsets(const formulation *chosen, claims *c)
         const feature_outcome found = evaluated(chosen, features, &why);
         count[found]++;
         claims_asks(finite, found != BAD,
-                    "prepare: asked for %s alone, %s; give it, or refuse it with a reason", words,
-                    why.text[0] != '\0' ? why.text : "the stiffness is not finite");
+                    "prepare: asked for %s alone, %s; support it, or refuse it with a reason",
+                    words, why.text[0] != '\0' ? why.text : "the stiffness is not finite");
     }
     claims_departs(few, (double)count[REFUSED] / (1 << OPTIONAL),
                    "prepare: %d of %d subsets of what it offers are refused; at most half may be, "
@@ -265,8 +265,9 @@ void effects_check(const formulation *chosen, claims *c)
         claim *one = claims_open(c, name, 0);
         if (bit == FEATURE_WARPING)
             claims_asks(one, anywhere(chosen, all, 0) != 0,
-                        "offers warping, but nothing depends on the warping amplitudes; let it, or "
-                        "do not offer it");
+                        "offers warping, but nothing depends on the warping amplitudes; let "
+                        "strains depend on them, "
+                        "or do not declare it");
         else /* theories of shear go with shear */
             claims_asks(
                 one,
@@ -274,7 +275,7 @@ void effects_check(const formulation *chosen, claims *c)
                          bit == FEATURE_SHEAR ? bit | FEATURE_ENGESSER | FEATURE_HARINGX : bit) !=
                     0,
                 "offers %s, but nothing changes with it: strains, energy, stress and C are those "
-                "of the element without it; let them depend on it, or do not offer it",
+                "of the element without it; let them depend on it, or do not declare it",
                 feature_name(bit));
     }
 }

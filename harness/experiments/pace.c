@@ -287,8 +287,8 @@ static void print_reference(FILE *to, const pace *p, const pace_group *g)
                  "part",
                  g->order, PACE_REFERENCE_ORDER);
     paragraph_say(to, 0, 2,
-                  "errors of time: against radau at %g on the same mesh (%d steps), which is off "
-                  "by %.1e at most, by radau at %g and %g%s",
+                  "errors of time: against radau at %g on the same mesh (%d steps), whose error is "
+                  "at most %.1e, by radau at %g and %g%s",
                   pace_reference[0], pace_cell_of(p, g->reference)->solve.steps, g->uncertainty,
                   pace_reference[1], pace_reference[2], stopped);
 }
@@ -304,7 +304,7 @@ static void print_head(FILE *to, const pace *p, const pace_group *g)
     if (g->reference >= 0 && isfinite(g->uncertainty))
         print_reference(to, p, g);
     else if (g->reference >= 0)
-        paragraph_say(to, 0, 2, "no errors: the reference has none to be measured by: %s",
+        paragraph_say(to, 0, 2, "no errors: the reference solution cannot be checked: %s",
                       g->reason);
     if (isfinite(g->from) && g->from < g->end)
         paragraph_say(to, 0, 2, "energy and momenta: their largest change since %g s", g->from);

@@ -29,7 +29,7 @@ status pace_plan_usual(pace_plan_request *r, fault *f)
     const int analysis = outcome == STATUS_OK ? motion_of(&s) : -1;
     if (outcome == STATUS_OK && analysis < 0)
         outcome = fault_set(f, STATUS_REFUSED,
-                            "%s is no motion in time; 'beamwork list' shows those that are",
+                            "%s is not a motion in time; 'beamwork list' shows those that are",
                             r->type->name);
     if (outcome == STATUS_OK) {
         if (r->elements == 0)
@@ -206,7 +206,7 @@ status pace_plan_add(pace *p, const pace_plan_request *q, fault *f)
     memcpy(g->parameter, q->parameter, sizeof g->parameter);
     TRY(look(g, q, f));
     if (g->analysis < 0)
-        return fault_set(f, STATUS_REFUSED, "%s is no motion in time", q->type->name);
+        return fault_set(f, STATUS_REFUSED, "%s is not a motion in time", q->type->name);
     p->groups++;
     if (q->errors)
         TRY(add_reference(p, g, q, f));

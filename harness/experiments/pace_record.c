@@ -27,7 +27,7 @@ static const schema_field fields_of_run[] = {
      AT(pace_run, method.name), .key = KEY},
     {"step", "s", FIELD_DOUBLE, "of the integration; with a tolerance the first one",
      AT(pace_run, step), .key = KEY},
-    {"tolerance", "1", FIELD_DOUBLE, "of the error of a step; 0: all steps are alike",
+    {"tolerance", "1", FIELD_DOUBLE, "of the error of a step; 0: all steps are equal",
      AT(pace_run, tolerance), .key = KEY},
     {"status", "", FIELD_ENUM, "of the motion", AT(pace_run, status),
      .word = fields_keys_word_of_status, .words = STATUSES},

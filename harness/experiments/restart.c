@@ -186,8 +186,8 @@ typedef struct source {
     const char *path;
 } source;
 
-/* All of a data set of rank 1, with a zero after; NULL: it is not there, or not so. count: how
- * many there are; less than 0 on entry: any number. */
+/* All of a data set of rank 1, with a zero after; NULL: it is not there, or not so. count: their
+ * number; less than 0 on entry: any number. */
 static void *take(const source *from, const char *name, hid_t type, size_t size, long *count)
 {
     const hid_t set =
@@ -324,9 +324,10 @@ status restart_text(const scene *s, char **out, fault *f)
         return STATUS_OK;
     free(*out);
     *out = NULL;
-    return fault_set(f, STATUS_REFUSED,
-                     "no scene file can say this scene, by which a continued motion is identified: "
-                     "remove --save-state and --restart");
+    return fault_set(
+        f, STATUS_REFUSED,
+        "scene files cannot express this scene, by which a continued motion is identified: "
+        "remove --save-state and --restart");
 }
 
 /* Length of the line without its leading spaces, which are skipped. */

@@ -216,7 +216,7 @@ static void one_way(const way *w, claims *c, specimens_check *check)
     const int refused = outcome == STATUS_REFUSED && f.text[0] != '\0';
     claims_asks(
         claims_open(c, "prepare", 0), outcome == STATUS_OK || (refused && !w->usual),
-        "prepare: an element%s is refused (%s): %s; give it, or refuse it with a reason and "
+        "prepare: an element%s is refused (%s): %s; support it, or refuse it with a reason and "
         "do not offer it",
         s.words[0] != '\0' ? s.words + 1 : " of a rectangle with all that is offered",
         status_name(outcome), f.text[0] != '\0' ? f.text : "no reason is given");
@@ -290,7 +290,7 @@ enum { N = SPECIMEN_COORDINATES };
 static const char *const claim_F = "F is the gradient of the energy",
                          *const claim_K = "K is the derivative of F",
                          *const claim_same = "a rigid motion leaves the energy",
-                         *const claim_rest = "nothing loads the undeformed element";
+                         *const claim_rest = "the undeformed element has no load";
 
 static status call(const specimen *s, const node_state x[], force_output *out)
 {
@@ -377,7 +377,7 @@ static void check_carried(const specimen *s, const node_state x[], double energy
         call(s, carried, &(force_output){.energy = &other});
         claims_departs(one, claims_share(fabs(other - energy), fabs(energy)),
                        "force: a rigid turn by (%g, %g, %g) rad takes the energy from %.6g J to "
-                       "%.6g J; measure strains in axes that turn with the element%s",
+                       "%.6g J; measure strains in axes that rotate with the element%s",
                        turn[k][0], turn[k][1], turn[k][2], energy, other, s->words);
     }
 }

@@ -81,7 +81,7 @@ static status look_inside(stock *s, const shard_work *w, const char *path, int b
     status outcome = batch_belongs(&label, w, path, f);
     if (outcome == STATUS_OK && (label.batch != batch || label.batches != w->batches))
         outcome = fault_set(f, STATUS_REFUSED,
-                            "%.200s: is batch %d of %d, not what it is called; take it away", path,
+                            "%.200s: is batch %d of %d, not what it is called; remove it", path,
                             label.batch + 1, label.batches);
     if (outcome == STATUS_OK)
         outcome = add(s, &label, path, folder, f);
@@ -96,11 +96,11 @@ static status refuse_other(const shard_work *w, const char *path, fault *f)
     if (batch_read_label(path, &label, NULL) != STATUS_OK)
         return fault_set(
             f, STATUS_REFUSED,
-            "%.200s: ends in " BATCH_ENDING " and is no batch of this program; take it away", path);
+            "%.200s: ends in " BATCH_ENDING " and is not a batch of this program; remove it", path);
     status outcome = batch_belongs(&label, w, path, f);
     if (outcome == STATUS_OK)
-        outcome = fault_set(f, STATUS_REFUSED, "%.200s: not called as it was written; take it away",
-                            path);
+        outcome =
+            fault_set(f, STATUS_REFUSED, "%.200s: the file has been renamed; remove it", path);
     batch_label_free(&label);
     return outcome;
 }

@@ -99,7 +99,7 @@ static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f
         if (w->runs[i])
             continue;
         if (r->request.formulations > 0)
-            return fault_set(f, STATUS_REFUSED, "%.60s does not offer %.160s, which %.60s needs",
+            return fault_set(f, STATUS_REFUSED, "%.60s does not support %.160s, which %.60s needs",
                              r->formulation[i].key, why, r->request.type->name);
         if (told < (int)sizeof r->left_out)
             told += snprintf(r->left_out + told, sizeof r->left_out - (size_t)told, "%s%s (%s)",

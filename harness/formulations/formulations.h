@@ -182,7 +182,7 @@ status parameters_parse(const case_type *c, const char *text, double value[], in
 void parameters_text(const case_type *c, const double value[], char *text, int size);
 /* The same of those that the source of a case knows, as programs that derive values are asked. */
 void parameters_source_text(const case_type *c, const double value[], char *text, int size);
-int parameters_of_source(const case_type *c); /* how many there are: the first ones */
+int parameters_of_source(const case_type *c); /* their number: the first ones */
 /* FNV-1a of "name=%.17g;" over all parameters in table order, choices by index, "name=*;" where
  * any. */
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[]);
@@ -224,7 +224,7 @@ int select_matches(const char *expression, const char *text);
  * is chosen. */
 int select_covers(const char *expression, const char *part);
 
-/* Which words of an expression anything is called by: a misspelt one would leave cells out in
+/* Which words of an expression anything is called by: a misspelt one would skip cells in
  * silence. */
 typedef struct select_words {
     char met[SELECT_WORDS];

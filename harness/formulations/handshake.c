@@ -200,7 +200,7 @@ static status protocol_of(const handshake_reading *r)
     if (json_is_integer(number) && json_integer_value(number) == PROCESS_PROTOCOL)
         return STATUS_OK;
     return fault_set(r->f, STATUS_REFUSED,
-                     "%.100s: speaks protocol %lld, this program %d; its first line must have "
+                     "%.100s: uses protocol %lld, this program %d; its first line must have "
                      "\"beamwork\": %d",
                      r->who, (long long)json_integer_value(number), PROCESS_PROTOCOL,
                      PROCESS_PROTOCOL);

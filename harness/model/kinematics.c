@@ -261,8 +261,8 @@ int kinematics_coordinate(const model *m, int node, int component)
     return m->mesh.vertex[node].body == node ? m->mesh.vertex[node].coordinate[component] : NONE;
 }
 
-/* Coordinates of a released end after those of its body: turns, shifts. Returns how many there
- * are. */
+/* Coordinates of a released end after those of its body: turns, shifts. Returns their
+ * number. */
 static int append_own(const model *m, int vertex, int size, int count, int index[])
 {
     const mesh_release *r = release_of(m, vertex);

@@ -163,7 +163,7 @@ static status build(model *m, const model_request *request, fault *f)
     char words[200];
     if (missing_refused(s, type, words, sizeof words))
         return fault_set(f, STATUS_REFUSED,
-                         "formulation %s does not offer %s, which scene %s needs", type->name,
+                         "formulation %s does not support %s, which scene %s needs", type->name,
                          words, s->name);
     m->omits = missing_omits(s, type) | request->omit;
     TRY(profile_scene(m, f));

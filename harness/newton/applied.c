@@ -255,8 +255,8 @@ typedef struct load_motion {
     double shift[3];
 } load_motion;
 
-/* In the order of the frame: the body's place and turns, those of the end, its shifts. Returns how
- * many there are. */
+/* In the order of the frame: the body's place and turns, those of the end, its shifts. Returns
+ * their number. */
 static int motions_at_release(const entries *all, const applied *what,
                               load_motion out[KINEMATICS_MOST])
 {

@@ -559,9 +559,9 @@ typedef enum step_stability {
     STEP_NO_DIVERGENCE, /* no symmetric tangent and no mass: no eigenvalue has passed zero */
     STEP_STABLE,
     STEP_UNSTABLE,
-    STEP_GROWS, /* in axes that turn, or without a symmetric tangent: a small motion grows, by an
+    STEP_GROWS, /* in rotating axes, or without a symmetric tangent: a small motion grows, by an
                    odd number of negative eigenvalues (det K < 0) or by a mode that was found */
-    STEP_HELD,  /* in axes that turn: held by gyroscopic forces alone, no motion grows without
+    STEP_HELD,  /* in rotating axes: held by gyroscopic forces alone, no motion grows without
                    damping; one that turns with the structure makes it grow */
     STEP_STABILITIES
 } step_stability;

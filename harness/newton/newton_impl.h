@@ -198,8 +198,8 @@ struct condensation {
     long factorisations;
 };
 
-/* condensation.c: coordinates of ends and, among them, the unknown ones. Returns how many
- * there are of the former; s->unknown NULL: out of memory. */
+/* condensation.c: coordinates of ends and, among them, the unknown ones. Returns their
+ * number of the former; s->unknown NULL: out of memory. */
 int condensation_number(condensation *s, int count, const int released[]);
 /* Patterns of both. */
 status condensation_patterns(condensation *s, int ends, fault *f);

@@ -111,7 +111,7 @@ static const schema_field fields_of_curve[] = {
     {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x.unit)},
     {"first", "1", FIELD_INT, "where its points begin in the arrays curve_x and curve_value",
      OF(SUBJECT, subject, group)},
-    {"points", "1", FIELD_INT, "how many there are", VALUE(curve.points)},
+    {"points", "1", FIELD_INT, "their number", VALUE(curve.points)},
     {0}};
 const record_type record_curve = {
     "curve",
@@ -154,7 +154,7 @@ static const schema_field fields_of_step[] = {
      "of the state where it ended: stable, unstable (negative pivots); where the tangent is not "
      "symmetric unstable "
      "(eigenvalues that have passed zero), no divergence (without mass), undecided; "
-     "in axes that turn: stable, unstable: grows, stable without damping, undecided",
+     "in rotating axes: stable, unstable: grows, stable without damping, undecided",
      .get = get_stability},
     {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", STEP(residual)},
     {"correction", "1", FIELD_DOUBLE, "of its last iteration", STEP(correction)},
@@ -426,12 +426,12 @@ static const schema_field fields[] = {
     {"offers", "", FIELD_TEXT, "physics that it has, between commas", .get = get_offers},
     {"limits", "", FIELD_TEXT, "what it is restricted to", .get = get_limits},
     {"lacks", "", FIELD_TEXT, "what it offers in one direction only", .get = get_lacks},
-    {"differences", "", FIELD_TEXT, "what it leaves to differences: its times rank nothing",
+    {"differences", "", FIELD_TEXT, "what it leaves to differences: its times are not ranked",
      .get = get_differences},
     {"misprint", "", FIELD_TEXT,
      "what is misprinted in the equations that it keeps: it is not ranked",
      TEXT_OF(FORMULATION, element_type, misprint)},
-    {"process", "", FIELD_FLAG, "computed by another process: its times rank nothing",
+    {"process", "", FIELD_FLAG, "computed by another process: its times are not ranked",
      .get = get_process},
     {"is_new", "", FIELD_FLAG, "not accepted yet: its verdicts do not affect the exit status",
      .get = get_is_new},

@@ -345,7 +345,7 @@ static int write_nothing_runs(FILE *to, const sweep *s)
         if (s->series[i].missing[0] == '\0')
             return 0;
     for (int i = 0; i < s->seriess; i++, before = "; ")
-        fprintf(to, "%s%s does not offer %s", before, s->series[i].formulation.key,
+        fprintf(to, "%s%s does not support %s", before, s->series[i].formulation.key,
                 s->series[i].missing);
     return s->seriess > 0;
 }

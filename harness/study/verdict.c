@@ -234,7 +234,7 @@ static int is_hindered(const sweep *s, verdict *v)
     const sweep_point *p = &s->point[one->point];
     if (one->missing[0] != '\0') {
         v->kind = v->expected = VERDICT_SKIP;
-        snprintf(v->reason, sizeof v->reason, "does not offer %s", one->missing);
+        snprintf(v->reason, sizeof v->reason, "does not support %s", one->missing);
         return 1;
     }
     if (p->status != STATUS_OK) {

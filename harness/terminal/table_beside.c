@@ -243,7 +243,7 @@ static void write_missing(FILE *to, const sweep *s)
             if (strcmp(s->series[k].missing, missing) == 0)
                 snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s", k > i ? ", " : "",
                          s->series[k].formulation.key);
-        paragraph_say(to, fprintf(to, "not run, "), 4, "does not offer %s: %s", missing, line);
+        paragraph_say(to, fprintf(to, "not run, "), 4, "does not support %s: %s", missing, line);
     }
 }
 
@@ -349,7 +349,7 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
         const scene *wanted = &s->point[one->point].scene;
         table_series(to, s, i);
         if (one->missing[0] != '\0') {
-            paragraph_say(to, 0, 2, "skip: does not offer %s", one->missing);
+            paragraph_say(to, 0, 2, "skip: does not support %s", one->missing);
             continue;
         }
         table_theory(to, wanted, one->formulation.type);

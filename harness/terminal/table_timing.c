@@ -75,7 +75,7 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at)
     for (int i = 0; i < s->seriess; i++) {
         const char *why = reach_unranked(s->series[i].formulation.type);
         if (meshes_run(&s->series[i], at) > 0 && why[0] != '\0')
-            fprintf(to, "  %s: %s, its times rank nothing\n", s->series[i].formulation.key, why);
+            fprintf(to, "  %s: %s, its times are not ranked\n", s->series[i].formulation.key, why);
     }
 }
 

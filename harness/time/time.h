@@ -67,7 +67,7 @@ void between_at(const step_between *, double time, instant *at);
 /* Masses at the frames of a model: those of the elements, lumped at their nodes, and rigid bodies.
  * All masses joined rigidly to a frame belong to it: one mass, one centre, one tensor. */
 
-/* At one frame, in axes that turn with it and were the fixed ones at rest. */
+/* At one frame, in axes that rotate with it and were the fixed ones at rest. */
 typedef struct carried_mass {
     int frame;         /* vertex with its own coordinates, or of a released end */
     double mass;       /* [kg] */

@@ -152,7 +152,7 @@ void inertia_turns(const model *, const model_state *, int vertex, double turn[9
 
 /* Rates of a frame's rotation, and the meaning of the rates of a model's coordinates: translations,
  * warping amplitudes and angles have their derivatives, a rotation that is free or given by a
- * vector has the angular velocity in axes that turn with the frame. */
+ * vector has the angular velocity in axes that rotate with the frame. */
 
 typedef enum rotation_form {
     FORM_BODY,    /* three coordinates: components of the angular velocity in the frame's axes */

@@ -91,7 +91,7 @@ class Laboratory:
             return None, done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "failed"
         series = json.loads(done.stdout)["series"][0]
         if series["missing"]:
-            return None, f"does not offer {series['missing']}"
+            return None, f"does not support {series['missing']}"
         return {q["quantity"]: q for q in series["quantities"]}, ""
 
     def series(self, *what):
@@ -160,7 +160,7 @@ def rounds(found):
 
 
 def switches(program, case, given):
-    """Features that a case lets one leave out and that are not set already."""
+    """Features that a case lets one omit and that are not set already."""
     listed = subprocess.run([program, "list", case], capture_output=True, text=True, check=False)
     names = re.findall(r"^  (\w+) ", listed.stdout, re.M)
     return [f for f in FEATURES if f in names and all(p.split("=")[0] != f for p in given)]

@@ -92,7 +92,7 @@ def between_folders(steps):
 
 
 def tell(what, steps):
-    """Prints the circles that steps {(from, to): why} make; how many there are."""
+    """Prints the circles that steps {(from, to): why} make; their number."""
     ways = collections.defaultdict(set)
     for one, other in steps:
         ways[one].add(other)

@@ -47,7 +47,7 @@ def refused(record):
 
 
 def ladder(program, row):
-    """(tables of all integrators, those whose formulation does not offer the motion)."""
+    """(tables of all integrators, those whose formulation does not support the motion)."""
     chosen = [word for name in row["formulations"].split() for word in ("-f", name)]
     record = motion(program, row, *chosen, "--time-limit", CELL, "--step", row["steps"],
                     "--tolerance", row["tolerances"])

@@ -1,4 +1,4 @@
-"""Free vibration of a cantilever that turns steadily: flap and lag about an axis normal to it, whirling about one along it.
+"""Free vibration of a cantilever in steady rotation: flap and lag about an axis normal to it, whirling about one along it.
 
 Units: L = 1, EI = 1, rho A = 1; EA = s^2 with s the slenderness L/sqrt(I/A), the root at x = R.  No shear, no rotary inertia.
 Equilibrium: stretch x' = 1 + N/EA, N' = -Omega^2 x: x = R cos kX + (1 + k R sin k) sin(kX)/(k cos k), k = Omega/s, hence the end

@@ -246,7 +246,7 @@ def known_in(sweep, piece):
 
 
 def asked_in(sweep, piece):
-    """Is a formulation measured by it? Not where it does not offer what is needed, and not by a
+    """Is a formulation measured by it? Not where it does not support what is needed, and not by a
     reference of another theory, against which it has a value and no error. By all quantities: not
     where one has a value and no error, but where another is never within. [points, F, Q+1]"""
     own = np.repeat(known_in(sweep, piece)[:, None, :-1], len(sweep.keys), axis=1)

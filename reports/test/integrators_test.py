@@ -231,7 +231,7 @@ class Page(ProgramTest):
         table = re.search(r'(?s)id="reference".*?</table>', text)[0]
         self.assertIn('<td class="n">3.0e-09</td><td class="n">4.0e-10</td>', table)
         self.assertIn("not possible: no inertia", table)
-        self.assertIn("elbow, beamw_vlasov: does not offer shear", text)
+        self.assertIn("elbow, beamw_vlasov: does not support shear", text)
         self.assertRegex(text, r"keeps energy to round-off: conserving, at [\d.]+ times the cost")
 
     def test_an_old_paces(self):

@@ -102,7 +102,7 @@ def paces():
     return {**{name: found[name] for name in ("references", "runs", "orders", "reached")},
             "checks": [check, refused],
             "left_out": [{"case": "elbow", "parameters": "", "formulation": "beamw_vlasov",
-                          "reason": "does not offer shear"}]}
+                          "reason": "does not support shear"}]}
 
 
 def leave(path, found):

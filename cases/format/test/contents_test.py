@@ -230,7 +230,7 @@ quantities:
         self.assertEqual(got, values(self.record("solve", "--scene", self.scene(plain + stiff[0], "plain.yaml"), *stiff[1:])))
         EI = 210e9 * 50e-3 * 0.5e-3**3 / 12
         self.assertAlmostEqual(got["tip_uy"] / (-9.81*0.01 * (0.1**3/3 + 0.02*0.1**2/2) / EI), 1, delta=1e-9)
-        for change, words in ((("mass: 0.01, ", ""), "has no mass"), (("on: tip", "on: tip, at: [1, 0, 0]"), "leave out 'at'")):
+        for change, words in ((("mass: 0.01, ", ""), "has no mass"), (("on: tip", "on: tip, at: [1, 0, 0]"), "remove 'at'")):
             self.refused(2, words, "scene", "--scene", self.scene(body.replace(*change)))
 
     def test_weight_of_all(self):
@@ -248,9 +248,9 @@ quantities:
         bare = one.replace(", density: 7800", "").replace("mass: 0.01, centre: [0.02, 0, 0]", "hold: []")
         for text, words in ((one + "  twice: {gravity: [0, 0, 1], on: tip}\n", "in 'weight' already"),
                             (one + "  twice: {gravity: [0, 0, 1], on: leaf}\n", "in 'weight' already"),
-                            (one.replace("on: all", "on: all, follower: true"), "leave out 'at', 'axes' and 'follower'"),
+                            (one.replace("on: all", "on: all, follower: true"), "remove 'at', 'axes' and 'follower'"),
                             (one.replace("gravity:", "force:"), "no node 'all'"),
-                            (bare, "nothing of the scene has a mass")):
+                            (bare, "the scene has no mass")):
             self.refused(2, words, "scene", "--scene", self.scene(text))
 
     def test_the_analysis_that_was_made_up(self):
@@ -293,11 +293,11 @@ class ExamplesTest(SceneCase):
         both = json.loads(verdicts.read_text(encoding="utf-8"))
         self.assertEqual({v["case"] for v in both["verdicts"]}, {"euler_column", "warping_torsion"})
         euler = EXAMPLES / "euler_column.yaml"
-        self.refused(2, "is judged already", "verify", "--scene", EXAMPLES, "--scene", euler)
+        self.refused(2, "is in this run already", "verify", "--scene", EXAMPLES, "--scene", euler)
         self.refused(2, "no *.yaml", "verify", "--scene", EXAMPLES.parent / "shared")
         taken = euler.read_text(encoding="utf-8").replace("name: euler_column", "name: c_column")
         taken = self.scene(taken)
-        self.refused(2, "is judged already", "verify", "--built-in", "--scene", taken)
+        self.refused(2, "is in this run already", "verify", "--built-in", "--scene", taken)
         self.refused(2, "given twice", "solve", "--scene", euler, "--scene", euler, "-f", "beamw",
                      "-n", 1)
         self.refused(2, "would replace", "verify", "--scene", self.folder, "-o", taken)

@@ -330,7 +330,7 @@ static void law_of_buckling_about(const scene_input *in, const element_type *e, 
                  "%s: buckling about a path, %s: the first critical point", e->name, in->name);
 }
 
-/* A path in axes that turn ends where the rotation does. */
+/* A path in rotating axes ends where the rotation does. */
 static void law_of_rotation(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer path;
@@ -338,7 +338,7 @@ static void law_of_rotation(const scene_input *in, const element_type *e, const 
     p.turns = 1;
     solve(&p, e, &path);
     const double off = largest_apart(with, &path, places);
-    gsl_test(!(off <= 1e-6), "%s: rotation, %s: as the path in axes that turn (%g)", e->name,
+    gsl_test(!(off <= 1e-6), "%s: rotation, %s: as the path in rotating axes (%g)", e->name,
              in->name, off);
 }
 
@@ -413,7 +413,7 @@ static void obey(const scene_input *in, scene_column column, const element_type 
     }
 }
 
-/* What has a part in axes that turn, or where nothing has a potential, has it there. */
+/* What has a part in rotating axes, or where nothing has a potential, has it there. */
 static void part_of_inertia(const scene_input *in, scene_column column, const element_type *e)
 {
     static answer with, without;
@@ -496,7 +496,7 @@ static void alike(const char *name, const char *other, scene_column column, cons
              e->name, scene_column_name[column], name, other, off, one.reason, two.reason);
 }
 
-/* An arm that stands in axes that turn goes on turning with what drives it: but for its mass, which
+/* An arm that stands in rotating axes goes on turning with what drives it: but for its mass, which
  * lies along the elements there and at the nodes here. */
 static void start_turning(const element_type *e)
 {
@@ -524,7 +524,7 @@ static void start_turning(const element_type *e)
     for (int i = 0; i < 3; i++)
         gsl_test_rel(answer_of(&a, (const char *[]){"X", "Y", "Z"}[i]),
                      answer_of(&a, (const char *[]){"x", "y", "z"}[i]), 0.05,
-                     "%s: motion after a path in axes that turn: %d", e->name, i);
+                     "%s: motion after a path in rotating axes: %d", e->name, i);
 }
 
 int main(void)

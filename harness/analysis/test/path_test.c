@@ -1,7 +1,7 @@
 /* What a path says of itself: where its points are drawn, and which of them are limit points.
  *
  * At a limit point the load factor has an extremum, at a bifurcation it has none: the points of the
- * path alone tell how many there are of the first kind. */
+ * path alone tell their number of the first kind. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -188,7 +188,7 @@ static void round_off(void)
                  "%s, n = %d: the cause is named: %s", row[i].case_name, row[i].elements, f.text);
         gsl_test(outcome != STATUS_OK && outcome != STATUS_SINGULAR &&
                      outcome != STATUS_NOT_CONVERGED,
-                 "%s: a named failure", row[i].case_name);
+                 "%s: a reported failure", row[i].case_name);
         const int judged = outcome == STATUS_OK && !isnan(row[i].exact) ? r.solve.quantities : 0;
         for (int k = 0; k < judged; k++)
             if (strcmp(r.scene.quantity[k].name, row[i].quantity) == 0)

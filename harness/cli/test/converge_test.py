@@ -28,11 +28,11 @@ def answer(text):
 class Forms(unittest.TestCase):
 
     def test_nothing_runs(self):
-        """A formulation that does not offer what a scene needs is told with the cause."""
+        """A formulation that does not support what a scene needs is told with the cause."""
         done = run("converge", "coupled_beam", "-f", "beamw_vlasov")
         self.assertEqual(done.returncode, 3)
         self.assertEqual(" ".join(done.stdout.split()),
-                         "nothing was run: beamw_vlasov does not offer coupled section")
+                         "nothing was run: beamw_vlasov does not support coupled section")
 
     def test_json_and_csv_agree(self):
         series = json.loads(converge("json"))["series"]
@@ -241,7 +241,7 @@ class Beside(ProgramTest):
         self.assertEqual(tables(chosen), tables(every))
         self.assertRegex(chosen, r"(?m)^beamw_vlasov: another model: shear not modelled \(")
         chosen = self.answered("converge", "coupled_beam", "-k", "uy", "-n", "2,4").stdout
-        self.assertRegex(chosen, r"(?m)^not run, does not offer coupled section: \w+,")
+        self.assertRegex(chosen, r"(?m)^not run, does not support coupled section: \w+,")
         self.assertGreater(len(next(iter(tables(self.answered(
             "converge", "elastica", "-k", "theta").stdout).values()))), 6)
 

@@ -90,7 +90,7 @@ FAULTS = {
         "shear_theories: it offers shear and names no theory of it"),
     "rotary": (
         ("FEATURE_MASS | FEATURE_ROTARY_INERTIA", "FEATURE_ROTARY_INERTIA"),
-        "offers: FEATURE_ROTARY_INERTIA goes with FEATURE_MASS"),
+        "offers: FEATURE_ROTARY_INERTIA requires FEATURE_MASS"),
     "refused": (
         ("    (void)f;\n",
          "    if (request->features & FEATURE_SHEAR)\n"

@@ -48,7 +48,7 @@ class Lists(ProgramTest):
         for name in self.formulations:
             words = self.shown(name)[0]
             for word in ("source: ", "order of convergence: ", "shear in stability: ", "newton=",
-                         "known findings", "offers"):
+                         "known deviations", "offers"):
                 self.assertIn(word, words, name)
             told = words.partition("cases, at their default parameters")[2]
             does = told.partition("not run")[0]

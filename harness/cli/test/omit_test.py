@@ -1,4 +1,4 @@
-"""The parameter `omit` of built-in cases: their sources leave physics out, omit=none has all of it, and what is stored
+"""The parameter `omit` of built-in cases: their sources omit physics, omit=none has all of it, and what is stored
 of a case does not speak of that."""
 import csv
 import io

@@ -282,7 +282,7 @@ class Refusals(ProgramTest):
         self.refused(2, "tip_deflection", *solve("sheet_cantilever", "tip_deflection=0.2"))
         self.refused(2, "elements", "solve", "c_column", "-f", "beamw", "-n", "0")
         self.refused(2, "memory", "solve", "c_column", "-f", "beamw", "-n", "10000000")
-        self.refused(2, "does not offer coupled section", "solve", "coupled_beam", "-f",
+        self.refused(2, "does not support coupled section", "solve", "coupled_beam", "-f",
                      "beamw_vlasov", "-n", "2")
         done = self.answered("solve", "sheet_cantilever", "-f", "collocation:newton=dense", "-n", "2",
                              "--set", "modes=3", code=1)
@@ -339,7 +339,7 @@ class Refusals(ProgramTest):
                      silent=False)
 
     def test_misspelt_selection(self):
-        """A word that names nothing would leave cells out in silence; in brackets or not."""
+        """A word that names nothing would skip cells in silence; in brackets or not."""
         for verb in ("verify", "stress"):
             self.refused(2, "did you mean 'elastica'?", verb, "-k", "elastca")
             self.refused(2, "'sheet_thrid'", verb, "-k", "(elastica or sheet_thrid)")

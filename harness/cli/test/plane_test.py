@@ -169,7 +169,7 @@ class Plane(ProgramTest):
         changes = {
             "push: it acts out of the plane": ("[-1, 0, 0]", "[-1, 0, 1e-3]"),
             "push: it turns out of the plane": ("force: [-1, 0, 0]", "moment: [1, 0, 0]"),
-            "push: it acts beside the plane":
+            "push: it acts outside the plane":
                 ("force: [-1, 0, 0]", "at: [0, 0, 0.1], force: [-1, 0, 0]"),
             "b: it does not lie in one plane": (node, "b: {at: [1, 0, 0.1]"),
             "b: the centre of its body lies beside":
@@ -218,7 +218,7 @@ class Plane(ProgramTest):
         self.refused(2, "held in a plane", "export", "--scene", path, "--to", "calculix")
 
 
-# A formulation that does not offer all physics of a scene: as any other where that changes nothing
+# A formulation that does not support all physics of a scene: as any other where that changes nothing
 # asked for, else as another model, which is shown and neither gates, wins nor votes.
 LEAF = """beamwork: 1
 sections: {s: {rectangle: {width: 0.1, thickness: %s}, young: 210e9, shear_modulus: 81e9}}
@@ -315,7 +315,7 @@ class OtherModel(ProgramTest):
         """Points of a sweep rest on the whole model."""
         text = self.answered("sweep", "shear_column", "--vary", "length=0.5,1", "-f",
                              "beamw_vlasov").stdout
-        self.assertNotIn("does not offer", text)
+        self.assertNotIn("does not support", text)
 
     def test_sweep_of_another_model(self):
         """It is marked at the points where it is one, and is in no share and no ranking there."""

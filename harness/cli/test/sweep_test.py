@@ -329,7 +329,7 @@ class Going(ProgramTest):
                 (("elastica", "--vary", "load=1..2/3", "--error", "2"), "error"),
                 (("elastica", "--vary", "load=1..2/3", "--format", "json"), "text, csv"),
                 (("coupled_beam", "--vary", "coupling=0.1,0.2", "-f", "beamw_vlasov"),
-                 "does not offer coupled section"),
+                 "does not support coupled section"),
                 (("c_column", "--vary", "height=0.4,0.5", "--set", "section_data=printed"),
                  "no scene can be built")):
             done = self.answered("sweep", *words, code=2)

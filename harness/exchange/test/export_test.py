@@ -106,7 +106,7 @@ class Decks(ExportTest):
             "wall 0 is oblique": plain.replace(
                 RECTANGLE, "points: {a: [0, 0], b: [0.1, 0.1], c: [0.1, 0.2]}, walls: [{from: a, "
                 "to: b, thickness: 1e-3}, {from: b, to: c, thickness: 1e-3}]"),
-            "leave out 'given'": plain.replace(RECTANGLE, CHANNEL + ", given: {Iw: 1e-8}"),
+            "remove 'given'": plain.replace(RECTANGLE, CHANNEL + ", given: {Iw: 1e-8}"),
             "rectangles and straight walls": plain.replace(
                 RECTANGLE, "tube: {diameter: 10e-3, thickness: 1e-3}"),
             "Poisson": plain.replace("shear_modulus: 100e9", "shear_modulus: 1e9"),

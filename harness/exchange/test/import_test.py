@@ -84,7 +84,7 @@ class Import(ProgramTest):
             "C_xx, m/Nm, 2,,,, 1,": "unit 'm/Nm' is unknown",
             "C_xx, N, 2,,,, 1,": "unit 'N' cannot be converted to 'm/N'",
             "C_xx_curve, m/N, 2,,,, 1,": "is a curve: give x",
-            "C_zz, m/N, 2,,, 3, 1,": "is no curve: leave x empty",
+            "C_zz, m/N, 2,,, 3, 1,": "is not a curve: leave x empty",
             "C_zz, m/N, 0,,,, 1,": "give a whole number", "C_zz, m/N, 2,,,, nan,": "is not a number",
             "C_zz, m/N, 3,,,,,": "value is missing",
             "C_thz_Mz, rad/(N m), 2,,,, 1,": "what a moment does",
@@ -194,7 +194,7 @@ class Import(ProgramTest):
             "rivals.h5: 1 of 2 series are of cases or parameters that were not run, the first elastica/default/rival",
             done.stderr)
         (self.folder / "copy.h5").write_bytes((self.folder / "theirs.h5").read_bytes())
-        self.refused(2, "is beside this run already; give it once", *select, "--imported",
+        self.refused(2, "is in this run already; give it once", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "copy.h5")
         self.refused(2, "is given twice; give it once", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "theirs.h5")

@@ -141,7 +141,7 @@ static void design_tests(void)
     axis_read(&box, "a=0..1/4", &parted, NULL);
     is_refused(DESIGN_GRID, open, 0, "how many parts");
     is_refused(DESIGN_SOBOL, open, 0, "--points");
-    is_refused(DESIGN_SOBOL, &parted, 10, "leave out '/4'");
+    is_refused(DESIGN_SOBOL, &parted, 10, "remove '/4'");
 }
 
 /* Orders and what an error costs, of runs whose errors are made up. */

@@ -135,7 +135,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
     def test_refusals(self):
         for arguments, words in (
-            (("elastica",), "elastica is no motion in time"),
+            (("elastica",), "elastica is not a motion in time"),
             ((*FLIGHT, "--integrator", "euler"), "--integrator 'euler'"),
             ((*FLIGHT, "--step", "0.1..0.2"), "--step '0.1..0.2'"),
             ((*FLIGHT, "--tolerance", "0"), "--tolerance '0'"),

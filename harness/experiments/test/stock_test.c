@@ -122,7 +122,7 @@ static void foreign(void)
     is_refused(&of, "other truths, scenes or formulations");
     of.w.w = right;
     of.w.w.batches = NUMBERS_BATCHES - 1;
-    is_refused(&of, "take it away");
+    is_refused(&of, "remove it");
     of.w.w = right;
     fault f;
     const folder_entry text = folder_path(&of.of, "notes.batch");

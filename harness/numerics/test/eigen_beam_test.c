@@ -395,7 +395,8 @@ static void test_rounding(int masses)
         gsl_test_int(r.positive.count, all ? 0 : WANTED, "rounding of %g: values that are more",
                      size);
         gsl_test(all != (r.positive.rounding > 0), "rounding of %g: the others are counted", size);
-        gsl_test(all && r.factorisations > 0, "rounding of %g: nothing is looked for in it", size);
+        gsl_test(all && r.factorisations > 0, "rounding of %g: nothing is searched for in it",
+                 size);
         eigen_free(&r);
     }
     strings_free(&s);

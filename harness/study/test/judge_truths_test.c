@@ -192,7 +192,7 @@ static void expectations(void)
 static void other_instants(void)
 {
     static const parameter_type both[] = {{"length", "m", 2, 1, 9, NULL, "some length"},
-                                          {"time", "s", 5, 1, 9, NULL, "when it is looked at"},
+                                          {"time", "s", 5, 1, 9, NULL, "instant of the output"},
                                           {0}};
     static const case_type timed = {.name = "made_up",
                                     .summary = "a case of the test",

@@ -309,7 +309,7 @@ static void omission_tests(void)
     loose();
     for (int i = 0; registry_cases[i] != NULL; i++)
         seen += of_case(registry_cases[i]);
-    gsl_test(seen < 20, "%d formulations leave something out of a case", seen);
+    gsl_test(seen < 20, "%d formulations omit something of a case", seen);
 }
 
 int main(void)

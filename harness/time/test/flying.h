@@ -89,7 +89,7 @@ static inline status flying_step(flying *f, double h)
     return outcome;
 }
 
-/* All numbers of an instant; returns how many there are, numbers NULL: only that. */
+/* All numbers of an instant; returns their number, numbers NULL: only that. */
 static inline size_t flying_numbers(const flying *f, const instant *at, double *numbers)
 {
     const size_t n = (size_t)model_all_coordinates(f->m), size = at->state->size,

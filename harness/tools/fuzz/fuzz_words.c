@@ -33,7 +33,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     case 1: {
         const int here = select_matches(text, "c_column/default/beamw/buckling_load");
         fuzz_must(here >= -1 && here <= 1 && (here < 0) == (select_matches(text, "") < 0),
-                  "malformed whatever it is looked for in");
+                  "malformed whatever it is searched for in");
         break;
     }
     default:

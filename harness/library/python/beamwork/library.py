@@ -12,7 +12,7 @@ FILE = "libbeamwork.so.0"
 
 
 def places():
-    """Where the library is looked for, in this order."""
+    """Where the library is searched for, in this order."""
     asked = os.environ.get("BEAMWORK_LIBRARY")
     if asked:
         return [pathlib.Path(asked)]
