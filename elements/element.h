@@ -74,8 +74,8 @@ enum element_left {
 };
 
 /* The theory of shear in stability that the equations of a type have, in bits; 0: rigid in shear.
- * A type is evaluated against the truth of its own theory, whatever a scene specifies; one that
- * offers several takes that of the request's features. */
+ * A type is evaluated against the reference value of its own theory, whatever a scene specifies;
+ * one that offers several takes that of the request's features. */
 enum shear_theory {
     SHEAR_ENGESSER = 1 << 0, /* the axial force works on 1/2 (v'^2 + w'^2) of the fibre */
     SHEAR_HARINGX = 1 << 1,  /* it works on the rotation of the section (Simo-Reissner) */

@@ -13,7 +13,7 @@ that only repeat the formulation without their options are not shown.
     found.faster     [Way] of the more expensive ones: measured faster than the cheapest in every round
     found.unranked   [Way] that pass and whose costs rank nothing (Way.unranked says why), by name
     found.missed     [key] not within the level on these meshes
-    found.unjudged   [key] without a truth of their theory in all that is asked
+    found.unjudged   [key] without a reference value of their theory in all that is asked
 """
 import math
 from dataclasses import dataclass, field
@@ -67,7 +67,7 @@ class Answer:
 
 
 def judged(point):
-    """Quantities of a point with a truth, in the order of the case."""
+    """Quantities of a point with a reference value, in the order of the case."""
     names = []
     for series in point.series:
         for v in series.verdicts:
@@ -229,7 +229,7 @@ class CaseLine:
     """A case at its defaults: all its judged quantities together."""
 
     case: object  # data.Case
-    quantities: list  # with a truth to judge by
+    quantities: list  # with a reference value to judge by
     found: dict  # level -> answers.Answer
 
 

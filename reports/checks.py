@@ -42,7 +42,7 @@ def noticed(cases):
 
 
 def counted(cases):
-    """[(case, points, cells, verdicts against truths, passes)] over all points."""
+    """[(case, points, cells, verdicts against reference values, passes)] over all points."""
     rows = []
     for case in cases:
         counts = count_verdicts([case])

@@ -237,7 +237,7 @@ def read_results(path, bench=None):
 
 
 def holds(parameters, at):
-    """Does a truth with these parameters, `*` for any value, hold at a point?  Both are `name=value;...`."""
+    """Does a reference value with these parameters, `*` for any value, hold at a point?  Both are `name=value;...`."""
     said = dict(item.split("=", 1) for item in parameters.split(";") if item)
     there = dict(item.split("=", 1) for item in at.split(";") if item)
     return all(value == "*" or there.get(name) == value
@@ -257,7 +257,7 @@ def read_other_model(path, case, parameters, quantity):
 
 
 def read_rules(path):
-    """[{column: value}] of the list of known deviations (reference/findings.csv) that the truths were packed with."""
+    """[{column: value}] of the list of known deviations (reference/findings.csv) that the reference values were packed with."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
             columns = {name: column(values[()]) for name, values in file["findings"].items()}
@@ -279,7 +279,7 @@ def read_declarations(path):
 
 
 def read_glossary(path):
-    """[{column: text}] of the words that the truths were packed with; [] where there are none."""
+    """[{column: text}] of the words that the reference values were packed with; [] where there are none."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
             if "glossary" not in file:

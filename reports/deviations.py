@@ -55,7 +55,7 @@ def predictions(rows):
 
 def left(v):
     """Returns the unexplained part of a limit: its distance from the derived one, where there is one,
-    else from the truth; in parts of the truth, as errors are."""
+    else from the reference value; in parts of the reference value, as errors are."""
     if not math.isfinite(v.predicted) or not v.error:
         return abs(v.error)
     return abs((v.limit - v.predicted) * v.error / (v.limit - v.truth))

@@ -226,7 +226,7 @@ def fitting(values, unit):
 
 WIDE, HALF = (640, 200), (300, 170)
 MOST_POINTS = 150  # of a curve
-MOST_CURVES = 7  # with the truth one less than a figure shows at first
+MOST_CURVES = 7  # with the reference value one less than a figure shows at first
 FLOOR = 1e-17  # of drifts that are drawn
 # column: name, colour, line
 ENERGIES = {"kinetic": ("kinetic", 0, "-"), "strain": ("strain", 1, "-"),

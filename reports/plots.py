@@ -1,4 +1,4 @@
-"""Parts of all figures of errors: axes, which formulations are drawn, marks below the truth's
+"""Parts of all figures of errors: axes, which formulations are drawn, marks below the reference value's
 digits."""
 import math
 
@@ -12,7 +12,7 @@ FLOOR = 1e-13  # below it errors are round-off
 NEARLY = 1e-10  # errors that no reader asks about
 CEILING = 1e3  # above it a value is a divergence
 MOST_CURVES = style.MOST  # of formulations in a figure
-OPEN = "open: below the truth's own digits"
+OPEN = "open: below the reference value's own digits"
 
 
 def log_axis(axis, whole=False):
@@ -127,7 +127,7 @@ def marks_of(site, point, series, quantity, meshes, errors="errors"):
 
 
 def draw_series(site, panel, point, series, quantity, where, errors="errors", told=True, **look):
-    """The curve of a formulation. Marks below the truth's digits are open and lie on these digits,
+    """The curve of a formulation. Marks below the reference value's digits are open and lie on these digits,
     on the grey ground. `told`: each mark carries its values."""
     digits = digits_of(point, quantity) if errors == "errors" else None
     pairs = [(m, e) for m, e in finite(series, quantity, errors) if where(m) > 0]

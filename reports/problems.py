@@ -1,6 +1,6 @@
 """The problems that formulations are compared on, and what each of them pays to solve one.
 
-A problem is a quantity with an exact truth of the same model, at a parameter point of a case.
+A problem is a quantity with an exact reference value of the same model, at a parameter point of a case.
 Second names of the same entry are not counted. Every case weighs the same, and inside a case every
 problem does: a case with 60 parameter points rules no more than one with a single point.
 
@@ -72,12 +72,12 @@ def problems(cases, keys):
 
 
 def defect(verdict, level):
-    """Is its limit known to be another one than the truth, and farther from it than the level?"""
+    """Is its limit known to be another one than the reference value, and farther from it than the level?"""
     return verdict.verdict in OWN_LIMITS and abs(verdict.error) > level
 
 
 def any_defect(verdict, level):
-    """Is its limit known to be another one than the truth, however near?"""
+    """Is its limit known to be another one than the reference value, however near?"""
     del level
     return verdict.verdict in OWN_LIMITS
 

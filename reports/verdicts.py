@@ -15,8 +15,8 @@ class Kind:
 
 # From good to bad, then what is not judged: of several verdicts the last one counts.
 KINDS = (
-    Kind("pass", "✓", "pass", "the limit is the truth as far as both are known"),
-    Kind("low order", "↓", "other", "the limit is the truth, approached more slowly than need be"),
+    Kind("pass", "✓", "pass", "the limit is the reference value as far as both are known"),
+    Kind("low order", "↓", "other", "the limit is the reference value, approached more slowly than need be"),
     Kind("undecided", "~", "other", "the limit is not known well enough to say more"),
     Kind("biased", "≈", "other", "within the tolerance, but significantly different from the reference value"),
     Kind(
@@ -68,10 +68,10 @@ def of_limit(v):
     """Describes a limit that is not the reference value, or not known to be."""
     if v.verdict == "undecided" and v.truth:
         known = 100 * v.limit_uncertainty / abs(v.truth)
-        return [f"{percent(v.error)} from the truth, known to ± {known:.2g} %"]
+        return [f"{percent(v.error)} from the reference value, known to ± {known:.2g} %"]
     if v.verdict not in OWN_LIMITS:
         return []
-    words = [f"{percent(v.error)} from the truth"]
+    words = [f"{percent(v.error)} from the reference value"]
     if math.isfinite(v.predicted):
         hit = "met to" if v.verdict.endswith("predicted") else "missed by"
         words.append(f"predicted {v.predicted:.10g}, {hit} {met(v):.1e}")
@@ -79,13 +79,13 @@ def of_limit(v):
 
 
 def remarks(v, distance=True):
-    """Short sentences for a verdict's cell in a table; distance: of a limit from the truth, too,
+    """Short sentences for a verdict's cell in a table; distance: of a limit from the reference value, too,
     which a table with a column for it does without."""
     words = of_limit(v) if math.isfinite(v.limit) else []
     if not distance and v.verdict in OWN_LIMITS:
         words = words[1:]
     if v.below_digits:
-        words.append("error below the truth's digits")
+        words.append("error below the reference value's digits")
     if math.isfinite(v.contradicted):
         words.append(f"the published {v.contradicted:.8g} cannot be")
     return words

@@ -180,10 +180,11 @@ int scene_file_states(const scene_file *, const char *key);
 /* The scene as earlier versions read it: ends that say nothing of their warping leave it free.
  * The caller frees it in any case. */
 status scene_file_build_before(const scene_file *, const double value[], scene *, fault *);
-/* Gives the truths that hold at a point of the parameters, with their values there. */
+/* Gives the reference values that hold at a point of the parameters, with their values there. */
 status scene_file_truths(const scene_file *, const double value[], scene_truth_taker *, void *to,
                          fault *f);
-/* The same at the defaults and at every point that a truth names: some come several times. */
+/* The same at the defaults and at every point that a reference value names: some come several
+ * times. */
 status scene_file_truths_all(const scene_file *, scene_truth_taker *, void *to, fault *f);
 
 /* The keys of scene files as a JSON Schema: editors complete and check with it. */

@@ -302,7 +302,7 @@ struct scene_file {
 void parameter_table_read(scene_file *file, mistakes *m);
 /* The names of the parameters of a table with these values. */
 const scope *parameter_table_names(const parameter_type *, const double value[], arena *a);
-/* Mistakes of the truths, whose quantities are those of the scene, at a point. */
+/* Mistakes of the reference values, whose quantities are those of the scene, at a point. */
 void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
                              mistakes *m);
 

@@ -223,7 +223,7 @@ const char *scene_file_path(const case_type *type)
 
 /* Truths of a scene file. */
 
-/* A truth at a point. */
+/* A reference value at a point. */
 typedef struct file_truth {
     int holds; /* 1: at this point */
     scene_truth says;
@@ -237,7 +237,7 @@ static const scene_quantity *quantity_of(const scene *s, const char *name)
     return NULL;
 }
 
-/* One parameter that a truth names: its index and value there; -1 after a mistake. */
+/* One parameter that a reference value names: its index and value there; -1 after a mistake. */
 static int named_value(const scene_file *file, const fields *f, const document_node *those, int i,
                        double *value)
 {
@@ -258,7 +258,7 @@ static int named_value(const scene_file *file, const fields *f, const document_n
     return index;
 }
 
-/* Moves `point` to the values that the truth names; 1: it was there already. */
+/* Moves `point` to the values that the reference value names; 1: it was there already. */
 static int visit_point(const scene_file *file, const fields *f, double point[])
 {
     const document_node *those = document_find(f->map, "parameters");
@@ -302,8 +302,9 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
         document_mistake(m, document_find(f->map, "uncertainty"), 0,
                          "an uncertainty of %g; give none, or one above zero", t.uncertainty);
     if ((strcmp(t.kind, "predicted") == 0) != (t.formulation[0] != '\0'))
-        document_mistake(m, f->place, 0,
-                         "a truth of kind predicted is of a formulation, and no other is");
+        document_mistake(
+            m, f->place, 0,
+            "a reference value of kind predicted is of a formulation, and no other is");
     const scene_quantity *q = quantity_of(s, t.quantity);
     if (q == NULL)
         fields_entry(f, "quantity", SCENE_QUANTITIES);

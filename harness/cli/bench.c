@@ -86,7 +86,8 @@ const verb verb_bench = {
     "[CASE...]",
     "error against run time, and the lowest cost for an error",
     "Times every formulation and mesh of the cases named (or, without one, of all cases at all "
-    "parameter points that have a truth, selected with -k): the least of enough repetitions in "
+    "parameter points that have a reference value, selected with -k): the least of enough "
+    "repetitions in "
     "five alternating rounds on one processor, set-up and solution apart, with the error. Times "
     "whose rounds overlap are undecided. With --against FORMULATION: both at equal error, each "
     "with the least elements from which on the error of every quantity (-k: of those selected) is "

@@ -9,7 +9,7 @@
 #include "harness/model/model.h"
 #include "harness/study/study.h"
 
-/* Tables stand beside the packed truths, of which there is one file. */
+/* Tables stand beside the packed reference values, of which there is one file. */
 static status read_either(const verb_option *o, void *member, const char *value, fault *f)
 {
     static const verb_option table = {"truths", .traits = OPTION_REPEATS | OPTION_INPUT};
@@ -19,21 +19,23 @@ static status read_either(const verb_option *o, void *member, const char *value,
     if (length > 4 && strcmp(value + length - 4, ".csv") == 0)
         return option_take(&table, &t->own, value, f);
     if (t->packed != NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "--truths is given twice with packed truths; give one, and tables (.csv) "
-                         "in addition");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--truths is given twice with packed reference values; give one, and tables (.csv) "
+            "in addition");
     t->packed = value;
     return STATUS_OK;
 }
 
 static const verb_option packed_truths[] = {
     {"truths", 0, "FILE",
-     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program)",
+     "packed reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program)",
      .traits = OPTION_INPUT},
     {0}};
 static const verb_option own_truths[] = {
     {"truths", 0, "FILE",
-     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program); a FILE.csv: "
+     "packed reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program); a "
+     "FILE.csv: "
      "reference values of your own in addition; may be repeated",
      .traits = OPTION_REPEATS | OPTION_INPUT, .read = read_either},
     {0}};

@@ -156,7 +156,8 @@ typedef struct solver_options {
 } solver_options;
 extern const option_group options_solver;
 
-/* The case of a run, built in or a scene file, its parameters, and the truths that belong to it. */
+/* The case of a run, built in or a scene file, its parameters, and the reference values that belong
+ * to it. */
 
 typedef struct truths_options {
     const char *packed; /* --truths FILE; NULL: not given */
@@ -167,8 +168,8 @@ extern const option_group options_own_truths; /* FILE.csv as well */
 
 /* The packed truths: --truths, or their place (harness/study/study.h). */
 const char *own_tables_packed(const truths_options *);
-/* Adds the truths of --truths FILE.csv, of one case where only is not NULL. run: the cases of the
- * run, NULL after the last. REFUSED: the first mistake, as file:line:column, and their
+/* Adds the reference values of --truths FILE.csv, of one case where only is not NULL. run: the
+ * cases of the run, NULL after the last. REFUSED: the first mistake, as file:line:column, and their
  * number. */
 status own_tables_truths(const truths_options *, const case_type *const run[],
                          const case_type *only, truths *t, fault *f);

@@ -177,7 +177,7 @@ static int answer(const command_line *l, void *request)
 static const verb_option own[] = {
     {"threshold", 0, "NAME=R[,NAME=R]",
      "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to "
-     "itself, of a value relative to its truth, of a count relative to itself",
+     "itself, of a value relative to its reference value, of a count relative to itself",
      IN(threshold)},
     {"experiment", 0, "NAME",
      "of a file that several have written into: verify, bench or sweep (default: the first of "

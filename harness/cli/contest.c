@@ -193,9 +193,10 @@ static status check(const duel *d, const bench_options *r, fault *f)
                          r->select);
     return meeting_asked(&d->s, &d->t) > 0
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED,
-                           "no reference value for errors: no quantity has a truth, or an "
-                           "agreement, for both; give -n for meshes of your choice");
+               : fault_set(
+                     f, STATUS_REFUSED,
+                     "no reference value for errors: no quantity has a reference value, or an "
+                     "agreement, for both; give -n for meshes of your choice");
 }
 
 static status compare(duel *d, const bench_options *r, fault *f)
@@ -247,8 +248,8 @@ static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
 
 /* For each error the least number of elements of either from which on the error of every asked
  * quantity is within it (study/study.h), then these two cells in alternation. Errors: --error, or
- * those of reach_level that both reach; quantities: -k, or all that both have a truth or an
- * agreement for. REFUSED: one does not run, no reference value for errors, none is reached. */
+ * those of reach_level that both reach; quantities: -k, or all that both have a reference value or
+ * an agreement for. REFUSED: one does not run, no reference value for errors, none is reached. */
 static status against_error(bench_options *r, const case_type *type, fault *f)
 {
     duel d = {.levels = 0};

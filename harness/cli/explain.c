@@ -353,7 +353,7 @@ const verb verb_explain = {
     "explain",
     "[WORD...]",
     "what a word means: verdicts, theories, physics, known deviations",
-    "Explains a term: verdicts, truths, convergence, analyses, physics, elements, times; "
+    "Explains a term: verdicts, reference values, convergence, analyses, physics, elements, times; "
     "a case, a formulation, a quantity, a known deviation. Without a word: lists the words.",
     "beamwork explain haringx\n"
     "beamwork explain wrong limit",

@@ -205,7 +205,8 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
     TRY(files_check(r->of.line, r->shapes > 0, own_tables_packed(&r->truths), f));
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
     if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
-        fprintf(stderr, "beamwork: without truths: %s\n", f->text); /* a solution needs none */
+        fprintf(stderr, "beamwork: without reference values: %s\n",
+                f->text); /* a solution needs none */
     else
         TRY(known);
     if (r->restart != NULL)

@@ -23,7 +23,7 @@ typedef struct sweep_options {
     text_list vary;     /* NAME=A..B/N ...: what it is over */
     const char *design; /* of its points; NULL: a grid */
     int points, seed;   /* of a design that is not a grid */
-    int derive;         /* 1: truths are solved for where none is stored */
+    int derive;         /* 1: reference values are computed where none is stored */
     int verbose;
 } sweep_options;
 
@@ -313,7 +313,8 @@ const verb verb_sweep = {
     "NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these values, or "
     "words of a choice. Several make a grid, the last one changing first. --design sobol, halton "
     "or random --points N: so many points in the box of --vary NAME=A..B (or A..B:log). Errors are "
-    "against a truth stored for the very point, with --compute-references against one that is "
+    "against a reference value stored for the very point, with --compute-references against one "
+    "that is "
     "solved for "
     "there, else against the limit that the meshes of all formulations of the same physics go to; "
     "points where that is not known to half of the error are reported. A point that has no scene, "

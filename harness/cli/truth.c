@@ -174,7 +174,8 @@ const verb verb_truth = {
     "truth",
     "CASE",
     "reference values of a case at a parameter point; computed on demand",
-    "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, source. Where "
+    "Shows the reference values of a parameter point: value, uncertainty, unit, kind, model, "
+    "source. Where "
     "the tables have none of the case's own model, the deriving program is run to solve for them. "
     "A scene of your own (--scene FILE) is solved as a network of geometrically exact beams and "
     "rigid bodies, beside what the file has: lines to be pasted into its truths. Exit status: 0 "

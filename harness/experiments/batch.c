@@ -289,10 +289,11 @@ status batch_belongs(const batch_label *b, const shard_work *w, const char *path
                          "that computed it, or a new folder",
                          path, b->build, w->build);
     if (strcmp(b->plan, w->plan) != 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "%.120s: a batch of the same request with other truths, scenes or "
-                         "formulations behind it; use those, or a new folder",
-                         path);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%.120s: a batch of the same request with other reference values, scenes or "
+            "formulations behind it; use those, or a new folder",
+            path);
     return STATUS_OK;
 }
 

@@ -237,7 +237,7 @@ status experiment_do(const experiment_type *, const void *asked, const experimen
 /* Error against run time: every formulation and mesh of cases, timed in rounds on one processor. */
 
 typedef struct bench_request {
-    const char *const *cases; /* [count] their names; 0: all that have a truth */
+    const char *const *cases; /* [count] their names; 0: all that have a reference value */
     const case_type *scene;   /* in their place; NULL: none */
     int count;
     const char *const *assignment; /* [assignments] "NAME=VALUE", of each of them */
@@ -834,8 +834,8 @@ void motions_free(motions *);
 
 /* Kind of reference of an error. */
 typedef enum rows_reference {
-    ROWS_STORED,   /* a stored truth at that very point */
-    ROWS_DERIVED,  /* a truth that a deriving program solved for there */
+    ROWS_STORED,   /* a stored reference value at that very point */
+    ROWS_DERIVED,  /* a reference value that a deriving program solved for there */
     ROWS_LIMIT,    /* the limit that the meshes of all formulations go to */
     ROWS_NONE,     /* no limit is known well enough */
     ROWS_DISPUTED, /* none: limits of formulations differ by more than they are uncertain */
@@ -908,9 +908,9 @@ typedef struct ranges_request {
     int meshes;
     const int *mesh; /* 0: those of the scene */
     const char *select;
-    double tolerance;     /* relative error */
-    int time_limit;       /* [s] of a cell; 0: none */
-    const char *derive;   /* program of reference/derive that solves for truths; NULL: none */
+    double tolerance;   /* relative error */
+    int time_limit;     /* [s] of a cell; 0: none */
+    const char *derive; /* program of reference/derive that computes reference values; NULL: none */
     const truths *truths; /* stored, of a built-in case; NULL: none */
 } ranges_request;
 
@@ -1069,7 +1069,7 @@ typedef struct tally_worst {
  * its result is not known. */
 typedef struct tally_series {
     long asked;                     /* points with a reference */
-    long proven;                    /* of them measured by a truth */
+    long proven;                    /* of them measured by a reference value */
     long open;                      /* points with a value and nothing to measure it by */
     long within[SERIES_MAX_MESHES]; /* of them, with each mesh */
     long never;                     /* of them, not with all meshes from some on */
@@ -1079,7 +1079,7 @@ typedef struct tally_series {
 /* A place of the map. */
 typedef struct tally_place {
     long points, other, asked, never; /* other: of another model */
-    long proven; /* of those asked: measured by a truth, not by limits of meshes alone */
+    long proven; /* of those asked: measured by a reference value, not by limits of meshes alone */
     int least;   /* elements from which on all points here are within */
 } tally_place;
 
@@ -1203,8 +1203,8 @@ void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault
 /* Adds to the judgement every mesh whose error is larger than in the former run (by more than 2 %
  * and RESULTS_FLOOR), that has no value or no success any more, what the former run has and this
  * one should, and limits of default points that moved by more than 1e-5 of themselves where no
- * exact truth judges them as closely. Of a former run that is known by its short table, errors
- * series by series. Work is not compared. REFUSED: the two have nothing in common. */
+ * exact reference value judges them as closely. Of a former run that is known by its short table,
+ * errors series by series. Work is not compared. REFUSED: the two have nothing in common. */
 status regressions_find(const stored_results *former, const char *name, const sweep *, judgement *,
                         fault *);
 

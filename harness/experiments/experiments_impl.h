@@ -54,7 +54,7 @@ void effects_check(const formulation *chosen, claims *c);
 
 /* Expected outcomes of a sweep of extremes (reference/extreme_findings.csv), and its counts. */
 
-/* The findings of the packed truths at `path`. */
+/* The findings of the packed reference values at `path`. */
 status extreme_expect_read(const char *path, extreme_sweep *out, fault *f);
 /* Sets finding and as_expected of every outcome, and the counts. whole: 1 when nothing was selected
  * away, so that a known deviation that was not observed is a failure. */
@@ -250,7 +250,7 @@ void ranges_points_text(const parameter_ranges *, const double at[], char *text,
 /* The cells of some points of a sweep, solved and measured. */
 
 /* All points of a batch into rows that the caller frees, also after a failure. What a point, a cell
- * or a truth fails with is a result; FAULT: memory or processes. */
+ * or a reference value fails with is a result; FAULT: memory or processes. */
 status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f);
 
 /* Inside of the table of a sweep. */

@@ -185,8 +185,8 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
         long count;
         const char *words;
     } part[] = {
-        {kind[ROWS_STORED], "a stored truth"},
-        {kind[ROWS_DERIVED], "a truth derived there"},
+        {kind[ROWS_STORED], "a stored reference value"},
+        {kind[ROWS_DERIVED], "a reference value computed there"},
         {kind[ROWS_LIMIT], alone ? "the limit from the same meshes, which shows convergence only"
                                  : "the limit of the meshes of all formulations of one theory"},
         {kind[ROWS_NONE],
@@ -256,7 +256,8 @@ void ranges_table_known(FILE *to, const tally *t)
         write_without_scene(to, t);
 }
 
-/* Errors against truths beside such against limits: only the first show what a theory leaves out.
+/* Errors against reference values beside such against limits: only the first show what a theory
+ * leaves out.
  */
 static int is_mixed(const tally *t, int which, int q)
 {
@@ -389,9 +390,10 @@ void ranges_table_map(FILE *to, const tally *t, int every)
                   has_other(t) ? "; o: another model" : "",
                   has_unknown(t, 0) ? "; ?: without a reference" : "",
                   has_unknown(t, 1) ? "; a number with ?: some of its points are without" : "",
-                  has_mixed(t) ? "; *: against a truth, elsewhere against limits of meshes, which "
-                                 "do not show what a theory leaves out"
-                               : "",
+                  has_mixed(t)
+                      ? "; *: against a reference value, elsewhere against limits of meshes, which "
+                        "do not show what a theory leaves out"
+                      : "",
                   is_coarse(t) ? "; a field holds what all its points need, and begins where its "
                                  "column and line say"
                                : "");

@@ -203,7 +203,7 @@ static status borrow(const truths *all, const sweep_point *p, known_truths *out,
     out->borrowed = 1;
     out->stored.row = calloc((size_t)all->rows + 1, sizeof *out->stored.row);
     if (out->stored.row == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for truths");
+        return fault_set(f, STATUS_FAULT, "out of memory for reference values");
     for (int i = 0; i < all->rows; i++)
         if (truth_holds(&all->row[i], p->type, p->parameter))
             out->stored.row[out->stored.rows++] = all->row[i];
@@ -261,7 +261,7 @@ static status add_row(const sweep_point *p, const derived_value *v, truths *t, f
                    row->unit != NULL && row->kind != NULL && row->model != NULL &&
                    row->convention != NULL && row->source != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for truths");
+               : fault_set(f, STATUS_FAULT, "out of memory for reference values");
 }
 
 static status ask_scene(const char *script, const sweep_point *p, derived_value **value, int *count,
@@ -296,7 +296,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     out->derived.row = calloc((size_t)count + 1, sizeof *out->derived.row);
     status added = out->derived.row != NULL
                        ? STATUS_OK
-                       : fault_set(f, STATUS_FAULT, "out of memory for truths");
+                       : fault_set(f, STATUS_FAULT, "out of memory for reference values");
     for (int i = 0; i < count && added == STATUS_OK; i++)
         added = add_row(p, &value[i], &out->derived, f);
     free(value);

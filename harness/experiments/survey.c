@@ -158,7 +158,8 @@ static void take_formulations(parameter_ranges *r)
             formulation_default(formulations_at(i), &r->formulation[r->formulations++]);
 }
 
-/* [s] of a point beside its cells: its scene; a truth that is derived, of a case, of a scene */
+/* [s] of a point beside its cells: its scene; a reference value that is derived, of a case, of a
+ * scene */
 static const double scene_cost = 5e-5, derive_cost = 0.5, derive_scene_cost = 4;
 
 /* [s] about, of all cells. */

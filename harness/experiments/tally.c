@@ -103,7 +103,7 @@ static int place_of(const tally *t, int axis_index, double value)
 /* One formulation and quantity at one point. */
 typedef struct seen {
     int asked;  /* 0: nothing to measure by */
-    int proven; /* 1: by a truth */
+    int proven; /* 1: by a reference value */
     int open;   /* 1: there is a value all the same */
     int other;  /* 1: it is one of another model */
     int least;  /* 0: never */

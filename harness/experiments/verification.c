@@ -377,8 +377,8 @@ static const result_limit *limit_of_former(const stored_results *former, const s
     return NULL;
 }
 
-/* Does a truth say as closely where the limit belongs? An estimate does not, nor does any truth of
- * a limit that is not known so closely, or that a finding lets be elsewhere. */
+/* Does a reference value say as closely where the limit belongs? An estimate does not, nor does any
+ * truth of a limit that is not known so closely, or that a finding lets be elsewhere. */
 static int is_judged_closely(const verdict *v, double slack)
 {
     return (v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED_AS_PREDICTED ||
@@ -405,8 +405,8 @@ static status find_moved(const stored_results *former, const sweep *s, judgement
         snprintf(new.of, sizeof new.of, "%s/default/%s", s->point[one->point].type->name,
                  one->formulation.key);
         snprintf(new.why, sizeof new.why,
-                 "limit of %s %.10g -> %.10g %s, which no truth judges as closely", q->name,
-                 old->value, v->fit.limit, q->unit);
+                 "limit of %s %.10g -> %.10g %s, which no reference value checks as closely",
+                 q->name, old->value, v->fit.limit, q->unit);
         TRY(memory_append(&j->regression, &j->regressions, &new, sizeof new, "regressions", f));
     }
     return STATUS_OK;

@@ -41,7 +41,8 @@ typedef enum bw_status {
     BW_NO_VALUE       /* the requested value does not exist */
 } bw_status;
 
-/* A case or a scene file at values of its parameters, with the truths that belong to it. */
+/* A case or a scene file at values of its parameters, with the reference values that belong to it.
+ */
 typedef struct bw_scene bw_scene;
 /* One cell: a scene solved with a formulation and a number of elements. */
 typedef struct bw_result bw_result;

@@ -43,7 +43,7 @@ int contestants_jobs(void); /* default number of processes */
 /* TIME_LIMIT: who may end the run did so before all cells were done. */
 status contestants_finished(const sweep *, fault *);
 
-/* The packed truths, of which HDF5 lets one thread read at a time. */
+/* The packed reference values, of which HDF5 lets one thread read at a time. */
 
 /* Their place from now on; NULL: where they usually are. Reads them to see. */
 status known_place(const char *path, fault *f);
@@ -113,7 +113,7 @@ struct bw_result {
     sweep sweep;                    /* of one point, series and mesh */
     truths own;                     /* of a scene file */
     const truths *truths;           /* NULL: none are known */
-    double *error;                  /* [quantities] NAN: there is no truth */
+    double *error;                  /* [quantities] NAN: there is no reference value */
     double *step[RESULT_COLUMNS];   /* [steps] of the fields of a step, once they are requested */
     double *motion[RESULT_COLUMNS]; /* [motions] of those of a motion, likewise */
     double *position;               /* [states x points x 3], likewise */

@@ -31,7 +31,7 @@ static status read_options(const char *json, solution_request *out, fault *f)
     return outcome;
 }
 
-/* The truths of the result; there need not be any for a case. */
+/* The reference values of the result; there need not be any for a case. */
 static status know(bw_result *r, const double parameter[], fault *f)
 {
     const scene_file *file = source_file(r->from);

@@ -139,7 +139,7 @@ static const result_value *value_named(const result_cell *c, int near, const cha
     return NULL;
 }
 
-/* Errors are evaluated by their size; a value without a truth can only have changed. */
+/* Errors are evaluated by their size; a value without a reference value can only have changed. */
 static void compare_value(const listing *l, const result_value *a, const result_value *b)
 {
     const comparison_limits *m = l->limits;

@@ -41,8 +41,8 @@ void csv_solution(FILE *to, const sweep *s)
     gather_free(&list);
 }
 
-/* A line for each quantity of each mesh, or for those with a truth; the parts are of the quantity
- * and its cell. */
+/* A line for each quantity of each mesh, or for those with a reference value; the parts are of the
+ * quantity and its cell. */
 static void list_meshes(FILE *to, const gathering *g, int with_truth, int parts, csv_part row[])
 {
     const sweep *s = g->sweep;

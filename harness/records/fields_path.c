@@ -66,7 +66,7 @@ static const schema_field fields_of_quantity[] = {
     {"truth", OWN_UNIT, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
     {"error", "1", FIELD_DOUBLE, "(value - truth)/|truth|, by near_zero where that is larger",
      .get = get_error},
-    {"model_error", "1", FIELD_DOUBLE, "the same against the truth of another model",
+    {"model_error", "1", FIELD_DOUBLE, "the same against the reference value of another model",
      .get = get_model_error},
     {"x", "x_unit", FIELD_DOUBLE, "where a maximum or minimum was found", VALUE(x)},
     {"x_name", "", FIELD_TEXT, "what it is, of a curve", OF(QUANTITY, scene_quantity, x.name)},
@@ -83,7 +83,7 @@ static const schema_field fields_of_quantity[] = {
      OF(QUANTITY, scene_quantity, near_zero)},
     {"prediction", OWN_UNIT, FIELD_DOUBLE, "of an analytic model, not judged",
      .get = get_prediction},
-    {"prediction_error", "1", FIELD_DOUBLE, "of the prediction against the truth",
+    {"prediction_error", "1", FIELD_DOUBLE, "of the prediction against the reference value",
      .get = get_prediction_error},
     {"predicted_by", "", FIELD_TEXT, "source of the prediction",
      TEXT_OF(QUANTITY, scene_quantity, prediction.source)},
@@ -100,7 +100,7 @@ static const schema_field fields_of_truth[] = {
     {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(TRUTH, truth, kind)},
     {"model", "", FIELD_TEXT, "same: the continuum of the case; other: another",
      TEXT_OF(TRUTH, truth, model)},
-    {"source", "", FIELD_TEXT, "of the truth", TEXT_OF(TRUTH, truth, source)},
+    {"source", "", FIELD_TEXT, "of the reference value", TEXT_OF(TRUTH, truth, source)},
     {"error", "1", FIELD_DOUBLE, "of the value against it", .get = get_error},
     {0}};
 const record_type record_truth = {

@@ -229,16 +229,16 @@ static const schema_field fields_of_verdict[] = {
     {"truth", OWN_UNIT, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
     {"truth_uncertainty", OWN_UNIT, FIELD_DOUBLE, "of it", OF(TRUTH, truth, uncertainty)},
     {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(TRUTH, truth, kind)},
-    {"theory", "", FIELD_TEXT, "of shear in stability that the truth follows",
+    {"theory", "", FIELD_TEXT, "of shear in stability that the reference value follows",
      TEXT_OF(TRUTH, truth, theory)},
-    {"source", "", FIELD_TEXT, "of the truth", TEXT_OF(TRUTH, truth, source)},
-    {"below_digits", "", FIELD_FLAG, "the error is less than the truth is uncertain",
+    {"source", "", FIELD_TEXT, "of the reference value", TEXT_OF(TRUTH, truth, source)},
+    {"below_digits", "", FIELD_FLAG, "the error is less than the reference value is uncertain",
      AT(verdict, below_digits)},
     {"predicted", OWN_UNIT, FIELD_DOUBLE, "limit that was derived for the formulation",
      .get = get_predicted},
     {"contradicted", OWN_UNIT, FIELD_DOUBLE, "published value that the limit cannot be",
      .get = get_contradicted},
-    {"error", "1", FIELD_DOUBLE, "of the limit against the truth", AT(verdict, error)},
+    {"error", "1", FIELD_DOUBLE, "of the limit against the reference value", AT(verdict, error)},
     {"tolerance", OWN_UNIT, FIELD_DOUBLE, "of it, uncertainty included", AT(verdict, tolerance)},
     {"model_truth", OWN_UNIT, FIELD_DOUBLE, "of another model or theory: never judged by",
      OF(MODEL_TRUTH, truth, value)},
@@ -267,8 +267,8 @@ static const schema_field fields_of_agreement[] = {
     {"value", OWN_UNIT, FIELD_DOUBLE, "of the cell", AT(agreement, value)},
     {"truth", OWN_UNIT, FIELD_DOUBLE, "stored for this formulation and mesh",
      OF(TRUTH, truth, value)},
-    {"source", "", FIELD_TEXT, "of the truth", TEXT_OF(TRUTH, truth, source)},
-    {"agrees", "", FIELD_FLAG, "within the truth's uncertainty", AT(agreement, good)},
+    {"source", "", FIELD_TEXT, "of the reference value", TEXT_OF(TRUTH, truth, source)},
+    {"agrees", "", FIELD_FLAG, "within the reference value's uncertainty", AT(agreement, good)},
     {0}};
 const record_type record_agreement = {
     "agreement",
@@ -297,14 +297,14 @@ static const schema_field fields_of_coverage[] = {
      .key = KEY},
     {"left_out", "1", FIELD_INT, "finest meshes that were not used", OF(SUBJECT, subject, index),
      .key = KEY},
-    {"series", "1", FIELD_INT, "with an exact truth and three meshes", .get = get_series},
-    {"covered", "1", FIELD_INT, "of them, whose limit is within its uncertainty of the truth",
-     .get = get_covered},
+    {"series", "1", FIELD_INT, "with an exact reference value and three meshes", .get = get_series},
+    {"covered", "1", FIELD_INT,
+     "of them, whose limit is within its uncertainty of the reference value", .get = get_covered},
     {0}};
 const record_type record_coverage = {
     "coverage",
     "coverages",
-    "how often limits lie within their uncertainty of exact truths",
+    "how often limits lie within their uncertainty of exact reference values",
     {fields_of_coverage}};
 
 const record_type *const record_types[] = {

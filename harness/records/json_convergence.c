@@ -360,7 +360,8 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
     write_unpriced(to, q->s, list, count);
     if (known > 0) {
         write_others(to, q, list, count, 1, "; not reached by ");
-        write_others(to, q, list, count, 0, "; without a truth of its theory in all of it: ");
+        write_others(to, q, list, count, 0,
+                     "; without a reference value of its theory in all of it: ");
     }
     write_other_models(to, q);
     write_model_error(to, q, list, count);

@@ -236,7 +236,8 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
         fprintf(to, "**%s violates the interface requirements**: %s\n\n", j->breach[i].formulation,
                 j->breach[i].why);
     fprintf(to,
-            "%d verdicts against truths in %d cells: %d differ from the expected one; %d of %d "
+            "%d verdicts against reference values in %d cells: %d differ from the expected one; %d "
+            "of %d "
             "stored discrete values agree",
             j->judged, sweep_cells(s), j->unexpected, j->agreements - j->disagreements,
             j->agreements);

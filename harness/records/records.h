@@ -57,7 +57,8 @@ typedef enum results_work {
 } results_work;
 extern const char *const results_work_names[RESULTS_WORKS];
 
-/* Errors below this, relative to the truth, are round-off and the criterion of iterations. */
+/* Errors below this, relative to the reference value, are round-off and the criterion of
+ * iterations. */
 #define RESULTS_FLOOR 1e-8
 
 enum { RESULTS_STATUS = 16, RESULTS_MOST_ELEMENTS = 10000000 };
@@ -66,7 +67,7 @@ typedef struct result_value {
     char quantity[SCENE_NAME];
     double value,
         near_zero; /* [unit of the quantity]; NAN: none; below near_zero it counts as zero */
-    double error;  /* relative to the truth; NAN: no truth */
+    double error;  /* relative to the reference value; NAN: no truth */
     double limit;  /* of the series, at its finest mesh of a default point; NAN: none */
 } result_value;
 
@@ -169,7 +170,7 @@ void results_table_write(FILE *to, const stored_results *r);
 
 typedef struct comparison_limits {
     double error; /* relative change of an error */
-    double floor; /* change of a value relative to its truth that is round-off */
+    double floor; /* change of a value relative to its reference value that is round-off */
     double
         work; /* relative change of a count of one mesh; of a series: of the mean of its meshes */
 } comparison_limits;
@@ -632,8 +633,8 @@ status output_folder_finish(output_folder *, status written, fault *f);
  * of each other; beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work;
  * after it those that have a defect, those that are not within the level, and how far the ones
  * that pass are from truths of another model. "in 5 of 6 quantities (without a reference:
- * frequency_1)" where some have neither a truth nor an agreement; curves do not count. Of the first
- * point. One line. */
+ * frequency_1)" where some have neither a reference value nor an agreement; curves do not count. Of
+ * the first point. One line. */
 void reach_line_write(FILE *to, const sweep *s, const truths *t, double level);
 
 /* Records as rows of a typed, compressed table; units and summaries of the columns are its

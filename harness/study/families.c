@@ -287,7 +287,7 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
             t->rows--;
             for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
                 free(all[k]);
-            return fault_set(f, STATUS_FAULT, "out of memory for truths");
+            return fault_set(f, STATUS_FAULT, "out of memory for reference values");
         }
     return STATUS_OK;
 }

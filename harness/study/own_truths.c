@@ -150,7 +150,7 @@ static void take_row(truths_reader *r, const case_type *type, truth *out)
     if (out->on_curve)
         take_number(r, AT, &out->at);
     if (field[SOURCE][0] == '\0')
-        WRONG(r, SOURCE, "a truth needs its source");
+        WRONG(r, SOURCE, "a reference value needs its source");
     check_formulation(r);
     check_quantity(r, type, out->parameter);
 }
@@ -170,7 +170,8 @@ static void check_row(truths_reader *r, const truth *row)
     const truth *other = r->good ? known(r->t, row) : NULL;
     if (other != NULL)
         WRONG(r, QUANTITY,
-              "a truth of this kind is there already: %.10g (%.100s); only one is compared with",
+              "a reference value of this kind is there already: %.10g (%.100s); only one is "
+              "compared with",
               other->value, other->source);
 }
 
@@ -185,7 +186,7 @@ static status add(truths_reader *r, const truth *row, fault *f)
     int good = 1;
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         good &= (*text[i] = strdup(*text[i])) != NULL;
-    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for truths");
+    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for reference values");
 }
 
 static status add_rows(const own_table *rows, truths_reader *r, fault *f)

@@ -143,7 +143,8 @@ const char *reach_defect_words(verdict_kind kind)
     }
 }
 
-/* Is the quantity requested: by itself, or as one that some formulation has a truth for? */
+/* Is the quantity requested: by itself, or as one that some formulation has a reference value for?
+ */
 static int is_asked(const reach_question *q, int quantity)
 {
     int known = 0;

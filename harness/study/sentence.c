@@ -7,14 +7,17 @@
 
 static void passed(const verdict *v, char *text, size_t size)
 {
-    const char *digits = v->below_digits ? "; the difference is below the truth's digits" : "";
+    const char *digits =
+        v->below_digits ? "; the difference is below the reference value's digits" : "";
     if (v->fit.kind == LIMIT_NOISE_DOMINATED)
         snprintf(text, size, "has converged to the truth: the last meshes differ by noise only%s",
                  digits);
     else if (isfinite(v->fit.order))
-        snprintf(text, size, "converges to the truth, order %.2g%s", v->fit.order, digits);
+        snprintf(text, size, "converges to the reference value, order %.2g%s", v->fit.order,
+                 digits);
     else
-        snprintf(text, size, "agrees with the truth within the tolerance, without an order%s",
+        snprintf(text, size,
+                 "agrees with the reference value within the tolerance, without an order%s",
                  digits);
 }
 
@@ -49,10 +52,11 @@ static void unjudged(const verdict *v, char *text, size_t size)
                  "no truth of its theory of shear; its limit is %+.3g %% from that of %s",
                  100 * v->model_error, v->model_truth->theory);
     else if (v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0)
-        snprintf(text, size, "no truth to judge by; its limit is %+.2g %% from that on which %s",
+        snprintf(text, size,
+                 "no reference value to compare with; its limit is %+.2g %% from that on which %s",
                  100 * v->model_error, v->model_truth->source);
     else
-        snprintf(text, size, "no truth to judge by");
+        snprintf(text, size, "no reference value to compare with");
 }
 
 /* Names the omitted physics and the resulting difference from the reference value. */
@@ -83,11 +87,13 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     case VERDICT_BIASED_AS_PREDICTED:
     case VERDICT_WRONG_AS_PREDICTED:
         snprintf(text, size,
-                 "converges to the limit that was derived for it, %.10g: %+.3g %% from the truth",
+                 "converges to the limit that was derived for it, %.10g: %+.3g %% from the "
+                 "reference value",
                  v->predicted->value, 100 * v->error);
         return;
     case VERDICT_LOW_ORDER:
-        snprintf(text, size, "converges to the truth, but with order %.2g instead of %.2g",
+        snprintf(text, size,
+                 "converges to the reference value, but with order %.2g instead of %.2g",
                  v->fit.order, least_order);
         return;
     case VERDICT_UNDECIDED:
@@ -206,11 +212,12 @@ static void expected_findings(const judgement *j, char *text, size_t size)
     char part[400];
     int parts = 0;
     if (derived > 0) {
-        snprintf(part, sizeof part,
-                 "%d of them %s off the truth (%d within the tolerance, %d beyond it) just as "
-                 "derived for %s (beamwork explain \"wrong limit, as predicted\")",
-                 derived, derived == 1 ? "is a limit" : "are limits", k.derived[0], k.derived[1],
-                 derived == 1 ? "its formulation" : "these formulations");
+        snprintf(
+            part, sizeof part,
+            "%d of them %s off the reference value (%d within the tolerance, %d beyond it) just as "
+            "derived for %s (beamwork explain \"wrong limit, as predicted\")",
+            derived, derived == 1 ? "is a limit" : "are limits", k.derived[0], k.derived[1],
+            derived == 1 ? "its formulation" : "these formulations");
         add_part(text, size, &parts, ", ", part);
     }
     if (k.by_rule > 0) {

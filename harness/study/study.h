@@ -196,8 +196,8 @@ typedef struct rule {
     char *verdicts;     /* "wrong limit|undecided" */
     char *predicted;    /* list of "case/quantity" whose limit is predicted; empty: none */
     char *cause, *proof;
-    /* relative, of the limit from the derived one, or from the truth where none was derived; beyond
-     * it the rule does not explain */
+    /* relative, of the limit from the derived one, or from the reference value where none was
+     * derived; beyond it the rule does not explain */
     double largest_error;
     char *from;        /* of a user's table: "file:line"; NULL: of the list of known deviations */
     int missed;        /* by the judge: 1: the run should have shown it and did not */
@@ -238,7 +238,7 @@ int rules_is_observed(const rule *);
 status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f);
 void rules_free(rule *, int count);
 
-/* The packed truths and findings (reference/pack.py). */
+/* The packed reference values and findings (reference/pack.py). */
 
 enum { TRUTHS_VERSION = 3 };
 
@@ -274,8 +274,8 @@ status truths_read(const char *path, truths *out, fault *f);
 status truths_read_case(const char *path, const case_type *type, truths *out, fault *f);
 /* The known deviations and the formulations that affect the exit status, alone. */
 status truths_read_rules(const char *path, truths *out, fault *f);
-/* Adds the exact values at the extremes, which no verification runs. On failure the truths read
- * before stay. */
+/* Adds the exact values at the extremes, which no verification runs. On failure the reference
+ * values read before stay. */
 status truths_read_extremes(const char *path, truths *out, fault *f);
 /* Rows stay where they are until that many more are added. FAULT: out of memory. */
 status truths_reserve(truths *, int more, fault *f);
@@ -429,14 +429,16 @@ typedef struct verdict {
     const truth *contradicted;
     mesh_limit fit;
     double finest; /* value on the finest mesh, NAN: none */
-    /* (limit - truth)/truth, relative to near_zero where the truth is near zero; NAN */
+    /* (limit - truth)/truth, relative to near_zero where the reference value is near zero; NAN */
     double error;
-    double departure;   /* the same of the limit from the derived one; from the truth without one */
-    double model_error; /* against the truth of another model */
-    /* absolute, uncertainty of the truth and what is not modelled included */
+    double departure;   /* the same of the limit from the derived one; from the reference value
+                           without one */
+    double model_error; /* against the reference value of another model */
+    /* absolute, uncertainty of the reference value and what is not modelled included */
     double tolerance;
     double unmodelled; /* absolute: bound of the change due to omitted physics */
-    /* 1: the limit differs from the truth by less than the truth is uncertain */
+    /* 1: the limit differs from the reference value by less than the reference value is uncertain
+     */
     int below_digits;
     int matches;       /* 1: verdict as expected */
     int needs_finding; /* 1: of a formulation that is new or was named: not a pass, and without a
@@ -469,7 +471,8 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v);
 /* Relative error of a value of a quantity against a truth. */
 double verdict_error(const scene_quantity *q, double value, double truth_value);
 
-/* The judge: case x point x formulation x quantity against truths and expected verdicts. */
+/* The judge: case x point x formulation x quantity against reference values and expected verdicts.
+ */
 
 /* A value of one mesh against its own stored discrete value. */
 typedef struct agreement {
@@ -525,7 +528,7 @@ typedef struct judgement {
     int is_new;     /* verdicts of new formulations, which do not affect the exit status ... */
     int proposed;   /* ... and those among them that would need a finding */
     int disagreements;
-    int judged; /* verdicts that compare with a truth */
+    int judged; /* verdicts that compare with a reference value */
     /* rules that no verdict showed, or predictions of theirs: of the known deviations (whole runs
      * only), of the user's tables (study_impl.h) */
     int unobserved;
@@ -539,7 +542,7 @@ typedef struct judgement {
  * measuring. */
 int judgement_doubts(const sweep *s, const truths *t, int series_index);
 /* Begins with the planned series, which are then judged one by one, in their order, when they have
- * been run. FAULT when a truth has another unit than its quantity. */
+ * been run. FAULT when a reference value has another unit than its quantity. */
 status judgement_begin(const sweep *s, truths *t, judgement *out, fault *f);
 status judgement_add(const sweep *s, truths *t, int series_index, judgement *out, fault *f);
 /* whole: 1 when nothing was selected away, so that a rule that was not observed and a reference
@@ -842,8 +845,8 @@ typedef struct families_limit {
 
 /* Limit for one point and quantity; for tests too, which see a dispute and how many agree. */
 families_limit families_limit_of(const sweep *s, int point_index, int quantity, const truths *);
-/* Adds a truth of kind agreement for every quantity of a point that has none of its model.
- * files_only: 1: of scene files, not of built-in cases. */
+/* Adds a reference value of kind agreement for every quantity of a point that has none of its
+ * model. files_only: 1: of scene files, not of built-in cases. */
 status families_add_truths(const sweep *s, int files_only, truths *t, fault *f);
 /* The same of one point, all of whose series are done. */
 status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f);
@@ -909,7 +912,7 @@ typedef struct glossary {
 
 enum { GLOSSARY_WORD = 128 };
 
-/* FAULT: the packed truths are missing, damaged, or have none. */
+/* FAULT: the packed reference values are missing, damaged, or have none. */
 status glossary_read(const char *path, glossary *out, fault *f);
 void glossary_free(glossary *);
 /* The entry that has the word as its term or another name, whatever its letters' case, '_' and '-'
@@ -953,7 +956,7 @@ typedef struct meeting {
     double error[2]; /* relative, the largest on that mesh; NAN */
 } meeting;
 
-/* Has each of the two a truth or an agreement for the quantity, and is it no curve? */
+/* Has each of the two a reference value or an agreement for the quantity, and is it no curve? */
 int meeting_asks(const sweep *s, const truths *t, int quantity);
 /* How many quantities are asked. */
 int meeting_asked(const sweep *s, const truths *t);
@@ -1236,7 +1239,8 @@ typedef struct reach_question {
     const sweep *s;
     const verdict *verdict; /* [verdicts] of all its series; what has no truth is not asked */
     int verdicts, point;
-    int quantity; /* or REACH_EVERY: all of the point that any formulation has a truth for */
+    int quantity; /* or REACH_EVERY: all of the point that any formulation has a reference value for
+                   */
     double level; /* relative error */
 } reach_question;
 
@@ -1259,7 +1263,7 @@ int reach_ties(const reached list[], int count);
  * value of its theory; 0: some have none; -1: the series does not run. */
 int reach_asks(const reach_question *q, int series_index);
 /* Verdicts of every series and quantity of a sweep that was not evaluated, with what formulations
- * agree on where there is no truth; NULL: out of memory. The caller frees it. */
+ * agree on where there is no reference value; NULL: out of memory. The caller frees it. */
 verdict *reach_verdicts(const sweep *s, const truths *t, int *count);
 
 /* Numbers with as many digits as are known of them, for people. */
@@ -1326,7 +1330,7 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f);
 
 /* Adds the file's truths that hold at a point of its parameters, and their values there. */
 status scene_truths_add(const scene_file *, const double value[], truths *t, fault *f);
-/* The same at the defaults and at every point that a truth names. */
+/* The same at the defaults and at every point that a reference value names. */
 status scene_truths_add_all(const scene_file *, truths *t, fault *f);
 
 /* Verdicts in words. */

@@ -74,8 +74,8 @@ status follow_events_rest(follow_walk *, fault *);
  * matches the name of the case alone. */
 int missed_rules(const sweep *s, truths *t, int whole);
 
-/* Counts the truths that a whole run has not evaluated by: unmet, waiting and unread. What is
- * unread counts as met (truth.met) and is not evaluated: a run takes a motion at few of the
+/* Counts the reference values that a whole run has not evaluated by: unmet, waiting and unread.
+ * What is unread counts as met (truth.met) and is not evaluated: a run takes a motion at few of the
  * instants and structures that its quantities are known at, `make lab L=motions` at all. */
 void missed_truths(const sweep *s, truths *t, judgement *out);
 

@@ -14,7 +14,7 @@ status truths_reserve(truths *t, int more, fault *f)
     const size_t room = (size_t)t->rows + (size_t)more;
     truth *row = realloc(t->row, (room + 1) * sizeof *row);
     if (row == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for truths");
+        return fault_set(f, STATUS_FAULT, "out of memory for reference values");
     t->row = row;
     t->room = (int)room;
     return STATUS_OK;
@@ -250,7 +250,7 @@ static status add_row(truths *t, const case_type *type, const scene_truth *one, 
                                 one->kind,        one->model,  one->convention, one->source};
     for (size_t i = 0; i < sizeof to / sizeof to[0]; i++)
         if ((*to[i] = strdup(from[i])) == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for truths");
+            return fault_set(f, STATUS_FAULT, "out of memory for reference values");
     return STATUS_OK;
 }
 

@@ -19,7 +19,7 @@ static const char *const names[VERDICT_KINDS] = {"pass",
                                                  "no truth",
                                                  "other model"};
 static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
-/* that many uncertainties from the truth, a limit is another one */
+/* that many uncertainties from the reference value, a limit is another one */
 static const double surely = 3;
 
 const verdict_kind verdict_defects[VERDICT_DEFECTS] = {
@@ -114,7 +114,7 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
 /* Is the order known and too low?  Two low orders agree by accident where terms of two signs cross
  * or elements are as long as a layer is thick, and rise again: with five meshes or more the one
  * before them must be below the nominal order too, and the three go one way.  Changes that the
- * truth's uncertainty hides say nothing. */
+ * reference value's uncertainty hides say nothing. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
     const double least = q->least_order - order_slack, nominal = ceil(q->least_order);

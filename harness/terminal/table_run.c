@@ -41,8 +41,10 @@ static void failed_cells(FILE *to, const sweep *s)
 static void coverage_lines(FILE *to, const judgement *j)
 {
     if (j->coverages > 0)
-        fprintf(to, "\nlimits within their uncertainty of exact truths, also without the 1, 2, 3 "
-                    "finest meshes\n");
+        fprintf(
+            to,
+            "\nlimits within their uncertainty of exact reference values, also without the 1, 2, 3 "
+            "finest meshes\n");
     for (int i = 0; i < j->coverages; i++) {
         coverage sum = {.type = j->coverage[i].type};
         int before = 0;
@@ -63,7 +65,8 @@ static void coverage_lines(FILE *to, const judgement *j)
     }
 }
 
-/* Published values that limits cannot be which agree with the truth; each is said once. */
+/* Published values that limits cannot be which agree with the reference value; each is said once.
+ */
 static void contradictions(FILE *to, const sweep *s, const judgement *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
@@ -125,11 +128,11 @@ static void print_verdicts(FILE *to, const judgement *j)
         const char *words;
     } more[] = {{j->by_kind[VERDICT_SKIP], "not offered (skip)"},
                 {j->by_kind[VERDICT_OTHER_MODEL], "of another model"},
-                {j->by_kind[VERDICT_NO_TRUTH], "without a truth"}};
+                {j->by_kind[VERDICT_NO_TRUTH], "without a reference value"}};
     int parts = 0, left = 0;
     paragraph words;
     FILE *line = paragraph_begin(&words, to);
-    fprintf(line, "%d verdict%s against truths%s", j->judged, j->judged == 1 ? "" : "s",
+    fprintf(line, "%d verdict%s against reference values%s", j->judged, j->judged == 1 ? "" : "s",
             j->judged > 0 ? ":" : "");
     print_kinds(line, j);
     for (int i = 0; i < 3; i++)

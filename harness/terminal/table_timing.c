@@ -6,7 +6,7 @@
 
 enum { NAME = 23 };
 
-/* First verdict of a series that has a truth, or NULL. */
+/* First verdict of a series that has a reference value, or NULL. */
 static const verdict *first_judged(const judgement *j, int series_index)
 {
     for (int i = 0; i < j->verdicts; i++)

@@ -39,7 +39,7 @@ static void print_other_model(const verdicts_block *b, const truth *other)
     paragraph_say(b->to, 0, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
 }
 
-/* A quantity and the truth that the verdict and those below it are evaluated by. */
+/* A quantity and the reference value that the verdict and those below it are evaluated by. */
 static void print_quantity(const verdicts_block *b, const scene_quantity *q, const verdict *v)
 {
     const truth *row = v->truth;

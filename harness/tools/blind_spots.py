@@ -10,7 +10,7 @@ allows the limit: the band that it may move in until another verdict is seen tha
 (harness/study/verdict.c, judgement.c).  The band over the derivative is the fault.  Two doors:
   verdict    the verdict differs, whichever sign the fault has;
   baseline   the limit at the default point differs from the committed one by more than 1e-5
-             (harness/experiments/verification.c), where no exact truth judges it as closely.
+             (harness/experiments/verification.c), where no exact reference value judges it as closely.
 Errors of meshes against the committed ones notice some smaller faults of one sign: not counted.
 """
 import argparse
@@ -95,7 +95,7 @@ def band_of(v, rules):
 
 
 def moved_of(v):
-    """Returns by how much the limit may differ from the committed one; infinite: an exact truth judges it."""
+    """Returns by how much the limit may differ from the committed one; infinite: an exact reference value judges it."""
     if v["point"] != "default" or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf
     slack = MOVED * max(abs(v["limit"]), scale_of(v))

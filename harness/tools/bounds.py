@@ -4,8 +4,8 @@
 usage: bounds.py VERIFY_JSON FINDINGS_CSV [--loose]
 
 A rule's largest_error is the least of 1, 2 and 5 times a power of ten that no limit of its verdicts
-exceeds: in its distance from the derived limit where there is one, else from the truth, relative to
-the truth; empty where none of them has an error.  Where one of them has no derived limit it is the
+exceeds: in its distance from the derived limit where there is one, else from the reference value, relative to
+the reference value; empty where none of them has an error.  Where one of them has no derived limit it is the
 least of 1, 1.5, 2, 3, 4, 5 and 7 times a power of ten.  Status 1 where the list of known deviations differs from it.
 It is loose where it is more than ten times what those with a derived limit show, or more than 1.5
 times what those without one do; --loose says that alone.  The digits are those of the limit that is

@@ -41,7 +41,7 @@ def parameters():
 
 
 def truths(scratch):
-    """The packed truths of one small case with two findings."""
+    """The packed reference values of one small case with two findings."""
     (scratch / "tables").mkdir()
     for name in ("defaults.csv", "glossary.csv", "accepted.csv", "tables/wagner_torsion.csv",
                  "tables/roll_up.csv"):

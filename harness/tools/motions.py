@@ -2,7 +2,7 @@
 mesh, its limit and the uncertainty.
 
 usage: motions.py PROGRAM [CASE...] [--fine] [-o FILE.csv]     ends with status 1 where a limit is
-farther from its truth than the larger of the truth's uncertainty and its own.  It also counts the
+farther from its reference value than the larger of the reference value's uncertainty and its own.  It also counts the
 limits whose uncertainty exceeds a hundredth of the largest value of their unit; --fine
 takes finer ones, and longer.
 

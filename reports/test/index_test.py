@@ -85,7 +85,7 @@ class Small(ProgramTest):
         run("verify", "--scene", scene, "-f", "collocation", "-f", "beamw_consistent", "-o", results)
         self.assertEqual(report(results, site).returncode, 0)
         page = self.whole((site / "index.html").read_text(encoding="utf-8"))
-        self.assertIn("No quantity of these results has a truth", page)
+        self.assertIn("No quantity of these results has a reference value", page)
         self.assertIn("what formulations agree on", page)
         self.assertNotIn("<figure>", page)
         self.assertIn("No quantity of these results has one", self.whole(

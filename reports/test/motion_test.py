@@ -224,7 +224,7 @@ class Truths(ProgramTest):
                                               "motion, plus 1"), "displacement of a along x, plus 1")
 
     def test_stored_truths_are_read(self):
-        """Every case of the packed truths can be asked."""
+        """Every case of the packed reference values can be asked."""
         with h5py.File(TRUTHS) as file:
             names = list(file["truths"])
         self.assertGreater(len(names), 10)

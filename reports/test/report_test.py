@@ -208,7 +208,7 @@ class SceneReport(ProgramTest):
         limits = page[page.index("Limits of quantities"):page.index("<summary>Verdicts")]
         found = [float(text) for text in re.findall(r'class="n">([0-9.e-]+) ± ', limits)]
         self.assertEqual(sum(abs(value / tip - 1) < 1e-3 for value in found), 2, found)
-        self.assertIn("<details open><summary>Limits of quantities without a truth", page)
+        self.assertIn("<details open><summary>Limits of quantities without a reference value", page)
 
     def test_what_is_assumed(self):
         """What numbers of a section do not say stands on its page, in the words of the terminal."""
@@ -260,7 +260,7 @@ class SceneReport(ProgramTest):
 
 
 # Pages of cases: the scene first, every quantity explained, at most eight curves in a figure,
-# errors below the truth's own digits marked as such.
+# errors below the reference value's own digits marked as such.
 class Site:
     """What a chart asks of a site."""
 

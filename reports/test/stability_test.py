@@ -169,7 +169,7 @@ class Newton(ProgramTest):
         self.assertEqual(len(page["histories"][0][2]), 2)
 
 
-# The table of analytic predictions: errors against the truth of the point, nothing where there is none.
+# The table of analytic predictions: errors against the reference value of the point, nothing where there is none.
 def point(prediction):
     mesh = data.Mesh(1,
                      "ok",

@@ -39,7 +39,7 @@ class Remarks(unittest.TestCase):
         found = verdict(
             "load", "biased", truth=2.0, limit=2.001, error=5e-4, limit_uncertainty=1e-6
         )
-        self.assertEqual(verdicts.remarks(found), ["+0.05 % from the truth"])
+        self.assertEqual(verdicts.remarks(found), ["+0.05 % from the reference value"])
 
     def test_predicted_limit_stands_beside(self):
         record = {"truth": 2.0, "limit": 2.2, "error": 0.1, "predicted": 2.2000022}
@@ -252,7 +252,7 @@ class Deviations(unittest.TestCase):
         self.assertIsNone(found["farthest"])
 
     def test_what_is_left_open(self):
-        """The distance from a derived limit, in parts of the truth; else that from the truth."""
+        """The distance from a derived limit, in parts of the reference value; else that from the truth."""
         there = {"limit": 2.02, "truth": 2.0, "error": 0.01}
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", predicted=2.03, **there)), 0.005)
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", **there)), 0.01)

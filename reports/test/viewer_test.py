@@ -150,7 +150,7 @@ class Explorer(ProgramTest):
             return stored["w"][text] if isinstance(text, int) else text
 
         def values(columns):
-            """Of what has a truth they follow from the errors."""
+            """Of what has a reference value they follow from the errors."""
             errors, _, truth, *plain = map(told, columns)
             if plain:
                 return plain[0].split()

@@ -366,7 +366,7 @@ REFUSED = {"rotating_string": "geometrically_exact"}
 
 
 def wrong(solution):
-    """What differs from its truth, or has none although one is known."""
+    """What differs from its reference value, or has none although one is known."""
     found = []
     for row in solution["quantities"]:
         for truth in row["truths"][:1]:
@@ -388,7 +388,7 @@ class ClosedFormsTest(ProgramTest):
         self.assertEqual(wrong(solution), [], path.name)
 
     def test_that_there_are_enough(self):
-        """Thirty scenes; each has a truth, or is known to have no value."""
+        """Thirty scenes; each has a reference value, or is known to have no value."""
         self.assertGreaterEqual(len(SCENES), 30)
 
 

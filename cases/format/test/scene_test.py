@@ -130,7 +130,7 @@ class SceneTest(SceneCase):
         self.refused(2, "did you mean 'width'", *where, "--set", "wdth=0.1")
 
     def test_truths_of_a_point(self):
-        """A truth that names parameters holds there only, and `verify` goes there."""
+        """A reference value that names parameters holds there only, and `verify` goes there."""
         path = self.scene(
             LEAF.replace("width: 50e-3", "width: width").replace(
                 "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +

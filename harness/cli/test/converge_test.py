@@ -206,7 +206,7 @@ class Beside(ProgramTest):
 
     def test_values_where_there_is_nothing_to_measure_by(self):
         text = self.agree("c_column", "-k", "buckling_load", "-n", "2,4,8,16")
-        self.assertIn("collocation: no truth to judge by", text)
+        self.assertIn("collocation: no reference value to compare with", text)
         self.agree("--scene", BESIDE_LEAF, "-n", "1,2,4", "--set", "stroke=0.009")
 
     def test_selection(self):

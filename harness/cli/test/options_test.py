@@ -215,7 +215,7 @@ class Machine(ProgramTest):
 
 
 class OtherPythons(ProgramTest):
-    """Who works in a virtual environment, or with a Python of his own, has the truths derived all
+    """Who works in a virtual environment, or with a Python of his own, has the reference values derived all
     the same."""
 
     def derived(self, **changes):

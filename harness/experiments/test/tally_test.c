@@ -79,9 +79,9 @@ static void series_are(const tally *t)
     gsl_test_int((int)second->asked, 5, "points with a reference, the other quantity");
     gsl_test_int((int)second->never, 1, "never, the other quantity");
     gsl_test_int(second->everywhere, 4, "enough, but for those");
-    gsl_test_int((int)first->proven, 1, "points measured by a truth");
+    gsl_test_int((int)first->proven, 1, "points measured by a reference value");
     gsl_test_int((int)second->proven, 0, "none, the other quantity");
-    gsl_test_int((int)all->proven, 1, "points where one of all is measured by a truth");
+    gsl_test_int((int)all->proven, 1, "points where one of all is measured by a reference value");
     gsl_test_int((int)first->open, 1, "points with a value that nothing measures");
     gsl_test_int((int)second->open, 0, "none, the other quantity");
     gsl_test_int((int)all->open, 1, "points where one of all is not measured");
@@ -103,7 +103,7 @@ static void map_is(const tally *t)
     gsl_test_int((int)tally_at(t, 0, 0, 0, 2)->asked, 0, "a field without a reference");
     gsl_test_int((int)tally_at(t, 0, 2, 0, 2)->asked, 0, "a field where one is not measured");
     gsl_test_int((int)tally_at(t, 0, 2, 1, 2)->points, 0, "a field without a scene");
-    gsl_test_int((int)tally_at(t, 0, 0, 1, 0)->proven, 1, "a field measured by a truth");
+    gsl_test_int((int)tally_at(t, 0, 0, 1, 0)->proven, 1, "a field measured by a reference value");
     gsl_test_int((int)tally_at(t, 0, 0, 0, 0)->proven, 0, "a field measured by a limit");
     gsl_test_rel(tally_edge(t, 0, 1), 1, 0, "second column");
     gsl_test_rel(tally_edge(t, 1, 1), 20, 0, "second line");
@@ -301,7 +301,7 @@ enum { PLACES = 8 };
 static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
 static const case_type map_box = {.name = "box", .parameters = {map_table}};
 
-/* With a truth at some points, and elsewhere with none. */
+/* With a reference value at some points, and elsewhere with none. */
 static const struct {
     tally_place place;
     const char *mixed, *alike;

@@ -63,7 +63,7 @@ class Energy(ProgramTest):
         return {q["quantity"]: q["value"] for q in told["quantities"]}["w_over_L"]
 
     def test_solves(self):
-        self.assertAlmostEqual(self.value("chord"), 0.30172, delta=1e-3)  # 0.2 % from the truth
+        self.assertAlmostEqual(self.value("chord"), 0.30172, delta=1e-3)  # 0.2 % from the reference value
 
     def test_options(self):
         """A number and a choice reach the process as they are given."""
@@ -291,7 +291,7 @@ class OctaveExample(OctaveTest, BesideC):
         done = self.answered("converge", "elastica", "-f", NAME, "--element", command(EXAMPLE),
                              cwd=self.folder)
         text = " ".join(done.stdout.split())
-        self.assertIn("converges to the truth, order 2", text)
+        self.assertIn("converges to the reference value, order 2", text)
         self.assertIn(f"{NAME} n = 8 (in another process: no rank)", text)
         self.assertEqual(done.stderr, "")
 

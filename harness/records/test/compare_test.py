@@ -168,7 +168,7 @@ class Compare(ProgramTest):
         self.assertRegex(done.stdout, r"(?m)^new      warping_torsion/default/beamw n=4: other$")
 
     def test_near_zero(self):
-        """A value without a truth has changed beyond the floor of its size, or of near_zero where it may vanish."""
+        """A value without a reference value has changed beyond the floor of its size, or of near_zero where it may vanish."""
 
         def without_truth(near_zero):
 

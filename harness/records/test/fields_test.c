@@ -343,7 +343,7 @@ static void line_make(reach_line_bench *b, double times)
 static void add_model(reach_line_bench *b, const char *kind, double value)
 {
     truth *row = realloc(b->t.row, (size_t)(b->t.rows + 1) * sizeof *row);
-    gsl_test(row == NULL, "room for a truth");
+    gsl_test(row == NULL, "room for a reference value");
     b->t.row = row;
     row[b->t.rows++] = (truth){.type = &line_made_up,
                                .formulation = strdup(""),

@@ -245,7 +245,7 @@ class Readable(Folder):
 
 class Gate(Folder):
     def altered(self, change):
-        """Exit code and output of a run of one case with a copy of the truths that was changed."""
+        """Exit code and output of a run of one case with a copy of the reference values that was changed."""
         pathlib.Path(self.path("t.h5")).write_bytes(pathlib.Path(TRUTHS).read_bytes())
         with h5py.File(self.path("t.h5"), "r+") as file:
             change(file)

@@ -27,8 +27,8 @@ static const case_type made_up = {.name = "made_up",
                                   .build = no_build};
 static const element_type element = {.name = "element", .abi = ELEMENT_ABI};
 
-/* One point, one series of five meshes, one quantity; the truth is 3, tolerance 1e-4, least
- * order 2. */
+/* One point, one series of five meshes, one quantity; the reference value is 3, tolerance 1e-4,
+ * least order 2. */
 typedef struct judge_bench {
     sweep s;
     sweep_point p;

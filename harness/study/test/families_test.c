@@ -98,7 +98,7 @@ static void two_families(void)
     gsl_test(!(fabs(l.value - 3) < 2e-3) || !(l.uncertainty >= 1e-3 && l.uncertainty < 2e-3),
              "their limit %.6g, its uncertainty is their spread: %.2g", l.value, l.uncertainty);
     gsl_test(families_add_truths(&b.s, 0, &b.t, &f) != STATUS_OK || b.t.rows != 1,
-             "it is a truth for the run");
+             "it is a reference value for the run");
     const truth *row = truth_agreed(&b.t, &made_up, b.p.parameter, "load");
     gsl_test(row == NULL || truth_gates(row), "of kind agreement, which never gates");
     gsl_test(row == NULL || strstr(row->source, "blue_one (blue)") == NULL ||
@@ -342,8 +342,8 @@ typedef struct reach_bench {
     int count;
 } reach_bench;
 
-/* Four formulations without prices of their own, exact on every mesh; the truth is 1. The work of
- * each is ten times that of the one before it. */
+/* Four formulations without prices of their own, exact on every mesh; the reference value is 1. The
+ * work of each is ten times that of the one before it. */
 static void reach_make(reach_bench *b)
 {
     static const char *const key[SERIES] = {"cheap", "dear", "other", "last"};
@@ -470,7 +470,7 @@ static void not_asked(void)
     ask(&b, 0, 0.01);
     expect(&b, (int[]){CHEAP, LAST}, 2, "one quantity");
     const reach_question q = {&b.s, b.v, SERIES * QUANTITIES, 0, REACH_EVERY, 0.01};
-    gsl_test_int(reach_asks(&q, CHEAP), 0, "a truth is missing");
+    gsl_test_int(reach_asks(&q, CHEAP), 0, "a reference value is missing");
     gsl_test_int(reach_asks(&q, DEAR), -1, "it does not run");
     gsl_test_int(reach_asks(&q, LAST), 1, "it is asked");
 }

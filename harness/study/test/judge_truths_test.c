@@ -17,7 +17,9 @@ static void predictions(void)
     truth *derived = bench_add_prediction(&b, 3.003);
     derived->uncertainty = 1e-8;
     bench_expect(&b, VERDICT_WRONG_AS_PREDICTED, 1, "a wrong limit that was derived");
-    bench_says(&b, "converges to the limit that was derived for it, 3.003: +0.1 % from the truth");
+    bench_says(
+        &b,
+        "converges to the limit that was derived for it, 3.003: +0.1 % from the reference value");
     derived->value = 3.0041;
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "another wrong limit than the one that was derived");
     gsl_test(strstr(b.j.verdict[0].reason, "3.0041") == NULL, "says which: %s",
@@ -35,7 +37,8 @@ static void predictions(void)
     bench_free(&b);
 }
 
-/* A formulation is judged by the truth of its own theory of shear, whatever the scene asks for. */
+/* A formulation is judged by the reference value of its own theory of shear, whatever the scene
+ * asks for. */
 static void theories(void)
 {
     judge_bench b;
@@ -48,7 +51,7 @@ static void theories(void)
     b.p.scene.shear_theory = SCENE_SHEAR_ENGESSER;
     bench_fill(&b, 3.003, 0.7, 2);
     b.row[0].theory = words[ENGESSER];
-    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another theory does not judge");
+    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a reference value of another theory does not judge");
     gsl_test_rel(b.j.verdict[0].model_error, 1e-3, 1e-6, "the models differ");
     bench_says(&b, "no truth of its theory of shear; its limit is +0.1 % from that of engesser");
     bench_add_row(&b, 3.003)->theory = words[HARINGX];
@@ -68,7 +71,7 @@ static void publications(void)
     truth *published = bench_add_row(&b, 3.01);
     published->kind = words[PUBLISHED];
     published->uncertainty = 0.005;
-    bench_expect(&b, VERDICT_PASS, 0, "an exact truth judges beside a published one");
+    bench_expect(&b, VERDICT_PASS, 0, "an exact reference value judges beside a published one");
     gsl_test(b.j.verdict[0].contradicted != published, "which the limit contradicts");
     published->uncertainty = 0.011;
     bench_expect(&b, VERDICT_PASS, 0, "a published value with fewer digits");
@@ -76,7 +79,8 @@ static void publications(void)
     bench_free(&b);
 }
 
-/* Where a limit was derived, a rule is bound by the distance from it, however far the truth is. */
+/* Where a limit was derived, a rule is bound by the distance from it, however far the reference
+ * value is. */
 static void bound_by_the_derived_limit(void)
 {
     static char kind[] = "wrong limit, as predicted|undecided";
@@ -95,7 +99,8 @@ static void bound_by_the_derived_limit(void)
                      .largest_error = 1e-3};
     b.t.rule = &b.known;
     b.t.rules = 1;
-    bench_expect(&b, VERDICT_WRONG_AS_PREDICTED, 0, "0.1 from the truth, and where it should be");
+    bench_expect(&b, VERDICT_WRONG_AS_PREDICTED, 0,
+                 "0.1 from the reference value, and where it should be");
     for (int side = -1; side <= 1; side += 2) {
         derived->value = 3.3 + side * 3 * 0.9e-3;
         bench_expect(&b, VERDICT_WRONG_AS_PREDICTED, 0, "within the bound of the derived limit");
@@ -111,7 +116,7 @@ static void expectations(void)
     bench_make(&b);
     snprintf(b.one.missing, sizeof b.one.missing, "shear");
     bench_expect(&b, VERDICT_SKIP, 3, "nothing but skips: nothing was checked");
-    gsl_test_int(b.j.waiting, 1, "a truth that everybody skips waits");
+    gsl_test_int(b.j.waiting, 1, "a reference value that everybody skips waits");
     b.one.missing[0] = '\0';
     b.p.status = STATUS_REFUSED;
     bench_expect(&b, VERDICT_REFUSED, 1, "a point whose scene is refused");
@@ -149,16 +154,16 @@ static void expectations(void)
     gsl_test_int(b.j.unobserved, 1, "is a rule nobody observed");
     b.t.rules = 0;
     b.row[0].parameter[0] = 5;
-    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of other parameters does not judge");
+    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a reference value of other parameters does not judge");
     gsl_test_int(b.j.unmet, 1, "and is missed");
     b.row[0].any[0] = 1;
-    bench_expect(&b, VERDICT_PASS, 0, "a truth of any length does");
+    bench_expect(&b, VERDICT_PASS, 0, "a reference value of any length does");
     b.row[0].any[0] = 0;
     b.row[0].parameter[0] = 2;
     bench_fill(&b, 3.003, 0.7, 2);
     b.row[0].uncertainty = 0.0029;
     bench_expect(&b, VERDICT_PASS, 0,
-                 "a limit within the tolerance and the truth's own uncertainty");
+                 "a limit within the tolerance and the reference value's own uncertainty");
     b.row[0].uncertainty = 0.0026;
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "and one beyond both");
     b.row[0].uncertainty = 0;
@@ -167,17 +172,18 @@ static void expectations(void)
     for (int exact = 0; exact < 2; exact++) {
         b.row[exact].kind = words[EXACT];
         b.row[1 - exact].kind = words[PUBLISHED];
-        bench_expect(&b, exact == 0 ? VERDICT_PASS : VERDICT_WRONG_LIMIT, exact,
-                     "an exact truth judges, a published one that contradicts it does not");
+        bench_expect(
+            &b, exact == 0 ? VERDICT_PASS : VERDICT_WRONG_LIMIT, exact,
+            "an exact reference value judges, a published one that contradicts it does not");
     }
     b.row[0].kind = words[EXACT];
     b.t.rows = 1;
     b.row[0].model = words[OTHER];
-    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another model does not judge");
+    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a reference value of another model does not judge");
     gsl_test_abs(b.j.verdict[0].model_error, 0, 1e-6, "it gives the model error");
     b.row[0].model = words[SAME];
     b.row[0].quantity = words[WHY];
-    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of a quantity that does not exist");
+    bench_expect(&b, VERDICT_NO_TRUTH, 3, "a reference value of a quantity that does not exist");
     gsl_test_int(b.j.unmet, 1, "is missed");
     b.row[0].quantity = words[LOAD];
     bench_expect(&b, VERDICT_PASS, 0, "all truths are met");
@@ -187,8 +193,8 @@ static void expectations(void)
     bench_free(&b);
 }
 
-/* A truth of a motion at an instant that the run does not read is not judged by, and is not missed;
- * of a case at rest it is. */
+/* A reference value of a motion at an instant that the run does not read is not judged by, and is
+ * not missed; of a case at rest it is. */
 static void other_instants(void)
 {
     static const parameter_type both[] = {{"length", "m", 2, 1, 9, NULL, "some length"},
@@ -206,11 +212,11 @@ static void other_instants(void)
     b.p.parameter[1] = b.row[0].parameter[1] = end;
     truth *later = bench_add_row(&b, 3);
     later->parameter[1] = 9;
-    bench_expect(&b, VERDICT_PASS, 1, "a truth of other parameters");
+    bench_expect(&b, VERDICT_PASS, 1, "a reference value of other parameters");
     gsl_test_int(b.j.unmet, 1, "is missed");
     scene_add_motion(&b.p.scene, SCENE_NONE, 1, &end,
                      (scene_motion){.step = 1, .start = {.velocity = {0}}});
-    bench_expect(&b, VERDICT_PASS, 0, "a truth at another instant of a motion");
+    bench_expect(&b, VERDICT_PASS, 0, "a reference value at another instant of a motion");
     gsl_test_int(b.j.unmet, 0, "is not missed");
     gsl_test_int(b.j.unread, 1, "but was not looked at");
     gsl_test_int(b.j.waiting, 0, "and waits for no formulation");
@@ -307,7 +313,7 @@ static void limits(void)
     bench_expect(&b, VERDICT_PASS, 0, "right limit, right order, coarse meshes far off");
     gsl_test_rel(b.j.verdict[0].fit.order, 2, 1e-6, "its order");
     gsl_test_int(b.j.verdict[0].fit.from, 4, "the four finest meshes show it");
-    bench_says(&b, "converges to the truth, order 2");
+    bench_says(&b, "converges to the reference value, order 2");
     bench_fill(&b, 3.003, 0.7, 2);
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "smooth convergence to +0.1 %");
     gsl_test_rel(b.j.verdict[0].error, 1e-3, 1e-9, "the error is the limit's");
@@ -322,7 +328,7 @@ static void limits(void)
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "limit just outside, and sharp");
     bench_fill(&b, 3 * (1 + 2e-4), -6e-4 * 1024 * 0.9, 2);
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1,
-                 "the finest mesh hits the truth on the way to another limit");
+                 "the finest mesh hits the reference value on the way to another limit");
     gsl_test(fabs(b.j.verdict[0].finest - 3) > 3e-4, "(it does: %.17g)", b.j.verdict[0].finest);
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3.05 + 1e-5 * (i % 2 ? 1 : -1);
@@ -340,10 +346,10 @@ static void orders(void)
     bench_make(&b);
     bench_fill(&b, 3, 0.07, 1);
     bench_expect(&b, VERDICT_LOW_ORDER, 1, "right limit, first order instead of second");
-    bench_says(&b, "converges to the truth, but with order 1 instead of 2");
+    bench_says(&b, "converges to the reference value, but with order 1 instead of 2");
     b.row[0].uncertainty = 0.05;
     bench_expect(&b, VERDICT_PASS, 0,
-                 "changes that the truth's own uncertainty hides show no order");
+                 "changes that the reference value's own uncertainty hides show no order");
     b.row[0].uncertainty = 0;
     /* changes, from the finest mesh on: orders 1.2, 1.2 and then `earlier` */
     const double earlier[] = {1.2, 2.2};
@@ -374,14 +380,14 @@ static void doubts(void)
     bench_says(&b,
                "undecided: its limit is -0.333 % off, known to 2.0 % only (oscillating, 5 meshes)");
     b.p.scene.quantity[0].near_zero = 5;
-    bench_expect(&b, VERDICT_UNDECIDED, 1, "of a truth below what counts as near zero");
+    bench_expect(&b, VERDICT_UNDECIDED, 1, "of a reference value below what counts as near zero");
     bench_says(&b, "undecided: its limit is -0.2 % off, known to 0.060 in its unit only "
                    "(oscillating, 5 meshes)");
     b.p.scene.quantity[0].near_zero = 0;
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 1e-6 : -1e-6);
     bench_expect(&b, VERDICT_PASS, 0, "alternating values that surely stay inside the tolerance");
-    bench_says(&b, "agrees with the truth within the tolerance, without an order");
+    bench_says(&b, "agrees with the reference value within the tolerance, without an order");
     bench_fill(&b, 4, 0.01, 2);
     b.one.meshes = 3;
     bench_expect(&b, VERDICT_UNDECIDED, 1, "three meshes never say that a limit is wrong");
@@ -399,8 +405,10 @@ static void doubts(void)
     b.one.meshes = MESHES;
     bench_fill(&b, 3 * (1 + 1e-9), 1e-7, 1);
     b.row[0].uncertainty = 4e-9;
-    bench_expect(&b, VERDICT_PASS, 0, "a limit that the truth's own digits do not tell from it");
-    bench_says(&b, "converges to the truth, order 1; the difference is below the truth's digits");
+    bench_expect(&b, VERDICT_PASS, 0,
+                 "a limit that the reference value's own digits do not tell from it");
+    bench_says(&b, "converges to the reference value, order 1; the difference is below the "
+                   "reference value's digits");
     double noise[1] = {1e-3};
     bench_fill(&b, 3 * (1 + 2e-4), 0.7, 2);
     b.one.noise = noise;
@@ -449,7 +457,8 @@ static void doubtful_noise(void)
     bench_free(&b);
 }
 
-/* How many limits of exact truths lie within their uncertainty, also without the finest meshes. */
+/* How many limits of exact reference values lie within their uncertainty, also without the finest
+ * meshes. */
 static void coverages(void)
 {
     judge_bench b;
@@ -465,11 +474,11 @@ static void coverages(void)
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "another limit");
     gsl_test_int(b.j.coverage[0].covered[0], 0, "is not covered");
     b.row[0].uncertainty = 0.0011;
-    bench_expect(&b, VERDICT_PASS, 0, "a truth that is not known better");
+    bench_expect(&b, VERDICT_PASS, 0, "a reference value that is not known better");
     gsl_test_int(b.j.coverage[0].covered[0], 1, "covers it");
     b.row[0].uncertainty = 0;
     b.row[0].kind = words[PUBLISHED];
-    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a truth that is not exact");
+    bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "a reference value that is not exact");
     gsl_test_int(b.j.coverages, 0, "says nothing of coverage");
     bench_free(&b);
 }

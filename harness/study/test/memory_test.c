@@ -1,6 +1,7 @@
-/* Memory that runs out: every allocation of a few small cells, of the truths and of a result file
- * is refused once. Each time the answer is a fault with one line that says so, or the right answer
- * when the memory was not essential, and nothing leaks. Linked with --wrap: calls of our own code.
+/* Memory that runs out: every allocation of a few small cells, of the reference values and of a
+ * result file is refused once. Each time the answer is a fault with one line that says so, or the
+ * right answer when the memory was not essential, and nothing leaks. Linked with --wrap: calls of
+ * our own code.
  */
 #include <gsl/gsl_test.h>
 #include <math.h>

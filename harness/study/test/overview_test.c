@@ -124,12 +124,14 @@ static void sentences(void)
     add(&r, 0, VERDICT_UNDECIDED, 1, 4);
     for (int i = 3; i < r.j.verdicts; i++)
         r.verdict[i].rule = &known;
-    says(&r, "PASS: every verdict is as expected; 3 of them are limits off the truth (1 within the "
+    says(&r, "PASS: every verdict is as expected; 3 of them are limits off the reference value (1 "
+             "within the "
              "tolerance, 2 beyond it) just as derived for these formulations (beamwork explain "
              "\"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
     r.s.unfinished = 7;
     says(&r, "INTERRUPTED: until then every verdict is as expected; 3 of them are limits off the "
-             "truth (1 within the tolerance, 2 beyond it) just as derived for these formulations "
+             "reference value (1 within the tolerance, 2 beyond it) just as derived for these "
+             "formulations "
              "(beamwork "
              "explain \"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
     r.s.unfinished = 0;
@@ -157,7 +159,8 @@ static void single_ones(void)
     add(&r, 0, VERDICT_UNDECIDED, 1, 1);
     for (int i = 0; i < r.j.verdicts; i++)
         r.verdict[i].rule = &known;
-    says(&r, "PASS: every verdict is as expected; 1 of them is a limit off the truth (0 within the "
+    says(&r, "PASS: every verdict is as expected; 1 of them is a limit off the reference value (0 "
+             "within the "
              "tolerance, 1 beyond it) just as derived for its formulation (beamwork explain "
              "\"wrong limit, as predicted\"), 1 more is explained by a known deviation.");
     make(&r);
@@ -422,7 +425,8 @@ static void levels(void)
         gsl_test_rel(reach_level[k], pow(10, -1 - k), 1e-15, "level %d", k);
 }
 
-/* Nothing is reached without a truth, without the formulation, or by a value that is not there. */
+/* Nothing is reached without a reference value, without the formulation, or by a value that is not
+ * there. */
 static void unreached(void)
 {
     timed t;
@@ -454,7 +458,7 @@ static void gate_tests(void)
 }
 
 /* When a limit is the one that was derived: at the edges of what is known of both, on either side
- * of the truth, and wherever the uncertainty comes from. */
+ * of the reference value, and wherever the uncertainty comes from. */
 
 static const double just = 3e-3; /* inside or outside of an edge, in parts of its distance */
 
@@ -509,7 +513,7 @@ static void sharp_limits(void)
               "the prediction's uncertainty");
         b.row[0].uncertainty = fabs(error[i]) / 10;
         edges(&b, 3 * doubt + b.row[1].uncertainty, VERDICT_WRONG_LIMIT,
-              "the truth's own uncertainty does not count");
+              "the reference value's own uncertainty does not count");
         bench_free(&b);
     }
 }
@@ -541,7 +545,8 @@ static void biases(void)
         edges(&b, 3 * doubt + 1e-6, VERDICT_BIASED, "within the tolerance");
         b.row[1].value = 3 + error[i];
         bench_fill(&b, 3, 0.7, 2);
-        bench_expect(&b, VERDICT_PASS, 0, "a limit that is the truth, and not the derived one");
+        bench_expect(&b, VERDICT_PASS, 0,
+                     "a limit that is the reference value, and not the derived one");
         bench_free(&b);
     }
 }

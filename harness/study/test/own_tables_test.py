@@ -238,7 +238,7 @@ class Truths(Own):
             with self.subTest(line=line):
                 self.refused(2, ("t.csv:", *words), "verify", "--truths",
                              self.write("t.csv", ROWS, line))
-        self.refused(2, "packed truths", "verify", "--truths", "a.h5", "--truths", "b.h5")
+        self.refused(2, "packed reference values", "verify", "--truths", "a.h5", "--truths", "b.h5")
 
 
 # Modes followed over a parameter: numbers that stay where frequencies cross, exact laws along each

@@ -1,5 +1,6 @@
-/* Which cells a verification consists of: the points of the truths, each once, and their meshes. A
- * row that holds at any value of a parameter (*) makes no point of its own, and speaks of all. */
+/* Which cells a verification consists of: the points of the reference values, each once, and their
+ * meshes. A row that holds at any value of a parameter (*) makes no point of its own, and speaks of
+ * all. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

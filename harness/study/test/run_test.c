@@ -195,12 +195,13 @@ static void truth_files(void)
     const char *real = getenv("BEAMWORK_TRUTHS");
     if (real == NULL)
         return;
-    gsl_test(truths_read(real, &t, &f) != STATUS_OK, "the packed truths are read (%s)", f.text);
+    gsl_test(truths_read(real, &t, &f) != STATUS_OK, "the packed reference values are read (%s)",
+             f.text);
     double value[CASE_MAX_PARAMETERS];
     const case_type *c = case_find("c_column", &f);
     parameters_default(c, value);
     const truth *row = truth_of(&t, c, value, "buckling_load", "same");
-    gsl_test(row == NULL, "the column has a truth");
+    gsl_test(row == NULL, "the column has a reference value");
     if (row != NULL)
         gsl_test_rel(row->value, 11942676.75772, 1e-12, "and it is exact before published");
     truths_free(&t);

@@ -6,7 +6,7 @@
 
 #include "elements/element.h"
 
-/* Number i of them, or NULL after the last one; the first call reads the packed truths
+/* Number i of them, or NULL after the last one; the first call reads the packed reference values
  * (BEAMWORK_TRUTHS, or build/truths.h5) and names the new ones. */
 const element_type *accepted_at(int i);
 

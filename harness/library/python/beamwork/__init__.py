@@ -63,7 +63,7 @@ def load(element):
 
 
 def truths(path):
-    """Takes the truths of the built-in cases from that file (truths.h5) from now on."""
+    """Takes the reference values of the built-in cases from that file (truths.h5) from now on."""
     _call("truths", _required(path, "path"))
 
 

@@ -47,7 +47,7 @@ class _Memory:
 class Result:
     """Answers of one cell. `result["k_drive"]` is a value [SI]; curves: `result.curve(name)`.
 
-    values: {quantity: value}; errors: {quantity: relative error against its truth}; units.
+    values: {quantity: value}; errors: {quantity: relative error against its reference value}; units.
     at: {quantity: where its value was taken}: of a motion the time [s], as of a largest value.
     curves: names of the quantities that are curves.
     case, formulation, elements, parameters, cell (status, unknowns, counted work, times).
