@@ -167,7 +167,7 @@ typedef struct element_type {
     status (*force)(const element_data *, const node_state x[], force_output *);
 
     /* Optional: what it is evaluated by. */
-    unsigned leaves;         /* element_left: nothing is left to differences */
+    unsigned leaves;         /* element_left: nothing is computed by differences */
     unsigned limits;         /* element_limit: none */
     unsigned lacks;          /* element_lack: nothing */
     const char *lacks_by;    /* the equations that omit it */

@@ -25,8 +25,8 @@ int dense_cholesky(int n, double *A);
 void dense_cholesky_solve(int n, int m, const double *L, double *B);
 /* LU with partial pivoting in place; pivot[n]; 0, or 1 + the index of the zero pivot. */
 int dense_lu(int n, double *A, int pivot[]);
-/* The same, and 1 + the index of the first pivot that is a rounding error of the terms it is the
- * difference of. */
+/* The same, but a pivot that is only rounding error, relative to the terms of its difference,
+ * counts as zero. */
 int dense_lu_regular(int n, double *A, int pivot[]);
 /* Solves A X = B in place with the factors of dense_lu, B(n x m). */
 void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B);

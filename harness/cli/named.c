@@ -87,7 +87,8 @@ static void add_note(char note[DEFAULTS_NOTE], const char *choice, const char *w
                      const char *option)
 {
     const size_t used = strlen(note);
-    snprintf(note + used, DEFAULTS_NOTE - used, "%s: %s; %s gives another\n", choice, why, option);
+    snprintf(note + used, DEFAULTS_NOTE - used, "%s: %s; %s selects another\n", choice, why,
+             option);
 }
 
 /* Copies the choice of formulation and mesh into the request. */

@@ -255,7 +255,7 @@ static void write_claims(FILE *to, screen look, const claims *c, int verbose)
         else if (one->outcome == CLAIM_BROKEN)
             paragraph_write(to, 8, 8, one->sentence);
         else
-            paragraph_say(to, 8, 8, "%s: not claimed; %s", one->name, one->sentence);
+            paragraph_say(to, 8, 8, "%s: not applicable; %s", one->name, one->sentence);
     }
 }
 
@@ -269,7 +269,7 @@ static void write_family(FILE *to, screen look, const certificate *c, int part, 
         strncmp(own->claim[0].sentence, "not checked", 11) == 0)
         paragraph_write(to, INDENT, INDENT, own->claim[0].sentence);
     else if (outcome == CLAIM_NOT_CLAIMED)
-        paragraph_say(to, INDENT, INDENT, "not claimed: %s",
+        paragraph_say(to, INDENT, INDENT, "not applicable: %s",
                       own->count > 0 ? own->claim[0].sentence : "nothing to look at");
     else
         paragraph_say(to, INDENT, INDENT, "%s (%d compared)", certificate_part_words(part),
@@ -346,13 +346,14 @@ static void write_verdict(FILE *to, screen look, const certificate *c)
 {
     const int broken = certificate_counted(c, CLAIM_BROKEN),
               kept = certificate_counted(c, CLAIM_HOLDS);
-    fputs("contract: ", to);
-    screen_put(to, look, broken == 0 ? SCREEN_GOOD : SCREEN_BAD, broken == 0 ? "KEPT" : "BROKEN");
+    fputs("interface requirements: ", to);
+    screen_put(to, look, broken == 0 ? SCREEN_GOOD : SCREEN_BAD,
+               broken == 0 ? "SATISFIED" : "VIOLATED");
     if (broken > 0)
-        fprintf(to, ", %d of %d claims", broken, broken + kept);
+        fprintf(to, ", %d of %d checks", broken, broken + kept);
     else
-        fprintf(to, ", %d claims", kept);
-    fprintf(to, " on %d numbers; %d not claimed\n", certificate_compared(c),
+        fprintf(to, ", %d checks", kept);
+    fprintf(to, " on %d numbers; %d not applicable\n", certificate_compared(c),
             certificate_counted(c, CLAIM_NOT_CLAIMED));
     const int astray = measures_astray(&c->part[CHECKS_FAMILIES].measures);
     if (astray > 0)
@@ -364,7 +365,7 @@ static void write_one(FILE *to, screen look, const certificate *c, int verbose, 
     const char *left = adapters_words(c->chosen.type);
     paragraph_write(to, fprintf(to, "%s: ", c->chosen.key), 2, c->chosen.type->summary);
     if (left[0] != '\0')
-        paragraph_say(to, 0, 2, "leaves out %s", left);
+        paragraph_say(to, 0, 2, "computed by beamwork: %s", left);
     write_verdict(to, look, c);
     for (int i = 0; i < CHECKS_FAMILIES; i++)
         if (!quiet || outcome_of(&c->part[i].claims) == CLAIM_BROKEN)
@@ -391,7 +392,7 @@ void certificate_text(FILE *to, screen look, const certificate *all, int count, 
         if (!quiet || !certificate_holds(&all[i]))
             write_one(to, look, &all[i], verbose, quiet);
         else if (count == 1)
-            fprintf(to, "%s: KEPT\n", all[i].chosen.key);
+            fprintf(to, "%s: SATISFIED\n", all[i].chosen.key);
         broken += !certificate_holds(&all[i]);
         numbers += certificate_compared(&all[i]);
     }

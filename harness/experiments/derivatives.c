@@ -144,9 +144,9 @@ void checks_derivatives(const formulation *chosen, claims *out)
         return;
     }
     if (t->leaves & LEAVES_J)
-        claims_not_made(out, claim_J, "left to differences");
+        claims_not_made(out, claim_J, "computed by differences");
     if (t->leaves & (LEAVES_J | LEAVES_H))
-        claims_not_made(out, claim_H, "left to differences");
+        claims_not_made(out, claim_H, "computed by differences");
     if (!(t->leaves & LEAVES_J))
         specimens_each(chosen, out, check);
     if (claims_open(out, claim_J, allowed)->outcome == CLAIM_BROKEN)
@@ -334,7 +334,7 @@ void checks_many(const formulation *chosen, claims *out)
 {
     const element_type *t = chosen->type;
     if (t->strain_many == NULL && t->stress_many == NULL && t->force_many == NULL)
-        claims_not_made(out, claim_name, "it takes one element at a time");
+        claims_not_made(out, claim_name, "it evaluates one element at a time");
     else
         specimens_each(chosen, out, many_check);
 }

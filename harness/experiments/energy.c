@@ -415,7 +415,7 @@ void checks_rotating(const formulation *chosen, claims *out)
     if (!(chosen->type->offers & FEATURE_MASS) || chosen->type->inertia == NULL) {
         claims_not_made(out, "G is skew",
                         chosen->type->offers & FEATURE_MASS
-                            ? "has no inertia of its own: it has that of the displacement field"
+                            ? "uses the inertia of the displacement field"
                             : "offers no mass");
         return;
     }

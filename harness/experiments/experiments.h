@@ -397,7 +397,7 @@ checks_run checks_derivatives; /* J and H of the strains */
 checks_run checks_energy;      /* stress, stiffness and geometric stiffness come from the energy */
 checks_run checks_force;       /* of types by force: force and stiffness come from the energy */
 checks_run checks_motion;      /* rigid motion, order of the nodes, units */
-checks_run checks_stateless;   /* the same call gives the same, whatever went before */
+checks_run checks_stateless;   /* the same call gives the same, independent of former calls */
 checks_run checks_many;        /* many at once give what each gives alone */
 checks_run checks_bounds;      /* outputs are filled, and no memory outside them is changed */
 checks_run checks_unsound;     /* NaN and Inf are reported, not passed over */

@@ -455,7 +455,7 @@ void checks_mass(const formulation *chosen, claims *out)
     if (!(chosen->type->offers & FEATURE_MASS) || chosen->type->inertia == NULL) {
         claims_not_made(out, "M is symmetric",
                         chosen->type->offers & FEATURE_MASS
-                            ? "has no inertia of its own: it has that of the displacement field"
+                            ? "uses the inertia of the displacement field"
                             : "offers no mass");
         return;
     }

@@ -430,12 +430,12 @@ static void check(const specimen *s, claims *c)
 void checks_force(const formulation *chosen, claims *out)
 {
     if (chosen->type->force == NULL) {
-        claims_not_made(out, claim_F, "known by its strains and stresses");
+        claims_not_made(out, claim_F, "defined by its strains and stresses");
         return;
     }
     if (chosen->type->leaves & LEAVES_FORCE)
-        claims_not_made(out, claim_F, "left to differences");
+        claims_not_made(out, claim_F, "computed by differences");
     if (chosen->type->leaves)
-        claims_not_made(out, claim_K, "left to differences");
+        claims_not_made(out, claim_K, "computed by differences");
     specimens_each(chosen, out, check);
 }

@@ -165,7 +165,7 @@ void forces_evaluate(const element_type *given, gather *, int first, int count);
 status handshake_options(const char *who, const json_t *list, const parameter_type **out, fault *f);
 void handshake_options_free(const parameter_type *table); /* or NULL */
 
-/* Strains of an element that is known by its force, or by its energy: the positions of its nodes
+/* Strains of an element that is defined by its force, or by its energy: the positions of its nodes
  * relative to the first one, in the axes of that one,
  *   e = (|d| - undeformed distance, l p, l log(R0^T R_k)) of every other node, l^2 a of all [m]:
  * d = r_k - r_0; p = (2 n_y, 2 n_z)/(1 + n_x) of its direction n, which is regular unless the chord

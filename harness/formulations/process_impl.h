@@ -5,7 +5,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/formulations_impl.h"
 
-enum { PROCESS_KINDS = 65536 }; /* numbers of kinds, which come again */
+enum { PROCESS_KINDS = 65536 }; /* numbers of kinds; larger ones are reused modulo this */
 
 typedef struct process {
     element_type type;
@@ -22,9 +22,9 @@ struct element_data {
     double C[]; /* [strains x strains] where linear: sigma = C e */
 };
 
-/* process_frames.c: the functions of the type that evaluate elements. */
+/* process_frames.c: sets the functions of the type that evaluate elements. */
 void frames_serve(process *p);
-/* process_frames.c: that of its own inertia. */
+/* process_frames.c: sets the inertia function of the type, where the process gives inertia. */
 void frames_serve_inertia(process *p);
 
 /* A request about many elements, and the numbers in it and in its answer. */
@@ -39,15 +39,16 @@ typedef struct frame_question {
 
 channel *frame_channel(const frame_question *);
 int frame_nodes(const element_data *);
-/* Parts first, first + most, ...: how many elements of `each` bytes fit into a request. */
+/* Returns the number of elements, of `each` bytes, that one request takes; larger sets are sent in
+ * several requests. At least 1. */
 int frame_fitting(size_t each);
-/* Room after the kinds of the elements for `each` bytes of every one. FAULT: the process does not
- * know these elements any more. */
+/* Begins a request: writes the kinds of the elements; *to: space for `each` bytes of every element.
+ * FAULT: the process has been restarted and has not prepared these elements; out of memory. */
 status frame_begin(const frame_question *, size_t each, char **to, fault *f);
-/* Numbers after each other: into a request, out of an answer. */
+/* Append `bytes` to a request, and read `count` doubles of an answer; both advance the pointer. */
 void frame_put(char **to, const void *from, size_t bytes);
 void frame_take(const char **from, double to[], size_t count);
-/* *body: the answers. */
+/* Sends the request and waits; *body: count x answer bytes of the reply. */
 status frame_ask(const frame_question *, const char **body, fault *f);
 
 #endif

@@ -1,5 +1,6 @@
-/* Stresses of an element that is known by its force, or by its energy: the derivative of the energy
- * by the positions of its nodes (formulations_impl.h), at the element whose first node rests. */
+/* Stresses of an element that is defined by its force, or by its energy: the derivative of the
+ * energy by the positions of its nodes (formulations_impl.h), at the element whose first node
+ * rests. */
 #include "harness/formulations/formulations_impl.h"
 
 #include <math.h>

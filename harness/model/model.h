@@ -632,7 +632,7 @@ double metric_distance(const model *, const model_state *, const model_state *,
 /* The largest angle [rad] between the orientations of a node in two states. */
 double metric_turn_between(const model *, const model_state *, const model_state *);
 
-/* Physics that a scene needs and a formulation does not support: what can be omitted, which gives
+/* Physics that a scene needs and a formulation does not support: what can be omitted, which selects
  * another model, and what cannot. */
 
 /* Physics that can be omitted and have no FEATURE_* bit. */

@@ -155,14 +155,15 @@ static status find(const scene *s, const rule_subject *where, const rule *rules,
         *all = candidates_of(s, where, rules, count, 1);
     if (all->count == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "no formulation offers all that %.60s needs; 'beamwork list' shows what "
+                         "no formulation supports all that %.60s needs; 'beamwork list' shows what "
                          "each offers",
                          s->name);
     const int *against = all->here[0].against;
     snprintf(why, FAULT_TEXT, "%s%s%s",
-             whole ? "offers all that is needed" : "another model, which lacks the least",
+             whole ? "supports all physics of the scene"
+                   : "another model, with the fewest omissions",
              rules == NULL                ? ""
-             : against[AGAINST_HERE] == 0 ? ", no known defect here"
+             : against[AGAINST_HERE] == 0 ? ", no known deviation here"
                                           : ", but has a known defect here",
              against[AGAINST_THEORY] ? ", another theory of shear than asked for" : "");
     return STATUS_OK;
@@ -337,7 +338,7 @@ static void choose(const scene *s, runner of[], int count, preference *out)
     keep(s, first != NULL ? first : calmest(of, count), out);
     if (first != NULL && count > 1) {
         const size_t used = strlen(out->why_formulation);
-        snprintf(out->why_formulation + used, FAULT_TEXT - used, ", settled first of %d", count);
+        snprintf(out->why_formulation + used, FAULT_TEXT - used, ", converged first of %d", count);
     }
 }
 

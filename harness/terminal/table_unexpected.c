@@ -179,7 +179,7 @@ static void print_unmet(FILE *to, const truths *t, int *number)
 void table_breaches(FILE *to, screen look, const judgement *j)
 {
     for (int i = 0; i < j->breaches; i++) {
-        screen_put(to, look, SCREEN_BAD, "BROKEN CONTRACT");
+        screen_put(to, look, SCREEN_BAD, "INTERFACE VIOLATED");
         fputs(" of ", to);
         const char *key = j->breach[i].formulation;
         paragraph words;

@@ -179,7 +179,7 @@ class Gate(ProgramTest):
                 document, _ = self.check_doors(done, files, outcome, OUTCOMES[outcome])
                 broken = name in ("energy", "stub")
                 self.assertEqual([b["formulation"] for b in document["broken_contracts"]], [NAME] * broken)
-                self.assertEqual(done.stdout.startswith("BROKEN CONTRACT of timoshenko: "), broken)
+                self.assertEqual(done.stdout.startswith("INTERFACE VIOLATED by timoshenko: "), broken)
                 self.assertEqual("element-test" in done.stdout, broken)
 
     def test_seven_doors(self):
