@@ -234,7 +234,7 @@ const extreme extremes[] = {
      {{"time", 0, 3628, 1}},
      {{"energy", 0}}, "periods", "1", EXTREME_PARAMETERS,
      1, 3, {1, 30, 1e3}, EXTREME_EXACT, 0, 1e-8},
-    {"heavy_body", "heavy body", "mass of a body at the tip of a cantilever that is let go, over that of the beam",
+    {"heavy_body", "heavy body", "mass of a body at the tip of a released cantilever, relative to that of the beam",
      "release", "step=1",
      {{"body", 0, 1, 1}, {"time", 0, 1.5, 0.5}},
      {{"tip", 0}}, "body/beam", "1", EXTREME_PARAMETERS,

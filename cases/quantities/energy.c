@@ -4,8 +4,7 @@
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     {"of", ENTRY_WORD, .needed = 1, .words = "kinetic|strain|energy|work|dissipated|drift",
-     .summary =
-         "energy-balance error: energy and what was dissipated, less energy at the start and work",
+     .summary = "energy-balance error: energy plus dissipation, minus initial energy and work",
      ENTRY_IN(scene_quantity, what.of.balance)},
     QUANTITY_TAKEN,
     {.name = NULL}};

@@ -115,9 +115,9 @@ static status explain_massless(analysis_context *c, fault *f)
 {
     c->work->singular = 0;
     fault_set(f, STATUS_SINGULAR,
-              "a motion that no stiffness resists has no mass either (a point mass, or a bar "
-              "without density between two, turns about itself): give bodies an inertia, sections "
-              "a density, or hold it");
+              "a motion has neither stiffness nor mass (for example, a point mass rotates, or a "
+              "bar without density about its axis): give bodies an inertia or sections a density, "
+              "or fix it");
     return singular_mechanism(c, STATUS_SINGULAR, f);
 }
 

@@ -266,8 +266,8 @@ status checks_massless(const analysis_context *c, const carried_masses *masses,
     if (massless == 0 || how->scheme != SCENE_ALPHA || how->alpha.force > how->alpha.mass)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%d coordinates have no inertia: their accelerations would grow by the "
-                     "trapezoidal rule and with rho = 1; take rho < 1 or radau, or give the "
+                     "%d coordinates have no inertia: with the trapezoidal rule or rho = 1 their "
+                     "accelerations would grow; use rho < 1 or radau, or give the "
                      "sections rotary inertia (do not omit rotary_inertia)",
                      massless);
 }
