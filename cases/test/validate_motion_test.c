@@ -221,7 +221,7 @@ static const refusal refusals[] = {
     {driver_hits, "driver push: ", "its velocity jumps at 1 s"},
     {driver_without_acceleration, "driver push: ", "at 0 s its value, velocity or acceleration"},
     {driver_unread, "driver push: ", "character 5: no such name"},
-    {pieces_fall, "load 0: ", "the end of piece 2, 1 s, is not behind"},
+    {pieces_fall, "load 0: ", "the end of piece 2, 1 s, is not after"},
     {load_without_value, "load 0: ", "at 0 s its factor is not finite"},
     {idle_function, "load 0: ", "no analysis is in time"},
     {relative_to_itself, "quantity asked: ", "no such relative coordinate"},
@@ -388,8 +388,8 @@ static const refusal node_refusals[] = {
     {web_along, "node 1: ", "not at right angles"},
     {no_web, "node 1: ", "not at right angles"},
     {fork_across, "node 1: ", "no member there runs along"},
-    {body_of_body, "node 1: ", "attached to node 2, which is no body"},
-    {body_of_itself, "node 2: ", "attached to node 2, which is no body"},
+    {body_of_body, "node 1: ", "attached to node 2, which is attached to another"},
+    {body_of_itself, "node 2: ", "attached to node 2, which is attached to another"},
     {body_of_nothing, "node 2: ", "part_of: node 9 does not exist"},
     {body_held, "node 2: ", "it moves with node 1"},
     {negative_mass, "node 1: ", "mass = -"},
@@ -397,7 +397,7 @@ static const refusal node_refusals[] = {
     {centre_of_nothing, "node 1: ", "a centre without a mass"},
     {no_triangle, "node 1: ", "no body has this inertia"},
     {products_too_large, "node 1: ", "no body has this inertia"},
-    {loose_mass, "node 3: ", "nothing holds its mass"},
+    {loose_mass, "node 3: ", "its mass is not connected"},
 };
 
 static void validate_node_tests(void)
@@ -549,7 +549,7 @@ static const refusal wanted_refusals[] = {
     {compliance_of_compliance, "analysis 2: ", "follows a path or nothing"},
     {critical_about_linear, "analysis 2: ", "name a static one, or remove 'about'"},
     {critical_about_buckling, "analysis 2: ", "name a static one, or remove 'about'"},
-    {frequencies_about_rotation, "analysis 2: ", "ask the rotation for its own frequencies"},
+    {frequencies_about_rotation, "analysis 2: ", "request the frequencies of the rotation itself"},
     {station_of_linear, "quantity v: ", "analysis 1 has one state and no stations"},
     {largest_of_frequencies, "quantity f: ", "analysis 1 has one state and no stations"},
     {two_names, "quantity u: ", "two of that name"},

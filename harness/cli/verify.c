@@ -75,7 +75,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     }
     const int code = judgement_exit(j);
     if (code == EXIT_NOTHING)
-        fprintf(stderr, "beamwork: no verdict: there is no reference value; see %s\n",
+        fprintf(stderr, "beamwork: nothing was judged: there is no reference value; see %s\n",
                 r->scenes.scene.count > 0 ? "'truths' in 'beamwork scene --keys'"
                                           : "'beamwork list' and -k");
     return r->exit_zero ? EXIT_AS_EXPECTED : code;

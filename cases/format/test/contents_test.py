@@ -347,7 +347,7 @@ class ExamplesTest(SceneCase):
         """Benscoter's beam: torsion with warping restrained of a closed section."""
         path = EXAMPLES / "box_girder.yaml"
         done = self.answered("verify", "--scene", path)
-        self.assertRegex(done.stdout, r"12 verdicts against truths: 12 pass")
+        self.assertRegex(done.stdout, r"12 verdicts against reference values: 12 pass")
         self.assertRegex(done.stdout, r"sheet_second, [\w,\s]+: another model: warping not modelled")
 
 

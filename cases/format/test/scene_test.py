@@ -143,7 +143,7 @@ class SceneTest(SceneCase):
         self.assertAlmostEqual(there["error"], 0, delta=1e-3)
         done = self.answered("verify", "--scene", path, "-f", "collocation")
         self.assertIn("width=0.1", done.stdout)
-        self.assertIn("1 verdict against truths: 1 pass", done.stdout)
+        self.assertIn("1 verdict against reference values: 1 pass", done.stdout)
 
     def test_refusals(self):
         """One line where it is not the file's content."""
@@ -152,7 +152,7 @@ class SceneTest(SceneCase):
         self.refused(2, "give one of them", "solve", "elastica", "--scene", self.scene(LEAF), "-f",
                      "beamw", "-n", 1)
         path = self.scene(LEAF)
-        self.refused(2, "which is read", "converge", "--scene", path, "-f", "beamw", "-o", path)
+        self.refused(2, "which is an input", "converge", "--scene", path, "-f", "beamw", "-o", path)
         self.assertEqual(path.read_text(encoding="utf-8"), LEAF)
 
     def test_schema(self):

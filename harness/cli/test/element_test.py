@@ -66,13 +66,13 @@ class Kept(Loaded):
         small = ("verify", "-f", "beamw", "-k", "warping_torsion/default", "--element", mine)
         for option in ("-o", "--json", "--junit", "--markdown", "--propose-deviations"):
             for place in (mine, link):
-                self.refused(2, (option, "which is read"), *small, option, place)
+                self.refused(2, (option, "which is an input"), *small, option, place)
         for verb in (("solve", "elastica", "-f", "timoshenko", "-n", "2"),
                      ("converge", "elastica", "-f", "timoshenko", "-n", "2,4"), ("element-test",)):
-            self.refused(2, "which is read", *verb, "--element", mine, "-o", mine)
+            self.refused(2, "which is an input", *verb, "--element", mine, "-o", mine)
         example = EXAMPLES / "timoshenko.py"
         command = f"exec:/usr/bin/python3 '{example}' '{script}'"
-        self.refused(2, "which is read", "solve", "elastica", "-f", "timoshenko_py", "-n", "2",
+        self.refused(2, "which is an input", "solve", "elastica", "-f", "timoshenko_py", "-n", "2",
                      "--element", command, "-o", script)
         self.assertEqual(mine.read_bytes(), before)
         self.assertEqual(script.read_text(encoding="ascii"), "there")

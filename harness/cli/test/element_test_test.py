@@ -24,7 +24,7 @@ FAULTS = {
         "C: entry 2, 1 is 0 and entry 1, 2", "symmetric"),
     "objectivity": (
         ("transposed(x[0].R, chord, p);", "memcpy(p, chord, sizeof p);"),
-        "strain: turned by", "axes that turn with the element"),
+        "strain: turned by", "axes that rotate with the element"),
     "length": (
         ("    out->e[0] -= d->length;\n", ""),
         "strain: strain 1 of the undeformed element is 0.2385 m, not zero"),
@@ -84,7 +84,7 @@ FAULTS = {
         "in units of 0.001 m", "is a bare number compared with a length?"),
     "ignored shear": (
         ("request->features & FEATURE_SHEAR ? ", "request->features & 0 ? "),
-        "offers shear, but nothing changes with it", "do not offer it"),
+        "offers shear, but nothing changes with it", "do not declare it"),
     "theory": (
         ("    .shear_theories = SHEAR_HARINGX,\n", ""),
         "shear_theories: it offers shear and names no theory of it"),
@@ -95,7 +95,7 @@ FAULTS = {
         ("    (void)f;\n",
          "    if (request->features & FEATURE_SHEAR)\n"
          "        return (void)(f && strcpy(f->text, \"no shear today\")), STATUS_REFUSED;\n"),
-        "offers: asked for all features, it is refused: no shear today", "do not offer it"),
+        "offers: asked for all features, it is refused: no shear today", "do not declare it"),
     "options": (
         ("    .leaves = LEAVES_J,",
          "    .leaves = LEAVES_J,\n    .options = {(const parameter_type[])"
@@ -136,7 +136,7 @@ FORCE_FAULTS = {
         "K: the derivative of the force in coordinate", "differences of F give"),
     "objectivity": (
         ("add(3, 3, 3, 0, E, x[k].R, S[k]);", "memcpy(S[k], x[k].R, sizeof S[k]);"),
-        "force: a rigid turn by", "axes that turn with the element"),
+        "force: a rigid turn by", "axes that rotate with the element"),
     "beyond K": (
         ("memset(out->K, 0, NODES * NODES * sizeof *K);",
          "memset(out->K, 0, (NODES * NODES + 1) * sizeof *K);"),

@@ -415,7 +415,7 @@ class RestartTest(SceneCase):
                 (2, "integrator: conserving", (*again, "--set", "how=conserving")),
                 (2, "step: 0.01,", (*again, "--set", "step=0.01")),
                 (2, "mass: 0.31,", (*again, "--set", "mass=0.31")),
-                (2, "which is read", (*again, "--save-state", ends)),
+                (2, "which is an input", (*again, "--save-state", ends)),
                 (2, "remove -k, --shapes, --matrices, --save-state and", (*again, "--follow", "mass=0.1..0.2/2")),
                 (2, "no motion in time", ("solve", "elastica", "--restart", ends)),
                 (2, "no motion in time", ("solve", "elastica", "--save-state", self.folder / "none.h5")),

@@ -177,7 +177,7 @@ class Twice(Folder):
     @staticmethod
     def why_not(name):
         """Of text onto an input that is HDF5: by its name, or by where that leads."""
-        return "not HDF5" if str(name).endswith(".h5") else "which is read"
+        return "not HDF5" if str(name).endswith(".h5") else "which is an input"
 
     def test_compared_file(self):
         path = self.stored("run.h5")
@@ -194,7 +194,7 @@ class Twice(Folder):
             for verb, work in WORK.items():
                 for option in [(o,) for o in TEXT[verb]] + ([WHOLE[verb]] if WHOLE[verb] else []):
                     is_whole = WHOLE[verb] == option or (verb, *option) in BOTH
-                    words = "which is read" if is_whole else self.why_not(name)
+                    words = "which is an input" if is_whole else self.why_not(name)
                     self.refused(2, words, verb, *work, "--truths", truths, *option, name)
         self.assertEqual(truths.read_bytes(), before)
 
@@ -203,7 +203,7 @@ class Twice(Folder):
         program = self.folder / "beamwork"
         shutil.copy(PROGRAM, program)
         before = program.read_bytes()
-        self.refused(2, "which is read", "verify", *WORK["verify"], "--truths", TRUTHS, "-o",
+        self.refused(2, "which is an input", "verify", *WORK["verify"], "--truths", TRUTHS, "-o",
                      program, program=program)
         self.assertEqual(program.read_bytes(), before)
 

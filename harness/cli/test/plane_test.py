@@ -172,7 +172,7 @@ class Plane(ProgramTest):
             "push: it acts outside the plane":
                 ("force: [-1, 0, 0]", "at: [0, 0, 0.1], force: [-1, 0, 0]"),
             "b: it does not lie in one plane": (node, "b: {at: [1, 0, 0.1]"),
-            "b: the centre of its body lies beside":
+            "b: the centre of its body is outside":
                 (node, node + ", mass: 1, centre: [0, 0, 0.1]"),
             "m: its initial curvature leaves":
                 ("y: [0, 1, 0]}}", "y: [0, 1, 0], curvature: [0, 0.1, 0]}}"),

@@ -160,7 +160,7 @@ class Verify(SpreadTest):
         self.refused(2, ["another build"], "merge", parts, program=str(other),
                      env=environment(BEAMWORK_TRUTHS=TRUTHS))
         (parts / "odd.batch").write_text("some text\n")
-        self.refused(2, ["odd.batch", "no batch of this program"], "merge", parts)
+        self.refused(2, ["odd.batch", "not a batch of this program"], "merge", parts)
 
     def test_other_answers(self):
         """One batch with two answers: both are named, neither is taken."""

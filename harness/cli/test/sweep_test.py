@@ -317,7 +317,7 @@ class Going(ProgramTest):
         for words, says in (
                 (("elastica",), "what varies?"),
                 (("elastica", "--vary", "lod=1..2/3"), "did you mean 'load'"),
-                (("elastica", "--vary", "load=1..2"), "how many parts?"),
+                (("elastica", "--vary", "load=1..2"), "give the number of parts"),
                 (("elastica", "--vary", "load=1..5000/3"), "outside its range"),
                 (("elastica", "--vary", "load=1..2/3", "--set", "load=3"), "set and varies"),
                 (("elastica", "--vary", "load=1..2/3", "--vary", "load=3,4"), "given twice"),

@@ -87,7 +87,7 @@ class Import(ProgramTest):
             "C_zz, m/N, 2,,, 3, 1,": "is not a curve: leave x empty",
             "C_zz, m/N, 0,,,, 1,": "give a whole number", "C_zz, m/N, 2,,,, nan,": "is not a number",
             "C_zz, m/N, 3,,,,,": "value is missing",
-            "C_thz_Mz, rad/(N m), 2,,,, 1,": "what a moment does",
+            "C_thz_Mz, rad/(N m), 2,,,, 1,": "the convention of moments",
             "C_zz, m/N, 4,,,, 1, -1": "uncertainty is below zero"
         }
         said = self.read(HEAD + COLUMNS + "\n".join(bad) + "\n", 2).stderr.splitlines()

@@ -272,8 +272,8 @@ static void the_rest(void)
     PLANT(prepare, no_reason, "features", "it is refused: no reason is given",
           "asked for no feature");
     PLANT(prepare, no_wagner, "features", "offers wagner moments, but nothing changes",
-          "do not offer it");
-    PLANT(prepare, no_shear, "features", "offers shear, but nothing changes", "do not offer it");
+          "do not declare it");
+    PLANT(prepare, no_shear, "features", "offers shear, but nothing changes", "do not declare it");
     PLANT(strain, no_amplitudes, "features", "offers warping", "nothing depends on the warping");
     PLANT(strain_many, one_strain, "many", "many at once gives other strains", "of 5");
     PLANT(stress_many, one_energy, "many", "many at once gives other energies", "of 5");

@@ -127,7 +127,7 @@ static void foreign(void)
     fault f;
     const folder_entry text = folder_path(&of.of, "notes.batch");
     gsl_test(folder_write_text(text.text, "no batch\n", &f) != STATUS_OK, "%s", f.text);
-    is_refused(&of, "no batch of this program");
+    is_refused(&of, "not a batch of this program");
     unlink(text.text);
     char stem[BATCH_STEM], name[BATCH_NAME];
     batch_stem(&of.w.w, stem);
