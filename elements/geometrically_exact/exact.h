@@ -97,7 +97,7 @@ void exact_strain_prepare(int nodes, int points, double l0, const double curvatu
  * integration: nothing locks).  With ebar = e + 1/2 (e . Q_g e) r_g the energy is 1/2 ebar . S
  * ebar, plus the Wagner torque's quartic.
  *
- * Fields that the nodes do not show are eliminated once:
+ * Fields that do not depend on the nodes are eliminated once:
  *   - bubbles of the warping amplitude, one per point: a = sum L_k a_k + sum c_j beta_j.  The twist
  * rate is what the points measure plus what of a they do not see, kappa_x(s) = P kappa + a - P a
  * with P the interpolation through the points, so that without warping shear kappa_x = a holds

@@ -301,7 +301,7 @@ static void get_error(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_point[] = {
-    {"at", "1", FIELD_DOUBLE, "number of elements, or thickness by length", .get = get_at},
+    {"at", "1", FIELD_DOUBLE, "number of elements, or thickness over length", .get = get_at},
     {"error", "1", FIELD_DOUBLE, "relative to the exact value", .get = get_error},
     {0}};
 static const record_type record_measured_point = {

@@ -96,8 +96,8 @@ int node_same_kind(const machine *, const machine *);
 /* Work that can be cut into batches: what a verb gives to this folder, which does not depend on
  * cells. */
 
-/* All of it depends on the request and the build alone: two processes that never met say the same.
- */
+/* The batches depend on the request and the build alone, so that independent processes make the
+ * same ones. */
 typedef struct shard_work {
     const char *verb;
     /* one line each: the program, what it was asked, and all that its answers depend on; batches
@@ -386,8 +386,8 @@ status specimen_settled(const specimen *s, const double e[], double inner[], str
 /* "rotation about y of node 2". */
 const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS]);
 
-/* The families of checks: what element.h asks of every type. Each looks at all that the formulation
- * can be made of, and leaves claims. */
+/* The families of checks: what element.h asks of every type. Each checks
+ * all elements that the formulation supports, and adds its results. */
 
 typedef void checks_run(const formulation *chosen, claims *out);
 

@@ -217,7 +217,7 @@ const char pace_method_all[] = "alpha,alpha:rho=0.5,hht,trapezoidal,conserving,r
 
 enum { SCHEME_WORDS = 6, ORDER_OF_EXPLICIT = 8 };
 
-/* Its word, and what may be said of it. */
+/* Name of an integrator, and the parameters that it accepts. */
 static const struct {
     const char *word, *value;
     double usual, most;

@@ -349,7 +349,7 @@ const char *own_names_near_quantity(const scene *s, const char *name, char text[
                            "; 'beamwork list CASE' shows them", text);
 }
 
-/* A quote that does not end in its line would take the next lines along. */
+/* Returns 1 where all quotations end in the line; another one would include the next lines. */
 static int quotes_are_even(const char *line)
 {
     int quotes = 0;

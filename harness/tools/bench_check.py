@@ -86,7 +86,7 @@ def main():
     if given.output:
         pathlib.Path(given.output).write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
     failed = sum(not r["good"] for r in rows)
-    print(f"{len(rows) - failed} as they must be, {failed} not")
+    print(f"{len(rows) - failed} as expected, {failed} not")
     return 1 if failed else 0
 
 
