@@ -359,7 +359,7 @@ static status read_literal(reader *r)
         return WRONG(r, from, "'%s' is too large; the largest number is 1.8e308", digits);
     if (here(r) != '\0' && expression_name_length(r->text + r->at) > 0)
         return WRONG(r, r->at,
-                     "'%.20s' behind a number; values are SI without units: write 20e-3 for 20 mm, "
+                     "'%.20s' after a number; values are SI without units: write 20e-3 for 20 mm, "
                      "45*deg for degrees, and * between factors",
                      r->text + r->at);
     return emit(r, JET_NUMBER, value, 1);
@@ -458,7 +458,7 @@ static status deeper(reader *r)
     return ++r->nested <= DEEPEST
                ? STATUS_OK
                : WRONG(r, r->at,
-                       "too many signs, powers or parentheses in one another; split it with 'let'");
+                       "signs, powers or parentheses are nested too deeply; split it with 'let'");
 }
 
 static status read_signed(reader *r);
@@ -529,7 +529,7 @@ static status read_all(reader *r)
     if (rest == '\0')
         return STATUS_OK;
     return rest == '.' ? WRONG(r, r->at, "a range where one number is expected")
-                       : WRONG(r, r->at, "'%.20s' behind the expression; is an operator missing?",
+                       : WRONG(r, r->at, "'%.20s' after the expression; is an operator missing?",
                                r->text + r->at);
 }
 

@@ -151,7 +151,7 @@ static void check_refusals(void)
     check_refused("sin(t", 6, "arguments of sin are not closed");
     check_refused("sin t", 1, "sin is a function; write sin(...)");
     check_refused("(t", 1, "'(' is not closed");
-    check_refused("t)", 2, "')' behind the expression; is an operator missing?");
+    check_refused("t)", 2, "')' after the expression; is an operator missing?");
     check_refused("t t", 3, "is an operator missing?");
     check_refused("2 + x*t", 5, "no such name; there are t, pi");
     check_refused("abs(t)", 1, "abs is of numbers only, and t is in it; it makes kinks");
@@ -165,7 +165,7 @@ static void check_refusals(void)
     check_refused("3mm", 2, "20e-3 for 20 mm");
     check_refused("2*t + 4t", 8, "* between factors");
     check_refused("2 t", 3, "* between factors");
-    check_refused("0x10", 2, "'x10' behind a number");
+    check_refused("0x10", 2, "'x10' after a number");
     check_refused(".", 1, "a point without digits");
     check_refused("1e999*t", 1, "too large");
     check_refused("1e-999*t", 1, "too small");
@@ -178,7 +178,7 @@ static void check_refusals(void)
     check_refused("t*#", 3, "'#' where a number");
     memset(deep, '(', sizeof deep - 1);
     deep[sizeof deep - 1] = '\0';
-    check_refused(deep, 61, "parentheses in one another");
+    check_refused(deep, 61, "are nested too deeply");
     for (int i = 0; i < 1801; i++)
         wide[i] = i % 2 ? '+' : 't';
     wide[1801] = '\0';
