@@ -146,7 +146,7 @@ static void check_keys(const fields *f, int given)
         mistake_at(
             f, "where",
             given == SCENE_GRAVITY
-                ? "where: the position of a force or a moment, and gravity is on all of a "
+                ? "where: the position of a force or a moment, and gravity acts on the whole "
                   "member; remove it"
                 : "where: the position of a force or a moment; a distributed load begins and "
                   "ends at 'from' and 'to'");
