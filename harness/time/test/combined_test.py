@@ -1,0 +1,82 @@
+"""Keys of scene files together: what each of them does is known from its own tests, here they meet in one structure."""
+from cases.format.test.scene_case import SceneCase, values
+
+HEAD = """beamwork: 1
+sections:
+  ipe: {profile: IPE200, young: 210e9, shear_modulus: 81e9, density: 7850, expansion: 12e-6}
+nodes:
+  foot: {at: [0, 0, 0], hold: all}
+  middle: {at: [2, 0, 0.3]}
+  end: {at: [4, 0, 0.3], hold: [uy], mass: 20}
+members:
+  first: {from: foot, to: middle, section: ipe, y: [0, 1, 0], warping: free, imperfection: {amplitude: [4e-3, 0]}, divisions: 8}
+  second: {from: middle, to: end, section: ipe, y: [0, 1, 0], warping: free, offset: {to: [0, 0, 0.05]}, pretension: 3e3,
+           foundation: {translation: [0, 0, 2e5], rotation: [0, 0, 0]}, divisions: 8}
+springs:
+  stop: {to: end, stiffness: [0, 1e4, 0, 0, 0, 0], damping: [0, 0, 300, 0, 0, 0], tables: {uz: {at: [-1, 0, 1], value: [-3e5, 0, 1e5]}}}
+loads:
+  push: {force: [-2e3, 500, -4e3], on: end}
+  sun: {temperature: 25, gradient: [0, 60], on: first}
+"""
+STATIC = """analyses: {path: {static: {stations: 0..1/4}}, tones: {modal: {about: path}}}
+quantities:
+  ux: {displacement: {analysis: path, node: end, component: ux, at: 1}}
+  uz: {displacement: {analysis: path, node: end, component: uz, at: 1}}
+  ry: {displacement: {analysis: path, node: middle, component: ry, at: 1}}
+  N: {internal: {analysis: path, member: first, end: from, resultant: N, at: 1}}
+  R: {reaction: {analysis: path, node: foot, component: ry, at: 1}}
+  f: {frequency: {analysis: tones, which: 0}}
+"""
+MOVED = HEAD.replace("on: end}", "on: end, time: cos(20*t)}")
+MOTION = """analyses: {{path: {{static: {{stations: [1]}}}}, shake: {{motion: {{stations: [0.1, 0.2], about: path, integrator: {integrator}, {steps}}}}}}}
+quantities:
+  ux: {{displacement: {{analysis: shake, node: end, component: ux}}}}
+  uz: {{displacement: {{analysis: shake, node: end, component: uz}}}}
+  ry: {{displacement: {{analysis: shake, node: middle, component: ry}}}}
+  drift: {{energy: {{analysis: shake, of: drift}}}}
+  energy: {{energy: {{analysis: shake, of: energy}}}}
+mass: lumped
+"""
+
+
+class CombinedTest(SceneCase):
+
+    def solve(self, text, formulation, *more):
+        return values(self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", 8, *more))
+
+    def test_formulations_agree(self):
+        """Of second order in chords and lumped foundations: to a part in a thousand."""
+        text = HEAD + STATIC + "omit: [wagner_torque]\n"
+        one = self.solve(text, "collocation")
+        self.assertGreater(abs(one["uz"]), 1e-3)
+        for formulation in ("geometrically_exact", "beamw_consistent", "beamw", "sheet_second", "sheet_third"):
+            other = self.solve(text, formulation)
+            for name, value in one.items():
+                self.assertAlmostEqual(other[name] / value, 1, delta=3e-3, msg=(formulation, name))
+
+    def test_integrators_agree(self):
+        """Motions from the heated, pretensioned state; no energy is lost but by the dashpot."""
+        runs = {"radau": "tolerance: 1e-6", "alpha": "step: 2.5e-4", "conserving": "step: 2.5e-4"}
+        got = {name: self.solve(MOVED + MOTION.format(integrator=name, steps=steps), "collocation")
+               for name, steps in runs.items()}
+        for name in ("alpha", "conserving"):
+            for quantity in ("ux", "uz", "ry"):
+                self.assertAlmostEqual(got[name][quantity] / got["radau"][quantity], 1, delta=2e-3,
+                                       msg=(name, quantity))
+        for name in runs:
+            bound = 1e-9 if name == "conserving" else 1e-4
+            self.assertLess(abs(got[name]["drift"]), bound * abs(got[name]["energy"]), name)
+
+    def test_another_order_of_ends(self):
+        """Members from the other end: what is at one end is at the other, y turns round."""
+        there = HEAD.replace(
+            "from: foot, to: middle, section: ipe, y: [0, 1, 0], warping: free, imperfection: {amplitude: [4e-3, 0]}",
+            "from: middle, to: foot, section: ipe, y: [0, -1, 0], warping: free, imperfection: {amplitude: [-4e-3, 0]}"
+        ).replace("from: middle, to: end, section: ipe, y: [0, 1, 0], warping: free, offset: {to: [0, 0, 0.05]}",
+                  "from: end, to: middle, section: ipe, y: [0, -1, 0], warping: free, offset: {from: [0, 0, 0.05]}")
+        self.assertNotEqual(there, HEAD)
+        back = STATIC.replace("end: from, resultant: N", "end: to, resultant: N")
+        for formulation in ("collocation", "beamw_consistent"):
+            one, other = self.solve(HEAD + STATIC, formulation), self.solve(there + back, formulation)
+            for name, value in one.items():
+                self.assertAlmostEqual(other[name] / value, 1, delta=1e-7, msg=(formulation, name))
