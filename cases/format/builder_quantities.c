@@ -120,7 +120,8 @@ static int asked_of(const scene *s, int analysis)
         int order = -1;
         if (scene_asks(q, analysis, SCENE_CRITICAL_FACTOR))
             order = scene_critical_load_of(q)->order;
-        if (scene_asks(q, analysis, SCENE_FREQUENCY))
+        if (scene_asks(q, analysis, SCENE_FREQUENCY) ||
+            scene_asks(q, analysis, SCENE_DAMPING_RATIO))
             order = scene_mode_of(q)->order;
         most = order >= most ? order + 1 : most;
     }

@@ -2,16 +2,7 @@
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
-    QUANTITY_ANALYSIS,
-    {"which", ENTRY_WHOLE, .summary = "counted from 0, of the family", .usual = "0",
-     ENTRY_IN(scene_quantity, what.of.mode.order), .most = ENTRY_MOST_ORDER},
-    {"family", ENTRY_WORD, .words = "any|not_axial|axial|bending_y|bending_z|torsion",
-     .summary = "of modes", .usual = "any", ENTRY_IN(scene_quantity, what.of.mode.family),
-     .always = 1},
-    {"half_waves", ENTRY_WHOLE, .summary = "of the mode; 0: any", .usual = "0",
-     ENTRY_IN(scene_quantity, what.of.mode.half_waves), .most = ENTRY_MOST_ORDER},
-    QUANTITY_TAKEN,
-    {.name = NULL}};
+    QUANTITY_ANALYSIS, QUANTITY_MODE, QUANTITY_TAKEN, {.name = NULL}};
 
 static const char *unit(const scene *s, const scene_quantity *q)
 {

@@ -63,6 +63,10 @@ static const entry_field proportional[] = {
 
 static const entry_field modes[] = {
     {"wanted", ENTRY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
+    {"damped", ENTRY_WORD, .words = "no|yes",
+     .summary = "modes with the damping of members, springs and `damping`", .usual = "no",
+     ENTRY_IN(scene_analysis, damped)},
+    PROPORTIONAL,
     ABOUT("static analysis about whose last state"),
     {.name = NULL}};
 

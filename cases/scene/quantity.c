@@ -196,7 +196,7 @@ const scene_critical_load *scene_critical_load_of(const scene_quantity *q)
 
 const scene_mode *scene_mode_of(const scene_quantity *q)
 {
-    assert(q->what.kind == SCENE_FREQUENCY);
+    assert(q->what.kind == SCENE_FREQUENCY || q->what.kind == SCENE_DAMPING_RATIO);
     return &q->what.of.mode;
 }
 

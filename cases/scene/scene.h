@@ -154,6 +154,7 @@ typedef struct scene_analysis {
         scene_path harmonic; /* frequencies [Hz] */
     } of;
     scene_proportional damping; /* of small vibrations, beside members' and dashpots */
+    int damped;                 /* 1: modes are those with damping */
     char name[SCENE_NAME];      /* "": none */
 } scene_analysis;
 
@@ -287,6 +288,7 @@ typedef enum scene_quantity_kind {
     SCENE_BALANCE,          /* energy or momentum of a motion */
     SCENE_RELATIVE,         /* displacement or rotation of a node in the axes of another */
     SCENE_RESPONSE,         /* of a harmonic analysis */
+    SCENE_DAMPING_RATIO,    /* of a damped mode, or its rate of decay */
     SCENE_READING           /* what a file of cases/quantities reads of nodes, as it says itself */
 } scene_quantity_kind;
 
@@ -461,6 +463,7 @@ typedef struct scene_mode {
     int order; /* among the modes of the family and half-waves, from 0 */
     scene_family family;
     int half_waves; /* 0: any */
+    int decay;      /* of a damping ratio: 1: the rate of decay in its place [1/s] */
 } scene_mode;
 
 typedef enum scene_ordinate { SCENE_LOAD_FACTOR, SCENE_CONTROL } scene_ordinate;
@@ -1284,6 +1287,24 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
          .words = SCENE_TAKE_CHOICES,                                                              \
          .summary = "of all stations",                                                             \
          .usual = "last"}
+#define QUANTITY_MODE                                                                              \
+    {"which",                                                                                      \
+     ENTRY_WHOLE,                                                                                  \
+     .summary = "counted from 0, of the family",                                                   \
+     .usual = "0",                                                                                 \
+     ENTRY_IN(scene_quantity, what.of.mode.order),                                                 \
+     .most = ENTRY_MOST_ORDER},                                                                    \
+        {"family",                                                                                 \
+         ENTRY_WORD,                                                                               \
+         .words = "any|not_axial|axial|bending_y|bending_z|torsion",                               \
+         .summary = "of modes",                                                                    \
+         .usual = "any",                                                                           \
+         ENTRY_IN(scene_quantity, what.of.mode.family),                                            \
+         .always = 1},                                                                             \
+    {                                                                                              \
+        "half_waves", ENTRY_WHOLE, .summary = "of the mode; 0: any", .usual = "0",                 \
+            ENTRY_IN(scene_quantity, what.of.mode.half_waves), .most = ENTRY_MOST_ORDER            \
+    }
 #define QUANTITY_NODE(member)                                                                      \
     {"node",                                                                                       \
      ENTRY_NAME,                                                                                   \

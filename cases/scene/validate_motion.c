@@ -351,6 +351,11 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
     if (a->kind == SCENE_HARMONIC && !(a->of.harmonic.value[0] >= 0))
         return fault_set(f, STATUS_REFUSED, "%s: a frequency of %g Hz; give none below 0",
                          scene_called(s, SCENE_ANALYSES, i).text, a->of.harmonic.value[0]);
+    if (a->kind == SCENE_MODAL && !a->damped && (a->damping.mass > 0 || a->damping.stiffness > 0))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: its frequencies are those without damping, and damping is given; add "
+                         "damped: yes, or remove it",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     if ((a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC) && is_asked(s, i))
         return scene_validate_mass(s, i, f);
     return a->kind == SCENE_COMPLIANCE ? check_compliance(s, a, i, f) : STATUS_OK;

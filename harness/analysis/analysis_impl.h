@@ -91,6 +91,9 @@ typedef struct unsymmetric_problem {
     matrix_factor *K_factor; /* factor_numeric done */
     int wanted;              /* least motions */
     int estimate;            /* 1: errors are wanted: twice the work */
+    int decaying;            /* 1: with C also motions that decay without oscillation */
+    const sparse *B;         /* of what moves inside the elements, with C; NULL: nothing does */
+    double mass, stiffness;  /* proportional damping of C, which that has too [1/s], [s] */
 } unsymmetric_problem;
 
 /* s = growth + i frequency, ascending in size.  Without damping both motions of a flutter are
@@ -359,6 +362,8 @@ int modal_wanted(const analysis_context *, int analysis);
 /* Steady vibration by frequency. */
 
 status harmonic_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* Modes with damping. */
+status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 /* Stationary rotation and small motions about it. */
 

@@ -127,6 +127,23 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
     r->rounding = side->error != NULL ? side->error[i] : 0;
 }
 
+/* Of a damped mode, whose error is that of its eigenvalue. */
+static void take_damped(const scene_quantity *q, const outcome_side *side, int i,
+                        quantity_result *r)
+{
+    const double decay = -side->growth[i], size = hypot(decay, side->value[i]);
+    if (isnan(side->value[i])) {
+        quantity_no_value(r, side->status, side->reason);
+        return;
+    }
+    const int frequency = q->what.kind == SCENE_FREQUENCY;
+    const double part = frequency ? side->value[i] : decay;
+    r->value = quantity_scaled(q, frequency                 ? part / (2 * PI)
+                                  : scene_mode_of(q)->decay ? part
+                                                            : part / size);
+    r->rounding = part != 0 ? side->error[i] * size / fabs(part) : 0;
+}
+
 static void take_meaning(const outcome_spectrum *from, quantity_result *r)
 {
     if (r->status == STATUS_OK)
@@ -194,6 +211,8 @@ void extract_spectrum_modal(const analysis_context *c, const scene_quantity *q,
     free(x);
     if (known != STATUS_OK)
         quantity_no_value(r, known, f.text);
+    else if (found >= 0 && side->growth != NULL)
+        take_damped(q, side, found, r);
     else if (found >= 0)
         take_eigenvalue(q, side, found, 2 * PI, r);
     else if (side->status != STATUS_OK)

@@ -1,12 +1,14 @@
 /* Steady small vibration about a state, at each frequency by one solution with the dynamic
  * stiffness
- *   D(w) = K + i w C - w^2 M - w^4 B,
- * B of what moves inside the elements of an unstressed structure (field/field.h). In real numbers
- *   [A -w C; w C A] [Re x; Im x] = [Re b; Im b],  A = K - w^2 M - w^4 B. */
+ *   D(w) = K + i w C - w^2 M - (w^2 - i a w)^2/(1 + i b w) B,
+ * with proportional damping a M + b K in C, and B of what moves inside the elements of an
+ * unstressed structure (field/field.h). In real numbers [Re D, -Im D; Im D, Re D] [Re x; Im x] =
+ * [Re f; Im f]. Damped modes are the eigenvectors of D at s = i w. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -72,14 +74,15 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
     return linearise_state(&c->eq, &c->run->memory, v->state, &lin, f);
 }
 
-static status matrices(vibration *v, fault *f)
+/* whole: of driven coordinates too. */
+static status matrices(vibration *v, int whole, fault *f)
 {
     analysis_context *c = v->c;
     const int follows = c->scene->analysis[v->analysis].follows;
     const sparse *pattern;
     TRY(follows != SCENE_NONE
-            ? assemble_pattern_of_states(c->model, c->run->patterns, 1, &pattern, f)
-            : assemble_pattern(c->model, c->run->patterns, 1, &pattern, f));
+            ? assemble_pattern_of_states(c->model, c->run->patterns, whole, &pattern, f)
+            : assemble_pattern(c->model, c->run->patterns, whole, &pattern, f));
     TRY(sparse_alloc_like(pattern, &v->K, f));
     TRY(sparse_alloc_like(pattern, &v->M, f));
     TRY(sparse_alloc_like(pattern, &v->C, f));
@@ -101,8 +104,10 @@ static status matrices(vibration *v, fault *f)
     TRY(rotating_frame_inertia(&c->eq, v->state, kinematics_state_path(v->state), &v->M, NULL, f));
     const scene_proportional *damping = &c->scene->analysis[v->analysis].damping;
     v->damped = damping_acts(c->scene) || damping->mass > 0 || damping->stiffness > 0;
-    if (!v->damped)
+    if (!v->damped) {
+        sparse_zero(&v->C);
         return STATUS_OK;
+    }
     TRY(damping_matrix(&c->eq, v->state, damping->stiffness, &v->C, f));
     for (int i = 0; i < v->C.column[v->C.n]; i++)
         v->C.value[i] += damping->mass * v->M.value[i];
@@ -169,9 +174,13 @@ static status make_pattern(vibration *v, fault *f)
 /* Entry k of D, as K has them. */
 static double complex dynamic(const vibration *v, double w, int k)
 {
-    const double A =
-        v->K.value[k] - w * w * v->M.value[k] - (v->inside ? w * w * w * w * v->B.value[k] : 0);
-    return v->damped ? A + I * w * v->C.value[k] : A;
+    double complex D = v->K.value[k] - w * w * v->M.value[k];
+    if (v->inside) {
+        const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;
+        const double complex moves = w * (w - I * damping->mass);
+        D -= moves * moves / (1 + I * w * damping->stiffness) * v->B.value[k];
+    }
+    return v->damped ? D + I * w * v->C.value[k] : D;
 }
 
 static status factor_at(vibration *v, double hertz, fault *f)
@@ -337,29 +346,95 @@ static status solve(vibration *v, outcome_harmonic *o, fault *f)
     if (o->path.value == NULL || o->response == NULL || v->x == NULL || v->found == NULL ||
         v->room == NULL)
         return no_memory(f);
-    TRY(matrices(v, f));
+    TRY(matrices(v, 1, f));
     TRY(make_pattern(v, f));
     TRY(factor_alloc(&v->D, &v->factor, f));
     return respond(v, o, f);
+}
+
+static void vibration_free(vibration *v)
+{
+    factor_free(v->factor);
+    sparse_free_values(&v->K);
+    sparse_free_values(&v->M);
+    sparse_free_values(&v->C);
+    sparse_free_values(&v->B);
+    free(v->D.column);
+    free(v->D.row);
+    free(v->D.value);
+    free(v->first);
+    free(v->row);
+    free(v->source);
+    free(v->x);
+    free(v->found);
+    free(v->room);
 }
 
 status harmonic_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     vibration v = {.c = c, .analysis = analysis};
     const status outcome = solve(&v, &o->left.harmonic, f);
-    factor_free(v.factor);
-    sparse_free_values(&v.K);
-    sparse_free_values(&v.M);
-    sparse_free_values(&v.C);
-    sparse_free_values(&v.B);
-    free(v.D.column);
-    free(v.D.row);
-    free(v.D.value);
-    free(v.first);
-    free(v.row);
-    free(v.source);
-    free(v.x);
-    free(v.found);
-    free(v.room);
+    vibration_free(&v);
+    return outcome;
+}
+
+static void note_growth(analysis_context *c, const unsymmetric_result *r, outcome_spectrum *out)
+{
+    for (int i = 0; i < r->count; i++)
+        out->growth = fmax(out->growth, r->growth[i]);
+    if (out->growth > 0 && c->result->reason[0] == '\0')
+        snprintf(c->result->reason, sizeof c->result->reason,
+                 "unstable: a damped mode grows with %.4g 1/s", out->growth);
+}
+
+static status find_modes(vibration *v, unsymmetric_result *r, fault *f)
+{
+    analysis_context *c = v->c;
+    const model_size size = model_sizes(c->model);
+    fault why = {""};
+    v->state = kinematics_rest(c->model);
+    v->room = calloc((size_t)model_stresses(c->model) + (size_t)(size.free + size.driven) + 1,
+                     sizeof *v->room);
+    if (v->room == NULL)
+        return no_memory(f);
+    TRY(matrices(v, 0, f));
+    TRY(factor_alloc(&v->K, &v->factor, f));
+    c->run->counters.factorisations++;
+    const status factored = factor_numeric(v->factor, &v->K, &why);
+    if (factored == STATUS_SINGULAR)
+        return fault_set(f, STATUS_REFUSED,
+                         "damped modes need a stiffness against every motion, and one has none: "
+                         "hold the structure, or support it by a soft spring");
+    if (factored != STATUS_OK)
+        return fault_set(f, factored, "%s", why.text);
+    const unsymmetric_problem p = {.K = &v->K,
+                                   .M = &v->M,
+                                   .C = &v->C,
+                                   .B = v->inside ? &v->B : NULL,
+                                   .mass = c->scene->analysis[v->analysis].damping.mass,
+                                   .stiffness = c->scene->analysis[v->analysis].damping.stiffness,
+                                   .K_factor = v->factor,
+                                   .wanted = modal_wanted(c, v->analysis),
+                                   .estimate = 1,
+                                   .decaying = 1};
+    const status found = unsymmetric_solve(&p, r, f);
+    c->run->counters.solutions += r->solutions;
+    return found;
+}
+
+status damped_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    vibration v = {.c = c, .analysis = analysis};
+    unsymmetric_result r = {0};
+    outcome_spectrum *out = &o->left.spectrum;
+    const status outcome = find_modes(&v, &r, f);
+    if (outcome == STATUS_OK) {
+        note_growth(c, &r, out);
+        out->positive.growth = r.growth;
+        flutter_take(&r, &out->positive);
+        snprintf(out->meaning, sizeof out->meaning, "%s", v.damped ? "damped" : "");
+    }
+    unsymmetric_free(&r);
+    vibration_free(&v);
     return outcome;
 }

@@ -20,7 +20,7 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
     case SCENE_BUCKLING:
         return is_loaded ? loaded_buckling : buckling_analysis;
     case SCENE_MODAL:
-        return is_loaded ? loaded_modal : modal_analysis;
+        return a->damped ? damped_modal : is_loaded ? loaded_modal : modal_analysis;
     case SCENE_STATIC:
         return static_analysis;
     case SCENE_COMPLIANCE:

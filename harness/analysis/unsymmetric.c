@@ -7,6 +7,9 @@
 
 #include "elements/math/dense.h"
 
+/* Relative size of eigenvalues that may be rounding of those of massless coordinates. */
+static const double nothing = 1e-6;
+
 /* Coordinates are measured by the roots of the diagonal of K, rates times `second`. */
 typedef struct unsymmetric_solver {
     const unsymmetric_problem *p;
@@ -248,8 +251,8 @@ static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
     return STATUS_OK;
 }
 
-/* The phase that makes the real part as large as it can be; of the second of two conjugates its
- * imaginary part. */
+/* The phase that makes the real part as large as it can be; of the second of two motions of a
+ * flutter its imaginary part. */
 static void take_mode(const unsymmetric_solver *s, int i, int second, double mode[])
 {
     const size_t size = s->p->C != NULL ? (size_t)(s->n + s->massive) : (size_t)s->n;
@@ -264,17 +267,60 @@ static void take_mode(const unsymmetric_solver *s, int i, int second, double mod
     }
 }
 
-static void take(unsymmetric_solver *s, int i, double error)
+/* x^T A x, or where that says little of them, the same of the conjugate: y is work. */
+static double complex form(const unsymmetric_solver *s, const sparse *A, int conjugated,
+                           const double complex x[], double complex y[])
+{
+    double complex sum = 0;
+    multiply(A, 0, x, y);
+    for (int i = 0; i < s->n; i++)
+        sum += (conjugated ? conj(x[i]) : x[i]) * y[i];
+    return sum;
+}
+
+/* The root of c (z - s) + m (z^2 - s^2) = b (z^2 + mass z)^2/(1 + stiffness z) next to the
+ * eigenvalue s, with the forms of its mode. */
+static double complex with_inside(const unsymmetric_solver *s, int i, double complex at,
+                                  double complex x[], double complex y[])
+{
+    const double complex *v = s->right.mode + (size_t)i * (size_t)(s->n + s->massive);
+    double complex z = at;
+    for (int k = 0; k < s->n; k++)
+        x[k] = v[k] / s->scale[k];
+    const double whole = cabs(form(s, s->p->M, 1, x, y));
+    const int conjugated = !(cabs(form(s, s->p->M, 0, x, y)) > 0.1 * whole);
+    const double complex m = form(s, s->p->M, conjugated, x, y),
+                         c = form(s, s->p->C, conjugated, x, y),
+                         b = form(s, s->p->B, conjugated, x, y);
+    for (int pass = 0; pass < 20; pass++) {
+        const double complex moves = z * z + s->p->mass * z, rests = 1 + s->p->stiffness * z,
+                             part = moves / rests,
+                             slope = c + 2 * m * z -
+                                     b * part * (4 * z + 2 * s->p->mass - s->p->stiffness * part);
+        if (cabs(slope) > 0)
+            z -= (c * (z - at) + m * (z * z - at * at) - b * moves * part) / slope;
+    }
+    return cabs(z - at) < 0.3 * cabs(at) ? z : at; /* coarse meshes: as without */
+}
+
+static void take(unsymmetric_solver *s, int i, double error, const growth_estimate *e)
 {
     unsymmetric_result *r = s->out;
-    const double complex theta = s->right.theta[i], at = root(s, theta);
-    const int damped = s->p->C != NULL, second = cimag(theta) < 0, k = r->count;
+    const double complex theta = s->right.theta[i];
+    double complex at = root(s, theta);
+    const int stays_real = cimag(at) == 0;
+    if (s->p->B != NULL)
+        at = with_inside(s, i, at, e->x, e->y);
+    if (stays_real)
+        at = creal(at);
+    const int damped = s->p->C != NULL, second = !damped && cimag(theta) < 0, k = r->count;
     const double complex square = at * at;
     const double same = damped ? 10 * error : fmax(unsymmetric_same, 20 * error);
     const int grows = fabs(creal(at)) > (damped ? same * cabs(at) : same / 2 * cabs(at));
-    if (damped && (cimag(at) < 0 || (cimag(at) == 0 && creal(at) < 0)))
+    if (damped && (cimag(at) < 0 || (!s->p->decaying && cimag(at) == 0 && creal(at) < 0)))
         return;
-    if (k == s->p->wanted)
+    if (k == s->p->wanted ||
+        (s->p->decaying && !isfinite(error) && cabs(theta) < nothing * cabs(s->right.theta[0])))
         return;
     r->frequency[k] = grows || damped ? fabs(cimag(at)) : cabs(at);
     r->growth[k] = !grows ? 0 : damped ? creal(at) : second ? -fabs(creal(at)) : fabs(creal(at));
@@ -298,7 +344,7 @@ static status hand_over(unsymmetric_solver *s, fault *f)
     r->split = r->growth + count;
     const status outcome = s->p->estimate ? left_vectors(s, &e, f) : STATUS_OK;
     for (int i = 0; outcome == STATUS_OK && i < s->right.count; i++)
-        take(s, i, s->p->estimate ? error_of(s, i, &e) : 0);
+        take(s, i, s->p->estimate ? error_of(s, i, &e) : 0, &e);
     free(e.x);
     return outcome;
 }

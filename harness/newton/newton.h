@@ -255,9 +255,11 @@ status modes_separate(const model *, const scene *, int count, const double valu
 typedef struct outcome_side {
     int count;
     double *value, *mode; /* [count] NAN: lost in round-off; [count x free] */
-    double *error; /* [count] estimated relative error by iteration and round-off; NULL: there is
-                      none */
-    status status; /* NOT_CONVERGED: ... */
+    double *error;  /* [count] estimated relative error by iteration and round-off; NULL: there is
+                       none */
+    double *growth; /* [count] of damped modes [1/s], behind value; NULL: of others. Their error is
+                       that of growth + i value */
+    status status;  /* NOT_CONVERGED: ... */
     char reason[FAULT_TEXT]; /* ... why there are no more, or some are lost */
 } outcome_side;
 /* Small motions about one state of a stationary rotation. */

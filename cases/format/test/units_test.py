@@ -42,12 +42,14 @@ loads:
   still: {compliance: {node: b}}
   free: {modal: {}}
   steady: {harmonic: {frequencies: [1], damping: {}}}
+  damped: {modal: {damped: yes, damping: {}}}
   critical: {buckling: {}}
   curve: {continuation: {control: {node: b, component: uy}, to: [0.1], step: 0.1}}
 quantities:
   uy: {displacement: {analysis: path, node: b, component: uy}}
   over: {displacement: {analysis: path, node: b, component: uy, take: curve}, x: {}}
   first: {frequency: {analysis: free}}
+  damps: {damping_ratio: {analysis: damped}}
   shakes: {response: {analysis: steady, node: b, component: uy, force: b}}
   load: {critical_factor: {analysis: critical}}
   point: {critical_point: {analysis: curve, kind: limit}}

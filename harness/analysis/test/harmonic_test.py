@@ -72,6 +72,118 @@ def exact(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
             sum(a*k*e for a, k, e in zip(amplitude, roots, at)))
 
 
+# Point masses on springs and dashpots along y, each with a post that has no mass; and modes.
+MASSES = """beamwork: 1
+sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
+nodes:
+  body_$i: {for: {i: %s}, at: [0, $i, 0], hold: [ux, uz, rx, ry, rz], mass: 2}
+  top_$i: {for: {i: %s}, at: [1, $i, 0]}
+members: {post_$i: {for: {i: %s}, from: body_$i, to: top_$i, section: s, y: [0, 1, 0]}}
+springs: {mount_$i: {for: {i: %s}, to: body_$i, stiffness: [0, 800, 0, 0, 0, 0], damping: [0, %s, 0, 0, 0, 0]}}
+analyses: {modes: {modal: {%s}}}
+quantities:
+%s
+"""
+
+
+def modes(count):
+    return "".join(f"""  f{i}: {{frequency: {{analysis: modes, which: {i}}}}}
+  z{i}: {{damping_ratio: {{analysis: modes, which: {i}}}}}
+  d{i}: {{damping_ratio: {{analysis: modes, which: {i}, of: decay}}}}
+""" for i in range(count))
+
+
+class DampedModesTest(ProgramTest):
+
+    def found(self, text, formulation="collocation", n=1):
+        """Eigenvalues s, and ratios."""
+        path = self.folder/"scene.yaml"
+        path.write_text(text, encoding="utf-8")
+        record = self.record("solve", "--scene", path, "-f", formulation, "-n", n)
+        value = {q["quantity"]: q["value"] for q in record["quantities"] if q["status"] == "ok"}
+        count = sum(name[0] == "f" for name in value)
+        return ([complex(-value[f"d{i}"], 2*math.pi*value[f"f{i}"]) for i in range(count)],
+                [value[f"z{i}"] for i in range(count)])
+
+    def masses(self, bodies, c, keys="damped: yes", count=2):
+        each = f"0..{bodies - 1}"
+        return self.found(MASSES % (each, each, each, each, c, keys, modes(count)))
+
+    def same(self, found, expected, most=1e-9):
+        self.assertEqual(len(found), len(expected), found)
+        for one, other in zip(found, expected):
+            self.assertLess(abs(one - other), most*abs(other), (found, expected))
+
+    def test_one_mass(self):
+        """Of frequency 20 rad/s: damped, undamped, and with two rates of decay."""
+        for ratio in (1e-6, 0.1, 0.9, 0.999):
+            found, ratios = self.masses(1, 2*ratio*40)
+            self.same(found, [20*complex(-ratio, math.sqrt(1 - ratio**2))])
+            self.same(ratios, [ratio])
+        self.same(self.masses(1, 0)[0], [20j])
+        self.assertEqual(self.masses(1, 0)[1], [0])
+        found, ratios = self.masses(1, 2*3*40)
+        self.same(found, [20*(-3 + math.sqrt(8)), 20*(-3 - math.sqrt(8))])
+        self.same(ratios, [1, 1])
+        found, ratios = self.masses(1, 2*40) # a double value, known to the root of round-off
+        self.same(found[:1], [-20], 1e-6)
+
+    def test_two_equal_masses(self):
+        found, ratios = self.masses(2, 2*0.1*40, count=3)
+        self.same(found, [20*complex(-0.1, math.sqrt(0.99))]*2)
+        self.same(ratios, [0.1]*2)
+
+    def test_proportional(self):
+        """(a/w + b w)/2 of every mode of a beam, whose frequencies are those without damping."""
+        scene = BEAM.replace("c: 15", "c: 0").replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {%s}}")
+        for formulation in ("collocation", "geometrically_exact", "sheet_third"):
+            plain = self.record("solve", "--scene", self.write(scene % ("hold: all", "", "", "", "".join(
+                f"  f{i}: {{frequency: {{analysis: modes, which: {i}}}}}\n" for i in range(4)))), "-f", formulation, "-n", 6)
+            w = [2*math.pi*q["value"] for q in plain["quantities"]]
+            found, ratios = self.found(scene % ("hold: all", "", "", "damped: yes, damping: {mass: 7, stiffness: 1e-4}", modes(4)),
+                                       formulation, 6)
+            expected = [(7/x + 1e-4*x)/2 for x in w]
+            self.same(ratios, expected, 1e-5)
+            self.same([abs(s) for s in found], w, 1e-5)
+
+    def write(self, text):
+        path = self.folder/"scene.yaml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def test_dashpot_at_the_tip(self):
+        """The determinant of the exact beam vanishes at the eigenvalue: 1/u(s) by the secant method; without tension and
+        about a stretched state."""
+        scene = BEAM.replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {damped: yes%s}}")
+        stretched = 1 + 2000/(210e9*0.02*0.01)
+        load = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
+        for loads, before, about, keys in (
+                ("", "", "", {}),
+                (load, "  before: {static: {stations: [1]}}", ", about: before", {"tension": 2000, "length": stretched}),
+                (load, "  before: {linear: {}}", ", about: before", {"tension": 2000})):
+            found, ratios = self.found(scene % ("hold: all", loads, before, about, modes(6).replace(
+                "which", "family: bending_y, which")), "collocation", 24)
+            self.assertEqual(len(found), 6)
+            for s, ratio in zip(found[:4] if about else found, ratios):
+                a, b = s*(1 + 1e-5), s
+                for _ in range(20):
+                    fa, fb = (1/exact(-1j*x/(2*math.pi), force=1, **keys)[0] for x in (a, b))
+                    if fa == fb or a == b:
+                        break
+                    a, b = b, b - fb*(b - a)/(fb - fa)
+                self.assertLess(abs(b - s), 1e-4*abs(s), (about, s, b))
+                self.assertAlmostEqual(ratio, -b.real/abs(b), delta=5e-5)
+
+    def test_refused(self):
+        free = MASSES.replace("stiffness: [0, 800, 0, 0, 0, 0], ", "")
+        for text, words in (
+                (MASSES % ("0..0", "0..0", "0..0", "0..0", 1, "", modes(1)), "give that damped: yes"),
+                (MASSES % ("0..0", "0..0", "0..0", "0..0", 1, "damping: {mass: 1}", modes(1)), "add damped: yes"),
+                (free % ("0..0", "0..0", "0..0", "0..0", 1, "damped: yes", modes(1)), "hold the structure")):
+            done = run("solve", "--scene", self.write(text), "-f", "collocation", "-n", 1)
+            self.assertRegex(done.stdout + done.stderr, words)
+
+
 class HarmonicTest(ProgramTest):
 
     def scene(self, text):

@@ -73,7 +73,12 @@ static void solve(const checked_column *c, int damped, int wanted, unsymmetric_r
     fault f = {""};
     factor_alloc(&c->K, &fa, &f);
     gsl_test_int((int)factor_numeric(fa, &c->K, &f), STATUS_OK, "%s", f.text);
-    const unsymmetric_problem p = {&c->K, &c->M, damped ? &c->C : NULL, fa, wanted, 1};
+    const unsymmetric_problem p = {.K = &c->K,
+                                   .M = &c->M,
+                                   .C = damped ? &c->C : NULL,
+                                   .K_factor = fa,
+                                   .wanted = wanted,
+                                   .estimate = 1};
     gsl_test_int((int)unsymmetric_solve(&p, r, &f), STATUS_OK, "%s", f.text);
     factor_free(fa);
 }
