@@ -180,10 +180,10 @@ void table_breaches(FILE *to, screen look, const judgement *j)
 {
     for (int i = 0; i < j->breaches; i++) {
         screen_put(to, look, SCREEN_BAD, "INTERFACE VIOLATED");
-        fputs(" of ", to);
+        fputs(" by ", to);
         const char *key = j->breach[i].formulation;
         paragraph words;
-        paragraph_say(to, 19, INDENT, "%s: %s; all of it:", key, j->breach[i].why);
+        paragraph_say(to, 22, INDENT, "%s: %s; all of it:", key, j->breach[i].why);
         FILE *line = paragraph_begin(&words, to);
         fprintf(line, "beamwork element-test -f %s", key);
         print_element(line, formulations_named(key, strcspn(key, ":")));
