@@ -133,19 +133,30 @@ static int fill(double from, double to, double step, int count, arena *a, mistak
     return count;
 }
 
-/* a..b/n: the ends, and n - 1 points between them. */
+/* a..b/n: the ends, and n - 1 points between them; a..b/n:log: of equal ratios. */
 static int divide(const document_node *n, double from, double to, int at, const scope *names,
                   arena *a, mistakes *m, double **out)
 {
+    const int length = (int)strlen(n->text), tail = (int)strlen(":log"),
+              by_ratio = length - at > tail && strcmp(n->text + length - tail, ":log") == 0;
     double parts;
-    if (!expression_part(n, at, (int)strlen(n->text) - at, names, m, &parts))
+    if (!expression_part(n, at, length - at - (by_ratio ? tail : 0), names, m, &parts))
         return -1;
+    if (by_ratio && !(from > 0 && to > 0) && !(from < 0 && to < 0)) {
+        document_mistake(m, n, 0,
+                         "equal ratios from %g to %g do not exist; give ends of one sign, or "
+                         "remove ':log'",
+                         from, to);
+        return -1;
+    }
     if (!(parts >= 1 && parts < MOST) || parts != floor(parts)) {
         document_mistake(m, n, at, "%g parts; give a whole number from 1 to %d", parts, MOST - 1);
         return -1;
     }
     const int count = (int)parts + 1;
     const int filled = fill(from, to, (to - from) / parts, count, a, m, out);
+    for (int i = 1; by_ratio && i < filled; i++)
+        (*out)[i] = from * pow(to / from, i / parts);
     if (filled > 0)
         (*out)[count - 1] = to;
     return filled;

@@ -92,7 +92,8 @@ const char *const key_list_head[2] = {
     "sign sqrt exp log sin cos tan asin acos atan sinh cosh tanh atan2 hypot floor ceil mod min "
     "max; "
     "SI only. "
-    "[EXPR, ...] may be a range: a..b, a..b step c, a..b/n. A word may be the name of a parameter.",
+    "[EXPR, ...] may be a range: a..b, a..b step c, a..b/n, a..b/n:log (equal ratios). A word may "
+    "be the name of a parameter.",
     "Every entry (NAME: {...}, - {...}) may have these; $i in its name and texts is replaced:"};
 
 typedef struct key_rows {

@@ -127,10 +127,13 @@ static void check_ranges(const scope *names)
                {"0..(pi/2)/2", 3, 0, 1.5707963267948966},
                {"0..pi/2 step pi/4", 3, 0, 1.5707963267948966},
                {"3..1 step -1", 3, 3, 1},
+               {"0.1..1000/4:log", 5, 0.1, 1000},
+               {"-8..-1/3:log", 4, -8, -1},
                {"2..2", 1, 2, 2},
                {"0..length/1", 2, 0, 2.385}};
-    static const char *const bad[] = {"3..1", "0..1 step 0", "0..1/0",    "0..1/2.5", "0..1e9",
-                                      "..2",  "1..",         "0..1 step", "a..b"};
+    static const char *const bad[] = {
+        "3..1",     "0..1 step 0", "0..1/0",     "0..1/2.5", "0..1e9", "0..1/2:log", "-1..1/2:log",
+        "1..2:log", "1..2/:log",   "1..2/2:lin", "..2",      "1..",    "0..1 step",  "a..b"};
     arena a = {0};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         mistakes m = {.file = "f"};

@@ -260,6 +260,14 @@ class HarmonicTest(ProgramTest):
             text = BEAM % ("hold: all", loads, f"  before: {kind}", ", about: before", FORCED)
             self.near(self.curves(text, "collocation", 24)["u"], expected, 5e-5, kind)
 
+    def test_equal_ratios(self):
+        """A range of frequencies as the list that it is."""
+        text = BEAM % ("hold: all", "", "", "", FORCED)
+        one, other = (self.curves(text.replace("[5, 8, 20, 60]", to), "collocation", 4)["u"]
+                      for to in ("0.5..500/3:log", "[0.5, 5, 50, 500]"))
+        for a, b in zip(one, other):
+            self.assertLess(abs(a - b), 1e-9*abs(b))
+
     def test_reciprocity(self):
         """A rotation for a force is a displacement for a moment."""
         crossed = reading("a", component="rz", force="tip", along="uy") + reading("b", component="uy", force="tip", along="rz")
