@@ -291,7 +291,7 @@ status agreements_add(const sweep *s, const truths *t, int index, judgement *out
     return STATUS_OK;
 }
 
-/* How often limits lie within their uncertainty of an exact truth. */
+/* How often limits lie within their uncertainty of an exact reference value. */
 
 /* Returns the row of the series' case and formulation. */
 static coverage *row_of(const sweep *s, judgement *j, const series *one, fault *f)
