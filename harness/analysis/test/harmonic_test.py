@@ -152,15 +152,16 @@ class DampedModesTest(ProgramTest):
         return path
 
     def test_dashpot_at_the_tip(self):
-        """The determinant of the exact beam vanishes at the eigenvalue: 1/u(s) by the secant method; without tension and
-        about a stretched state."""
+        """The determinant of the exact beam vanishes at the eigenvalue: 1/u(s) by the secant method; without tension,
+        about a stretched state, and beyond the critical load, where a motion grows."""
         scene = BEAM.replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {damped: yes%s}}")
         stretched = 1 + 2000/(210e9*0.02*0.01)
         load = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
         for loads, before, about, keys in (
                 ("", "", "", {}),
                 (load, "  before: {static: {stations: [1]}}", ", about: before", {"tension": 2000, "length": stretched}),
-                (load, "  before: {linear: {}}", ", about: before", {"tension": 2000})):
+                (load, "  before: {linear: {}}", ", about: before", {"tension": 2000}),
+                (load.replace("2000", "-2000"), "  before: {linear: {}}", ", about: before", {"tension": -2000})):
             found, ratios = self.found(scene % ("hold: all", loads, before, about, modes(6).replace(
                 "which", "family: bending_y, which")), "collocation", 24)
             self.assertEqual(len(found), 6)
@@ -175,10 +176,15 @@ class DampedModesTest(ProgramTest):
                 self.assertAlmostEqual(ratio, -b.real/abs(b), delta=5e-5)
 
     def test_refused(self):
+        scene = BEAM.replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {damped: yes%s}}")
+        load = "loads: {push: {force: [-2000, 0, 0], on: tip}}"
+        spun = "  before: {static: {stations: [1], spin: {omega: [0, 0, 5]}}}"
         free = MASSES.replace("stiffness: [0, 800, 0, 0, 0, 0], ", "")
         for text, words in (
                 (MASSES % ("0..0", "0..0", "0..0", "0..0", 1, "", modes(1)), "give that damped: yes"),
                 (MASSES % ("0..0", "0..0", "0..0", "0..0", 1, "damping: {mass: 1}", modes(1)), "add damped: yes"),
+                (scene % ("hold: all", load, "  before: {static: {stations: [1]}}", ", about: before", modes(1)), "is unstable"),
+                (scene % ("hold: all", load, spun, ", about: before", modes(1)), "axes that turn"),
                 (free % ("0..0", "0..0", "0..0", "0..0", 1, "damped: yes", modes(1)), "hold the structure")):
             done = run("solve", "--scene", self.write(text), "-f", "collocation", "-n", 1)
             self.assertRegex(done.stdout + done.stderr, words)
