@@ -246,7 +246,7 @@ class Others(SpreadTest):
         self.assertEqual(self.hash_of(self.folder / "merged.h5"),
                          self.hash_of(self.folder / "alone.h5"))
         scene.write_text(SCENE.replace("0.1, unit", "0.2, unit"))
-        self.refused(2, ["other truths, scenes or formulations"], "merge", self.folder / "parts")
+        self.refused(2, ["other reference values, scenes or formulations"], "merge", self.folder / "parts")
 
     def test_refused(self):
         """What does not go together is told before anything is computed."""

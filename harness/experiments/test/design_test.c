@@ -139,7 +139,7 @@ static void design_tests(void)
     seeds();
     unit_axes(open);
     axis_read(&box, "a=0..1/4", &parted, NULL);
-    is_refused(DESIGN_GRID, open, 0, "how many parts");
+    is_refused(DESIGN_GRID, open, 0, "give the number of parts");
     is_refused(DESIGN_SOBOL, open, 0, "--points");
     is_refused(DESIGN_SOBOL, &parted, 10, "remove '/4'");
 }

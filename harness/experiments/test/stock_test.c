@@ -119,7 +119,7 @@ static void foreign(void)
     is_refused(&of, "another request (numbers all)");
     of.w.w = right;
     of.w.w.plan = "0123";
-    is_refused(&of, "other truths, scenes or formulations");
+    is_refused(&of, "other reference values, scenes or formulations");
     of.w.w = right;
     of.w.w.batches = NUMBERS_BATCHES - 1;
     is_refused(&of, "remove it");
