@@ -301,11 +301,12 @@ void builder_springs(builder *b)
         double stiffness[36] = {0}, damping[36] = {0};
         const int stiff = spring_matrix(b, &f, "stiffness", stiffness),
                   damps = spring_matrix(b, &f, "damping", damping);
-        if (!stiff && !damps && !fields_have(&f, "tables"))
+        const document_node *tables = document_find(f.map, "tables");
+        if (!stiff && !damps && (tables == NULL || tables->count == 0))
             document_mistake(b->mistakes, f.map, 0,
                              "neither stiffness nor damping nor tables; give one of them");
-        if (fields_have(&f, "tables") && f.placed != NULL && f.placed->turned)
-            document_mistake(b->mistakes, document_find(f.map, "tables"), 0,
+        if (tables != NULL && f.placed != NULL && f.placed->turned)
+            document_mistake(b->mistakes, tables, 0,
                              "tables are of components, and the part is turned; put the spring "
                              "into the scene, or turn nothing");
         const int index = scene_add_spring(b->scene, SCENE_NONE, SCENE_NONE, stiffness);

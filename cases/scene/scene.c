@@ -371,10 +371,19 @@ static double axial_stiffness(const scene *s, const scene_member *m)
     return coupled ? 0 : c.matrices ? c.stiffness[0] : c.young * c.A;
 }
 
+/* Strains are counted from the length as drawn: N = EA (L - Lo)/L in place of EA (L - Lo)/Lo. */
+static const double most_misfit = 0.01;
+
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f)
 {
     const scene_member *m = &s->member[member];
     *out = m->unstressed_length != 0 ? (m->unstressed_length - length) / length : 0;
+    if (!(fabs(*out) <= most_misfit))
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: unstressed_length = %g m, of %g m as drawn; strains are of the length "
+            "as drawn, so give one within 1 %%, or draw it unstressed and move its end",
+            scene_called(s, SCENE_MEMBERS, member).text, m->unstressed_length, length);
     if (m->pretension == 0)
         return STATUS_OK;
     const double EA = axial_stiffness(s, m);

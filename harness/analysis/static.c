@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
 #include "harness/model/model.h"
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
@@ -106,6 +107,38 @@ static status sample(newton_run *n, double path, fault *f)
     return STATUS_OK;
 }
 
+/* Does something act where the path begins: loads that stay, motions that begin elsewhere, strains
+ * without stress? */
+static int begins_loaded(const analysis_context *c)
+{
+    const scene *s = c->scene;
+    int acts = model_frees(c->model);
+    for (int i = 0; i < s->loads; i++)
+        acts |= along_path_factor(&s->load[i], 0) != 0;
+    for (int i = 0; i < s->drivers; i++)
+        acts |= s->driver[i].value != NULL && along_path_value(&s->driver[i], 0) != 0;
+    for (int i = 0; i < s->members; i++)
+        acts |= vec3_norm(s->member[i].strain) > 0;
+    return acts;
+}
+
+/* Equilibrium at path 0. */
+static status equilibrate(newton_run *n, flutter_judge *judge, fault *f)
+{
+    step_record record = {.path = 0};
+    double found = INFINITY;
+    status outcome = newton_to(n, 0, &record, f);
+    if (outcome == STATUS_OK)
+        outcome = judge_step(n, judge, 1, &record, &found, f);
+    if (outcome != STATUS_OK) {
+        history_drop_step(n->c->result, &record);
+        return outcome;
+    }
+    TRY(history_add_step(n->c->result, &record, f));
+    n->c->run->counters.steps++;
+    return STATUS_OK;
+}
+
 /* Steps to every station, whose states are kept: none is shorter than before without need. */
 static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance_walk *on_the_way,
                    outcome_path *o, fault *f)
@@ -119,6 +152,8 @@ static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance
     for (int i = 0; i < a->path.stations; i++) {
         const double from = i > 0 ? a->path.value[i - 1] : 0;
         increment = fmax(increment, (a->path.value[i] - from) / steps);
+        if (i == 0 && a->path.value[0] <= kinematics_state_path(n->state) && begins_loaded(c))
+            TRY(equilibrate(n, judge, f));
         TRY(walk_to(n, a->path.value[i], judge, &increment, f));
         if (c->options->newton != NEWTON_DENSE && n->condensed == NULL)
             context_count_condition(c, n->factor, &n->K);

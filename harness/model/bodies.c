@@ -519,11 +519,13 @@ void dashpots_matrix(const model *m, const model_state *s, double more, sparse *
 {
     for (int i = 0; i < m->mesh.springs; i++) {
         const mesh_discrete *d = numbered(m, i);
-        double K[X * X] = {0}, work[SPRING_STRAINS * X], c[SPRING_STRAINS * SPRING_STRAINS];
+        double K[X * X] = {0}, work[SPRING_STRAINS * X], c[SPRING_STRAINS * SPRING_STRAINS],
+                     sigma[SPRING_STRAINS], S[SPRING_STRAINS * SPRING_STRAINS];
         spring_state p;
         spring_at(m, s, d, NULL, &p);
+        spring_law(d->spring, p.e, sigma, S);
         for (int k = 0; k < SPRING_STRAINS * SPRING_STRAINS; k++)
-            c[k] = d->spring->damping[k] + more * d->spring->stiffness[k];
+            c[k] = d->spring->damping[k] + more * S[k];
         dense_add_congruence(SPRING_STRAINS, NODE_COORDINATES * d->el.nodes, p.J, c, K, work);
         eliminate_matrix(m, s, &d->el, NULL, K);
         assemble_discrete(&d->el, K, C);

@@ -352,12 +352,25 @@ static void set_shares(mesh_element *el, int count)
     }
 }
 
+/* Do two elements of a member follow each other with one length, one section and mass?  The lengths
+ * in a bow differ by its slopes, which is less than what the weights leave. */
+static int runs_on(const model *m, int first, int next)
+{
+    const mesh_element *a = &m->mesh.element[first], *b = &m->mesh.element[next];
+    if (a->member != b->member)
+        return 0;
+    const scene_member *sm = &m->scene->member[a->member];
+    const int begin = m->mesh.first_element[a->member], each = m->division.each[a->member];
+    return a->kind == b->kind ||
+           ((sm->bow[0] != 0 || sm->bow[1] != 0) && !scene_member_tapers(sm) &&
+            (first - begin) / each == (next - begin) / each);
+}
+
 static void share_mass(model *m)
 {
     for (int i = 0, next; i < m->mesh.elements; i = next) {
         mesh_element *el = &m->mesh.element[i];
-        for (next = i + 1; next < m->mesh.elements && m->mesh.element[next].member == el->member &&
-                           m->mesh.element[next].kind == el->kind;)
+        for (next = i + 1; next < m->mesh.elements && runs_on(m, i, next);)
             next++;
         if (m->mesh.nodes == 2)
             set_shares(el, next - i);

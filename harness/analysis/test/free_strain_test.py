@@ -51,6 +51,43 @@ quantities:
                 with self.subTest(formulation=formulation, quantity=name):
                     self.assertAlmostEqual(got[name], exact.get(name, 0), delta=1e-9 if name in exact else 1e-6)
 
+    def test_where_the_path_begins(self):
+        """At station 0 there is what acts there: pretension, a load that stays; of what follows it too."""
+        for keys, loads, force in ((", pretension: 10000", "", 10000),
+                                   (f", unstressed_length: {L * (1 - 1e-4)}", "", E * A * 1e-4),
+                                   ("", "t: {temperature: -50, on: m, path: [0], factor: [1]}", E * A * ALPHA * 50)):
+            text = beam("all", keys=keys, loads=loads, more="""
+analyses: {st: {static: {stations: [0, 1]}}, zero: {static: {stations: [0]}}, early: {modal: {about: zero}}, late: {modal: {about: st}}}
+quantities:
+  N_0: {internal: {analysis: st, member: m, where: 0.5, resultant: N, at: 0}}
+  N_1: {internal: {analysis: st, member: m, where: 0.5, resultant: N, at: 1}}
+  least: {internal: {analysis: st, member: m, where: 0.5, resultant: N, take: min}}
+  early: {frequency: {analysis: early}}
+  late: {frequency: {analysis: late}}
+""")
+            for formulation in ("collocation", "geometrically_exact", "beamw_consistent", "sheet_third"):
+                got = solved(text, formulation)
+                for name in ("N_0", "N_1", "least"):
+                    self.assertAlmostEqual(got[name] / force, 1, delta=1e-9, msg=(formulation, name, keys, loads))
+                self.assertAlmostEqual(got["early"] / got["late"], 1, delta=1e-9, msg=(formulation, keys, loads))
+        text = beam("[]", loads="dead: {force: [0, 10, 0], on: b, path: [0], factor: [1]}", more="""
+analyses: {st: {static: {stations: [0, 1]}}}
+quantities:
+  early: {displacement: {analysis: st, node: b, component: uy, at: 0}}
+  late: {displacement: {analysis: st, node: b, component: uy, at: 1}}
+""")
+        got = solved(text, "collocation")
+        self.assertAlmostEqual(got["early"] / (10 * L**3 / (3 * E * I)), 1, delta=1e-2)
+        self.assertAlmostEqual(got["early"] / got["late"], 1, delta=1e-9)
+
+    def test_misfits_that_strains_do_not_cover(self):
+        for length, words in ((0, "unstressed_length = 0"), (0.9 * L, "within 1 %"), (-1, "give at least 0")):
+            done = run("scene", "--scene", "/dev/stdin", input=HEAD + beam("all", keys=f", unstressed_length: {length}"))
+            solve = run("solve", "--scene", "/dev/stdin", "-f", "collocation", "-n", 2,
+                        input=HEAD + beam("all", keys=f", unstressed_length: {length}"))
+            self.assertEqual(solve.returncode, 2, (length, solve, done))
+            self.assertIn(words, solve.stderr)
+
     def test_clamped(self):
         """Held at both ends it takes -EA alpha T and EI alpha g, about both axes, without moving."""
         text = beam("all", loads="t: {temperature: 20, gradient: [300, 500], on: m}", more="""

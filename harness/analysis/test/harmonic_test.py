@@ -1,5 +1,6 @@
 """Harmonic responses against closed forms, and what a harmonic analysis refuses."""
 import cmath
+import json
 import math
 import unittest
 
@@ -256,6 +257,28 @@ class HarmonicTest(ProgramTest):
         self.assertNotEqual(keys, each)
         one, other = (self.curves(text, "collocation", 4)["u"] for text in (keys, each))
         self.near(one, other, 1e-12, "all")
+
+    def test_stiffness_of_tables(self):
+        """Proportional damping takes the line of a table that the state is on."""
+        text = """beamwork: 1
+sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e9, shear_modulus: 4e8}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 2}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+springs: {k: {to: b, stiffness: [1000, 0, 0, 0, 0, 0], damping: [20, 0, 0, 0, 0, 0],
+              tables: {ux: {at: [-1, 1e-3, 1], value: [0, 0, 8991]}}}}
+loads: {p: {force: [500, 0, 0], on: b}}
+analyses: {st: {static: {stations: [1]}}, steady: {harmonic: {frequencies: [8], about: st, damping: {mass: 3, stiffness: 1e-4}}}}
+quantities:
+  re: {response: {analysis: steady, node: b, component: ux, force: b, part: real, at: 8}}
+  im: {response: {analysis: steady, node: b, component: ux, force: b, part: imaginary, at: 8}}
+"""
+        done = run("solve", "--scene", "/dev/stdin", "-f", "collocation", "-n", 1, "--format", "json", input=text)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        got = {q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
+        w, k = 2 * math.pi * 8, 1000 + 9000 + 1e9 * 1e-4
+        exact = 1 / (k - 2 * w**2 + 1j * w * (20 + 1e-4 * k + 3 * 2))
+        self.assertAlmostEqual(got["re"] / exact.real, 1, delta=1e-9)
+        self.assertAlmostEqual(got["im"] / exact.imag, 1, delta=1e-9)
 
     def test_about_a_state(self):
         """Under tension: about a static path, on which it is longer, and about a linear analysis."""

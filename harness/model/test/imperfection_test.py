@@ -125,3 +125,31 @@ class ImperfectionTest(SceneCase):
         written = self.answered("scene", "--scene",
                                 self.scene(column("[1e-3, 0]", 3) + pushed(0.5))).stdout
         self.assertIn("meshes: [6, 12, 24, 48]", written)
+
+    def test_on_a_foundation(self):
+        """Springs of the foundation have the weights of a straight member, wherever the bow lies in
+        space: a bow of nothing changes nothing, and rounding of its elements' lengths does not matter."""
+        def founded(bow, tip=(LENGTH, 0, 0), y=(0, 1, 0)):
+            return f"""beamwork: 1
+sections:
+  bar: {{constants: {{A: 1e-3, Iy: {I}, Iz: {2 * I}, It: {2 * I}}}, young: {YOUNG}, shear_modulus: 81e9, density: 7850}}
+nodes:
+  foot: {{at: [0, 0, 0], hold: all}}
+  head: {{at: {list(tip)}, mass: 5}}
+members:
+  column: {{from: foot, to: head, section: bar, y: {list(y)}, foundation: {{translation: [0, 2e5, 1e5]}}{bow}}}
+omit: [shear]
+analyses: {{tones: {{modal: {{}}}}}}
+quantities: {{f: {{frequency: {{analysis: tones}}}}}}
+"""
+        turned = [(0.36, 0.48, -0.8), (0.8, -0.6, 0)]  # x and y axes of a turned scene
+        for formulation in ("collocation", "beamw", "sheet_third", "geometrically_exact"):
+            for n in (4, 8):
+                straight = self.solve(founded(""), formulation, n)["f"]
+                for bow, bound in ((1e-9, 1e-9), (1e-3, 1e-3)):
+                    text = f", imperfection: {{amplitude: [0, {bow}]}}"
+                    here = self.solve(founded(text), formulation, n)["f"]
+                    there = self.solve(
+                        founded(text, [LENGTH * x for x in turned[0]], turned[1]), formulation, n)["f"]
+                    self.assertAlmostEqual(here / straight, 1, delta=bound, msg=(formulation, n, bow))
+                    self.assertAlmostEqual(there / here, 1, delta=1e-9, msg=(formulation, n, bow))
