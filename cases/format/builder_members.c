@@ -122,7 +122,7 @@ void builder_members(builder *b)
         fields_read(&f, entry_member, m);
         if (fields_have(&f, "unstressed_length") && m->unstressed_length == 0)
             document_mistake(b->mistakes, document_find(f.map, "unstressed_length"), 0,
-                             "unstressed_length = 0; give a length, or leave it out");
+                             "unstressed_length = 0; give a length, or remove it");
         read_sections(&f, m);
         read_warping(&f, m);
         read_released(&release, "from", index, 0);
