@@ -208,7 +208,7 @@ static void check_refused(void)
                {"a: !!str 1\n", 1, 4, "tag"},
                {"a: !x {b: 1}\n", 1, 4, "tag"},
                {"a: 1\n<<: {b: 1}\n", 2, 1, "merge key"},
-               {"a: 1\n---\nb: 1\n", 2, 1, "second document"},
+               {"a: 1\n---\nb: 1\n", 2, 1, "second YAML document"},
                {"%YAML 1.1\n---\na: 1\n", 1, 1, "directive"},
                {"a: 1\nb: 2\na: 3\n", 3, 1, "already, in line 1"},
                {"{a: 1}: 2\n", 1, 1, "a key must be a name"},
@@ -268,7 +268,7 @@ static void check_bad_loops(void)
                {"n_$i: {for: {i: 0..99999}}\n", 17, "more than 10000"},
                {"n_$i: {for: {pi: 0..2}}\n", 14, "function or constant"},
                {"n_$i$j: {for: {i: 0..999, j: 0..999}}\n", 1, "when loops are written out"},
-               {"n_$i: {for: {i: 0..2}, let: {i: 3}}\n", 30, "taken already"},
+               {"n_$i: {for: {i: 0..2}, let: {i: 3}}\n", 30, "is in use"},
                {"n_$i: {for: {i: 0..2}, let: {b: 3*x}}\n", 35, "unknown name 'x'"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         arena a = {0};

@@ -34,7 +34,7 @@ LINES = {
     'verify -k "c_column and beamw_v': ["verify", "-k", "c_column and beamw_vlasov"],
     "list --element exe": ["list", "--element", "exec:"],
     "explain bimom": ["explain", "bimoment"],
-    "explain Newton": ["explain", "Newton's"],
+    "explain Poiss": ["explain", "Poisson's"],
 }
 # The command shows its arguments; the shell's own words never look like this.
 SHOW = ("beamwork() { if [ \"$1\" = help ]; then command beamwork \"$@\"; else "
