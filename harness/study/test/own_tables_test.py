@@ -157,7 +157,7 @@ class Findings(Own):
             "f.csv", RULES, good, good.replace("a,", "b,", 1)))
         self.refused(4, "cannot be read", "verify", "--deviations", self.folder / "none.csv")
         path = self.write("f.csv", RULES)
-        self.refused(2, "is read", "verify", "--deviations", path, "--propose-deviations", path)
+        self.refused(2, "is an input", "verify", "--deviations", path, "--propose-deviations", path)
 
 
 class Repository(Own):

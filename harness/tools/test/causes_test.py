@@ -223,7 +223,7 @@ class Bounds(unittest.TestCase):
                                          ("1e-3", [derived, verdict_of_bounds(1e-9)], True), ("", [verdict_of_bounds(None)], False),
                                          ("1e-3", [derived, verdict_of_bounds(9e-4)], False)):
             self.assertEqual(self.said(allowed, verdicts)["loose"], loose, allowed)
-        self.assertIn("a rule of their own", bounds.text_of(self.said("1e-3", [derived, verdict_of_bounds(1e-9)])))
+        self.assertIn("a separate entry", bounds.text_of(self.said("1e-3", [derived, verdict_of_bounds(1e-9)])))
 
     def test_derived_limits_bind(self):
         """The distance counts from the derived limit where there is one, in parts of the truth."""
