@@ -207,7 +207,7 @@ def directions(scene):
     if scene.spin is not None and scene.spin.omega.any():
         turns.append(scene.spin.omega)
     for spring in scene.springs:
-        shifts += [np.eye(3)[i] for i in range(3) if spring.stiffness[i]]
+        shifts += [np.eye(3)[i] for i in range(3) if spring.acts[i]]
     return [v for v in shifts if np.any(v)], [v for v in turns if np.any(v)]
 
 

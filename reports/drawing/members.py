@@ -160,7 +160,7 @@ def spiral(turns=2.2, radius=12):
 
 def stands_along(view, spring):
     """Direction on paper of a spring to the ground: that of its stiffest shift, else downwards."""
-    k = spring.stiffness[:3]
+    k = spring.stiffness[:3] if spring.stiffness[:3].any() else spring.acts[:3]
     way = view(np.eye(3)[int(np.argmax(k))]) if k.any() else np.zeros(2)
     way = way if np.linalg.norm(way) > 0.2 * view.scale else np.array([0, -1.0])
     way = way / np.linalg.norm(way)
@@ -170,13 +170,16 @@ def stands_along(view, spring):
 def spring_words(spring):
     names = ("kx", "ky", "kz", "krx", "kry", "krz")
     units = ("N/m",) * 3 + ("N m",) * 3
-    return [f"{n} {number(k)} {u}" for n, k, u in zip(names, spring.stiffness, units) if k]
+    words = [f"{n} {number(k)} {u}" for n, k, u in zip(names, spring.stiffness, units) if k]
+    words += [f"table of {n[1:]}" for n, table in zip(names, spring.tables) if table]
+    rates = ("N s/m",) * 3 + ("N m s",) * 3
+    return words + [f"c{n[1:]} {number(c)} {u}" for n, c, u in zip(names, spring.damping, rates) if c]
 
 
 def put_springs(canvas, view, scene):
     for spring in scene.springs:
         at = view(scene.nodes[spring.ends[1]].position)
-        turns = not spring.stiffness[:3].any()
+        turns = not spring.acts[:3].any()
         foot = at if turns or spring.ends[0] else at + 34 * stands_along(view, spring)
         if spring.ends[0]:
             foot = view(scene.nodes[spring.ends[0]].position)

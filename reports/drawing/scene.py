@@ -70,6 +70,13 @@ class Spring:
     name: str
     ends: tuple
     stiffness: np.ndarray  # diagonal [6]
+    damping: np.ndarray  # diagonal [6]
+    tables: tuple  # of these components, True or False
+
+    @property
+    def acts(self):
+        """Along and about which axes?"""
+        return (self.stiffness != 0) | (self.damping != 0) | np.array(self.tables)
 
 
 @dataclass
@@ -154,9 +161,13 @@ def read_load(name, said):
 
 
 def read_spring(name, said):
-    stiffness = numbers(said["stiffness"])
-    diagonal = stiffness if len(stiffness) == 6 else stiffness.reshape(6, 6).diagonal()
-    return Spring(name, (said.get("from", ""), said["to"]), diagonal)
+    def diagonal(key):
+        values = numbers(said.get(key, [0] * 6))
+        return values if len(values) == 6 else values.reshape(6, 6).diagonal()
+
+    tables = tuple(c in said.get("tables", {}) for c in ("ux", "uy", "uz", "rx", "ry", "rz"))
+    return Spring(name, (said.get("from", ""), said["to"]), diagonal("stiffness"),
+                  diagonal("damping"), tables)
 
 
 def read_motion(said):

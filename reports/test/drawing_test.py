@@ -68,7 +68,7 @@ class Drawings(unittest.TestCase):
     def test_loads_on_parts_of_members(self):
         """Arrows stand on the part alone, longer where there is more; one at a place within."""
         one = scene.read(run("scene", "--scene", str(LOADED)).stdout)
-        self.assertEqual(len(one.loads), 18)
+        self.assertEqual(len(one.loads), 19)
         figure = draw.draw(one)
         marks = [a.get_gid() for a in figure.findobj() if a.get_gid()]
         for load in one.loads:

@@ -307,7 +307,7 @@ class Chosen(ProgramTest):
         self.assertEqual(set(found), {"beamw", "collocation"})
         self.assertEqual(self.own("10", "0,3", 2)[1]["collocation"][0], "no solution with 8")
         words, found = self.own(11, 0.6, 1)
-        self.assertEqual(words, "Give width from 1 to 10: nothing was run elsewhere.")
+        self.assertEqual(words, "Give width from 1 to 10: nothing was tried elsewhere.")
         self.assertEqual(found, {})
 
     def test_on_a_phone(self):
