@@ -19,6 +19,11 @@ enum { POINTS = 6 }; /* along a part of an arc: exact to round-off up to a turn 
 /* Elongation, and curvatures about the principal axes y and z [1/m]. */
 enum { ELONGATION, ABOUT_Y, ABOUT_Z, AMOUNTS };
 
+static int are_same(const double a[AMOUNTS], const double b[AMOUNTS])
+{
+    return a[ELONGATION] == b[ELONGATION] && a[ABOUT_Y] == b[ABOUT_Y] && a[ABOUT_Z] == b[ABOUT_Z];
+}
+
 /* Adds that of a temperature, of the part of the element that has it. */
 static void add_amounts(const model *m, int element, const scene_load *load, double scale,
                         double out[AMOUNTS])
@@ -232,7 +237,7 @@ const element_data *free_strain_data(const equations *eq, int element, double pa
         return k->data;
     double *kept = r->element + (size_t)element * r->size;
     element_data *data = (element_data *)(void *)(kept + ALIGNED);
-    if (memcmp(kept, amounts, sizeof amounts) != 0) {
+    if (!are_same(kept, amounts)) {
         free_element of;
         place(m, element, amounts, &of);
         model_type(m)->unstressed(k->data, amounts, of.x, data);
@@ -367,7 +372,7 @@ double free_strain_work(const equations *eq, const model_state *from, double beg
         double before[AMOUNTS], after[AMOUNTS];
         amounts_at(eq, i, begin, before);
         amounts_at(eq, i, end, after);
-        if (memcmp(before, after, sizeof before) != 0)
+        if (!are_same(before, after))
             work += (gained(eq, from, i, before, after) + gained(eq, to, i, before, after)) / 2;
     }
     return work;
