@@ -1,4 +1,5 @@
-/* Data of an element whose type is completed: the type's own after those of the adapter. */
+/* Data of an element whose interface an adapter completes: the adapter's data first, then the data
+ * of the type. */
 #ifndef BEAMWORK_ADAPTED_H
 #define BEAMWORK_ADAPTED_H
 
@@ -11,7 +12,7 @@ struct element_data {
     const element_type *given;
     int nodes, strains; /* of the completed type */
     double length;      /* [m] */
-    field_mass mass;    /* where the type has no inertia of its own */
+    field_mass mass;    /* used when the type has no `inertia` */
     max_align_t own[];  /* element_data of the type */
 };
 
@@ -20,7 +21,7 @@ static inline const element_data *adapted_own(const element_data *d)
     return (const element_data *)d->own;
 }
 
-/* The types' own data of at most that many elements; returns of how many. */
+/* Largest number of elements whose own data are passed in one call; returns the number passed. */
 enum { ADAPTED_TOGETHER = 1024 };
 static inline int adapted_owns(int count, const element_data *const data[],
                                const element_data *own[ADAPTED_TOGETHER])
@@ -31,23 +32,26 @@ static inline int adapted_owns(int count, const element_data *const data[],
     return part;
 }
 
-/* differences.c: J and H of a type that gives e, or e and J. */
+/* differences.c: Jacobian J and second derivatives H by differences, for a type that gives e, or e
+ * and J. */
 void differences_strain(const element_data *d, const node_state x[], strain_output *out);
-/* Strains of many elements, where the type has strain_many: all perturbed states in one call. */
+/* Strains of many elements with one call of strain_many for all perturbed states. Requires
+ * strain_many. */
 void differences_strain_many(int count, const element_data *const data[], const node_state x[],
                              strain_output out[]);
-/* H [7n x 7n] of strains with a Jacobian: jacobian(d, x, J) fills J [strains x 7n]. */
+/* Second derivatives H [7n x 7n] of the strains by differences of the Jacobian; jacobian(d, x, J)
+ * fills J [strains x 7n]. */
 typedef void differences_jacobian(const element_data *d, const node_state x[], double J[]);
 void differences_curvature(const element_data *d, const node_state x[], differences_jacobian *,
                            const double s[], double H[]);
 
-/* relative.c: stresses of a type that gives a force or an energy. */
-/* Where the type has force_many. */
+/* relative.c: stresses of a type that gives forces or an energy. */
+/* Requires force_many. */
 void relative_stress_many(int count, const element_data *const data[], const double *const e[],
                           const double *const inner[], stress_output out[], status outcome[]);
 status relative_stress(const element_data *d, const double e[], const double inner[],
                        stress_output *out);
-/* Derivative of C at rest along the strains of this prestress: by differences. */
+/* Derivative by differences, in the undeformed state, of C along the strains of this prestress. */
 void relative_geometric(const element_data *d, const double sigma[], double G[]);
 
 #endif

@@ -100,7 +100,7 @@ static int always(const double options[])
     return 1;
 }
 
-/* The same beam with data after those of the adapter. */
+/* Makes data of the same beam, stored after those of the adapter. */
 static void wrap(const element_type *given, element_type *out)
 {
     *out = *given;
@@ -132,7 +132,7 @@ static void make_relative(const element_type *given, int nodes, element_type *ou
     out->memory = NULL;
     out->strain = places_strain;
     out->stress = relative_stress;
-    out->strain_many = NULL; /* it asks the formulation nothing */
+    out->strain_many = NULL; /* makes no call of the formulation */
     out->stress_many = given->force_many != NULL ? relative_stress_many : NULL;
     out->geometric = relative_geometric;
 }

@@ -7,7 +7,7 @@
 #include "elements/math/rotation.h"
 #include "harness/formulations/adapted.h"
 
-/* out += weight (f at the place). */
+/* out += weight f(point). */
 static int add(stencil_function *f, const void *context, int count, int i, double si, int j,
                double sj, double weight, double out[])
 {
@@ -34,7 +34,7 @@ int stencil_first(stencil_function *f, const void *context, int count, int i, do
 
 int stencil_second(stencil_function *f, const void *context, int count, int i, int j, double out[])
 {
-    /* of differences with steps h, 2 h and 3 h, whose errors go with even powers of h */
+    /* for differences with steps h, 2 h and 3 h, whose errors have even powers of h */
     static const double weight[] = {3. / 2, -3. / 5, 1. / 10};
     int outcome = 0;
     memset(out, 0, (size_t)count * sizeof *out);
@@ -87,7 +87,7 @@ static void quadratic(const double psi[3], double a, double b, double T[9])
 void chart_dexp(const double psi[3], double T[9])
 {
     const double t = vec3_norm(psi), half = sin(t / 2);
-    if (t < 1e-2) /* the next terms are below 1e-16 */
+    if (t < 1e-2) /* neglected terms are below 1e-16 */
         quadratic(psi, 1. / 2 - t * t / 24 + t * t * t * t / 720,
                   1. / 6 - t * t / 120 + t * t * t * t / 5040, T);
     else
@@ -97,7 +97,7 @@ void chart_dexp(const double psi[3], double T[9])
 void chart_dexp_inverse(const double psi[3], double T[9])
 {
     const double t = vec3_norm(psi);
-    if (t < 1e-1) /* the next term is below 1e-16 */
+    if (t < 1e-1) /* neglected term is below 1e-16 */
         quadratic(psi, -1. / 2,
                   1. / 12 + t * t / 720 + t * t * t * t / 30240 + t * t * t * t * t * t / 1209600,
                   T);
@@ -105,7 +105,7 @@ void chart_dexp_inverse(const double psi[3], double T[9])
         quadratic(psi, -1. / 2, (1 - t / 2 / tan(t / 2)) / (t * t), T);
 }
 
-enum { ENOUGH = 1 << 24 }; /* bytes of answers, from which on no further element is added */
+enum { ENOUGH = 1 << 24 }; /* no element is added above this number of bytes of answers */
 
 static int make_room(gather *g)
 {
@@ -146,7 +146,7 @@ static int is_full(const gather *g)
     return g->failed || (size_t)g->count * g->size * sizeof *g->answer > ENOUGH;
 }
 
-/* start[i]: the first state of element i; one that fails does not take all of its own. */
+/* start[i]: first state of element i. An element that fails may use fewer states. */
 static void hand_out(gather *g, const int start[], int first, int end, gather_element *element,
                      gather_evaluate *evaluate, void *context)
 {
@@ -183,13 +183,13 @@ void gather_run(int count, int nodes, size_t size, gather_element *element,
 
 /* Derivatives of strains by central differences of sixth order in the rotation chart. */
 
-/* Where differences are taken. */
+/* Point at which differences are taken. */
 typedef struct difference_place {
     const element_data *data;
     const node_state *x;
-    const double *s;                /* for second derivatives */
-    differences_jacobian *jacobian; /* of the strains, where there is one */
-    gather *together;               /* strains of all moved states at once; NULL: each by itself */
+    const double *s;                /* stresses, for second derivatives */
+    differences_jacobian *jacobian; /* Jacobian of the strains, or NULL */
+    gather *together; /* gathers all perturbed states; NULL: evaluates each state at once */
 } difference_place;
 
 static void moved(const difference_place *at, int i, double si, int j, double sj, node_state out[])
@@ -200,7 +200,7 @@ static void moved(const difference_place *at, int i, double si, int j, double sj
     chart_move(at->x, at->data->nodes, step, out);
 }
 
-/* Zero while there is none. */
+/* Copies an answer, or zeros when there is none yet. */
 static void copy_answer(const double *answer, int count, double values[])
 {
     if (answer != NULL)
@@ -255,7 +255,7 @@ static int forces_at(const void *context, int i, double si, int j, double sj, do
     return 0;
 }
 
-/* From differences per unit to derivatives. */
+/* Factor from differences per unit to derivatives. */
 static double per_unit(const element_data *d, int c)
 {
     return 1 / chart_unit(c, d->length);
@@ -293,7 +293,7 @@ static void curvature(const difference_place *at, double H[])
     memset(H, 0, (size_t)(n * n) * sizeof *H);
     for (int j = 0; j < n; j++) {
         stencil_first(forces_at, at, n, j, column);
-        for (int i = 0; i < n; i++) { /* the symmetric part: that of the exponential chart */
+        for (int i = 0; i < n; i++) { /* symmetric part: the derivative in the exponential chart */
             const double half = column[i] * per_unit(d, j) / 2;
             H[i * n + j] += half;
             H[j * n + i] += half;

@@ -57,7 +57,7 @@ void formulations_accept(const char *name)
         accepted[count] = t;
 }
 
-/* Words that stand where the name of a formulation may stand. */
+/* Is the word reserved, so that no formulation can have it as a name? */
 static int is_reserved(const char *name)
 {
     static const char *const words[] = {"all", "cases", "formulations"};
@@ -255,7 +255,8 @@ static int next_is(scanner *s, const char *word)
 
 static int expression_holds(scanner *s);
 
-/* A word is searched for in the text; "=NAME" is one of the parts between its slashes. */
+/* Does the word match? It may occur anywhere in the text; "=NAME" must be one of the parts between
+ * slashes. */
 static int is_called(const char *text, const char *word)
 {
     if (word[0] != '=')
@@ -357,7 +358,7 @@ static int joins(const char *word)
     return strcmp(word, "and") == 0 || strcmp(word, "or") == 0 || strcmp(word, "not") == 0;
 }
 
-/* The next word that names something, of an expression that is well formed; NULL: none. */
+/* Returns the next word of a well-formed expression that is a name; NULL: none. */
 static const char *next_word(const char *at, char word[SELECT_WORD])
 {
     do {
@@ -382,7 +383,7 @@ void select_meet(const char *expression, const char *text, select_words *words)
             words->met[i] = is_called(text, word);
 }
 
-/* Cases, then formulations. */
+/* Name number i: first cases, then formulations. */
 static const char *registered(const void *context, int i)
 {
     int cases = 0;
@@ -408,7 +409,8 @@ status select_begin(const char *expression, select_words *words, fault *f)
     return STATUS_OK;
 }
 
-/* The name nearest to the first part of case/parameters/formulation that is not one; NULL: none. */
+/* Nearest name for the first unknown part of case/parameters/formulation; NULL: all parts are
+ * known. */
 static const char *nearest(const char *word)
 {
     for (const char *at = word + (word[0] == '='); *at != '\0'; at += *at == '/') {

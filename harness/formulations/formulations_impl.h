@@ -1,4 +1,4 @@
-/* The inside of formulations/. */
+/* Internal declarations of formulations/. */
 #ifndef BEAMWORK_FORMULATIONS_IMPL_H
 #define BEAMWORK_FORMULATIONS_IMPL_H
 
@@ -12,56 +12,58 @@
 #include "elements/shared/status.h"
 #include "harness/formulations/formulations.h"
 
-/* A process with its standard input and output as channels; its standard error is that of this
- * process. It ends with the thread that starts it. */
+/* A child process with its standard input and output as channels; its standard error is that of
+ * this process. It ends with the thread that starts it. */
 
 typedef struct child {
-    pid_t process; /* 0: there is none */
-    pid_t owner;   /* the process that started it and may speak to it */
+    pid_t process; /* 0: no process */
+    pid_t owner;   /* the process that started it; only that process may communicate with it */
     int to, from;
 } child;
 
 typedef enum child_event {
     CHILD_DONE,
-    CHILD_ENDED, /* it has closed its output or died */
-    CHILD_LATE,  /* nothing came within the limit */
-    CHILD_SPOKE  /* it wrote before all of a request was there for it to read */
+    CHILD_ENDED, /* the child closed its output or died */
+    CHILD_LATE,  /* no answer within the time limit */
+    CHILD_SPOKE  /* the child wrote before it had received the whole request */
 } child_event;
 
-/* REFUSED: no such command, named; FAULT: no pipe, no process. */
+/* REFUSED: no such command, which is named; FAULT: pipe or process could not be created. */
 status child_start(char *const words[], child *out, fault *f);
 /* Does it still run? */
 int child_runs(const child *);
-/* Ends a child of this process, at once (now 1) or after a moment in which it may end by itself.
- * Returns its status as waitpid gives it; -1: it was killed here. For a child of another process
- * only its channels are closed. */
+/* Ends a child of this process: immediately (now 1), or after a short time in which it may exit by
+ * itself. Returns its status from waitpid, or -1 if it was killed here. For a child of another
+ * process only the channels are closed. */
 int child_end(child *, int now);
 
-/* limit: seconds from now, 0: none. */
+/* limit: time limit [s]; 0: none. */
 child_event child_write(const child *, const void *bytes, size_t count, int limit);
-/* Reads until `least` bytes are there, at most `most`; *count: how many came, also when it ended.
- */
+/* Reads at least `least` and at most `most` bytes; *count: number of bytes read, also when the
+ * child ended. */
 child_event child_read(const child *, void *bytes, size_t least, size_t most, size_t *count,
                        int limit);
 
-/* Description of its formulation that a process sends: the protocol's JSON line (protocol.md). */
+/* Description that a process sends of its formulation: the JSON line of the protocol (protocol.md).
+ */
 
 enum { PROCESS_PROTOCOL = 1, HANDSHAKE_MOST = 65536 };
 
 typedef struct handshake {
-    element_type type; /* what is data; no function */
+    element_type type; /* data members only, no functions */
     int whole;         /* 1: energy, force or tangent of whole elements; 0: strains and stresses */
-    int inertia;       /* 1: it brings its own; type.spreads: also in time */
+    int inertia; /* 1: the process computes its inertia; with type.spreads also for dynamics */
     element_constants constants; /* of the type */
 } handshake;
 
-/* `who` begins every error message. handshake_free frees what the type points to; after an error
- * there is nothing to free. The owner sets type.constants. REFUSED: no line of the protocol. */
+/* `who` begins every error message. After success handshake_free frees what the type points to;
+ * after an error nothing needs to be freed. The owner sets type.constants. REFUSED: the line does
+ * not follow the protocol. */
 status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f);
-/* Frees all that the type of a handshake points to; a type of zeros has nothing. */
+/* Frees what the type of a handshake points to; accepts a type filled with zeros. */
 void handshake_free(element_type *);
 
-/* Requests to the process of a formulation and its answers, as protocol.md writes them. */
+/* Requests to the process of a formulation and its answers; their format is in protocol.md. */
 
 enum channel_request {
     CHANNEL_PREPARE = 1,
@@ -73,7 +75,7 @@ enum channel_request {
 
 enum { CHANNEL_HEADER = 40, CHANNEL_ANSWER = 24 };
 
-/* Bytes that grow. The first ones are of a header. */
+/* Growing buffer that begins with a header. */
 typedef struct channel_bytes {
     char *at;
     size_t count, room;
@@ -83,11 +85,11 @@ typedef struct channel {
     char *who; /* in messages: "exec:COMMAND", then "formulation NAME" */
     char **words;
     child process;
-    long started; /* how often: what an earlier process prepared is gone */
-    int limit;    /* seconds for an answer; 0: none */
+    long started; /* number of starts; data prepared by an earlier process are lost */
+    int limit;    /* time limit of an answer [s]; 0: none */
     pthread_mutex_t lock;
     channel_bytes out, in;
-    /* The error that broke it, until it is reported; "": none. */
+    /* Error that broke the channel, until it is reported; "": none. */
     char trouble[FAULT_TEXT];
     int told;
 } channel;
@@ -99,78 +101,81 @@ status channel_init(channel *, const char *command, fault *);
 status channel_start(channel *, char line[], fault *);
 /* Is it this process's own and running? */
 int channel_runs(const channel *);
-/* The body of the next request is empty, and room for `count` bytes more of it, or NULL: memory. */
+/* Empties the body of the next request. The second function reserves `count` more bytes of it;
+ * NULL: out of memory. */
 void channel_begin(channel *);
 void *channel_add(channel *, size_t count);
-/* Sends what was added and waits for the answer. *body: of `least` or `most` bytes, *count: which;
- * valid until the next request. NOT_CONVERGED, SINGULAR, REFUSED: as the process says, with its
- * line; FAULT: the channel is broken, the process ended, and `trouble` says why. */
+/* Sends the request and waits for the answer. *body has `least` or `most` bytes, *count says which;
+ * it is valid until the next request. NOT_CONVERGED, SINGULAR, REFUSED: reported by the process,
+ * with its message; FAULT: the channel is broken or the process ended, and `trouble` gives the
+ * reason. */
 status channel_ask(channel *, enum channel_request what, int mask, int elements, size_t least,
                    size_t most, const char **body, size_t *count, fault *);
-/* Stores the reason of a REFUSED or FAULT until it is reported. Other outcomes are ignored: smaller
- * steps may help. */
+/* Stores the reason of a REFUSED or FAULT until it is reported. Other outcomes are ignored, since
+ * smaller steps may succeed. */
 void channel_note(channel *, status outcome, const fault *why);
-/* Names it after its formulation in messages from now on. */
+/* Sets the formulation name for later messages. */
 status channel_call(channel *, const char *name, fault *);
-/* Ends the process and frees what the channel has. */
+/* Ends the process and frees the memory of the channel. */
 void channel_end(channel *);
-/* Breaks it for a reason found above; returns FAULT. */
+/* Marks the channel as broken, with a reason that the caller found; returns FAULT. */
 status channel_break(channel *, const char *why, fault *);
 
-/* States of elements that differences want, gathered and evaluated together: a function that takes
- * differences is called twice, to hear which states it wants and, when these are known, for its
- * result. */
+/* Gathers the perturbed states of many elements, so that one call evaluates all of them. A function
+ * that takes differences is called twice: the first call records its states, the second one
+ * receives their values. */
 
 typedef struct gather {
-    int answered;    /* 0: states are gathered; 1: their answers are handed out, in that order */
-    int count, next; /* states, and how many of them were handed out */
-    int nodes;       /* of a state */
-    size_t size;     /* doubles of an answer */
-    const element_data **data; /* [count] of the type as it is given */
+    int answered; /* 0: states are being gathered; 1: their answers are returned, in the same order
+                   */
+    int count, next;           /* number of states, and number of answers returned so far */
+    int nodes;                 /* nodes of a state */
+    size_t size;               /* doubles in an answer */
+    const element_data **data; /* [count] data of the type before completion */
     node_state *x;             /* [count x nodes] */
     double *answer;            /* [count x size] */
-    int room, failed;          /* states that there is room for; 1: no memory */
+    int room, failed;          /* capacity in states; 1 after an allocation failure */
 } gather;
 
-/* Evaluates element i from its differences, through gather_next. */
+/* Evaluates element i by differences and calls gather_next. */
 typedef void gather_element(void *context, gather *, int i);
 /* Fills the answers of states first .. first + count - 1. */
 typedef void gather_evaluate(void *context, gather *, int first, int count);
-enum { GATHER_TOGETHER = 4096 }; /* states that are evaluated together, at most */
+enum { GATHER_TOGETHER = 4096 }; /* largest number of states in one evaluation */
 
-/* Calls element(context, g, i) twice for each of `count`, and evaluate between; with g NULL, once,
- * where there is no memory. */
+/* Calls element(context, g, i) twice for each of `count` elements, with one `evaluate` in between.
+ * When memory is short, calls it once with g NULL. */
 void gather_run(int count, int nodes, size_t size, gather_element *, gather_evaluate *,
                 void *context);
-/* The answer for this state [size], or NULL while they are gathered: its value does not count
- * then. x[nodes]. */
+/* Returns the answer [size] for the state x[nodes]. Returns NULL in the first pass, where the
+ * caller's result is not used. */
 const double *gather_next(gather *, const element_data *own, const node_state x[]);
 
-/* Energy, forces and stiffness that a type gives of an element, alone or of many states together.
+/* Energy, forces and stiffness from the type's own functions, for one state or for many together.
  */
 
-/* Forces by the type itself; with `together`, from the answers gathered there, and zero while
- * states are being gathered. */
+/* Forces computed by the type. With `together`: the gathered answers, and zero in the gathering
+ * pass. */
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out);
-/* Doubles of a gathered answer. */
+/* Number of doubles in a gathered answer. */
 size_t forces_size(const element_data *d);
-/* Fills the answers of states first .. first + count - 1 with all that the type gives; it has
- * force_many. */
+/* Fills the answers of states first .. first + count - 1 with everything that the type computes.
+ * Requires force_many. */
 void forces_evaluate(const element_type *given, gather *, int first, int count);
 
 /* Options in the description that a process sends. */
 
-/* *out: a table to be freed, or NULL for none (list NULL or empty); also on refusal. REFUSED as
- * handshake_read. */
+/* *out: a table that the caller frees, also after a refusal; NULL when list is NULL or empty.
+ * REFUSED: see handshake_read. */
 status handshake_options(const char *who, const json_t *list, const parameter_type **out, fault *f);
 void handshake_options_free(const parameter_type *table); /* or NULL */
 
-/* Strains of an element that is defined by its force, or by its energy: the positions of its nodes
- * relative to the first one, in the axes of that one,
- *   e = (|d| - undeformed distance, l p, l log(R0^T R_k)) of every other node, l^2 a of all [m]:
- * d = r_k - r_0; p = (2 n_y, 2 n_z)/(1 + n_x) of its direction n, which is regular unless the chord
- * points backward. The distance is a strain of its own, so that in the mixed equations a stiff
- * chord takes no more iterations than a soft one. */
+/* Strains of an element defined by its force or energy. They are the positions of its nodes
+ * relative to the first one, in the axes of that node: e = (|d| - undeformed distance, l p, l
+ * log(R0^T R_k)) of every other node, and l^2 a of all nodes [m]. Here d = r_k - r_0, and p = (2
+ * n_y, 2 n_z)/(1 + n_x) for its direction n, which is regular unless the chord points backward. The
+ * distance is a separate strain: otherwise a stiff chord would need more iterations of the mixed
+ * equations than a soft one. */
 
 enum { PLACES_MOST = 6 * (ELEMENT_MAX_NODES - 1) + ELEMENT_MAX_NODES };
 
@@ -179,10 +184,10 @@ int places_strains_three(const double options[]); /* of three */
 
 void places_strain(const element_data *d, const node_state x[], strain_output *out);
 
-/* The element with these strains whose first node rests at the origin. */
+/* Positions of the nodes for these strains, with the first node at rest at the origin. */
 void places_nodes(const element_data *d, const double e[], node_state x[]);
 
-/* B [7n x strains]: how these nodes move with the strains. */
+/* B [7n x strains]: derivative of the node positions with respect to the strains. */
 void places_motion(const element_data *d, const double e[], double B[]);
 
 #endif

@@ -47,7 +47,7 @@ static status refuse(const handshake_reading *r, const char *key, const char *wh
                      what);
 }
 
-/* A text that stays when the JSON goes. */
+/* Copies a text, so that it outlives the JSON. */
 static status text_of(const handshake_reading *r, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(r->said, key));
@@ -92,7 +92,7 @@ static status no_such_word(const handshake_reading *r, const char *key, const wo
                      word != NULL ? word : "that is no text", words);
 }
 
-/* The sum of the bits of a list of words; known NULL: words of feature.h. */
+/* Combined bits of a list of words; known NULL: the words of feature.h. */
 static status words_of(const handshake_reading *r, const char *key, const word_bit known[],
                        unsigned *out)
 {
@@ -110,7 +110,7 @@ static status words_of(const handshake_reading *r, const char *key, const word_b
     return STATUS_OK;
 }
 
-/* A whole number; `absent` where there is none. */
+/* A whole number; `absent` if the member is missing. */
 static status number_of(const handshake_reading *r, const char *key, int least, int most,
                         int absent, int *out)
 {
@@ -160,8 +160,7 @@ static status gives_of(const handshake_reading *r, handshake *out)
     return refuse(r, "gives", "give one of e; e,J; e,J,H; energy; force; tangent");
 }
 
-/* Reads the inertia that the process gives itself: for vibration and rotating frames, or for
- * motions in time too. */
+/* Reads what the inertia of the process covers: vibration and rotating frames, or also dynamics. */
 static status inertia_of(const handshake_reading *r, handshake *out)
 {
     const json_t *given = json_object_get(r->said, "inertia");
@@ -288,7 +287,7 @@ static const char *copy_or(const json_t *text, const char *absent)
     return strdup(json_is_string(text) ? json_string_value(text) : absent);
 }
 
-/* Words of a choice, "a|b"; NULL: they are none, or memory. */
+/* Joins the words of a choice to "a|b"; NULL: not a list of words, or out of memory. */
 static const char *join(const json_t *list)
 {
     size_t length = 1;

@@ -18,7 +18,7 @@ static int is_name(const char *text)
            text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789_")] == '\0';
 }
 
-/* The first of what it must have. */
+/* Checks required members and names the first one that is missing. */
 static status check(const char *path, const element_type *t, fault *f)
 {
     const char *why = NULL;
@@ -31,7 +31,7 @@ static status check(const char *path, const element_type *t, fault *f)
     return why != NULL ? refuse(path, why, f) : STATUS_OK;
 }
 
-/* Copies the type; members that were appended to the interface after it was compiled are zero. */
+/* Copies the type; members that the interface gained after its compilation are zero. */
 static status copy(const char *path, const element_type *loaded, const element_type **out, fault *f)
 {
     if (loaded->abi != ELEMENT_ABI)
@@ -50,7 +50,7 @@ static status copy(const char *path, const element_type *loaded, const element_t
     if (t == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %.100s", path);
     memcpy(t, loaded, loaded->size);
-    /* a type that has a theory of shear offers it */
+    /* a type with a shear theory supports its feature */
     t->offers |= t->shear_theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0;
     t->offers |= t->shear_theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0;
     const status outcome = check(path, t, f);
@@ -111,7 +111,7 @@ static size_t data_size(const element_request *request)
     return sizeof(element_data) + m * m * sizeof(double);
 }
 
-/* Another start must say the same as the first. */
+/* Starts the process again, which must describe itself as the first time. */
 static status start_again(process *p, fault *f)
 {
     char *line = malloc(HANDSHAKE_MOST + 1);
@@ -207,7 +207,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const status outcome = prepare_locked(p, request, out, f);
     p->to.told |= outcome != STATUS_OK;
     pthread_mutex_unlock(&p->to.lock);
-    return outcome == STATUS_FAULT ? STATUS_NOT_CONVERGED : outcome; /* as in an evaluation */
+    return outcome == STATUS_FAULT ? STATUS_NOT_CONVERGED : outcome; /* as for an evaluation */
 }
 
 static const char *trouble(const element_data *d)
@@ -219,7 +219,7 @@ static const char *trouble(const element_data *d)
     return c->trouble;
 }
 
-/* Another program's byte order is not made up for. */
+/* Refuses another byte order: numbers are not converted. */
 static status check_machine(const char *command, fault *f)
 {
     const int64_t one = 1;

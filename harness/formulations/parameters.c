@@ -6,7 +6,8 @@
 
 #include "elements/shared/choice.h"
 
-/* Copies one word without its quotes; returns what follows it, NULL: a quote does not end. */
+/* Copies one word without its quotes; returns the text after it, or NULL when a quote does not end.
+ */
 static const char *take(const char *from, char **to)
 {
     char quote = '\0';
@@ -220,7 +221,7 @@ void assignment_text(const assignment_list *l, const double value[], char *text,
     }
 }
 
-/* Returns 1 for parameters of the program, which do not come from the source of a case. */
+/* Returns 1 for parameters that the program adds, which the source of a case does not have. */
 static int is_shared(const parameter_type *p)
 {
     return case_is_omit(p) || case_is_mass(p);
@@ -295,13 +296,13 @@ uint64_t parameters_hash(const case_type *c, const double value[], const int any
     return parameters_hash_next(c, value, any, &none);
 }
 
-/* "name=%.17g;", or "name=*;", in words->text. */
+/* Writes "name=%.17g;" or "name=*;" to words->text. */
 static void write_word(const parameter_type *p, int i, double value, int any,
                        parameters_words *words)
 {
     const size_t size = sizeof words->text[i];
     if (i < words->known && words->any[i] == any && words->value[i] == value &&
-        !signbit(words->value[i]) == !signbit(value)) /* "-0" is another word */
+        !signbit(words->value[i]) == !signbit(value)) /* "-0" is a different word */
         return;
     words->value[i] = value;
     words->any[i] = any;
@@ -320,7 +321,8 @@ uint64_t parameters_hash_next(const case_type *c, const double value[], const in
     for (; (p = parameter_at(c->parameters, i)) != NULL; i++) {
         write_word(p, i, value[i], any != NULL && any[i], before);
         if (is_shared(p) && value[i] == 0)
-            continue; /* points have the names that they had before there was it */
+            continue; /* the default adds nothing, so that points keep the names from before this
+                         parameter existed */
         for (const char *at = before->text[i]; *at != '\0'; at++)
             hash = (hash ^ (unsigned char)*at) * 1099511628211ull;
     }

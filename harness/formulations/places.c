@@ -30,7 +30,7 @@ static int first_warping(const element_data *d)
     return 6 * (d->nodes - 1);
 }
 
-/* The chord to node k and how it moved, in the axes of the first node [m]. */
+/* The chord to node k and its change, in the axes of the first node [m]. */
 static void chord(const node_state x[], int k, double to[3], double moved[3])
 {
     double d[3], u[3];
@@ -80,7 +80,7 @@ static void direction_rows(double l, const double to[3], double Q[9])
     }
 }
 
-/* Rows of one other node: derivatives of its relative place and rotation. */
+/* Rows of another node: derivatives of its relative position and rotation. */
 static void node_rows(const element_data *d, const node_state x[], int k, double J[])
 {
     const int n = NODE_COORDINATES * d->nodes;
@@ -98,7 +98,8 @@ static void node_rows(const element_data *d, const node_state x[], int k, double
     for (int i = 0; i < 3; i++) {
         double lever[3], global[3];
         mat3_mul_vec(x[0].R, to, global);
-        vec3_cross(global, placed + 3 * i, lever); /* d(n.d) = n.dd + dphi.(n x d), n turns */
+        vec3_cross(global, placed + 3 * i,
+                   lever); /* d(n.d) = n.dd + dphi.(n x d), because n rotates */
         for (int j = 0; j < 3; j++) {
             place[i * n + j] = -placed[3 * i + j];
             place[i * n + 3 + j] = -lever[j];
@@ -129,7 +130,7 @@ void places_strain(const element_data *d, const node_state x[], strain_output *o
         differences_curvature(d, x, jacobian, out->s, out->H);
 }
 
-/* 1 + n_x of the direction whose p is e[1], e[2] over l. */
+/* 1 + n_x of the direction n with p = (e[1], e[2])/l. */
 static double forward(double l, const double e[])
 {
     return 8 / (4 + (e[1] * e[1] + e[2] * e[2]) / (l * l));
@@ -159,7 +160,7 @@ void places_nodes(const element_data *d, const double e[], node_state x[])
     }
 }
 
-/* d(place)/d(its three strains), rows of stride m. */
+/* Derivatives of the relative position with respect to its three strains, rows of stride m. */
 static void direction_columns(double l, double undeformed, const double e[], int m, double rows[])
 {
     const double c = forward(l, e), size = undeformed + e[0];

@@ -21,14 +21,14 @@ static void close_both(const int ends[2])
     close(ends[TO_WRITE]);
 }
 
-/* In the new process: becomes the command, or writes why not. */
+/* In the child: executes the command, or writes the reason of the failure. */
 static void become(char *const words[], int in, int out, int why, pid_t parent)
 {
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     signal(SIGPIPE, SIG_DFL);
-    setpgid(0, 0); /* Ctrl-C is for beamwork, which then ends it */
+    setpgid(0, 0); /* Ctrl-C goes to beamwork only, which then ends the child */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() == parent && dup2(in, STDIN_FILENO) >= 0 && dup2(out, STDOUT_FILENO) >= 0)
         execvp(words[0], words);
@@ -38,7 +38,8 @@ static void become(char *const words[], int in, int out, int why, pid_t parent)
     _exit(127);
 }
 
-/* The channels of the new process are none of 0, 1, 2, so that dup2 keeps what is duplicated. */
+/* Opens a pipe whose descriptors are not 0, 1 or 2, so that dup2 does not close one that is in use.
+ */
 static int pipe_above(int ends[2])
 {
     int low[2];
@@ -126,7 +127,7 @@ int child_end(child *c, int now)
     return -1;
 }
 
-/* Waits for either channel; 0: the time is up. */
+/* Waits for either channel; returns 0 after the time limit. */
 static int await(const child *c, short to, double end)
 {
     struct pollfd at[2] = {{.fd = to ? c->to : -1, .events = to},
@@ -149,7 +150,7 @@ static double end_of(int limit)
     return limit > 0 ? clock_wall_seconds() + limit : 0;
 }
 
-/* write() that gives EPIPE and no signal. */
+/* write() that returns EPIPE and raises no signal. */
 static ssize_t write_quietly(int to, const void *bytes, size_t count)
 {
     sigset_t pipe_only, before, pending;
@@ -249,7 +250,7 @@ void channel_note(channel *c, status outcome, const fault *why)
     c->told = 0;
 }
 
-/* On one line: what is no character to print becomes a dot. */
+/* Makes one line: replaces characters that are not printable by dots. */
 static void on_one_line(char text[])
 {
     for (; *text != '\0'; text++)
@@ -276,7 +277,7 @@ status channel_break(channel *c, const char *why, fault *f)
     return fault_set(f, STATUS_FAULT, "%s", c->trouble);
 }
 
-/* Reports an event of the process other than an answer. */
+/* Reports any event of the process other than an answer. */
 static status breach(channel *c, child_event what, const char *when, fault *f)
 {
     char why[200], how[100];
@@ -294,7 +295,7 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
     return channel_break(c, why, f);
 }
 
-/* Reads a line; where it is JSON, nothing may are after it. */
+/* Reads a line. If it is JSON, nothing may follow it. */
 static status first_line(channel *c, char line[], fault *f)
 {
     size_t count = 0;
@@ -330,7 +331,7 @@ int channel_runs(const channel *c)
     return child_runs(&c->process);
 }
 
-/* At least `count` bytes in all; 0: memory. */
+/* Makes room for at least `count` bytes in total; returns 0 when out of memory. */
 static int make_room(channel_bytes *b, size_t count)
 {
     if (count <= b->room)
@@ -362,7 +363,7 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a mesh in a request");
 }
 
-/* The line that comes with another outcome. */
+/* Reads the line that accompanies an outcome other than ok. */
 static status refused(channel *c, status outcome, size_t bytes, size_t had, fault *f)
 {
     char text[MESSAGE + 1] = "", *rest = c->in.at + CHANNEL_ANSWER;
@@ -381,7 +382,7 @@ static status refused(channel *c, status outcome, size_t bytes, size_t had, faul
     return fault_set(f, outcome, "%.100s: %.200s", c->who, text[0] != '\0' ? text : "refused");
 }
 
-/* The rest of an answer whose header and a bit more is there. */
+/* Reads the rest of an answer after its header and possibly a part of the body. */
 static status rest_of(channel *c, size_t least, size_t most, size_t had, size_t *count, fault *f)
 {
     int64_t head[2];

@@ -5,14 +5,14 @@
 #include "elements/math/dense.h"
 #include "harness/formulations/process_impl.h"
 
-enum { FRAME = 1 << 23 }; /* bytes of an answer and its request, about */
+enum { FRAME = 1 << 23 }; /* approximate bytes of an answer and its request */
 
 channel *frame_channel(const frame_question *q)
 {
     return &q->data[0]->of->to;
 }
 
-/* The process still knows these elements. */
+/* Does the process still have the data of these elements? */
 static status known(const frame_question *q, fault *f)
 {
     const process *p = q->data[0]->of;
@@ -104,7 +104,8 @@ static void fill_nan(double to[], size_t count)
         to[i] = NAN;
 }
 
-/* Strain functions return no status: sets their output to NaN. element_type.trouble: why. */
+/* Sets strains to NaN, because strain functions return no status; element_type.trouble gives the
+ * reason. */
 static void no_strains(const frame_question *q, strain_output out[], const fault *why)
 {
     const size_t m = (size_t)q->data[0]->strains, c = (size_t)q->data[0]->coordinates;
@@ -204,7 +205,7 @@ static void stress_frames(int count, const element_data *const data[], const dou
     pthread_mutex_unlock(&data[0]->of->to.lock);
 }
 
-/* Stresses of many elements; elements of constant stiffness are not sent to the process. */
+/* Stresses of many elements; those of constant stiffness are computed here, without the process. */
 static void stress_many(int count, const element_data *const data[], const double *const e[],
                         const double *const inner[], stress_output out[], status outcome[])
 {
@@ -296,11 +297,11 @@ void frames_serve(process *p)
     t->force_many = p->whole ? force_many : NULL;
 }
 
-/* Inertia of a formulation that brings its own: one element in each request, as it is requested. */
+/* Inertia of a formulation that computes its own: one request for each element. */
 
 enum { OUTPUTS = 8, TURNING = 1 << 8, RATE = 1 << 9, ACCELERATION = 1 << 10 };
 
-/* In the order of the mask. */
+/* Outputs in the order of the mask. */
 static void outputs_of(const inertia_output *out, double *to[OUTPUTS])
 {
     double *const all[OUTPUTS] = {out->M, out->potential, out->force, out->N,
@@ -308,7 +309,7 @@ static void outputs_of(const inertia_output *out, double *to[OUTPUTS])
     memcpy(to, all, sizeof all);
 }
 
-/* Numbers in an output; c: coordinates of the element. */
+/* Number of values in an output; c: coordinates of the element. */
 static size_t numbers_of(int output, size_t c)
 {
     const int vector = output == 2 || output == 5;

@@ -1,6 +1,6 @@
-/* Stresses of an element that is defined by its force, or by its energy: the derivative of the
- * energy by the positions of its nodes (formulations_impl.h), at the element whose first node
- * rests. */
+/* Stresses of an element defined by its force or energy: derivative of the energy with respect to
+ * the relative positions of its nodes (formulations_impl.h), for the element with its first node at
+ * rest. */
 #include "harness/formulations/formulations_impl.h"
 
 #include <math.h>
@@ -9,12 +9,13 @@
 #include "elements/math/dense.h"
 #include "harness/formulations/adapted.h"
 
-/* Where differences of energies and forces are taken. */
+/* Point at which differences of energies and forces are taken. */
 typedef struct relative_place {
     const element_data *data;
     const double *e;
-    const double *F;  /* of the nodes, held while the strains move */
-    gather *together; /* forces of all moved states at once; NULL: each by itself */
+    const double *F; /* forces of the nodes, fixed while the strains change */
+    gather
+        *together; /* gathers forces of all perturbed states; NULL: evaluates each state at once */
 } relative_place;
 
 static void moved(const relative_place *at, int i, double si, int j, double sj, double e[])
@@ -45,7 +46,7 @@ static int stresses_at(const void *context, int i, double si, int j, double sj, 
     return (int)stresses_of(&there, NULL, values);
 }
 
-/* B^T F with the forces held. */
+/* B^T F with F fixed. */
 static int carried_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     const relative_place *at = context;
@@ -111,7 +112,7 @@ static int add_columns(const element_data *d, stencil_function *f, const relativ
     return outcome;
 }
 
-/* B^T K B, and what B turns of the forces. */
+/* B^T K B, plus the change of B^T F due to B. */
 static status given_tangent(const relative_place *here, double C[])
 {
     const element_data *d = here->data;
@@ -203,7 +204,7 @@ status relative_stress(const element_data *d, const double e[], const double inn
     return outcome;
 }
 
-/* e = C^-1 sigma; zero where nothing resists. */
+/* e = C^-1 sigma; zero in directions without stiffness. */
 static status flexible(int m, double C[], const double sigma[], double e[])
 {
     int pivot[PLACES_MOST];
@@ -212,7 +213,8 @@ static status flexible(int m, double C[], const double sigma[], double e[])
         most = fmax(most, fabs(C[i * m + i]));
     memcpy(e, sigma, (size_t)m * sizeof *e);
     for (int i = 0; i < m; i++)
-        if (fabs(C[i * m + i]) <= 1e-14 * most) { /* idle: warping that the element does not know */
+        if (fabs(C[i * m + i]) <=
+            1e-14 * most) { /* inactive: warping that the element does not have */
             C[i * m + i] = most;
             e[i] = 0;
         }
@@ -235,7 +237,7 @@ static int tangent_at(const void *context, int i, double si, int j, double sj, d
     return (int)tangent_of(&there, values);
 }
 
-/* The tangent at e, or its change along e. */
+/* The tangent at e, or its derivative along e. */
 typedef struct tangents {
     relative_many all; /* one */
     double *C;

@@ -52,7 +52,7 @@ static status make_room(candidates *p, int room, fault *f)
     return STATUS_OK;
 }
 
-/* x^T a x: the caller's, or from the matrix with a x kept in `product`. */
+/* x^T a x from the caller's function, or from the matrix with a x stored in `product`. */
 static double form_of(const candidates *p, eigen_form *form, const sparse *a, const double x[],
                       double product[])
 {
@@ -81,7 +81,7 @@ static double rounding(const candidates *p, double mu, const double x[])
     return DBL_EPSILON * sqrt(sum);
 }
 
-/* Moves the last candidate to its place. */
+/* Moves the last candidate to its sorted position. */
 static void sort_last(candidates *p)
 {
     const size_t n = (size_t)p->n;
@@ -106,7 +106,7 @@ double candidates_least(int n, double scale)
 
 int candidates_is_rounding(const candidates *p, double energy, const double x[])
 {
-    const double sure = 128; /* inside an element it passes through eliminations of its own */
+    const double sure = 128; /* an element contributes through its own eliminations */
     const eigen_problem *e = p->problem;
     return e->A_rounding != NULL && fabs(energy) <= sure * e->A_rounding(e->context, x);
 }
@@ -135,8 +135,8 @@ status candidates_refine(candidates *p, int count, fault *f)
                : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
 }
 
-/* y += K^-1 (s A x - K y), with K y from the elements: the residual decreases by the relative error
- * of the assembled K. */
+/* y += K^-1 (s A x - K y), with K y from the elements; each call reduces the residual by the
+ * relative error of the assembled K. */
 static void refine(candidates *p, const double x[], double y[])
 {
     const eigen_problem *e = p->problem;
@@ -185,7 +185,7 @@ double candidates_scale(candidates *p, long *solutions)
     return candidates_is_rounding(p, largest, x) ? 0 : largest;
 }
 
-/* The vector after the last candidate becomes one, if its mu is large enough. */
+/* Makes the vector after the last candidate a candidate if its mu is large enough. */
 static void add_next(candidates *p, double least)
 {
     const eigen_problem *e = p->problem;
@@ -206,7 +206,7 @@ static void add_next(candidates *p, double least)
     sort_last(p);
 }
 
-/* x may be the candidates' own vectors. */
+/* x may be the vectors of the candidates themselves. */
 static void add_all(candidates *p, int count, const double x[], double least)
 {
     const size_t n = (size_t)p->n;
@@ -247,8 +247,8 @@ double *candidates_products(const candidates *p)
 
 /* Error bound: with x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y)
  * of mu. The component of y along a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a
- * part c_k/(mu_k - mu) of that mode in x, which moves the quotient mu by c_k^2/(mu_k - mu) or,
- * where they are too close to be distinguished, by their distance. The rest counts in full. */
+ * part c_k/(mu_k - mu) of that mode in x, which changes the quotient mu by c_k^2/(mu_k - mu), or by
+ * mu_k - mu if the two are too close to be distinguished. The rest of y counts in full. */
 void candidates_judge(candidates *p, int i, double *residual, double *error)
 {
     const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
@@ -271,12 +271,14 @@ void candidates_judge(candidates *p, int i, double *residual, double *error)
     *error += fmax(rest, 0);
 }
 
-/* By Sylvester's law the number of mu > s > 0 is that of the negative pivots of K - A/s. The count
- * is right as long as s is farther from every eigenvalue than rounding of the matrices moves it. */
+/* By Sylvester's law the number of mu > s > 0 equals the number of negative pivots of K - A/s. The
+ * count is right if s is farther from every eigenvalue than the rounding of the matrices moves it.
+ */
 
-static const double close = 1e-9; /* relative distance of eigenvalues that are not distinguished */
+static const double close =
+    1e-9; /* relative distance below which eigenvalues are not distinguished */
 
-/* Number of unknowns from which on memory is freed rather than kept for reuse. */
+/* Number of unknowns above which memory is freed instead of kept for reuse. */
 enum { LARGE = 20000 };
 
 void candidates_count_rest(candidates *p)
@@ -303,8 +305,8 @@ status candidates_count_above(candidates *p, double s, int *above, eigen_result 
     return outcome;
 }
 
-/* Number of candidates above the cluster that the one of rank `wanted` belongs to, and the largest
- * value of the cluster. */
+/* Number of candidates above the cluster that contains rank `wanted`, and the largest value of the
+ * cluster. */
 static int above_cluster(const candidates *p, int wanted, double *top)
 {
     const double *mu = p->matrix_mu;
@@ -316,20 +318,21 @@ static int above_cluster(const candidates *p, int wanted, double *top)
     return q;
 }
 
-/* The inertia is that of the matrices: so are the values between which it is counted. */
+/* Counts with the inertia of the matrices, between eigenvalues of the matrices. */
 status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_result *work,
                                 fault *f)
 {
     static const double place[] = {0.5, 0.35, 0.65};
     double low;
     const int q = above_cluster(p, wanted, &low);
-    /* just above the cluster: farther up, missing values could lie below it */
+    /* just above the cluster; a larger value could hide missing ones below it */
     const double told_apart = 2 * close + 32 * p->noise[q], near = 1e-2;
     const double high = q > 0 ? fmin(p->matrix_mu[q - 1], low * (1 + fmax(near, told_apart)))
                               : low * (1 + told_apart);
     int above = 0;
     *missing = -1;
-    /* A count that does not match is repeated elsewhere: the factorisation does not pivot. */
+    /* A count that does not match is repeated at another value, because the factorisation does not
+     * pivot. */
     for (int i = 0; i < 3; i++) {
         const status outcome =
             candidates_count_above(p, low + place[i] * (high - low), &above, work, f);
@@ -347,7 +350,7 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
     return STATUS_OK;
 }
 
-/* Projections from Y = K^-1 s A X need no product with K: Y^T K Y = Y^T s A X. */
+/* Projections of Y = K^-1 s A X need no product with K, since Y^T K Y = Y^T s A X. */
 
 /* Ax = s A x. */
 static void signed_product(const candidates *p, const double x[], double Ax[])
@@ -382,8 +385,8 @@ static void combine(size_t n, size_t count, double Y[], const double C[], double
     }
 }
 
-/* The Ritz vectors of Y = K^-1 s A X become the candidates; where LAPACK fails they stay as they
- * are.  Y[count x n], small[2 count^2 + count]. */
+/* Replaces the candidates by the Ritz vectors of Y = K^-1 s A X; if LAPACK fails they do not
+ * change. Y[count x n], small[2 count^2 + count]. */
 static status replace(candidates *p, double Y[], double small[], long *solutions, fault *f)
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;

@@ -7,9 +7,11 @@
 #include <string.h>
 
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
-enum { DENSE_AT_LAST_UP_TO = 700 }; /* where the iteration ends early: seconds, and the answer */
+enum {
+    DENSE_AT_LAST_UP_TO = 700
+}; /* largest size solved densely after the iteration ended early; takes seconds */
 
-/* Part of the largest size of an eigenvalue below which none is searched for by iteration. */
+/* Iteration ignores eigenvalues below this fraction of the largest one. */
 static const double negligible = 1e-9;
 
 static void free_side(eigen_side *s)
@@ -27,8 +29,8 @@ void eigen_free(eigen_result *r)
     memset(r, 0, sizeof *r);
 }
 
-/* Candidates from one run of Lanczos, in what the present ones leave; mu[count], Kx[candidates x
- * n]. */
+/* Adds candidates from one Lanczos run in the complement of the present ones; mu[count],
+ * Kx[candidates x n]. */
 static status take_lanczos(candidates *p, int count, double mu[], const double Kx[], double least,
                            long *solutions, fault *f)
 {
@@ -53,9 +55,9 @@ static status run_lanczos(candidates *p, int wanted, double least, long *solutio
     return outcome;
 }
 
-/* How many eigenvalues exist, as far as `enough`: counted above ever smaller values. Far down,
- * where K is small beside A/s, the count may fail for want of pivoting: what is known by then
- * stands. */
+/* Number of existing eigenvalues, at most `enough`, counted above smaller and smaller values. Far
+ * down, where K is small compared with A/s, the count may fail for lack of pivoting; the last valid
+ * count is then returned. */
 static status count_existing(candidates *p, int enough, double scale, double least, int *exist,
                              eigen_result *r, fault *f)
 {
@@ -73,7 +75,7 @@ static status count_existing(candidates *p, int enough, double scale, double lea
     return STATUS_OK;
 }
 
-/* Both sides (NULL: not requested) from all eigenvectors. */
+/* Solves for both sides (NULL: not requested) from all eigenvectors. */
 static status solve_densely(candidates *up, candidates *down, const int wanted[2], eigen_result *r,
                             fault *f)
 {
@@ -82,7 +84,8 @@ static status solve_densely(candidates *up, candidates *down, const int wanted[2
     return eigen_dense_add((candidates *[]){up, down}, wanted, f);
 }
 
-/* Candidates until the inertia says that no eigenvalue above the last wanted one is missing. */
+/* Adds candidates until the inertia proves that no eigenvalue above the last requested one is
+ * missing. */
 static status fill(candidates *p, int wanted, double scale, double least, eigen_result *r, fault *f)
 {
     int exist;
@@ -103,7 +106,7 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
     return STATUS_OK;
 }
 
-/* Keeps the first candidates where not all were found. */
+/* Keeps only the first candidates when not all were found. */
 static status keep_first(candidates *p, eigen_result *r, fault *f)
 {
     int missing = 1;
@@ -116,8 +119,8 @@ static status keep_first(candidates *p, eigen_result *r, fault *f)
     return STATUS_OK;
 }
 
-/* One side (0: the most positive) by iteration; densely where that ends early and the problem is
- * small. */
+/* Solves for one side (0: the most positive) by iteration, and densely if that ends early and the
+ * problem is small. */
 static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, eigen_result *r,
                          fault *f)
 {
@@ -140,11 +143,11 @@ static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, e
                                        : keep_first(p, r, f);
 }
 
-/* Leaves out what is rounding of A alone: with one such value all smaller ones are, for so much
- * rounding moves any of them. It is asked of the largest, and where a value is small beside it. */
+/* Drops values that are rounding errors of A. If one value is, all smaller ones are. The test is
+ * made for the largest value, and for values that are small compared with it. */
 static void drop_rounding(candidates *p, eigen_side *out)
 {
-    const double suspect = 1e-6; /* of the largest */
+    const double suspect = 1e-6; /* fraction of the largest */
     for (int i = 0; i < p->count; i++)
         if ((i == 0 || p->mu[i] < suspect * p->mu[0]) &&
             candidates_is_rounding(p, p->mu[i] * p->stiffness[i],
@@ -154,7 +157,7 @@ static void drop_rounding(candidates *p, eigen_side *out)
         }
 }
 
-/* Residuals and errors of the first `count`; the largest error. */
+/* Computes residuals and errors of the first `count`; returns the largest error. */
 static double judge(candidates *p, int count, eigen_side *out, long *solutions)
 {
     double largest = 0;
@@ -165,12 +168,13 @@ static double judge(candidates *p, int count, eigen_side *out, long *solutions)
     return largest;
 }
 
-/* Where assembling K has moved the eigenvalues, its errors are in the vectors too. */
+/* Improves the vectors when assembly of K has changed the eigenvalues, since its errors are in the
+ * vectors too. */
 static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
 {
     enum { SWEEPS = 3 };
     const double bearable =
-        1e-6; /* values are off by its square, and what their distance makes of it */
+        1e-6; /* errors of values are the square of this, times the effect of their distance */
     const double good = 1e-8;
     if (p->problem->K_product == NULL || candidates_departure(p, count) <= bearable) {
         judge(p, count, out, &r->solutions);
@@ -188,7 +192,7 @@ static status improve(candidates *p, int count, eigen_side *out, eigen_result *r
 /* Replaces values without digits by NaN. */
 static void drop_lost(candidates *p, int count, eigen_side *out)
 {
-    const double noticeable = 1e-9; /* part of K that assembling it has changed */
+    const double noticeable = 1e-9; /* relative change of K due to its assembly */
     const int rounded =
         p->problem->K_rounding != NULL && candidates_departure(p, count) > noticeable;
     for (int i = 0; i < count; i++) {
@@ -206,7 +210,7 @@ static void drop_lost(candidates *p, int count, eigen_side *out)
     }
 }
 
-/* The best of the candidates become the result. */
+/* Stores the best candidates in the result. */
 static status hand_over(candidates *p, int wanted, eigen_side *out, eigen_result *r, fault *f)
 {
     const size_t n = (size_t)p->n;
@@ -254,7 +258,7 @@ static status solve(const eigen_problem *e, candidates *up, candidates *down, ei
                                       : fault_set(f, worse->status, "%s", worse->reason);
 }
 
-/* Takes the upper triangle of a matrix that is stored whole: K - A/mu, of which few digits may
+/* Uses the upper triangle of a matrix that is stored whole. K - A/mu, of which few digits may
  * remain, is then symmetric although rounding makes K and A unsymmetric. */
 static status take_upper(const sparse **a, by_numbers **whole, fault *f)
 {
@@ -324,7 +328,8 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
                            "a dense eigenvalue problem of %d unknowns: LAPACK says %d", n, info);
 }
 
-/* Candidates of one or both sides (NULL: not requested) from all eigenvectors; mu[n], x[n x n]. */
+/* Candidates of one or both sides (NULL: not requested), taken from all eigenvectors; mu[n], x[n x
+ * n]. */
 static status take_dense(candidates *const side[2], const int wanted[2], double mu[], double x[],
                          fault *f)
 {

@@ -1,9 +1,10 @@
-/* Symmetric: LDL^T; unsymmetric: LU; and the check that a weak pivot is more than round-off.
+/* LDL^T for symmetric and LU for unsymmetric matrices, with a check whether a small pivot is only
+ * round-off.
  *
- * With x = A^-1 e_i and y = A^-T e_k the number x_k = y^T A x is a sum of the terms y_i a_ij x_j,
- * and rounding A changes it by about eps times the root of the sum of their squares: when that is
- * as large as x_k itself, A is singular to working precision. (A free beam of n elements has a last
- * pivot of eps n^2 times its diagonal entry and not of eps times it.) */
+ * With x = A^-1 e_i and y = A^-T e_k the number x_k = y^T A x is a sum of terms y_i a_ij x_j.
+ * Rounding of A changes it by about eps times the root of the sum of their squares. If that is as
+ * large as x_k, A is singular to working precision. (The last pivot of a free beam of n elements is
+ * eps n^2, not eps, times its diagonal entry.) */
 #include "harness/numerics/numerics_impl.h"
 
 #include <float.h>
@@ -13,16 +14,16 @@
 
 struct matrix_factor {
     int n;
-    factor_operator by;              /* without functions: none */
-    factor_symmetric *symmetric;     /* one of the two; both of a matrix by its numbers */
-    factor_unsymmetric *unsymmetric; /* NULL both: nothing to solve for */
-    by_numbers *whole;               /* of a matrix by its numbers; NULL: another one */
-    int upper;                       /* 1: `symmetric` has the numbers factored last */
-    factor_counts counts, of_upper;  /* of_upper: entries and flops of `symmetric` beside a whole */
-    double *residual, *other;        /* [n]; other: unsymmetric */
+    factor_operator by;              /* functions NULL: no operator */
+    factor_symmetric *symmetric;     /* one of the two; both for a matrix with by_numbers */
+    factor_unsymmetric *unsymmetric; /* both NULL: no unknowns */
+    by_numbers *whole;               /* for a matrix with by_numbers, else NULL */
+    int upper;                       /* 1: `symmetric` contains the last factors */
+    factor_counts counts, of_upper; /* of_upper: entries and flops of `symmetric` when both exist */
+    double *residual, *other;       /* [n]; other is for unsymmetric matrices */
 };
 
-/* All but the factors. */
+/* Allocates everything except the factors. */
 static status begin(const sparse *pattern, matrix_factor **out, fault *f)
 {
     matrix_factor *fa = *out = calloc(1, sizeof *fa);
@@ -97,7 +98,7 @@ static void unit_vector(int n, int i, double e[])
     e[i] = 1;
 }
 
-/* Part of x_column that is round-off, with x = A^-1 e_row. */
+/* Fraction of x_column that is round-off, where x = A^-1 e_row. */
 static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
 {
     double *x = fa->residual, *y = fa->residual, sum = 0;
@@ -109,7 +110,7 @@ static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
         factor_unsymmetric_solve_transposed(fa->unsymmetric, y);
     }
     const double scale =
-        fabs(x[column]); /* of every term: a sum of squares of x alone may overflow */
+        fabs(x[column]); /* absolute values, because a sum of squares of x may overflow */
     for (int j = 0; j < fa->n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             const double term = y[a->row[k]] / scale * a->value[k] * x[j];
@@ -118,7 +119,8 @@ static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
     return DBL_EPSILON * sqrt(sum);
 }
 
-/* LDL^T where the numbers of the whole matrix are symmetric: *a becomes its upper triangle. */
+/* Selects LDL^T when the values of the whole matrix are symmetric; *a then becomes its upper
+ * triangle. */
 static status choose(matrix_factor *fa, const sparse **a, fault *f)
 {
     const factor_counts before = fa->counts;
@@ -208,12 +210,13 @@ const sparse *factor_upper(const matrix_factor *fa)
     return fa->whole != NULL && fa->upper ? by_numbers_upper(fa->whole) : NULL;
 }
 
-/* Hager's estimate of the 1-norm condition number (W.W. Hager, SIAM J. Sci. Stat. Comput. 5, 1984),
+/* Hager's estimate of the 1-norm condition number (W.W. Hager, SIAM J. Sci. Stat. Comput. 5, 1984)
  * from solutions alone.
  *
- * Translations, rotations and warping have different units, and a number that depends on them says
- * nothing: rows and columns are scaled by the root of the diagonal first, which for a positive
- * definite matrix is within a factor n of the best (A. van der Sluis, Numer. Math. 14, 1969). */
+ * Translations, rotations and warping have different units, and the condition number should not
+ * depend on them. Therefore rows and columns are scaled by the root of the diagonal, which for a
+ * positive definite matrix is within a factor n of the best scaling (A. van der Sluis, Numer. Math.
+ * 14, 1969). */
 
 enum { MOST_STEPS = 5 };
 
@@ -236,7 +239,7 @@ static void solve_scaled(const condition *c, int transposed, double x[])
         x[i] /= c->scale[i];
 }
 
-/* |(S A S)^-1|_1: the largest column sum is sought by steps along the subgradient. x, z: work space
+/* |(S A S)^-1|_1: searches the largest column sum by steps along the subgradient. x, z: work space
  * [n]. */
 static double inverse_norm(const condition *c, double x[], double z[])
 {
@@ -319,7 +322,8 @@ struct factor_unsymmetric {
     double *largest; /* [n] entry of every column of the scaled matrix */
 };
 
-/* Old pivots are kept while the entries of U stay below this many times those of the matrix. */
+/* The pivot order is reused while the entries of U stay below this factor times those of the
+ * matrix. */
 static const double tolerable_growth = 1e4;
 
 status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
@@ -351,7 +355,8 @@ void factor_unsymmetric_free(factor_unsymmetric *fu)
     free(fu);
 }
 
-/* 1: the numeric factors belong to a, with the pivots of an earlier matrix. */
+/* Returns 1 when the numeric factors of a were computed with the pivot order of an earlier matrix.
+ */
 static int refactor(factor_unsymmetric *fu, const sparse *a)
 {
     return fu->numeric != NULL &&
@@ -369,13 +374,12 @@ static status factor_anew(factor_unsymmetric *fu, const sparse *a, factor_counts
         return fu->common.status == KLU_SINGULAR ? STATUS_SINGULAR : STATUS_FAULT;
     klu_flops(fu->symbolic, fu->numeric, &fu->common);
     counts->entries =
-        (long)fu->numeric->lnz + fu->numeric->unz - fu->n; /* both count the diagonal */
+        (long)fu->numeric->lnz + fu->numeric->unz - fu->n; /* both numbers include the diagonal */
     counts->flops = fu->common.flops;
     return STATUS_OK;
 }
 
-/* Sign of a permutation: every member of a cycle but the first is one exchange. `done` is work
- * space. */
+/* Sign of a permutation: a cycle of k members consists of k - 1 exchanges. `done` is work space. */
 static int sign_of(int n, const int permutation[], double done[])
 {
     int sign = 1;

@@ -1,6 +1,6 @@
 /* The columns of L and the pivots are those of C = P A P^T with P from AMD. A pivot is d_k = a_kk -
- * sum_j l_kj^2 d_j: when it is a rounding error of these terms, or when they dwarf the whole column
- * of A, the digits of A are gone. */
+ * sum_j l_kj^2 d_j. The digits of A are lost if d_k is as small as a rounding error of these terms,
+ * or if the terms are far larger than the whole column of A. */
 #include "harness/numerics/numerics_impl.h"
 
 #include <amd.h>
@@ -15,23 +15,23 @@
 
 struct factor_symmetric {
     int n;
-    int lent;             /* 1: `integers`, L_row, groups and rest are another one's */
-    int *integers;        /* what the next nine arrays are parts of */
+    int lent;             /* 1: another factor owns `integers`, L_row, groups and rest */
+    int *integers;        /* one allocation for the next nine arrays */
     int *order, *inverse; /* [n] P: C(i, j) = A(order[i], order[j]) */
-    int *column, *row;    /* [n + 1], [entries] upper triangle of C; row: as places, once its
+    int *column, *row;    /* [n + 1], [entries] upper triangle of C; row holds positions once its
                              columns are known */
     int *source;          /* [entries] of C: position in A */
     int *L_column;        /* [n + 1] */
-    int *parent, *in_column, *mark; /* [n] elimination tree and workspace of LDL */
-    double *D;                      /* [n]; D begins the block of these three */
+    int *parent, *in_column, *mark; /* [n] elimination tree, and workspace of LDL */
+    double *D;                      /* [n]; D is the start of one allocation for these three */
     double *diagonal, *terms;       /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
-    double *rest;                   /* of triangular_rows, and work space of solutions */
+    double *rest;                   /* work space of triangular_rows and of solutions */
     triangular_groups groups;
     int *L_row; /* [L_column[n]] */
     double *L_value;
 };
 
-/* 0: memory ran out, here and below. */
+/* Returns 0 when out of memory, as the functions below do. */
 static int lay_out_numbers(factor_symmetric *fs, size_t n)
 {
     fs->D = malloc((3 * n + 1) * sizeof *fs->D);
@@ -74,7 +74,7 @@ static int min_int(int a, int b)
     return a < b ? a : b;
 }
 
-/* Upper triangle of P A P^T and where its entries are in A. */
+/* Upper triangle of P A P^T, and the positions of its entries in A. */
 static void permute(const sparse *a, factor_symmetric *fs)
 {
     const int n = a->n;
@@ -95,7 +95,7 @@ static void permute(const sparse *a, factor_symmetric *fs)
         }
 }
 
-/* Elimination tree and fill. */
+/* Computes the elimination tree and the fill. */
 static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
 {
     const int n = fs->n;
@@ -184,7 +184,7 @@ static double largest_entry(const factor_symmetric *fs, const double a[], int k)
     return largest;
 }
 
-/* While all pivots are positive the terms do not exceed a_kk; otherwise they are summed. */
+/* Sums the terms of pivots only when one is not positive: otherwise they do not exceed a_kk. */
 static void sum_terms(factor_symmetric *fs, int negative_pivots)
 {
     memcpy(fs->terms, fs->diagonal, (size_t)fs->n * sizeof *fs->terms);

@@ -56,7 +56,7 @@ void subspace_skew_mul(const sparse *G, const double x[], double y[])
 
 int subspace_add(subspace *b, const double x[])
 {
-    const double negligible = 1e-7; /* of a vector, in directions that are new */
+    const double negligible = 1e-7; /* relative size below which a vector adds no new direction */
     const size_t n = (size_t)b->n, at = (size_t)b->count * n;
     if (b->count == b->room)
         return 0;
@@ -64,7 +64,7 @@ int subspace_add(subspace *b, const double x[])
     memcpy(v, x, n * sizeof *v);
     b->S(b->context, v, Sv);
     const double before = sqrt(fmax(0, dense_dot(b->n, v, Sv)));
-    for (int pass = 0; pass < 2; pass++) /* twice is enough */
+    for (int pass = 0; pass < 2; pass++) /* two passes are enough */
         for (int i = 0; i < b->count; i++) {
             const double c = dense_dot(b->n, b->SV + (size_t)i * n, v);
             for (size_t k = 0; k < n; k++)
@@ -139,7 +139,7 @@ static forms forms_of(const motion_estimate *e, const double re[], const double 
                    -2 * dense_dot(n, re, part(e, G_IM))};
 }
 
-/* The root of k - omega^2 m + omega g = 0 that is nearer to a frequency. */
+/* Root of k - omega^2 m + omega g = 0 that is closer to the estimated frequency. */
 static double quotient(const forms *of, double frequency)
 {
     const double root = sqrt(of->g * of->g + 4 * of->k * of->m),
@@ -150,7 +150,7 @@ static double quotient(const forms *of, double frequency)
     return fabs(large - frequency) < fabs(small - frequency) ? large : small;
 }
 
-/* r = (K + lambda^2 M + lambda G) x into its parts. */
+/* Adds the parts of r = (K + lambda^2 M + lambda G) x. */
 static void residual(const motion_estimate *e, double complex lambda)
 {
     const double complex square = lambda * lambda;
@@ -190,7 +190,7 @@ static double energy(const motion_estimate *e, int i, double complex lambda, int
     return cabs(sum);
 }
 
-/* x_k^H r of another pair, squared. */
+/* Square of x_k^H r for another pair k. */
 static double share(const motion_estimate *e, int k)
 {
     const subspace *b = e->basis;
@@ -204,8 +204,8 @@ static double share(const motion_estimate *e, int k)
     return creal(sum * conj(sum));
 }
 
-/* Twice what the vector misses, relative to the eigenvalue: of other motions that were found, and
- * of those that were not, of which the first is known. */
+/* Twice the missing part of the vector, relative to the eigenvalue: components along other motions
+ * that were found, and along those that were not, of which the first frequency is known. */
 static double missed(motion_estimate *e, int i, double complex lambda, double own)
 {
     const double size = cabs(lambda);
@@ -252,8 +252,8 @@ void estimate_pair(motion_estimate *e, int i, const double re[], const double im
     *error = missed(e, i, *lambda, own) + fmin(change / own, sqrt(change / of.m) / size);
 }
 
-/* The Hermitian A + i B as a real symmetric matrix of twice the size, [a, -b; b, a] for each entry:
- * its eigenvalues come in pairs. */
+/* The Hermitian A + i B as a real symmetric matrix of twice the size, [a, -b; b, a] for each entry.
+ * Its eigenvalues come in pairs. */
 static status doubled_alloc(const sparse *pattern, sparse *out, fault *f)
 {
     const int n = pattern->n, entries = pattern->column[n];
@@ -320,8 +320,8 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
     return outcome;
 }
 
-/* x^H (K + |lambda|^2 M) x, relative to the sizes of its terms; c^H c = 1 is x^H (K + shift M) x.
- */
+/* x^H (K + |lambda|^2 M) x relative to the size of its terms; c^H c = 1 means x^H (K + shift M) x
+ * = 1. */
 static double index_energy(const ritz *r, const subspace *b, double shift, int i)
 {
     const double complex *c = r->c + (size_t)i * (size_t)b->room;
@@ -338,9 +338,9 @@ static double index_energy(const ritz *r, const subspace *b, double shift, int i
     return (potential + kinetic) / (fabs(potential) + kinetic);
 }
 
-/* Energies below this part are none. */
+/* Energies below this relative size count as zero. */
 static const double no_energy = 1e-6;
-/* Real parts of this part of lambda are growth, whatever rounding does. */
+/* A real part above this fraction of |lambda| is growth and not rounding. */
 static const double clear_growth = 1e-3;
 
 int gyroscopic_index_grows(const ritz *r, const subspace *b, double shift, int i)

@@ -9,32 +9,32 @@
 
 enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 
-/* residuals relative to x^H K x; the relative error of a frequency is the square of its residual.
- */
+/* relative to x^H K x; the relative error of a frequency is the square of its residual */
 static const double good_residual = 1e-8, bearable_residual = 1e-5;
-/* Where rounding moves the residual by this much, pairs need not converge: their mass is rounding
- * beside the largest. */
+/* A pair need not converge if rounding changes its residual by more than this: its mass is then
+ * rounding of the largest one. */
 static const double no_digits = 1e-7;
-/* K is nearly singular where an eigenvalue of (K, M) is smaller than this part of the others, or of
- * the square of what G does in a second; the shift is then the second part of them. */
+/* K counts as nearly singular when an eigenvalue of (K, M) is below near_zero times the others, or
+ * times the square of the rate of G; the shift is then away_from_zero times them. */
 static const double near_zero = 1e-4, away_from_zero = 1e-2;
-/* Where all pairs are found, no others lie below this ratio to the last one. */
+/* When all pairs have been found, no other one has a ratio to the last below this. */
 static const double far = 1e3;
 
 typedef struct gyroscopic_solver {
     const gyroscopic_problem *p;
     gyroscopic_result *out;
-    double shift;             /* [1/s^2] S = K + shift M */
-    double least;             /* the shift is no smaller */
-    double nearest, furthest; /* of the eigenvalues of (K, M) at the start, by size, ... */
-    double softest;           /* ... and of (S, M) */
-    int all_known;            /* at the start: all that were searched for */
-    const sparse *S;          /* K, or ... */
-    sparse shifted;           /* ... this */
+    double shift; /* [1/s^2] S = K + shift M */
+    double least; /* [1/s^2] lower bound of the shift */
+    double nearest,
+        furthest;    /* smallest and largest size of the eigenvalues of (K, M) at the start ... */
+    double softest;  /* ... and the smallest of (S, M) */
+    int all_known;   /* 1: the start found everything that was searched for */
+    const sparse *S; /* K, or ... */
+    sparse shifted;  /* ... this */
     subspace basis;
     ritz pairs;
     double *re, *im, *work, *product; /* [free] */
-    int found;                        /* pairs wanted that have digits */
+    int found;                        /* number of requested pairs with significant digits */
 } gyroscopic_solver;
 
 void gyroscopic_free(gyroscopic_result *r)
@@ -58,7 +58,7 @@ static void basis_product(void *context, const double x[], double y[])
         y[i] += s->shift * s->product[i];
 }
 
-/* out_re + i out_im = sum_k c_k vector_k, times a complex number, added. */
+/* Adds a complex multiple of out_re + i out_im = sum_k c_k vector_k. */
 static void accumulate(const gyroscopic_solver *s, const double *vectors, const double complex c[],
                        double complex times)
 {
@@ -78,7 +78,7 @@ static void clear(const gyroscopic_solver *s)
     memset(s->im, 0, (size_t)s->basis.n * sizeof *s->im);
 }
 
-/* r^H S^-1 r for one half of a residual, which is replaced by S^-1 times itself. */
+/* r^H S^-1 r for one half of a residual; the half is replaced by S^-1 times it. */
 static double solve_half(gyroscopic_solver *s, double half[])
 {
     memcpy(s->work, half, (size_t)s->basis.n * sizeof *half);
@@ -87,7 +87,7 @@ static double solve_half(gyroscopic_solver *s, double half[])
     return fmax(0, dense_dot(s->basis.n, s->work, half));
 }
 
-/* Size of the residual of pair i; where it is large, the basis takes in S^-1 times it. */
+/* Size of the residual of pair i; if it is large, S^-1 times the residual extends the basis. */
 static double improve(gyroscopic_solver *s, int i, int *grown)
 {
     const double complex lambda = s->pairs.lambda[i],
@@ -104,7 +104,7 @@ static double improve(gyroscopic_solver *s, int i, int *grown)
     return size;
 }
 
-/* Returns the relative change of lambda^2 of pair i by rounding, from its mass relative to the
+/* Returns the relative change of lambda^2 of pair i due to rounding, from its mass relative to the
  * largest one. */
 static double noise(const gyroscopic_solver *s, int i)
 {
@@ -115,8 +115,8 @@ static double noise(const gyroscopic_solver *s, int i)
     return size * size * mass * DBL_EPSILON;
 }
 
-/* Ritz pairs until `wanted` of them are good. Those with too little mass to have digits end the
- * search where the basis has no more to gain. */
+/* Extends the basis until `wanted` Ritz pairs have converged. Pairs with too little mass to be
+ * accurate end the search when the basis no longer improves. */
 static status iterate(gyroscopic_solver *s, int wanted, fault *f)
 {
     for (int pass = 0;; pass++) {
@@ -145,8 +145,8 @@ static status iterate(gyroscopic_solver *s, int wanted, fault *f)
     }
 }
 
-/* The first `count` modes without G go into the basis; those too whose value is lost in round-off:
- * the basis improves them. */
+/* Starts the basis with the first `count` modes for G = 0, including those whose value is lost in
+ * round-off: the basis improves them. */
 static status start(gyroscopic_solver *s, int count, fault *f)
 {
     eigen_result e = {0};
@@ -169,15 +169,15 @@ static status start(gyroscopic_solver *s, int count, fault *f)
     return outcome == STATUS_NOT_CONVERGED && isfinite(s->softest) ? STATUS_OK : outcome;
 }
 
-/* Negative eigenvalues of K that the pairs found do not account for. */
+/* Number of negative eigenvalues of K that the pairs found do not account for. */
 static int unaccounted(const gyroscopic_solver *s)
 {
     return s->out->negative -
            gyroscopic_index_of(&s->pairs, &s->basis, s->shift, s->found).negative;
 }
 
-/* K is indefinite: what the count below a gap after the first `last` pairs proves of them. One
- * that fails proves nothing. */
+/* For indefinite K: checks the first `last` pairs by a count below the gap that follows them. A
+ * failed count proves nothing. */
 static status prove(gyroscopic_solver *s, int last, status counted, int below, int *number)
 {
     const gyroscopic_index found = gyroscopic_index_of(&s->pairs, &s->basis, s->shift, last);
@@ -189,8 +189,8 @@ static status prove(gyroscopic_solver *s, int last, status counted, int below, i
     return counted == STATUS_FAULT ? counted : STATUS_OK;
 }
 
-/* Part of x^H S x of the pairs found that assembling S has changed: by half of it their frequencies
- * are others in the matrix, where they are counted. */
+/* Relative change of x^H S x of the pairs found due to the assembly of S. The frequencies of the
+ * matrix, which are counted, differ by half of it. */
 static double departure(gyroscopic_solver *s)
 {
     double largest = 0;
@@ -206,7 +206,7 @@ static double departure(gyroscopic_solver *s)
     return largest;
 }
 
-/* Frequencies below a gap between those found and the next, less those that are found; equal ones
+/* Number of frequencies below a gap after those found, minus the number found. Equal frequencies
  * have no gap between them. */
 static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
 {
@@ -234,7 +234,7 @@ static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
     return STATUS_OK;
 }
 
-/* [1/s] What G does: its largest entry beside the masses on either side. */
+/* [1/s] Rate of G: its largest entry relative to the masses of its row and column. */
 static double rate_of_turning(const sparse *G, const sparse *M)
 {
     double rate = 0;
@@ -247,7 +247,7 @@ static double rate_of_turning(const sparse *G, const sparse *M)
     return rate;
 }
 
-/* The least shift, in powers of ten, that makes K definite. */
+/* The smallest shift, in powers of ten, that makes K + shift M positive definite. */
 static status find_shift(gyroscopic_solver *s, fault *f)
 {
     const sparse *K = s->p->K, *M = s->p->M;
@@ -279,8 +279,8 @@ static status find_shift(gyroscopic_solver *s, fault *f)
     }
 }
 
-/* The shift that a start shows to be needed: where K is nearly singular, as at a critical speed, or
- * K + shift M is. No larger than the shift there is: none is. */
+/* Shift needed according to the first start, when K or K + shift M is nearly singular, as at a
+ * critical speed. Returns the present shift when no larger one is needed. */
 static double shift_after(const gyroscopic_solver *s, status started)
 {
     const double rate = rate_of_turning(s->p->G, s->p->M);
@@ -291,7 +291,7 @@ static double shift_after(const gyroscopic_solver *s, status started)
     return nearly ? away_from_zero * scale : 0;
 }
 
-/* The first start, if need be with another shift. */
+/* Starts, and starts again with another shift if needed. */
 static status begin(gyroscopic_solver *s, int count, fault *f)
 {
     const status outcome = start(s, count, f);
@@ -305,7 +305,7 @@ static status begin(gyroscopic_solver *s, int count, fault *f)
     return start(s, count, f);
 }
 
-/* The phase that makes the real part as large as it can be. */
+/* Chooses the phase that makes the real part as large as possible. */
 static void turn_phase(const gyroscopic_solver *s)
 {
     double complex square = 0;
@@ -319,7 +319,7 @@ static void turn_phase(const gyroscopic_solver *s)
     }
 }
 
-/* Pair i into the result; its vector is in re and im. */
+/* Stores pair i in the result; its vector is in re and im. */
 static void take_pair(gyroscopic_solver *s, int i, motion_estimate *e)
 {
     gyroscopic_result *r = s->out;

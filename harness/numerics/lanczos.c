@@ -1,6 +1,6 @@
-/* OP = K^-1 s A is symmetric in the inner product of K (ARPACK's mode 2). Known eigenvectors X are
- * taken out by the projection I - X X^T K: a repeated eigenvalue, of which one starting vector
- * shows one copy only, comes out one copy at a time. */
+/* OP = K^-1 s A is symmetric in the inner product of K (ARPACK mode 2). The projection I - X X^T K
+ * removes known eigenvectors X. A single starting vector yields only one copy of a repeated
+ * eigenvalue; further runs yield the others one by one. */
 #include "harness/numerics/numerics_impl.h"
 
 #include <arpack/arpack.h>
@@ -13,9 +13,9 @@ enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 12, PARAMETERS = 11, POINTERS = 14 };
 enum {
     ENDED_EARLY = 1,
     CONVERGED = 4
-}; /* ARPACK: its result; index of the number of converged values */
+}; /* positions in ARPACK's arrays: result, number of converged values */
 
-/* Error of a vector: that of its Rayleigh quotient is the square. */
+/* Error of a vector; the error of its Rayleigh quotient is the square. */
 static const double tolerance = 1e-10;
 
 typedef struct lanczos_workspace {
@@ -55,7 +55,7 @@ static void workspace_free(lanczos_workspace *w)
     free(w->integers);
 }
 
-/* The same start every time, with a part of every mode. */
+/* A fixed starting vector with a component along every mode. */
 static void fill_start(int n, double x[])
 {
     unsigned long long seed = 0x9E3779B97F4A7C15ull;
@@ -65,7 +65,7 @@ static void fill_start(int n, double x[])
     }
 }
 
-/* x -= a-part of X, where each coefficient is measured with the dual vector. */
+/* Removes the components of x along X; the dual vectors measure the coefficients. */
 static void deflate(int n, int known, const double *dual, const double *measured, const double *X,
                     double x[])
 {
@@ -79,7 +79,8 @@ static void deflate(int n, int known, const double *dual, const double *measured
     }
 }
 
-/* y = OP x; x becomes K y = s A x, as mode 2 wants it; both without their share of X. */
+/* y = OP x; x becomes K y = s A x, as mode 2 requires; the components along X are removed from
+ * both. */
 static void apply(const lanczos_problem *p, double x[], double y[])
 {
     const int n = p->K->n;
@@ -91,7 +92,7 @@ static void apply(const lanczos_problem *p, double x[], double y[])
     deflate(n, p->known, p->X, x, p->KX, x);
 }
 
-/* Returns ARPACK's verdict: 0 when all wanted ones converged. */
+/* Returns ARPACK's status: 0 when all requested values converged. */
 static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutions)
 {
     int ido = 0, info = 1;
@@ -124,7 +125,7 @@ static void reverse(size_t n, int count, double x[])
         }
 }
 
-/* ARPACK's values and vectors, the largest first. *x: the basis, shortened to the vectors. */
+/* Copies ARPACK's values and vectors, largest first. *x: the basis, shortened to the vectors. */
 static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, double mu[],
                            double **x, fault *f)
 {
@@ -159,8 +160,8 @@ static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, 
     return take_vectors(w, n, wanted, *found, mu, x, f);
 }
 
-/* ARPACK keeps its place between calls in variables of its own: one thread at a time. A process
- * that is forked meanwhile has no such thread. */
+/* ARPACK stores its state between calls in static variables, so that only one thread may use it at
+ * a time. A process that is forked meanwhile does not have that thread. */
 static pthread_mutex_t arpack = PTHREAD_MUTEX_INITIALIZER;
 static pthread_once_t forks = PTHREAD_ONCE_INIT;
 

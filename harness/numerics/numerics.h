@@ -8,20 +8,19 @@
 
 /* Sparse matrices in compressed columns, and their direct factorisation.
  *
- * Symmetric matrices store the upper triangle (row <= column) only, others all entries. Some of the
- * latter are factored as symmetric when their numbers are. The pattern is fixed once; numbers are
- * added by position, so assembly searches nothing. */
+ * A symmetric matrix stores only its upper triangle (row <= column), any other matrix all entries.
+ * With by_numbers = 1 a matrix stored whole is factored as symmetric when its values are symmetric.
+ * The pattern does not change; values are added by position, so that assembly needs no search. */
 
 typedef struct sparse {
     int n, symmetric;
     int *column;    /* [n + 1] */
     int *row;       /* [column[n]], ascending in each column */
     double *value;  /* [column[n]] */
-    int by_numbers; /* 1: stored whole; symmetric where its numbers are */
+    int by_numbers; /* 1: stored whole, and factored as symmetric when its values are */
 } sparse;
 
-/* A second matrix with the same pattern shares column and row with the first and owns its values
- * only. */
+/* The second matrix shares the pattern (column, row) of the first and owns only its values. */
 status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f);
 void sparse_free_values(sparse *a);
 void sparse_zero(sparse *a);
@@ -30,8 +29,8 @@ void sparse_copy_leading(const sparse *whole, sparse *leading);
 /* Entry (j, j); 0 where none is stored. */
 double sparse_diagonal(const sparse *a, int j);
 void sparse_mul(const sparse *a, const double x[], double y[]); /* y = A x */
-/* Change of x^T A y by rounding of all its terms in the same direction; A symmetric, or skew where
- * the upper triangle is stored. */
+/* Change of x^T A y when all terms are rounded in the same direction; A is symmetric, or skew with
+ * its upper triangle stored. */
 double sparse_rounding(const sparse *a, const double x[], const double y[]);
 
 /* Upper triangle of a matrix that is stored whole, and a test for symmetry. */
@@ -47,32 +46,31 @@ const sparse *by_numbers_upper(const by_numbers *);
 typedef struct matrix_factor matrix_factor;
 
 typedef struct factor_counts {
-    long entries;        /* of the factors: fill */
+    long entries;        /* nonzeros of the factors */
     double flops;        /* of one numeric factorisation */
-    long factorisations; /* numeric ones, so far */
+    long factorisations; /* numeric factorisations so far */
     int negative_pivots; /* symmetric only; else -1 */
-    double asymmetry;    /* of a matrix by its numbers: largest |a_ij - a_ji|/sqrt|a_ii a_jj| */
+    double asymmetry;    /* of a matrix with by_numbers: largest |a_ij - a_ji|/sqrt|a_ii a_jj| */
     int determinant;     /* its sign */
     double condition;    /* cheap estimate max|d|/min|d| */
 } factor_counts;
 
-/* Up to this asymmetry a matrix counts as symmetric by its numbers. */
+/* Largest asymmetry at which a matrix with by_numbers is factored as symmetric. */
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
-/* Symbolic analysis once: fill-reducing order (AMD). Symmetric: LDL^T without pivoting, whose signs
- * give the inertia; unsymmetric: KLU. By its numbers: LDL^T of the upper triangle, bit-for-bit
- * that of a matrix that stores nothing else, or KLU. */
+/* Symbolic analysis with a fill-reducing order (AMD), done once. Symmetric: LDL^T without pivoting,
+ * whose signs give the inertia; unsymmetric: KLU. With by_numbers: LDL^T of the upper triangle,
+ * bit-for-bit as for a matrix that stores only that, or KLU. */
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
-/* For a matrix with the pattern that `of` was made for: a symmetric one takes the order of `of`,
- * which must outlive it and not be factored at the same time. */
+/* For a matrix with the same pattern as `of`. A symmetric matrix uses the order of `of`, which must
+ * outlive it; the two must not be factored at the same time. */
 status factor_alloc_like(const matrix_factor *of, const sparse *pattern, matrix_factor **out,
                          fault *f);
 void factor_free(matrix_factor *fa);
 /* SINGULAR when a pivot is zero or not finite, or growth has destroyed the digits. */
 status factor_numeric(matrix_factor *fa, const sparse *a, fault *f);
-/* 1: the numbers factored last were taken for symmetric. */
+/* Returns 1 when the last values were factored as symmetric. */
 int factor_is_symmetric(const matrix_factor *fa);
-/* The upper triangle that was factored of a matrix by its numbers; NULL: none. It belongs to the
- * factor. */
+/* The upper triangle that was factored of a matrix with by_numbers, or NULL. The factor owns it. */
 const sparse *factor_upper(const matrix_factor *fa);
 void factor_solve(matrix_factor *fa, double x[]); /* in place */
 /* `columns` right-hand sides, each `stride` numbers after the one before it. */
@@ -87,66 +85,70 @@ typedef struct factor_operator {
     factor_counts (*count)(const void *context);
     void (*free)(void *context);
 } factor_operator;
-/* factor_solve, factor_solve_transposed and factor_count are those of the operator, which the
- * factor owns; it factors no matrix. */
+/* Makes a factor from an operator, which it then owns: factor_solve, factor_solve_transposed and
+ * factor_count call the operator, and no matrix is factored. */
 status factor_of(const factor_operator *, matrix_factor **out, fault *f);
-/* 1-norm condition number of the factored matrix a, rows and columns scaled by the root of its
- * diagonal: Hager's estimate, a lower bound within a small factor. NAN when memory ran out. */
+/* 1-norm condition number of the factored matrix a, with rows and columns scaled by the root of its
+ * diagonal. Hager's estimate: a lower bound within a small factor. NAN: out of memory. */
 double factor_condition(matrix_factor *fa, const sparse *a);
 
 /* A few eigenpairs of A x = mu K x with K symmetric positive definite and A symmetric, which may be
  * indefinite or singular.
  *
- * Buckling: A = -G, mu = 1/lambda.  Vibration: A = M, mu = 1/omega^2 (a structure without
- * supports: K + shift M in place of K). Small problems are solved densely (LAPACK), the others by
- * Lanczos in the inner product of K (ARPACK).  Each mu is the quotient of two quadratic forms,
- * which the caller can evaluate better than from the matrices, and the inertia of K - A/s proves
- * that no eigenvalue was missed, repeated ones included. */
+ * Buckling: A = -G, mu = 1/lambda.  Vibration: A = M, mu = 1/omega^2 (a structure without supports:
+ * K + shift M in place of K). Small problems are solved densely (LAPACK), large ones by the Lanczos
+ * method in the inner product of K (ARPACK).  Each mu is the quotient of two quadratic forms, which
+ * the caller can evaluate more accurately than the matrices give them. The inertia of K - A/s
+ * proves that no eigenvalue is missing, repeated ones included. */
 
-/* Relative error of a value beyond which it has no digits. */
+/* Relative error above which a value has no significant digits. */
 #define EIGEN_LARGEST_ERROR 1e-2
 
 typedef double eigen_form(void *context, const double x[]);
 typedef void eigen_product(void *context, const double x[], double y[]);
 
 typedef struct eigen_problem {
-    const sparse *K, *A;     /* same pattern */
-    matrix_factor *K_factor; /* factor_numeric done */
-    double sign;             /* +1: A, -1: -A is meant */
-    int largest;             /* wanted number of most positive mu */
-    int smallest;            /* wanted number of most negative mu */
-    eigen_form *K_energy,
-        *A_energy; /* x^T K x and x^T A x (A without the sign), [K's unit]; NULL: from the matrix */
-    eigen_form *K_rounding, *A_rounding; /* their possible error by rounding; NULL: negligible */
-    eigen_product *K_product; /* y = K x with fewer digits lost than by the matrix; NULL: none */
-    void *context;            /* of all of them */
-    int iterate;              /* 1: Lanczos whatever the size (for tests) */
+    const sparse *K, *A;             /* same pattern */
+    matrix_factor *K_factor;         /* factor_numeric done */
+    double sign;                     /* +1: A; -1: -A */
+    int largest;                     /* number of most positive mu requested */
+    int smallest;                    /* number of most negative mu requested */
+    eigen_form *K_energy, *A_energy; /* x^T K x and x^T A x (A without the sign), [K's unit]; NULL:
+                                        computed from the matrix */
+    eigen_form *K_rounding,
+        *A_rounding; /* estimated rounding errors of the two forms; NULL: negligible */
+    eigen_product
+        *K_product; /* y = K x, more accurate than the matrix product; NULL: not available */
+    void *context;  /* passed to all of these functions */
+    int iterate;    /* 1: Lanczos for any size (for tests) */
 } eigen_problem;
 
 typedef struct eigen_side {
-    int count;        /* found; fewer than wanted when no more exist, or for the reason below */
-    double *mu;       /* [count] largest size first */
+    int count;  /* number found; less than requested when no more exist, or for the reason below */
+    double *mu; /* [count] largest size first */
     double *mode;     /* [count x n] x^T K x = 1 */
     double *residual; /* [count] an eigenvalue lies within residual |mu| of mu */
     double *error; /* [count] estimate: |mu| is off by error |mu|, which is at most about residual^2
                       |mu| */
     int rounding;  /* number of candidates that were rejected as round-off of A */
-    status status; /* NOT_CONVERGED: the iteration ended before all wanted ones were proved to be
-                      there ... */
-    char reason[FAULT_TEXT]; /* ... and why; those found are the first of their side all the same */
+    status status; /* NOT_CONVERGED: the iteration ended before all requested ones were proved
+                      complete ... */
+    char reason[FAULT_TEXT]; /* ... and the reason; those that were found are still the first of
+                                their side */
 } eigen_side;
 
 typedef struct eigen_result {
     int n;
     eigen_side positive, negative;
     long solutions, factorisations;
-    double dense_operations; /* n^3 of what was solved densely */
+    double dense_operations; /* n^3 of each dense solution */
 } eigen_result;
 
-/* REFUSED when K is not positive definite; NOT_CONVERGED when one of the sides is: what either side
- * found stays. Values that are a rounding error of the largest one or of their own form, or in
- * large problems 1e-9 of the largest, are taken for zero and not returned. The error of a value
- * gives the number of its digits; a value without digits is not returned. */
+/* REFUSED: K is not positive definite. NOT_CONVERGED: one of the sides did not converge; the values
+ * found on both sides are kept. A value counts as zero and is not returned if it is within the
+ * rounding error of the largest value or of its own form, or in large problems below 1e-9 of the
+ * largest. `error` gives the accuracy of a value; a value without significant digits is not
+ * returned. */
 status eigen_solve(const eigen_problem *problem, eigen_result *out, fault *f);
 void eigen_free(eigen_result *r);
 
@@ -154,19 +156,19 @@ void eigen_free(eigen_result *r);
 
 /* Wall-clock time [s] from an arbitrary origin. */
 double clock_wall_seconds(void);
-/* Processor time [s] of this thread: other programs on the machine do not count. */
+/* Processor time [s] of this thread; the load of other programs does not affect it. */
 double clock_processor_seconds(void);
 
-/* Small motions x exp(lambda t) in a frame that turns steadily: (lambda^2 M + lambda G + K) x = 0,
- * K and M symmetric, G skew.
+/* Small motions x exp(lambda t) in a frame that rotates at a constant rate: (lambda^2 M + lambda G
+ * + K) x = 0, K and M symmetric, G skew.
  *
  * With K positive definite every lambda = i omega is imaginary, whatever G is (Kelvin, Tait):
  * projected on a real basis the problem is Hermitian, mu [x; y] = [-i G, R^T; R, 0] [x; y] with mu
- * = 1/omega, M = R^T R and K the identity.  The basis starts with the modes without G and takes in
- * K^-1 times the residuals; inertia counts the frequencies, so that none is missed. With K
- * indefinite, or nearly singular as at a critical speed, K + shift M takes its place in the basis
- * and the projected problem is solved as it is; lambda has a real part where a motion grows; what
- * the count proves then: numerics_impl.h.
+ * = 1/omega, M = R^T R and K the identity.  The basis starts with the modes for G = 0 and is
+ * extended by K^-1 times the residuals. The inertia counts the frequencies and proves that none is
+ * missing. If K is indefinite, or nearly singular as at a critical speed, K + shift M replaces it
+ * in the basis and the general projected problem is solved. A growing motion then has a lambda with
+ * positive real part; numerics_impl.h explains what the count proves in this case.
  *
  * Massless coordinates have no frequency. Coordinates with very little mass (frequencies above some
  * 1e4 times those of the heavy parts) may end the search before all wanted modes are found.
@@ -175,65 +177,65 @@ double clock_processor_seconds(void);
  * keeps them, and so are all residuals; the factors of the matrix only improve vectors by them. */
 
 typedef struct gyroscopic_problem {
-    const sparse *K, *M, *G; /* same symmetric pattern; of G the upper triangle is stored */
+    const sparse *K, *M, *G; /* same symmetric pattern; G stores its upper triangle */
     matrix_factor
-        *K_factor; /* factor_numeric done; its numbers are replaced where K is indefinite */
-    int wanted;    /* number of lowest modes */
+        *K_factor; /* after factor_numeric; its values are replaced when K is indefinite */
+    int wanted;    /* number of lowest modes requested */
     eigen_product
-        *K_product; /* y = K x with fewer digits lost than by the matrix; NULL: there is none */
-    eigen_form *K_rounding; /* error of x^T K x by rounding; NULL: from the matrix */
+        *K_product; /* y = K x, more accurate than the matrix product; NULL: not available */
+    eigen_form *K_rounding; /* rounding error of x^T K x; NULL: from the matrix */
     void *context;          /* of both */
 } gyroscopic_problem;
 
 typedef struct gyroscopic_result {
-    int n, count;      /* fewer than wanted when no more exist */
+    int n, count;      /* count: less than requested when no more exist */
     double *frequency; /* [count] lambda = growth + i frequency [1/s], ascending in size */
     double *growth;    /* [count] zero where K is positive definite */
     double *error;     /* [count] estimate: lambda is off by error |lambda| */
-    double *mode;      /* [count x n] real part, the larger one, of the motion */
-    int negative;      /* eigenvalues of K, and ... */
-    int unproven;      /* ... those of them that no mode found accounts for: as many directions of
-                          growing motions, or of frequencies of negative energy, were not found */
+    double *mode;      /* [count x n] real or imaginary part of the motion, whichever is larger */
+    int negative;      /* negative eigenvalues of K, and ... */
+    int unproven;      /* ... how many of them no mode accounts for: that many directions of growing
+                          motions, or frequencies of negative energy, are missing */
     long solutions, factorisations;
-    double dense_operations; /* n^3 of what was solved densely */
+    double dense_operations; /* n^3 of each dense solution */
 } gyroscopic_result;
 
 status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);
 void gyroscopic_free(gyroscopic_result *);
 
-/* Check of the memory before a problem is solved: a system that promises memory it does not have
- * would end the program, and others, without a message. And lists that grow. */
+/* Checks the available memory before a problem is solved: some systems promise memory that they do
+ * not have and end the program, and others, without a message. Also growing lists. */
 
 /* REFUSED: `what` needs more memory than the machine has. bytes: lower bound of the need. */
 status memory_check(double bytes, const char *what, const char *remedy, fault *f);
-/* Appends a copy of `entry`, of `size` bytes, to *list (the address of its pointer), which is freed
- * with free(). FAULT: "out of memory for WHAT". */
+/* Appends a copy of `entry` (`size` bytes) to *list, the address of its pointer; free it with
+ * free(). FAULT: "out of memory for WHAT". */
 status memory_append(void *list, int *count, const void *entry, size_t size, const char *what,
                      fault *f);
 
-/* Run time of a solution by parts of Newton's iterations, and the rest. The clock is the processor
- * time, as for the whole; where several threads share the elements, that of the leading thread with
- * its waiting for the others. It is read only on request and only inside an iteration. The time of
- * the readings, 0.4 us each, belongs to no part. */
+/* Processor time of a solution, split into the parts of a Newton iteration and the rest. When
+ * several threads share the elements, it is that of the leading thread, including its waiting time.
+ * The clock is read only on request and only inside an iteration. The time of reading it, 0.4 us
+ * each, belongs to no part. */
 
 typedef enum newton_phase {
     PHASE_ELEMENTS,
     PHASE_ASSEMBLY,
     PHASE_FACTORISATION,
     PHASE_SOLUTION,
-    PHASE_REST, /* outside of the iterations; from here on no part of one */
+    PHASE_REST, /* outside the iterations; the parts that follow belong to no iteration */
     PHASES
 } newton_phase;
 
 typedef struct phases {
     int wanted, running;
-    double last;            /* [s] last reading */
-    double reading;         /* [s] that one takes */
-    long readings;          /* between two of an iteration */
+    double last;            /* [s] time of the last reading */
+    double reading;         /* [s] duration of a reading */
+    long readings;          /* number of readings inside iterations */
     double seconds[PHASES]; /* [s] */
 } phases;
 
-/* Sets all to zero; the time of a reading is the least of a few. */
+/* Sets all parts to zero and measures the duration of a reading: the shortest of a few. */
 static inline void phases_want(phases *p, int wanted)
 {
     enum { FEW = 50 };
@@ -268,7 +270,7 @@ static inline void phases_stop(phases *p)
     p->running = 0;
 }
 
-/* All parts; their sum is `whole` [s] less the readings. */
+/* All parts; they add up to `whole` [s] minus the duration of the readings. */
 static inline void phases_of_whole(const phases *p, double whole, double part[PHASES])
 {
     part[PHASE_REST] = whole - (double)p->readings * p->reading;
@@ -285,44 +287,45 @@ static inline const char *phase_name(newton_phase k)
     return name[k];
 }
 
-/* Threads that share a loop. Each takes one run of consecutive indices, so that what is written
- * where does not depend on their number. */
+/* Threads that share a loop. Each takes one range of consecutive indices, so that results do not
+ * depend on the number of threads. */
 
 typedef struct thread_team thread_team;
 typedef void team_work(void *context, int first, int end); /* [first, end) */
 
-/* One piece of work into a slot; all members. */
+/* Computes one piece of work into a slot, all members of it. */
 typedef void team_fill(void *context, int piece, int slot);
-/* The caller uses the content of a slot; returns 0: no further piece is wanted. */
+/* Called in the calling thread to use the content of a slot; returns 0 to stop. */
 typedef int team_take(void *context, int piece, int slot);
 
 enum { TEAM_MOST = 16, TEAM_SLOTS = 8 };
 
 status team_alloc(int threads, thread_team **out,
-                  fault *f); /* the caller is one of them; threads <= 1: *out = NULL */
+                  fault *f); /* the caller counts as one thread; threads <= 1: *out = NULL */
 void team_free(thread_team *t);
-/* work over [0, count), shared; t NULL: by the caller alone. Returns when all is done. */
+/* Runs `work` over [0, count) on all threads; t NULL: on the caller alone. Returns when everything
+ * is done. */
 void team_run(thread_team *t, int count, team_work *work, void *context);
-/* Pieces [0, pieces) are filled by any free thread, a few ahead, and taken in their order by the
- * caller, which fills too: slots stay in the cache, and sums keep their order. slot: below
- * TEAM_SLOTS, and 0 where t is NULL. */
+/* Any free thread fills pieces [0, pieces), a few ahead; the caller uses them in order and also
+ * fills. The slots fit into the cache, and sums keep their order. slot: below TEAM_SLOTS; 0 if t is
+ * NULL. */
 void team_relay(thread_team *t, int pieces, team_fill *fill, team_take *take, void *context);
 
-/* Matrices as lists of entries, to be kept and written. */
+/* Matrices as lists of entries, to be stored and written. */
 
 typedef enum matrix_kind { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matrix_kind;
 
-/* Entries that are not zero; where the kind is not general those on and below the diagonal only. */
+/* Nonzero entries. For symmetric and skew kinds only those on and below the diagonal. */
 typedef struct triplets {
     matrix_kind kind;
     int rows, columns, entries;
-    int *row, *column; /* [entries] from zero, column by column */
+    int *row, *column; /* [entries] zero-based, column by column */
     double *value;     /* [entries] */
 } triplets;
 
-/* Entries of a; skew: of a symmetric pattern the upper triangle of a skew matrix is stored. */
+/* Entries of a. skew = 1: a stores the upper triangle of a skew matrix. */
 status triplets_of(const sparse *a, int skew, triplets *out, fault *);
-/* From columns [columns x rows], one after the other. */
+/* From a dense matrix [columns x rows], column by column. */
 status triplets_of_columns(int rows, int columns, const double value[], triplets *out, fault *);
 /* y[rows] = A x */
 void triplets_mul(const triplets *A, const double x[], double y[]);

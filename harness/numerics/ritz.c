@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* relative to the largest eigenvalue of a projected mass, times its size: less is no mass. */
+/* Eigenvalues of a projected mass below this, relative to the largest times the size, count as
+ * zero. */
 static const double no_mass = 8 * DBL_EPSILON;
 
 status ritz_alloc(ritz *r, int room, const subspace *b, fault *f)
@@ -49,7 +50,7 @@ static void normalise(int k, double complex c[])
         c[j] /= sqrt(square);
 }
 
-/* R [k x k], row-major, with R^T R the projected M; rows of zeros where that is rounding of its
+/* R [k x k], row-major, with R^T R the projected M; zero rows where M is only rounding of its
  * largest eigenvalue. */
 static int root_of_mass(const subspace *b, double R[])
 {
@@ -80,8 +81,8 @@ static void hermitian_matrix(const subspace *b, const double R[], double complex
         }
 }
 
-/* The pairs of mu[found], ascending, but for infinite frequencies: nothing moves there that has a
- * mass. */
+/* Stores the pairs of mu[found], ascending. Skips infinite frequencies, whose motion has no mass.
+ */
 static void take_hermitian(const subspace *b, int found, const double mu[], const double complex *z,
                            ritz *r)
 {
@@ -99,8 +100,8 @@ static void take_hermitian(const subspace *b, int found, const double mu[], cons
 }
 
 /* The largest `most` eigenvalues mu, ascending, with their vectors z. zgemv of some OpenBLAS
- * (0.3.21, Haswell) reads a few columns after the matrices that it is given: there is room for
- * that after H and the work array. */
+ * versions (0.3.21, Haswell) reads a few columns past the end of its matrices; H and the work array
+ * are allocated with room for that. */
 static int largest_eigenvalues(int n, int most, double complex H[], double mu[], double complex z[],
                                lapack_int support[], lapack_int *found)
 {
@@ -162,7 +163,7 @@ static int is_first_of_its_kind(double complex lambda)
                                 : cimag(lambda) >= -tiny && creal(lambda) > 0;
 }
 
-/* Puts a pair where its size belongs; c[2 x basis size]: x and w. */
+/* Inserts a pair in order of size; c[2 x basis size]: x and w. */
 static void insert(const subspace *b, ritz *r, double complex lambda, const double complex c[])
 {
     int at = r->count;
@@ -185,8 +186,8 @@ static void insert(const subspace *b, ritz *r, double complex lambda, const doub
 }
 
 /* nu [Kp, 0; 0, 1] z = [-Gp, -R^T; R, 0] z with nu = 1/lambda, z = (x, lambda R x), Mp = R^T R and
- * Kp = 1 - shift Mp; column-major. What has no mass is a simple nu = 0: with lambda x in place of
- * lambda R x it would be a double one, which rounding makes as large as its root. */
+ * Kp = 1 - shift Mp; column-major. Massless motion is a simple nu = 0. With lambda x in place of
+ * lambda R x it would be a double one, which rounding splits by the root of its size. */
 static void general_matrices(const subspace *b, double shift, const double R[], double A[],
                              double B[])
 {
@@ -202,8 +203,8 @@ static void general_matrices(const subspace *b, double shift, const double R[], 
         B[(k + i) * n + k + i] = 1;
 }
 
-/* c[k]: the first half of column i of z[n x n], which has the real part of a pair of conjugate
- * vectors, the imaginary part beside it. */
+/* Copies the first half of column i of z[n x n] to c[k]; for conjugate pairs that column has the
+ * real part and the next one the imaginary part. */
 static void take_column(int k, int i, int is_complex, int second, const double *z,
                         double complex c[])
 {
@@ -214,8 +215,8 @@ static void take_column(int k, int i, int is_complex, int second, const double *
         c[j] = column[j] + (is_complex ? imaginary * column[n + j] : 0);
 }
 
-/* The first of each pair of the conjugate eigenvalues beta/(re + i im) [n], whose columns of z
- * (right) and w (left) hold the real and the imaginary part; c[2 k] is work space. */
+/* Stores the first of each conjugate pair of eigenvalues beta/(re + i im) [n]. Their columns of z
+ * (right) and w (left) contain real and imaginary parts; c[2 k] is work space. */
 static void take_general(const subspace *b, const double re[], const double im[],
                          const double beta[], const double *z, const double *w, double complex c[],
                          ritz *r)

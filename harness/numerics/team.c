@@ -1,5 +1,5 @@
-/* The others spin for a moment before they sleep: the loops of one iteration follow each other
- * within microseconds. */
+/* Worker threads spin briefly before they sleep, because the loops of one iteration follow each
+ * other within microseconds. */
 #include "harness/numerics/numerics.h"
 
 #include <pthread.h>
@@ -21,7 +21,7 @@ struct thread_team {
     pthread_mutex_t lock;
     pthread_cond_t wake;
     atomic_int round,
-        left; /* round: changes when there is work; left: members that have not finished it */
+        left; /* round: changes when there is work; left: number of members still working */
     int end;
     int count;
     team_work *work;
@@ -121,8 +121,8 @@ void team_run(thread_team *t, int count, team_work *work, void *context)
     int spins = 0;
     while (atomic_load_explicit(&t->left, memory_order_acquire) > 0)
         if (++spins > SPINS)
-            sched_yield(); /* the parts are equal: it is a moment, unless there are fewer processors
-                            */
+            sched_yield(); /* parts are equal, so this wait is short unless there are too few
+                              processors */
 }
 
 typedef struct relay {
@@ -130,11 +130,11 @@ typedef struct relay {
     team_take *take;
     void *context;
     int pieces;
-    atomic_int claimed, taken;     /* pieces so far */
-    atomic_int filled[TEAM_SLOTS]; /* the piece that is there, plus one */
+    atomic_int claimed, taken;     /* number of pieces so far */
+    atomic_int filled[TEAM_SLOTS]; /* index of the piece in the slot, plus one */
 } relay;
 
-/* The next piece, if there is one and its slot is free. */
+/* Fills the next piece if there is one and its slot is free. */
 static int fill_next(relay *r)
 {
     int piece = atomic_load(&r->claimed);
@@ -153,7 +153,7 @@ static void wait_a_moment(int *spins)
         sched_yield();
 }
 
-/* Fills while there is something to fill. */
+/* Fills pieces as long as any are left. */
 static void follow(relay *r)
 {
     int spins = 0;
@@ -164,7 +164,7 @@ static void follow(relay *r)
             wait_a_moment(&spins);
 }
 
-/* Takes what is filled, and else fills. */
+/* Uses filled pieces, and fills pieces while none is ready. */
 static void lead(relay *r)
 {
     int spins = 0, wanted = 1;

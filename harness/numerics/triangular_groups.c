@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns of row k of L in the order in which they are subtracted: path[top], ..., path[n - 1], by
- * the up-looking algorithm (T.A. Davis, ACM Trans. Math. Softw. 31, 2005, section 2). */
+/* Columns of row k of L in the order of subtraction: path[top], ..., path[n - 1], by the up-looking
+ * algorithm (T.A. Davis, ACM Trans. Math. Softw. 31, 2005, section 2). */
 static int find_row(const triangular_pattern *of, int k)
 {
     int top = of->n;
@@ -21,14 +21,14 @@ static int find_row(const triangular_pattern *of, int k)
     return top;
 }
 
-/* Does column j have j + 1 and the rows of that? */
+/* Does column j consist of j + 1 and the rows of column j + 1? */
 static int is_nested(const triangular_pattern *of, int j)
 {
     return of->parent[j] == j + 1 &&
            of->begin[j + 1] - of->begin[j] == of->begin[j + 2] - of->begin[j + 1] + 1;
 }
 
-/* How many of `count` columns are a run, from the first one on. */
+/* Returns how many of `count` columns, from the first one, form a run. */
 static int run_length(const triangular_pattern *of, int count, const int column[])
 {
     const int most = count < TRIANGULAR_RUN ? count : TRIANGULAR_RUN;
@@ -39,7 +39,7 @@ static int run_length(const triangular_pattern *of, int count, const int column[
     return length;
 }
 
-/* Runs of these columns, into run unless that is NULL; how many. */
+/* Splits the columns into runs, stored in `run` unless it is NULL; returns their number. */
 static int split(const triangular_pattern *of, int count, const int column[], triangular_run run[])
 {
     int runs = 0;
@@ -51,7 +51,8 @@ static int split(const triangular_pattern *of, int count, const int column[], tr
     return runs;
 }
 
-/* A row joins the one before it where it has the same columns in their order, and that row. */
+/* A row joins the previous one if it has the same columns in the same order, followed by that row.
+ */
 static int joins(int rows, int before, const int column_before[], int count, const int column[],
                  int k)
 {
@@ -59,7 +60,7 @@ static int joins(int rows, int before, const int column_before[], int count, con
            memcmp(column, column_before, (size_t)before * sizeof *column) == 0;
 }
 
-/* Groups of rows; L_row and runs where out->run is there. work: [2 n]. */
+/* Finds groups of rows; fills L_row and runs if out->run is allocated. work: [2 n]. */
 static void find(const triangular_pattern *of, int work[], int L_row[], triangular_groups *out)
 {
     int *column_before = work, *filled = work + of->n, runs = 0, before = 0, rows = 0;

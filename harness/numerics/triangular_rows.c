@@ -6,12 +6,12 @@
 
 enum { ROWS = TRIANGULAR_LANES };
 
-/* One number of each row, also where doubles stand. */
+/* One number per row, also at addresses aligned for doubles only. */
 typedef double lanes
     __attribute__((vector_size(ROWS * sizeof(double)), aligned(sizeof(double)), may_alias));
 
-/* x[columns]: the entries of the rows in a run, as the columns before have left them; their rest is
- * 0 afterwards. */
+/* Copies the entries of the rows in a run from x[columns], after subtraction of the previous
+ * columns, and zeroes them there. */
 static inline __attribute__((always_inline)) void subtract(const triangular_rows *t, int first,
                                                            int columns, lanes x[])
 {
@@ -35,8 +35,8 @@ static inline __attribute__((always_inline)) void subtract(const triangular_rows
     }
 }
 
-/* Entries of L in a run, and what they leave of the rows' own block: own[s][r] of row r in column
- * s. The numbers are known when this is compiled. */
+/* Entries of L in a run, and their contribution to the rows' own block: own[s][r] of row r in
+ * column s. The sizes are compile-time constants. */
 static inline __attribute__((always_inline)) void use(const triangular_rows *t, int first,
                                                       int columns, int rows, lanes own[ROWS])
 {
@@ -83,7 +83,7 @@ use_run(const triangular_rows *t, triangular_run run, int rows, lanes own[ROWS])
     }
 }
 
-/* The rows' own columns, after those before them. 0: a pivot is zero. */
+/* The rows' own columns, after all previous ones. Returns 0 when a pivot is zero. */
 static inline __attribute__((always_inline)) int factor_own(const triangular_rows *t, int first,
                                                             int rows, lanes own[ROWS])
 {

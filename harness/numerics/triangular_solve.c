@@ -2,10 +2,10 @@
 
 #include "elements/math/real.h"
 
-/* The numbers of one unknown stand together: w[n x width]. width and count are known where these
- * are inlined. */
+/* The values of one unknown are contiguous: w[n x width]. width and count are compile-time
+ * constants after inlining. */
 
-/* L w = w in the columns of a run and what follows from them. */
+/* Solves L w = w for the columns of a run. */
 static inline __attribute__((always_inline)) void
 forward_run(const triangular_factors *t, int first, int count, int width, double *restrict w)
 {
@@ -69,7 +69,7 @@ static inline __attribute__((always_inline)) void forward(const triangular_facto
     }
 }
 
-/* L^T w = w; divided by D before. */
+/* Divides by D, then solves L^T w = w. */
 static inline __attribute__((always_inline)) void backward(const triangular_factors *t, int width,
                                                            double *restrict w)
 {

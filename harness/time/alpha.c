@@ -10,24 +10,24 @@ typedef struct alpha {
     motion_stage stage;
     outer_work *work;
     massive massive;
-    size_t strains;                  /* where something is damped: model_stresses, else 0 */
-    double *mean;                    /* [strains] their rates over a step */
+    size_t strains;                  /* model_stresses if something is damped, else 0 */
+    double *mean;                    /* [strains] mean strain rates of a step */
     double mass, force, gamma, beta; /* alpha_m, alpha_f */
     double *a0, *v0, *inc, *weight;  /* [free + driven] */
 } alpha;
 
-/* The acceleration that the scheme averages, from the true one at the end. */
+/* The acceleration that the scheme averages, from the true acceleration at the end of the step. */
 static double averaged(const alpha *s, double a, double before, double now)
 {
     return ((1 - s->force) * now + s->force * before - s->mass * a) / (1 - s->mass);
 }
 
-/* Rates by the increment, and its guess: the acceleration stays. */
+/* Relates rates to the increment and sets its initial guess, for constant acceleration. */
 static void relate(alpha *s, const instant *from, double h, stage_rates *r)
 {
     for (int i = 0; i < s->stage.free; i++) {
         const double v = from->v[i], a = from->algorithm[i], vd = from->a[i];
-        const double known = h * v + h * h * (0.5 - s->beta) * a; /* of inc, without a1 */
+        const double known = h * v + h * h * (0.5 - s->beta) * a; /* part of inc without a1 */
         s->inc[i] = known + h * h * s->beta * averaged(s, a, vd, vd);
         s->a0[i] = -r->b * known - (s->force * vd - s->mass * a) / (1 - s->force);
         s->v0[i] = v + h * (1 - s->gamma) * a - r->g * known;
@@ -49,7 +49,8 @@ static status error_of(alpha *s, const instant *from, const instant *to, double 
     return STATUS_OK;
 }
 
-/* Strains of what is damped move as positions do: what their rates are without the increment. */
+/* Strains of damped members follow the same relation as positions; sets the part of their rates
+ * that does not depend on the increment. */
 static void relate_strains(alpha *s, const instant *from, double h, instant *to)
 {
     const double g = s->gamma / (s->beta * h), kept = 1 - s->gamma / s->beta,
@@ -59,8 +60,8 @@ static void relate_strains(alpha *s, const instant *from, double h, instant *to)
     damping_follow(&s->stage.c->eq, g, to->strain, from->state);
 }
 
-/* Rates at the end, and what was lost by those of the mean: where something has no inertia, rates
- * at the ends of steps swing about them. */
+/* Strain rates at the end, and the energy dissipated with the mean rates: without inertia, rates at
+ * the ends of steps oscillate about their mean. */
 static void damp(alpha *s, const instant *from, double h, instant *to)
 {
     const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);
@@ -79,7 +80,7 @@ static void damp(alpha *s, const instant *from, double h, instant *to)
     to->dissipated += h * damping_power(&s->stage.c->eq, s->mean);
 }
 
-/* Rotations beyond a radian in one step are not followed. */
+/* Rejects rotations of more than one radian in a step. */
 static status check_turns(const alpha *s, double time, fault *f)
 {
     const double most = 1;

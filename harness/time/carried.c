@@ -26,7 +26,7 @@ static void shift(double mass, const double moment[3], const double r[3], double
             tensor[3 * i + j] += (i == j ? mixed : 0) - r[i] * moment[j] - moment[i] * r[j];
 }
 
-/* Adds the mass at a vertex to the frame that moves it; a released end keeps its own. */
+/* Adds the mass at a vertex to the frame that moves it; a released end has its own frame. */
 static void take(const model *m, int vertex, double mass, const double moment[3],
                  const double tensor[9], carried_mass of[])
 {
@@ -45,7 +45,7 @@ static void take(const model *m, int vertex, double mass, const double moment[3]
         to->inertia[i] += moved[i];
 }
 
-/* In axes of the triad. */
+/* In the axes of the element. */
 static void lump(const lumped_mass *l, double share, double moment[3], double tensor[9])
 {
     memset(moment, 0, 3 * sizeof *moment);
@@ -109,7 +109,7 @@ static void add_body(const model *m, const mesh_discrete *d, carried_mass of[])
     take(m, d->el.vertex[0], b->mass, moment, tensor, of);
 }
 
-/* Keeps the frames that have mass or inertia, and sums them. */
+/* Keeps only frames that have mass or inertia, and adds up the total. */
 static void keep_heavy(const model *m, carried_mass of[], carried_masses *out)
 {
     for (int i = 0; i < model_vertices(m); i++) {
@@ -159,11 +159,11 @@ void carried_free(carried_masses *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Where a translation of a frame is fixed beside free ones, that of the centre follows from the
- * turn: it is (w x s) at both ends, whose mean is not that of the step, h (v_c + v_c1)/2 - dr_c =
- * h/4 c x g,   g = (R_n + R_1)/2 (W1 - W) x s. The moment g x m (v_c1 - v_c)/4 of the fixed
- * components does the work that is after, so that the step gains the kinetic energy that it works
- * for. */
+/* If some translations of a frame are fixed and others free, the fixed component of the velocity of
+ * the centre follows from the rotation. It is (w x s) at both ends of the step, whose mean differs
+ * from that of the step by h (v_c + v_c1)/2 - dr_c = h/4 c x g, g = (R_n + R_1)/2 (W1 - W) x s. The
+ * moment g x m (v_c1 - v_c)/4 of the fixed components compensates for the work of this difference,
+ * so that the kinetic energy gained equals the work done. */
 
 void carried_step_follow(const carried_mass *one, carried_step *p)
 {
@@ -264,9 +264,9 @@ double account_size(const account *a)
     return fmax(a->largest, a->turned);
 }
 
-/* Returns 1 where the request explains a loss of energy: fixed steps, or generalized-alpha that
- * damps more than with rho_inf = 0.9. For all its parameters force - mass is (1 - rho)/(1 + rho),
- * rho the spectral radius. */
+/* Returns 1 when the request explains a loss of energy: fixed steps, or generalized-alpha with more
+ * damping than rho_inf = 0.9. For all its parameters alpha_f - alpha_m = (1 - rho)/(1 + rho), where
+ * rho is the spectral radius. */
 int account_loses(const scene_motion *how)
 {
     const double usual = 0.9, most = (1 - usual) / (1 + usual) * (1 + 1e-9);

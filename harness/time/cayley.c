@@ -185,7 +185,7 @@ static void add_identity(double factor, double A[9])
         A[4 * i] += factor;
 }
 
-/* A += factor times the derivative of b c (c.v) by c */
+/* A += factor times the derivative of b c (c.v) with respect to c */
 static void add_square(const cayley_step *s, const cayley_slopes *d, double factor,
                        const double v[3], double A[9])
 {
@@ -208,7 +208,7 @@ static void spin_of(const cayley_step *s, cayley_slopes *d)
         d->spin[i] += part * ratio * ratio / 2 * g[i];
 }
 
-/* d psi by (c^ . d c^) */
+/* d psi = this value times c^ . d c^ */
 static double arc_change(double x, double psi)
 {
     return x < 0.02 ? -1 / 6.0 + x * x / 20 : (1 / (1 + x * x / 4) - psi) / (x * x);
@@ -260,7 +260,7 @@ void cayley_slopes_of(const cayley_step *s, cayley_slopes *d)
         node_slopes(s, j, d);
 }
 
-/* Derivatives of a node's r(s) and R(s) by its dphi and by the mean of c. */
+/* Derivatives of r(s) and R(s) of a node with respect to its dphi and to the mean c. */
 typedef struct node_columns {
     double by_phi[9], r_common[9], phi_common[9];
 } node_columns;
@@ -272,7 +272,7 @@ static void columns_of(const cayley_step *s, const cayley_slopes *d, const cayle
     double back[3], Jl[9], first[3], swept[9], carried[9], apart[9], turned[9], more[9];
     for (int i = 0; i < 3; i++)
         back[i] = -at * y[3 + i];
-    turning_jacobian(back, Jl); /* of increments after the turn: spatial ones */
+    turning_jacobian(back, Jl); /* for increments after the rotation, in global axes */
     for (int i = 0; i < 9; i++)
         Jl[i] *= at;
     mat3_mul(Jl, d->own[j], out->by_phi);
@@ -335,7 +335,8 @@ static void add_block(int n, int row, int column, double factor, const double A[
             K[(row + i) * n + column + j] += factor * A[3 * i + j];
 }
 
-/* Derivatives of one node's force and moment by the mean of c, and of its moment by c_j. */
+/* Derivatives of the force and moment of one node with respect to the mean c, and of its moment
+ * with respect to c_j. */
 typedef struct node_forces {
     double F[3], force[9], moment[9], own[9];
 } node_forces;

@@ -59,7 +59,7 @@ static double size_of(const conserving *s)
     return largest;
 }
 
-/* Workspace of the iteration of a step. */
+/* Work space for the iteration of a step. */
 typedef struct solution {
     conserving *s;
     const instant *from;
@@ -153,8 +153,8 @@ static void release(motion_scheme *base)
     free(s);
 }
 
-/* Two free angles: what turns by them has an angular velocity across both at the end of a step,
- * with an energy that their rates have not. */
+/* Rejects two free angles: the mass has an angular velocity normal to both axes at the end of a
+ * step, whose energy the rates of the angles do not contain. */
 static status check(const model *m, fault *f)
 {
     for (int i = 0; i < model_scene(m)->nodes; i++) {
@@ -233,11 +233,11 @@ status conserving_alloc(const scheme_request *request, motion_scheme **out, faul
     return allocate(s, f);
 }
 
-/* Rates at the end of a step, of what has inertia and of what has none. */
+/* Rates at the end of a step, of coordinates with and without inertia. */
 
 enum { BALL = 3 };
 
-/* N: onto the axes about which J[9] is zero; how many they are. */
+/* N: projection onto the axes about which J[9] is zero; returns their number. */
 static int null_space(const double J[9], double N[9])
 {
     const double nothing = 1e-12;
@@ -245,7 +245,8 @@ static int null_space(const double J[9], double N[9])
     int count = 0;
     memset(N, 0, 9 * sizeof *N);
     memcpy(A, J, sizeof A);
-    LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', 3, A, 3, value); /* ascending; fails only for NAN */
+    LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', 3, A, 3,
+                  value); /* eigenvalues ascending; fails only for NaN */
     for (int k = 0; k < 3; k++) {
         if (value[k] > nothing * value[2])
             continue;
@@ -319,7 +320,7 @@ double conserving_impulses(const conserving *s, const instant *from, double h, c
     return sum;
 }
 
-/* Rates of a sequence of angles whose angular velocity is nearest to w. */
+/* Rates of a sequence of angles whose angular velocity is closest to w. */
 static void angle_rates(const model *m, int vertex, instant *to, const double w[3])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -336,7 +337,7 @@ static void angle_rates(const model *m, int vertex, instant *to, const double w[
     if (n > 1) {
         int pivot[3];
         if (dense_lu_regular(n, square, pivot) != 0)
-            return; /* two axes in one line */
+            return; /* two axes coincide */
         dense_lu_solve(n, 1, square, pivot, rate);
     }
     for (int k = 0; k < n; k++) {
@@ -346,8 +347,9 @@ static void angle_rates(const model *m, int vertex, instant *to, const double w[
     }
 }
 
-/* Rates without inertia would change their signs with every step: they become those of the mean.
- * N[9] projects turns onto those; NULL: there is no mass either. */
+/* Replaces rates of rotations without inertia by the mean rates of the step; otherwise they would
+ * change sign in every step. N[9] projects onto those rotations; NULL: the frame has no mass at
+ * all. */
 static void without_inertia(const carried_mass *one, const double N[9], carried_step *p)
 {
     double mean[3], back[3];
@@ -363,7 +365,7 @@ static void without_inertia(const carried_mass *one, const double N[9], carried_
         p->W1[i] += back[i];
 }
 
-/* Which of the coordinates that an end keeps to itself move its mass. */
+/* Which released coordinates of an end move its mass. */
 static void heavy_ones(const model *m, const carried_mass *one, const carried_step *p,
                        const model_state *s, int heavy[6])
 {
@@ -382,9 +384,9 @@ static void heavy_ones(const model *m, const carried_mass *one, const carried_st
     }
 }
 
-/* Velocities of the masses at released ends, integrated separately, so that they conserve energy
- * and momenta as those of nodes do. They differ from the rates of the coordinates by terms of
- * second order in the step. */
+/* Velocities of the masses at released ends, integrated separately so that these masses conserve
+ * energy and momenta as those of nodes do. They differ from the rates of the coordinates by terms
+ * of second order in the step. */
 static void conserving_released_rates(const conserving *s, const instant *from, double h,
                                       instant *to)
 {

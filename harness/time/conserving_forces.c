@@ -1,5 +1,5 @@
-/* Forces A^T sigma_m of elements and springs and their tangent. Geometric terms, all that a stress
- * is a factor of, take s + k W d and never the false stresses of the gaps. */
+/* Forces A^T sigma_m of elements and springs and their tangent. Geometric terms (those with a
+ * stress as a factor) use s + k W d and exclude the spurious stresses of the gaps. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@
 
 enum { N = ELEMENT_MAX_COORDINATES, M = DEFORMABLE_STRAINS };
 
-/* Terms known before strains are evaluated: (sigma_n + P'(e))/2 + k W d, and of damping eta S0 d/h.
- */
+/* Stress terms that do not need the strains at the end: (sigma_n + P'(e))/2 + k W d, and eta S0 d/h
+ * for damping. */
 static void middle_of(const conserving *s, evaluation *v)
 {
     const deformable *of = &v->of;
@@ -28,7 +28,7 @@ static void middle_of(const conserving *s, evaluation *v)
         v->middle[k] += of->damping / s->h * Wd[k];
 }
 
-/* Gaps, and sigma_m with what they add. */
+/* Gaps, and sigma_m including their contribution. */
 static double gaps_of(const conserving *s, const double J[], evaluation *v, double sigma[])
 {
     const deformable *of = &v->of;
@@ -54,7 +54,7 @@ static double gaps_of(const conserving *s, const double J[], evaluation *v, doub
     return largest;
 }
 
-/* H + 1/2 of what the spin does to moments, times how x(s) moves: out[n x n] +=. */
+/* out[n x n] += (H plus half of the effect of the spin on moments) times the derivative of x(s). */
 static void add_curved_strains(const cayley_slopes *by, int g, evaluation *v, double out[])
 {
     const deformable *of = &v->of;
@@ -72,7 +72,7 @@ static void add_curved_strains(const cayley_slopes *by, int g, evaluation *v, do
     cayley_slopes_columns(&v->step, by, &v->point[g], 1.0 / DEFORMABLE_POINTS, n, v->H[g], out);
 }
 
-/* Derivatives of k, times the denominator: into s->missing and the row. */
+/* Derivatives of k times the denominator, added to s->missing and to the row. */
 static void add_scalar(conserving *s, const double J[], evaluation *v)
 {
     const deformable *of = &v->of;
@@ -95,7 +95,8 @@ static void add_scalar(conserving *s, const double J[], evaluation *v)
     dense_add_transpose_mul(n, strains, 1, of->J, k_e, v->row);
 }
 
-/* Transforms to the coordinates that move the element's nodes; F[7 nodes]: forces of `middle`. */
+/* Transforms to the coordinates that move the nodes of the element; F[7 nodes]: forces of `middle`.
+ */
 static void to_coordinates(const conserving *s, const instant *from, const model_state *now,
                            const double F[], evaluation *v)
 {
@@ -120,7 +121,7 @@ static void to_coordinates(const conserving *s, const instant *from, const model
     }
 }
 
-/* The equations of what was evaluated; its incompatibility. */
+/* Adds the equations of the evaluated elements; returns their incompatibility. */
 static double equations_of(conserving *s, const instant *from, const model_state *now,
                            evaluation *v)
 {
@@ -188,7 +189,7 @@ void conserving_forces(conserving *s, const instant *from, model_state *now,
     }
 }
 
-/* Loads at the middle of a step: directions and arms that turn are the means of its ends. */
+/* Loads at the middle of a step: rotating directions and arms are means of those at both ends. */
 
 typedef struct loaded {
     conserving *s;
@@ -196,7 +197,7 @@ typedef struct loaded {
     double *out; /* [free + driven] */
 } loaded;
 
-/* (v_n + v)/2, and its derivative by the step's c: -1/2 v~ T_c. */
+/* (v_n + v)/2, and its derivative with respect to c of the step: -1/2 v~ T_c. */
 static void mean_of(const double back[9], const double T[9], const double v[3], double mean[3],
                     double change[9])
 {
@@ -218,7 +219,7 @@ static void subtract_block(const double A[9], int row, double K[36])
             K[6 * (row + i) + 3 + j] -= A[3 * i + j];
 }
 
-/* K -= derivative of arm x force at (moment, columns of c): by[3 x 3] of each. */
+/* K -= derivative of arm x force at (moment, columns of c); by[3 x 3]: derivative of each. */
 static void subtract_lever(const double arm[3], const double by_arm[9], const double force[3],
                            const double by_force[9], double K[36])
 {
@@ -232,7 +233,7 @@ static void subtract_lever(const double arm[3], const double by_arm[9], const do
     subtract_block(then, 3, K);
 }
 
-/* Force and moment F[6] of the mean, and K[6 x 6] = -dF by dr, c of the vertex. */
+/* Force and moment F[6] of the mean, and K[6 x 6] = -dF/d(dr, c) of the vertex. */
 static void loads_middle_of(const loaded *of, const applied *what, const double c[3], double F[6],
                             double K[36])
 {
@@ -260,7 +261,7 @@ static void loads_middle_of(const loaded *of, const applied *what, const double 
         F[3 + i] += levered[i];
 }
 
-/* Onto the coordinates that move the vertex. */
+/* Transforms to the coordinates that move the vertex. */
 static void take(void *context, const applied *what)
 {
     const loaded *of = context;
@@ -282,9 +283,9 @@ void conserving_loads(conserving *s, const instant *from, const model_state *now
                      take, &of);
 }
 
-/* Strains of the ends and between them take what Newton found. */
+/* Updates the strains at and between the ends of the step by Newton's corrections. */
 
-/* Increments dr, dc, da of an element's nodes. */
+/* Increments dr, dc, da of the nodes of an element. */
 static void own_increments(const conserving *s, const instant *from, const model_state *now,
                            const mesh_element *el, double local[])
 {
@@ -336,7 +337,7 @@ double conserving_update(conserving *s, const instant *from, model_state *now)
     return largest;
 }
 
-/* Work of external loads over a step: the forces that act in the step, times the increments of the
+/* Work of external loads in a step: the forces that act in the step times the increments of the
  * coordinates. */
 
 /* dr and c of the coordinates; of angles 2 tan(d angle/2). */
@@ -367,7 +368,7 @@ static int moves_by_drivers(const conserving *s)
     return 0;
 }
 
-/* eta d . S0 d/h, what the damping stresses of the step take. */
+/* eta d . S0 d/h: energy dissipated by the damping stresses in the step. */
 static double dissipated(const conserving *s, const instant *from, model_state *now)
 {
     double sum = 0;
@@ -382,7 +383,7 @@ static double dissipated(const conserving *s, const instant *from, model_state *
 status conserving_work(conserving *s, const instant *from, instant *to, double h, fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
-    const int behind = 3; /* of the iterations in which k counts */
+    const int behind = 3; /* number of iterations in which k is used */
     double ignored = 0;
     memset(s->residual, 0, bytes);
     conserving_loads(s, from, to->state, h, s->residual);
@@ -406,10 +407,9 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
 }
 
 /* Strain rates r1 and their derivatives s1 at the end of a step, from r0 and s0 at its start and
- * the mean rate m:
- *   r1 = (3 m - r0)/2 + h s0/4,  s1 = (m - r0)/h + s0/2.
- * Of second order, also without inertia; an initial error is gone after two steps (2 m - r0 would
- * keep it for ever). */
+ * the mean rate m: r1 = (3 m - r0)/2 + h s0/4, s1 = (m - r0)/h + s0/2. Of second order, also
+ * without inertia. An initial error disappears after two steps; with r1 = 2 m - r0 it would
+ * persist. */
 void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
@@ -426,7 +426,7 @@ void conserving_damped(const conserving *s, const instant *from, double h, insta
             r[k] = (3 * mean - r0) / 2 + h * s0 / 4;
             rate2[k] = (mean - r0) / h + s0 / 2;
         }
-        if (of.S == NULL || of.spring != NULL) /* whose stresses are found from its strains */
+        if (of.S == NULL || of.spring != NULL) /* its stresses follow from its strains */
             continue;
         dense_mul_vec(of.strains, of.strains, of.S, r, more);
         for (int k = 0; k < of.strains; k++)

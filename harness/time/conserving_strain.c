@@ -1,4 +1,5 @@
-/* Strains and stresses of all elements and springs, and the number that makes their work exact. */
+/* Strains and stresses of all elements and springs, and the number k that makes their work exact.
+ */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -140,7 +141,7 @@ static void stress_spring(conserving *s, const instant *from, model_state *now, 
     take_energy(s, &of, spring_energy(of.spring->spring, of.e), sum);
 }
 
-/* Kinetic energy and sizes of the strain energies at the start of the step [J]. */
+/* Kinetic energy, and magnitudes of the strain energies, at the start of the step [J]. */
 static double size_of_energy(const conserving *s, const instant *from)
 {
     inertia_balance moving;
@@ -177,13 +178,12 @@ status conserving_stresses(conserving *s, const instant *from, model_state *now,
     return STATUS_OK;
 }
 
-/* Centres of mass move with dr_c = h (v_c + v_c1)/2, R_n^T c = h (W + W1)/2; forces act at the
- * centres' mean places. About a frame that only turns, the tensor of its mass is as constant as
- * about the centre. */
+/* Centres of mass move by dr_c = h (v_c + v_c1)/2, R_n^T c = h (W + W1)/2; forces act at the mean
+ * positions of the centres. For a frame that only rotates, the tensor about the frame is constant
+ * in its axes too. */
 
-/* How many translations of a frame are fixed, and not all: those of the centre follow from its
- * turn.
- */
+/* Number of fixed translations of a frame if it also has free ones, else 0; the fixed translations
+ * of its centre of mass follow from its rotation. */
 static int held_of(const model *m, int frame, int held[3])
 {
     int count = 0;
@@ -264,7 +264,7 @@ static void forces_of(const carried_mass *one, const carried_step *p, double h, 
         F[3 + i] = (spun1[i] - spun0[i]) / h + lever[i] + (p->rides ? p->late[i] : 0);
 }
 
-/* K[6 x 6] by dr and c. */
+/* K[6 x 6] with respect to dr and c. */
 static void tangent_of(const carried_mass *one, const carried_step *p, double h, const double F[6],
                        double K[36])
 {
@@ -322,7 +322,7 @@ void conserving_inertia(conserving *s, const instant *from, const model_state *n
     }
 }
 
-/* The step to begin with, and what it is as increments of coordinates. */
+/* Initial guess of a step, and its form as increments of coordinates. */
 
 static int turns_freely(const model *m, int vertex)
 {
@@ -371,7 +371,7 @@ void conserving_increment(const conserving *s, const model_state *from, double i
     }
 }
 
-/* c = h w, or of a driven turn what that is. */
+/* c = h w; for a prescribed rotation the prescribed increment. */
 static void predict_turn(conserving *s, const frame_rates *r, const int at[3], double h,
                          double c[3])
 {
@@ -385,7 +385,7 @@ static void predict_turn(conserving *s, const frame_rates *r, const int at[3], d
     put_vector(c, at, s->step);
 }
 
-/* dr = h/2 (v + cay(c) v): the velocity turns with its node. cay(c) v - v = (c x v + c x (c x
+/* dr = h/2 (v + cay(c) v): the velocity rotates with its node. cay(c) v - v = (c x v + c x (c x
  * v)/2)/(1 + c.c/4). */
 void conserving_predict(conserving *s, const instant *from, double h)
 {
@@ -393,7 +393,8 @@ void conserving_predict(conserving *s, const instant *from, double h)
     for (int c = 0; c < s->free; c++)
         s->step[c] = h * from->v[c];
     drive_at(&s->of.c->eq, from->state, from->time + h, s->step, NULL, NULL);
-    memcpy(s->dx, s->step, (size_t)s->all * sizeof *s->dx); /* drivers may move several nodes */
+    memcpy(s->dx, s->step,
+           (size_t)s->all * sizeof *s->dx); /* because a driver may move several nodes */
     for (int i = model_first_release(m); i < model_vertices(m); i++) {
         const int *at = model_vertex(m, i)->coordinate + SCENE_RX;
         double R[9], own[3], c[3];

@@ -79,7 +79,7 @@ static void place_turn(const model *m, const double at[DEFORMABLE_POINTS], const
     }
 }
 
-/* The step, and the states that strains are asked of. */
+/* States during the step at which strains are evaluated. */
 static void place_nodes(const conserving *s, const instant *from, const model_state *now,
                         evaluation *v)
 {
@@ -99,7 +99,7 @@ static void place_nodes(const conserving *s, const instant *from, const model_st
     place_turn(m, at, from, now, v);
 }
 
-/* At the end (point DEFORMABLE_POINTS): e and J; between: J and H. */
+/* At the end of the step (point DEFORMABLE_POINTS): e and J; between its ends: J and H. */
 static const node_state *nodes_of(const evaluation *v, int point)
 {
     return point < DEFORMABLE_POINTS ? v->point[point].x : v->last;
@@ -220,7 +220,7 @@ status shares_node(const model *m, const model_state *s, const shares_motion *mo
     return STATUS_OK;
 }
 
-/* Inertia force of node k of an element, with warping; *share: its part of the mass. */
+/* Inertia force of node k of an element, including warping; *share: its part of the mass. */
 static void force_of(const model *m, const model_state *s, const shares_motion *motion, int element,
                      int k, double F[7], carried_mass *share)
 {
@@ -253,8 +253,9 @@ void shares_along(const model *m, const model_state *s, const shares_motion *mot
     }
 }
 
-/* Nodes that carry what lies along a member have its shifts right, and its resultants but for what
- * is within an element: F of the whole element's mass at both its nodes. */
+/* Corrects the moments of mass along a member that is lumped at its nodes: shifts are then right,
+ * and resultants except inside an element. F is the force of the whole element's mass at both
+ * nodes. */
 static void add_couple(const model *m, const model_state *s, int element, double F[2][7],
                        double ends[2][7])
 {
@@ -304,7 +305,7 @@ static const int value_of[SCENE_RESULTANTS] = {[SCENE_N] = SPAN_N,
                                                [SCENE_MX_WARPING] = SPAN_MX_WARPING,
                                                [SCENE_MX_WAGNER] = SPAN_MX_WAGNER};
 
-/* One resultant, times a sign; its magnitude where the sign is zero. */
+/* One resultant with a sign; its magnitude if the sign is zero. */
 typedef struct chosen_resultants {
     scene_resultant resultant;
     double sign;

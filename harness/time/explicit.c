@@ -40,7 +40,7 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     s->at = to;
     s->end = kinks_before(m, record->path);
     s->outcome = STATUS_OK;
-    if (s->of.c->run->damping != NULL) /* dashpots go by the rates of the coordinates */
+    if (s->of.c->run->damping != NULL) /* dashpots depend on the rates of the coordinates */
         damping_follow(&s->of.c->eq, 0, s->of.c->run->damping->none, NULL);
     kinematics_state_copy(m, from->state, to->state);
     if (advance(s, from, h) != GSL_SUCCESS)
@@ -148,7 +148,7 @@ status explicit_accelerate(const model *m, const carried_masses *masses, const m
     return STATUS_OK;
 }
 
-/* 1: no motion of the coordinates is without kinetic energy. */
+/* Returns 1 when every motion of the coordinates has kinetic energy. */
 static int is_heavy(int n, double M[])
 {
     const double rounding = 1e-13;
@@ -188,7 +188,7 @@ static status check_vertex(const model *m, int index, const int heavy[], fault *
     return STATUS_OK;
 }
 
-/* Which free coordinates have inertia, whatever the others of their frame do. */
+/* Marks the free coordinates that have inertia independently of the others of their frame. */
 static void mark(const model *m, const carried_masses *masses, const double rest[], int heavy[])
 {
     for (int k = 0; k < masses->masses; k++) {
@@ -197,7 +197,8 @@ static void mark(const model *m, const carried_masses *masses, const double rest
         const int n = block(m, masses, k, kinematics_rest(m), rest, of, M);
         for (int i = 0; i < n; i++) {
             double some[36];
-            /* the first i + 1 of them: where the last one adds nothing it has none */
+            /* rank of the first i + 1 coordinates; if the last one does not increase it, it has no
+             * inertia */
             for (int r = 0; r <= i; r++)
                 memcpy(&some[(i + 1) * r], &M[n * r], (size_t)(i + 1) * sizeof *some);
             heavy[of[i]] = is_heavy(i + 1, some);
@@ -235,7 +236,7 @@ status explicit_check(const model *m, const carried_masses *masses, fault *f)
     return outcome;
 }
 
-/* inc' = v, but for rotations in the frame's axes. */
+/* inc' = v, except for rotations in the axes of the frame. */
 static void turn_rates(const explicit_scheme *s, const double inc[], const double v[],
                        double rate[])
 {
@@ -258,8 +259,8 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
     }
 }
 
-/* The unknowns of an element's own, where its strains are given: by Newton, whose steps it knows.
- */
+/* Newton iteration for the inner unknowns of an element at given strains, with the element's own
+ * steps. */
 static status settle_rates(const explicit_scheme *s, int i, double time, fault *f)
 {
     enum { MOST = 30 };
@@ -369,7 +370,8 @@ void work_free(outer_work *w)
     free(w->element);
 }
 
-/* Sum over the coordinates; moments of frames whose rates are in their own axes are spatial. */
+/* Sum over the coordinates; moments of frames whose rates are in rotating axes are given in global
+ * axes. */
 static double product(const outer_work *w, const model_state *s, const double along[])
 {
     const model *m = w->m;
@@ -391,8 +393,8 @@ static double product(const outer_work *w, const model_state *s, const double al
     return sum;
 }
 
-/* All that acts on prescribed coordinates from outside, loads too: what stresses and inertia take.
- */
+/* External forces on prescribed coordinates, including loads: the sum of internal and inertia
+ * forces. */
 static void hold(outer_work *w, const model_state *s, const double v[], const double a[])
 {
     const model *m = w->m;

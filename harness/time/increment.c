@@ -12,7 +12,7 @@ static void three(const mesh_vertex *v, const double of[], double out[3])
         out[i] = of[v->coordinate[SCENE_RX + i]];
 }
 
-/* Spatial vector of a frame's turn: R_n inc. */
+/* Global vector of the rotation of a frame: R_n inc. */
 static void apply_vertex(const model *m, const model_state *from, int index, const double inc[],
                          model_state *to)
 {
@@ -31,7 +31,7 @@ static void apply_vertex(const model *m, const model_state *from, int index, con
     rotation_normalise(&to->q[4 * index]);
 }
 
-/* R_n exp(inc), as of frames. */
+/* R_n exp(inc), as for frames. */
 static void turn_ball(const model *m, const model_state *from, int index, const double inc[],
                       model_state *to)
 {
@@ -67,7 +67,7 @@ void increment_apply(const model *m, const model_state *from, const double inc[]
     to->path = time;
 }
 
-/* Turn of a frame, whose rates are in its own axes. */
+/* Rotation of a frame whose rates are in its rotating axes. */
 static void add_turn(const model_state *now, int index, const mesh_vertex *v, const double dx[],
                      double inc[])
 {
@@ -116,7 +116,7 @@ status drive_check(const model *m, fault *f)
     return STATUS_OK;
 }
 
-/* A rotation by its vector t(time): W = Jr t', W' = Jr t'' + d(Jr t')/dt t'. */
+/* Rotation given by a vector t(time): W = Jr t', W' = Jr t'' + d(Jr t')/dt t'. */
 static void drive_vector(const equations *eq, const model_state *from, int index, double time,
                          double inc[], double v[], double a[])
 {
@@ -180,10 +180,10 @@ void drive_at(const equations *eq, const model_state *from, double time, double 
             drive_vector(eq, from, i, time, inc, v, a);
 }
 
-/* Below it the series are exact to rounding. */
+/* Angles below this use series, which are then exact to rounding. */
 static const double small = 0.05;
 
-/* (1 - cos x)/x^2, (x - sin x)/x^3, and their derivatives by x divided by x. */
+/* (1 - cos x)/x^2, (x - sin x)/x^3, and their derivatives divided by x. */
 static void coefficients(double x, double *b, double *c, double *db, double *dc)
 {
     const double s = x * x;

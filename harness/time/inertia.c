@@ -7,7 +7,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* A mass in spatial axes. */
+/* A mass in global axes. */
 typedef struct spatial {
     double c[3], J[9];
 } spatial;
@@ -78,9 +78,10 @@ static void skew(const double v[3], double A[9])
     memcpy(A, all, sizeof all);
 }
 
-/* Derivatives of the force and moment of one frame, [6 x 6] each, by spatial increments of its
- * place and turn at fixed rates in its axes (in the exponential chart), of its velocity, and of its
- * acceleration, with what the axes' turn does to these left to `place`. */
+/* Derivatives [6 x 6] of the force and moment of one frame: with respect to spatial increments of
+ * its position and rotation at fixed rates in its axes (exponential chart), to its velocity, and to
+ * its acceleration. The effect of rotating axes on velocity and acceleration is included in
+ * `place`. */
 static void parts_of(const carried_mass *one, const frame_rates *r, const double F[6],
                      inertia_parts *out)
 {
@@ -98,10 +99,10 @@ static void parts_of(const carried_mass *one, const frame_rates *r, const double
     vec3_cross(r->w, s.c, w_c);
     skew(w_c, WC);
     mat3_mul(W, C, CW);
-    mat3_mul(A, C, AC); /* of c x a, whose a does not turn: d(c x a) = a~ c~ dphi */
+    mat3_mul(A, C, AC); /* of c x a, where a does not rotate: d(c x a) = a~ c~ dphi */
     vec3_cross(s.c, r->a, c_a);
     for (int i = 0; i < 3; i++) {
-        rest[i] = F[3 + i] - c_a[i]; /* both turn with the frame */
+        rest[i] = F[3 + i] - c_a[i]; /* both rotate with the frame */
         force[i] = F[i] - one->mass * r->a[i];
     }
     skew(rest, R);
@@ -161,8 +162,8 @@ void inertia_rows(const double turn[9], double K[36])
     }
 }
 
-/* The same for a released end. The change of its rates with the state (of axes that turn) is
- * omitted. */
+/* As above for a released end. The change of its rates with the state (for rotating axes) is
+ * neglected. */
 static void released_tangent(const model *m, int vertex, const model_state *s,
                              const inertia_parts *p, const inertia_relation *with, sparse *S)
 {
@@ -296,10 +297,10 @@ status balance_of(const equations *eq, const carried_masses *masses, const insta
     return STATUS_OK;
 }
 
-/* relative rounding error of coordinates that are solved from equations. */
+/* relative rounding error of coordinates that result from equations */
 static const double coordinate_rounding = 32 * DBL_EPSILON;
 
-/* Strain energy of an element whose coordinates are off by that. */
+/* Strain energy of an element due to this error of its coordinates. */
 static double rounding_of(const model *m, const mesh_element *el, int index)
 {
     enum { E = ELEMENT_MAX_STRAINS };

@@ -87,7 +87,7 @@ void instant_remember(const arrival *a, instant *to)
     to->contraction = a->contraction;
 }
 
-/* A state as kinds of quantities read it; rate NULL: not of a motion. */
+/* A state in the form that kinds of quantities read; rate NULL: not from a motion. */
 typedef struct read_state {
     quantity_state as;
     const model *m;
@@ -95,7 +95,7 @@ typedef struct read_state {
     const double *rate;
 } read_state;
 
-/* The interface is its first member. */
+/* The interface is the first member of read_state. */
 static const read_state *of(const quantity_state *s)
 {
     return (const read_state *)s;
@@ -118,7 +118,7 @@ static void frame_of(const quantity_state *s, int node, double place[3], double 
     rotation_matrix(turn, R);
 }
 
-/* Velocity of a node, which a body may carry, or angular velocity in the node's axes. */
+/* Velocity of a node, which may be part of a body, or angular velocity in the axes of the node. */
 static double rate_of(const quantity_state *s, int node, int component)
 {
     const model *m = of(s)->m;
@@ -206,7 +206,7 @@ void peaks_free(peaks *s)
     free(s->one);
 }
 
-/* balance NULL: it is not known yet. */
+/* balance NULL: not known yet. */
 static status read_at(const peaks *s, const scene_quantity *q, const instant *at,
                       const double balance[], double *out, fault *f)
 {
@@ -230,8 +230,8 @@ static void take(peak *one, double value, double time, double error)
         *one->out = (outcome_passing){1, value, time, error};
 }
 
-/* Computes the value by a step of the integrator to a time inside the step after the instant;
- * *known 0: no such step converges. */
+/* Computes the value at a time inside the following step by a side step; *known 0: it did not
+ * converge. */
 static status beside(peaks *s, const scene_quantity *q, const instant *from, double time,
                      double *value, int *known, fault *f)
 {
@@ -243,7 +243,7 @@ static status beside(peaks *s, const scene_quantity *q, const instant *from, dou
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
 
-/* The cubic through the last ends, at a time: Neville's scheme. */
+/* Value at a time of the cubic through the last ends (Neville's algorithm). */
 static double cubic(const peaks *s, const peak *one, double time)
 {
     double p[PEAKS_ENDS];
@@ -257,8 +257,8 @@ static double cubic(const peaks *s, const peak *one, double time)
     return p[0];
 }
 
-/* Where the cubic is largest between two ends: golden section. Where it has two humps in a step,
- * steps resolve nothing. */
+/* Maximum of the cubic between two ends by golden-section search. A cubic with two maxima in one
+ * step means that the steps do not resolve the motion. */
 static double top_of(const peaks *s, const peak *one, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;
@@ -272,7 +272,7 @@ static double top_of(const peaks *s, const peak *one, double a, double b)
     return (a + b) / 2;
 }
 
-/* Between the ends i and i + 1. */
+/* Searches between ends i and i + 1. */
 static status look_between(peaks *s, peak *one, int i, fault *f)
 {
     const double a = fmax(s->last[i].time, one->from), b = fmin(s->last[i + 1].time, one->until);
@@ -292,7 +292,7 @@ static status look_between(peaks *s, peak *one, int i, fault *f)
     return STATUS_OK;
 }
 
-/* A window that begins or ends inside the last step. */
+/* Handles a window that begins or ends inside the last step. */
 static status look_at_edges(peaks *s, peak *one, fault *f)
 {
     const instant *from = &s->last[PEAKS_ENDS - 2], *to = &s->last[PEAKS_ENDS - 1];

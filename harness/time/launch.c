@@ -1,5 +1,5 @@
-/* Accelerations are those of a stage in which positions give way by next to nothing; where
- * something has no inertia see time_impl.h. */
+/* Initial accelerations are those of a stage with a very small compliance of positions; time_impl.h
+ * explains the case without inertia. */
 #include "harness/time/time_impl.h"
 
 #include <float.h>
@@ -15,7 +15,8 @@
 /* compliance of positions, relative to the square of a step. */
 static const double softness = 1e-12;
 
-/* Rates of a sequence's angles of which the spin is the sum; fixed and prescribed ones stay. */
+/* Rates of the angles of a sequence that add up to the angular velocity; fixed and prescribed
+ * angles keep theirs. */
 static void start_angles(const model *m, const model_state *s, int index, const double spin[3],
                          double v[])
 {
@@ -37,13 +38,13 @@ static void start_angles(const model *m, const model_state *s, int index, const 
             A[n * i + j] = vec3_dot(b[of[i]], b[of[j]]);
     }
     if (n == 0 || dense_lu_regular(n, A, pivot) != 0)
-        return; /* two angles about one axis: both stay */
+        return; /* two angles have the same axis: both keep their rates */
     dense_lu_solve(n, 1, A, pivot, right);
     for (int i = 0; i < n; i++)
         v[frame->coordinate[SCENE_RX + of[i]]] = right[i];
 }
 
-/* Velocity [m/s] of a field at the position of a vertex. */
+/* Velocity [m/s] of a velocity field at the position of a vertex. */
 static void velocity_of(const model *m, const model_state *s, int index, const scene_start *field,
                         double out[3])
 {
@@ -60,7 +61,8 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
                          double v[])
 {
     const mesh_vertex *frame = model_vertex(m, index);
-    const int own = index < model_first_release(m); /* a released end: only the turns of a ball */
+    const int own =
+        index < model_first_release(m); /* a released end has rates only for a ball joint */
     double R[9], velocity[3], body[3];
     velocity_of(m, s, index, field, velocity);
     rotation_matrix(&s->q[4 * index], R);
@@ -101,7 +103,7 @@ static status check_field(const model *m, const model_state *s, const scene_star
     return STATUS_OK;
 }
 
-/* REFUSED: a prescribed coordinate starts at another value than in the state. */
+/* REFUSED: a prescribed coordinate has another value at the start than in the state. */
 static status check_drivers(const model *m, const double inc[], fault *f)
 {
     const double nothing = 1e-9;
@@ -151,7 +153,7 @@ static status begin(motion_stage *s, const scene_motion *how, instant *now, inst
     if (massless == 0)
         return accelerate(s, how->step, now, room, inc, zero, f);
     TRY(settle(s, zero, how->step, now, f));
-    if (!s->masses->spread) /* else what has inertia accelerates together */
+    if (!s->masses->spread) /* otherwise masses accelerate together */
         return STATUS_OK;
     TRY(accelerate(s, how->step, now, room, inc, zero, f));
     TRY(massless_drop(m, s->masses, now->state, now->a, f));
@@ -226,7 +228,7 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     return STATUS_OK;
 }
 
-/* Refuses scenes that consistent mass cannot be combined with. */
+/* Refuses scenes for which consistent mass is not possible. */
 static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];
@@ -305,7 +307,7 @@ static const double rounding = 32 * DBL_EPSILON;
 
 double extent_allows(const extent *so_far, double part, double tolerance)
 {
-    const double size = 1; /* flights far away leave the structure its size */
+    const double size = 1; /* size of a structure that moves far away stays the same */
     const double most = tolerance * fmax(so_far->scale, fmin(size, so_far->largest)),
                  noise = 8 * DBL_EPSILON * so_far->bent;
     return fmax(part * fmax(most, rounding), noise);
@@ -313,7 +315,7 @@ double extent_allows(const extent *so_far, double part, double tolerance)
 
 int extent_is_less(const extent *so_far, double tolerance, double *scale)
 {
-    const double part = 0.5, known = 1e-10; /* of an equilibrium, by Newton */
+    const double part = 0.5, known = 1e-10; /* for an equilibrium found by Newton's method */
     *scale = fmax(so_far->largest, rounding);
     return so_far->largest > known * so_far->bent && *scale < part * so_far->scale &&
            so_far->worst > tolerance * *scale;

@@ -8,20 +8,20 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* relative to the largest mass: smaller eigenvalues of M, measured in that way, count as zero. */
+/* Eigenvalues of the scaled M below this fraction of the largest mass count as zero. */
 static const double massless_nothing = 1e-14;
 
-/* Operations on the masses of a body. */
+/* Operations on the mass matrix of a body. */
 typedef enum massless_task { COUNT, STIFFEST, KEEP_FORCES, KEEP_MOTION, ACCELERATE } massless_task;
 
 typedef struct wish {
     massless_task task;
-    const double *given; /* [free] diagonal of a stiffness; forces */
-    double *changed;     /* [free] forces; increments; accelerations */
+    const double *given; /* [free] diagonal of a stiffness, or forces */
+    double *changed;     /* [free] forces, increments, or accelerations */
     double stiffest;
 } wish;
 
-/* x[free] onto the null space of M, whose vectors are columns of g->M. */
+/* Projects x[free] onto the null space of M, whose basis vectors are columns of g->M. */
 static void project(const body_mass *g, double none, int forces, double x[])
 {
     const int n = g->count;
@@ -68,7 +68,7 @@ static double stiffest(const body_mass *g, double none, const double diagonal[],
     return most;
 }
 
-/* Rank of a body's M. */
+/* Performs the task for one body; the rank of its M. */
 static int visit(const model *m, const carried_masses *all, int body, const model_state *s,
                  body_mass *g, wish *of)
 {
@@ -76,7 +76,7 @@ static int visit(const model *m, const carried_masses *all, int body, const mode
     const int n = g->count, rank = body_mass_rank(g, none);
     if (of->task == COUNT)
         return rank;
-    LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', n, g->M, n, g->value); /* fails only for NAN */
+    LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', n, g->M, n, g->value); /* fails only for NaN */
     if (of->task == STIFFEST)
         of->stiffest = stiffest(g, none, of->given, of->stiffest);
     else if (of->task == ACCELERATE)
@@ -105,7 +105,7 @@ static int warping(const model *m, const carried_masses *all, const model_state 
     return heavy;
 }
 
-/* Free coordinates less the rank of their masses: *out. */
+/* *out: number of free coordinates minus the rank of their masses. */
 static status walk(const model *m, const carried_masses *all, const model_state *s, wish *of,
                    int *out, fault *f)
 {
@@ -153,7 +153,7 @@ status massless_stiffest(const model *m, const carried_masses *all, const model_
     return STATUS_OK;
 }
 
-/* Turns of bodies between spatial axes and their own. */
+/* Converts rotations of bodies between global axes and their own. */
 static void turn_axes(const model *m, const model_state *s, int own_to_space, double a[])
 {
     for (int i = 0; i < model_vertices(m); i++) {
@@ -209,7 +209,7 @@ status massless_accelerate(const model *m, const carried_masses *all, const mode
 
 enum { BLOCK = 9, BLOCKS = 2 };
 
-/* All three of a block are free coordinates of a body's own. */
+/* Are all three coordinates of a rotation free and those of the body itself? */
 static int is_whole(const model *m, int i, int block)
 {
     const int *at = model_vertex(m, i)->coordinate + 3 * block;
@@ -219,7 +219,7 @@ static int is_whole(const model *m, int i, int block)
     return whole;
 }
 
-/* Column k of the projections of all bodies at once: they do not depend on each other. */
+/* Column k of the projections of all bodies together; bodies do not affect each other. */
 static status column(const model *m, const carried_masses *masses, const model_state *s, int block,
                      int k, double dx[], massive *h, fault *f)
 {
@@ -235,7 +235,7 @@ static status column(const model *m, const carried_masses *masses, const model_s
     return STATUS_OK;
 }
 
-/* R^T P R: turns of what is not a sequence of angles. */
+/* R^T P R for rotations that are not sequences of angles. */
 static void own_axes(const model *m, const model_state *s, massive *h)
 {
     for (int i = 0; i < model_first_release(m); i++) {
@@ -294,11 +294,11 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
     return sqrt(square);
 }
 
-/* Newton on the motions without inertia alone: forces and increments are projected onto them
- * (massless_motion), and the tangent holds the others by their masses. */
+/* Newton's method for the motions without inertia: forces and increments are projected onto them
+ * (massless_forces), and in the tangent a large stiffness on the masses fixes all others. */
 
-/* Stiffness that holds what has inertia, relative to the largest of its own: no more is lost of
- * that of the rest, no more of Newton's order is either. */
+/* Stiffness that fixes coordinates with inertia, relative to their largest one. It costs at most
+ * this factor in accuracy and in Newton's order of convergence. */
 static const double firm = 1e6;
 
 static double *diagonal_of(const sparse *S, double out[])
@@ -311,7 +311,7 @@ static double *diagonal_of(const sparse *S, double out[])
     return out;
 }
 
-/* Unbalanced forces at the known accelerations; K NULL: not needed. */
+/* Unbalanced forces at the known accelerations; K NULL: not requested. */
 static status forces(motion_stage *s, instant *now, sparse *K, fault *f)
 {
     const model *m = s->c->model;
@@ -388,8 +388,9 @@ static int mark(const model *m, const mesh_element *el, unsigned char of[])
     return count;
 }
 
-/* Nodes of elements and springs that are damped for long, against a step h: what of them has no
- * inertia comes to rest no sooner. of[free]: their coordinates; returns how many. */
+/* Nodes of elements and springs whose damping time is long compared with a step h: their
+ * coordinates without inertia relax no faster. of[free]: these coordinates; returns their number.
+ */
 static int creeping(const model *m, double h, unsigned char of[])
 {
     const double part = 1e-3;
@@ -408,7 +409,8 @@ static int creeping(const model *m, double h, unsigned char of[])
     return count;
 }
 
-/* Balance where positions that damping holds give way by a part of what they move in h. */
+/* Equilibrium in which positions fixed by damping yield by a fraction of their displacement in h.
+ */
 static status give_way(motion_stage *s, const double zero[], double h, double softness,
                        instant *now, double moved[], fault *f)
 {
@@ -416,9 +418,9 @@ static status give_way(motion_stage *s, const double zero[], double h, double so
     return balance(s, zero, now, moved, f);
 }
 
-/* First the rates, from a displacement that is large enough to have digits. Then, from the state
- * before it, the balance of coordinates that no damping resists. Gaps between D(x) and e that
- * iterations left are closed before: they would count as a displacement, too. */
+/* First computes the rates from a displacement that is large enough to be accurate. Then computes,
+ * from the state before it, the equilibrium of coordinates without damping. Gaps between D(x) and e
+ * left by iterations are closed first, since they would act as a displacement. */
 static status creep(motion_stage *s, const double zero[], double h, instant *now, double moved[],
                     const unsigned char of[], fault *f)
 {

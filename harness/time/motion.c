@@ -12,31 +12,31 @@ enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 /* bounds of the ratio of consecutive step sizes, and the safety factor on the error estimate. */
 static const double shorter = 0.3, longer = 2, safety = 0.9;
 
-/* All that a motion is integrated with. */
+/* Data of the integration of one motion. */
 typedef struct motion_course {
     analysis_context *c;
     const scene_motion *how;
     int analysis, follows;
-    double path;             /* parameter of the state that it starts from; NAN: it has none */
-    const outcome_end *from; /* end of the motion that this one continues; NULL: none */
+    double path;             /* path parameter of the static state that it starts from; NAN: none */
+    const outcome_end *from; /* end of the previous motion that this one continues; NULL: none */
     carried_masses masses;
     run_damping damping;
     outer_work work;
     motion_scheme *scheme;
     instant now, next;
-    double h, least; /* [s] next step; the shortest */
+    double h, least; /* [s] next step size; smallest step size */
     stations stations;
     watches watches;
     peaks peaks;
     frames frames;
     outcome_motion *out;
-    double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* at `now`, at `next` */
-    int looked_ahead;                                      /* 1: ahead is known */
+    double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* energy balance at `now`, at `next` */
+    int looked_ahead;                                      /* 1: `ahead` is valid */
     account account;
-    extent extent, reaches; /* so far; with the step that is tried */
-    double rounding;        /* [J] energy that is not one */
-    int quiet;              /* steps since what acts was last smooth no longer */
-    int unjudged;           /* steps whose balance was not yet examined */
+    extent extent, reaches; /* so far; including the trial step */
+    double rounding;        /* [J] rounding error of the energy */
+    int quiet;              /* number of steps since the last discontinuity of the loads */
+    int unjudged;           /* number of steps whose balance has not been checked */
 } motion_course;
 
 static status balance_at(motion_course *w, const instant *at, double balance[SCENE_BALANCES],
@@ -49,7 +49,7 @@ static status balance_at(motion_course *w, const instant *at, double balance[SCE
     return STATUS_OK;
 }
 
-/* The present instant, where a step has ended, becomes one of the records. */
+/* Records the present instant, at the end of a step. */
 static status record_step(motion_course *w, const step_record *record, double error, fault *f)
 {
     outcome_step one = {.time = w->now.time,
@@ -68,7 +68,7 @@ static status record_step(motion_course *w, const step_record *record, double er
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
 }
 
-/* last: what acts is smooth no longer after it, or nothing follows. */
+/* last: a discontinuity or the end of the motion follows. */
 static status keep_step(motion_course *w, const step_record *record, double error, int last,
                         fault *f)
 {
@@ -83,7 +83,7 @@ static status keep_step(motion_course *w, const step_record *record, double erro
     return peaks_here(&w->peaks, &w->now, w->balance, last, f);
 }
 
-/* [s] end of the last motion in the chain of motions that continue this one. */
+/* [s] end of the last motion in the chain of continued motions. */
 static double end_of_all(const motion_course *w)
 {
     const scene *s = w->c->scene;
@@ -95,8 +95,9 @@ static double end_of_all(const motion_course *w)
     return path->value[path->stations - 1];
 }
 
-/* 1: its error allows the step; the next one has the length that this one should have had. Where
- * errors of steps add up to that of the motion, each step has its share by time. */
+/* Returns 1 when the error allows the step, and sets the size of the next one from the error of
+ * this one. If errors of steps add up to that of the motion, each step may use a share proportional
+ * to its size. */
 static int allowed(motion_course *w, double step, double error)
 {
     w->reaches = extent_with(&w->extent, w->c->model, w->scheme, &w->now, &w->next, step, error);
@@ -112,15 +113,15 @@ static int allowed(motion_course *w, double step, double error)
     return of <= most;
 }
 
-/* The first steps after a jump of what acts make energy by alpha however short they are. */
+/* Is the balance checked? The first steps of alpha after a jump of the loads gain energy, however
+ * short they are. */
 static int looks(const motion_course *w)
 {
     return w->how->tolerance > 0 && (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
 }
 
-/* Steps make energy from nothing where modes are not resolved; shorter ones make less. *grows: more
- * than may be, by this step or with those before it. Steps that stay as they are are not examined.
- */
+/* Unresolved modes gain energy without cause, and less with shorter steps. *grows: more than
+ * allowed, by this step or together with previous ones. Fixed steps are not checked. */
 static status watch(motion_course *w, int *grows, fault *f)
 {
     *grows = 0;
@@ -140,12 +141,14 @@ static status watch(motion_course *w, int *grows, fault *f)
 static void lengthen(motion_course *w, double step, double whole, int rejected)
 {
     if (w->how->tolerance > 0 && step < whole)
-        w->h = fmax(w->h, whole); /* a step that was cut says nothing against longer ones */
+        w->h = fmax(
+            w->h,
+            whole); /* a step that was shortened to meet a station does not limit the next one */
     if (w->how->tolerance <= 0 && rejected == 0)
-        w->h = fmin(w->how->step, 2 * w->h); /* back to where it was before it was halved */
+        w->h = fmin(w->how->step, 2 * w->h); /* returns to the size before it was halved */
 }
 
-/* One step, shorter until it succeeds. */
+/* Makes one step, with shorter sizes until it succeeds. */
 static status take_step(motion_course *w, double target, fault *f)
 {
     for (int rejected = 0;; rejected++) {
@@ -226,7 +229,8 @@ static status integrate(motion_course *w, fault *f)
                        w->out, f);
 }
 
-/* Where the motion before it stopped; of another scheme or step: in the same scene only. */
+/* Continues where the previous motion stopped; with another scheme or step only in the same scene.
+ */
 static status go_on(motion_course *w, fault *f)
 {
     const scene_motion *former = w->from->analysis == w->analysis
@@ -255,7 +259,8 @@ static status find_end(motion_course *w, fault *f)
     return resume_before(w->c, w->follows, &w->from, f);
 }
 
-/* The state that the motion starts from, at time 0, and how the axes turn that it is at rest in. */
+/* The state at time 0 from which the motion starts, and the rotation of the axes in which it is at
+ * rest. */
 static status begin(motion_course *w, scene_rotating_frame *frame, fault *f)
 {
     const int follows = w->follows;
@@ -264,7 +269,7 @@ static status begin(motion_course *w, scene_rotating_frame *frame, fault *f)
     TRY(find_end(w, f));
     if (w->from != NULL)
         return go_on(w, f);
-    if (follows == SCENE_NONE) /* members may have strains by themselves */
+    if (follows == SCENE_NONE) /* free strains deform members without loads */
         return linearise_make_compatible(&w->c->eq, w->now.state, f);
     const analysis_outcome *before = &w->c->outcomes[follows];
     const outcome_path *path = outcome_path_of(before);
@@ -347,7 +352,8 @@ static void release(motion_course *w)
     damping_end(&w->c->eq, &w->damping);
 }
 
-/* Once, with a guess of its extent; *again: it was less, and there is a better guess. */
+/* Integrates once, with an estimate of the extent; *again: the motion was smaller, and a better
+ * estimate is known. */
 static status run(analysis_context *c, int analysis, double *scale, int *again, analysis_outcome *o,
                   fault *f)
 {
@@ -370,7 +376,7 @@ static status run(analysis_context *c, int analysis, double *scale, int *again, 
         history_add_motion(c->result, analysis, w.path, w.out, f) != STATUS_OK)
         result = STATUS_FAULT;
     release(&w);
-    if (*again) { /* what it cost stays counted; its steps are none of the motion's */
+    if (*again) { /* its work is counted, its steps are discarded */
         history_go_back(c->result, &begin);
         c->run->counters.steps = before.steps;
         c->run->counters.rejected_steps = before.rejected_steps;
@@ -409,7 +415,7 @@ void frames_free(frames *p)
     instant_free(&p->at);
 }
 
-/* Time of the next frame; INFINITY: there is none. */
+/* Time of the next frame; INFINITY: none. */
 static double next_of(const frames *p)
 {
     const int next = p->to->reached, last = p->to->stations - 1;

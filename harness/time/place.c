@@ -13,19 +13,19 @@ int place_plain(const model *m, int vertex)
     return model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
-/* Position that is being built, with its derivatives by the columns as [3 x columns]. */
+/* A relative position under construction, with its derivatives as [3 x columns]. */
 typedef struct place_chain {
     const model *m;
     const model_state *from, *now;
     int vertex;
     const mesh_release *release; /* NULL: none */
     const double *F;
-    double about[9];                       /* c of the node = about times its measures */
-    double a[3][3], da[3][3 * PLACE_MOST]; /* its columns where they are mean axes of angles */
-    double c[3], dc[3 * PLACE_MOST];       /* after all turns */
+    double about[9]; /* c of the node is `about` times the conjugate coordinates */
+    double a[3][3], da[3][3 * PLACE_MOST]; /* columns of `about` that are mean axes of angles */
+    double c[3], dc[3 * PLACE_MOST];       /* c after all rotations */
     double x[3][3], dx[3][3 * PLACE_MOST];
     double rho[3], drho[3 * PLACE_MOST], moved[3 * PLACE_MOST]; /* rho_m; of rho_1 */
-    double sigma[3], dsigma[3 * PLACE_MOST];                    /* shift of the mean, (a s)_m */
+    double sigma[3], dsigma[3 * PLACE_MOST];                    /* shift of the mean: (a s)_m */
 } place_chain;
 
 /* out[3 x columns] = times A B */
@@ -37,7 +37,7 @@ static void product(int columns, double times, const double A[9], const double B
                                             A[3 * i + 2] * B[2 * columns + k]);
 }
 
-/* out <- times (T_c dc) x v */
+/* out <- factor (T_c dc) x v */
 static void sweep(const place_chain *by, int columns, double times, const double v[3], double out[])
 {
     double T[9], V[9], B[9];
@@ -58,7 +58,7 @@ static void beside(place_chain *by, int columns)
     sweep(by, columns, 0.5, after, by->drho);
 }
 
-/* One turn more, about b: x[3] and dx[3 x columns], c and dc after it. */
+/* Appends a rotation about b: x[3] and dx[3 x columns], and the new c and dc. */
 static void turn(const double b[3], double angle, int column, double x[3], double dx[], int columns,
                  place_chain *by)
 {
@@ -84,7 +84,7 @@ static void turn(const double b[3], double angle, int column, double x[3], doubl
     }
 }
 
-/* c of the body: three coordinates, or a sequence of angles. */
+/* c of the body, from three coordinates or a sequence of angles. */
 static void begin(const double step[], place_chain *by, frame_place *p)
 {
     const int at = model_vertex(by->m, by->vertex)->body;
@@ -109,7 +109,7 @@ static void begin(const double step[], place_chain *by, frame_place *p)
         }
 }
 
-/* All turns that the end keeps to itself. */
+/* Appends all released rotations of the end. */
 static void turns(const double step[], place_chain *by, frame_place *p)
 {
     const mesh_release *r = by->release;
@@ -130,8 +130,9 @@ static void turns(const double step[], place_chain *by, frame_place *p)
     }
 }
 
-/* The direction of a slide, b and a at the ends of the step: (b + a)/2 - c x (a - b)/4, and its
- * derivative: the shift moves by c x its mean and by that times the change of the coordinate. */
+/* Direction of a slide whose axis is b and a at the ends of the step: (b + a)/2 - c x (a - b)/4,
+ * and its derivative. The shift changes by c x its mean plus the direction times the change of the
+ * coordinate. */
 static void direction(const double before[3], const double after[3], const place_chain *by,
                       int columns, double along[3], double change[])
 {
@@ -150,7 +151,7 @@ static void direction(const double before[3], const double after[3], const place
         change[i] += swept[i] / 2 + more[i];
 }
 
-/* Shift of an end by its slides: mean of the shift, and its columns. */
+/* Shift of an end due to its slides: its mean and its columns. */
 static void slides(const double step[], place_chain *by, frame_place *p)
 {
     const mesh_release *r = by->release;
@@ -177,7 +178,7 @@ static void slides(const double step[], place_chain *by, frame_place *p)
     }
 }
 
-/* Columns `column`.. of work: forces at a lever from what turns by A, and moments. */
+/* Columns of work from `column` on: forces at a lever on a part that rotates by A, and moments. */
 static void work_on(const double lever[3], const double A[9], int moments, int column, int columns,
                     frame_place *p)
 {
@@ -202,7 +203,7 @@ static void add_curved(const double A[9], const double B[], int row, int columns
 
 static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* Rows of single turns: x . M'. */
+/* Rows of single rotations: x . M'. */
 static void turning_rows(const place_chain *by, const double moment[3], const double dmoment[],
                          frame_place *p)
 {
@@ -221,7 +222,7 @@ static void turning_rows(const place_chain *by, const double moment[3], const do
     }
 }
 
-/* Rows of the angles of the body, whose mean axes turn with those before them: a' . M. */
+/* Rows of the angles of the body, whose mean axes rotate with the previous angles: a' . M. */
 static void angle_rows(const place_chain *by, const double moment[3], frame_place *p)
 {
     const int n = p->columns,
@@ -232,7 +233,7 @@ static void angle_rows(const place_chain *by, const double moment[3], frame_plac
                 p->curved[(SCENE_RX + k) * n + c] += moment[i] * by->da[k][i * n + c];
 }
 
-/* All rows, by what the chain came to. */
+/* Computes all rows from the finished chain. */
 static void finish(const place_chain *by, frame_place *p)
 {
     const int n = p->columns, ball = by->release != NULL && by->release->turns == BALL;

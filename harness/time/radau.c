@@ -6,7 +6,7 @@
 
 #include "elements/math/scalar.h"
 
-/* Workspace of the iteration of the stages. */
+/* Work space for the iteration of the stages. */
 typedef struct radau_solution {
     radau *r;
     const instant *from;
@@ -56,7 +56,7 @@ static void prepare(void *of, int iteration, double correction)
         complement_strains(r->stage[i].complement, r->stage[i].state, iteration, correction);
 }
 
-/* The power of the stages by the quadrature of the scheme. */
+/* Work of the stages, by the quadrature of the scheme. */
 static double work_of_stages(radau *r, const instant *from, double h, const step_record *record)
 {
     double sum = 0;
@@ -108,7 +108,7 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
 {
     radau *r = (radau *)base;
     *error = 0;
-    if (r->of.c->run->damping != NULL) /* stages add theirs by themselves */
+    if (r->of.c->run->damping != NULL) /* stages add their damping themselves */
         damping_follow(&r->of.c->eq, 0, r->of.c->run->damping->none, NULL);
     return solve(r, from, h, to, error, record, f);
 }

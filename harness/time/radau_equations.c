@@ -1,4 +1,4 @@
-/* The equations of three stages at once. */
+/* The coupled equations of the three stages. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* Blocks (i, k) of one frame, k = 0 .. */
+/* Blocks (i, k) of one frame for all k. */
 static void add_frame(radau *r, int index, double h, int i)
 {
     const model *m = r->of.c->model;
@@ -38,7 +38,7 @@ static void add_frame(radau *r, int index, double h, int i)
     }
 }
 
-/* The same of a released end. */
+/* As add_frame, for a released end. */
 static void add_released(radau *r, int index, double h, int i)
 {
     static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -126,10 +126,9 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
     return STATUS_OK;
 }
 
-/* Rates and accelerations of three stages, from their increments. Rates of stage j gain by the
- * increment of stage k
- *   G_jk = B_jk/h Jr(t_j) + (j = k) d(Jr(t_j) t_j')/dt_j,
- * accelerations of stage i sum_j B_ij/h G_jk. */
+/* Rates and accelerations of three stages from their increments. The derivative of the rates of
+ * stage j with respect to the increment of stage k is G_jk = B_jk/h Jr(t_j) + (j = k) d(Jr(t_j)
+ * t_j')/dt_j; that of the accelerations of stage i is sum_j B_ij/h G_jk. */
 
 void radau_coefficients(radau *r)
 {
@@ -201,8 +200,8 @@ void radau_rates(radau *r, const instant *from, double h)
         }
 }
 
-/* G_jk: what rates of stage j gain by inc of stage k, of one frame: scalar of translations, [3 x 3]
- * of rotations. */
+/* G_jk of one frame: derivative of the rates of stage j with respect to inc of stage k; a scalar
+ * for translations, [3 x 3] for rotations. */
 static void gains(const radau *r, int vertex, double h, int j, int k, double *translation,
                   double turn[9])
 {
@@ -248,14 +247,14 @@ void radau_in_space(const radau *r, int vertex, int i, const double B[9], double
     mat3_mul(R, B, out);
 }
 
-/* Members whose stresses gain eta S0 e': strains of the stages have the rates
- *   e_i' = 1/h sum_j B_ij (e_j - e_0),
- * which couple all three in every damped element. */
+/* Members with damping stresses eta S0 e'. The strain rates of the stages, e_i' = 1/h sum_j B_ij
+ * (e_j - e_0), couple all three stages in every damped element. */
 
 /* Damping forces of one element in one stage. */
 typedef struct damped {
-    double J[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES]; /* by the model's coordinates */
-    double gained[ELEMENT_MAX_STRAINS];                    /* strains since the start of the step */
+    double J[ELEMENT_MAX_STRAINS *
+             MODEL_MAX_COORDINATES];    /* with respect to the coordinates of the model */
+    double gained[ELEMENT_MAX_STRAINS]; /* strains since the start of the step */
 } damped;
 
 static void take(radau *r, const instant *from, int stage, int element, damped *out)
@@ -275,7 +274,7 @@ static void take(radau *r, const instant *from, int stage, int element, damped *
     }
 }
 
-/* eta S0 e' of a stage joins the stress that its element has linearised, and its forces. */
+/* Adds eta S0 e' of a stage to the linearised stress of its element, and to its forces. */
 static void add_stress(radau *r, const damped all[STAGES], double h, double eta, const double S[],
                        int stage, int element)
 {
@@ -296,7 +295,7 @@ static void add_stress(radau *r, const damped all[STAGES], double h, double eta,
             r->residual[(size_t)stage * (size_t)r->free + (size_t)el->index[c]] -= force[c];
 }
 
-/* J_i^T S0 J_k in all blocks. */
+/* Adds J_i^T S0 J_k to all blocks. */
 static void add_blocks(radau *r, const damped all[STAGES], double h, double eta, const double S[],
                        int element)
 {
@@ -318,7 +317,8 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
     }
 }
 
-/* The same of a dashpot, whose stress is none of a slot's; what turns with it too. */
+/* As above for a dashpot, whose stress is not stored in a slot; includes the rotation of its axes.
+ */
 static void damp_spring(radau *r, int fresh, const instant *from, double h, int spring)
 {
     enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };
@@ -429,11 +429,11 @@ void radau_damp_error(const radau *r, const instant *from, double h, const doubl
     damping_follow(&r->of.c->eq, g, room, from->state);
 }
 
-/* Masses that elements spread, in the equations of three stages: blocks of all nodes of an element.
- */
+/* Consistent masses of elements in the equations of three stages: blocks for all nodes of an
+ * element. */
 
-/* Changes of the motion of a node in stage i by spatial increments of its coordinates in stage k.
- */
+/* Derivative of the motion of a node in stage i with respect to spatial increments of its
+ * coordinates in stage k. */
 static void motions_of(const radau *r, const spread_parts *p, int node, double h, int i, int k,
                        spread_motion *rates, spread_motion *accelerations)
 {

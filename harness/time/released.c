@@ -1,9 +1,9 @@
-/* Masses of ends that are released from their nodes. With the body's v, w, the node at the offset p
- * from it, the turns t about axes b and the shifts s along d, q = sum d s:
- *   w_end = w + sum b t',  w_end' = w' + sum b t'' + sum t' (rotation before it) x b,
- *   v_end = v + w x p + w_end x q + sum d s',
- *   a_end = a + w' x p + w x (w x p) + w_end' x q + w_end x (w_end x q) + 2 w_end x sum d s' + sum
- * d s''. Three turns are free: their rates are the angular velocity in the end's axes. */
+/* Masses of ends that are released from their nodes. For a body with velocities v, w, a node at the
+ * offset p from it, released rotations t about axes b and shifts s along d, q = sum d s: w_end = w
+ * + sum b t', w_end' = w' + sum b t'' + sum t' (rotation before it) x b, v_end = v + w x p + w_end
+ * x q + sum d s', a_end = a + w' x p + w x (w x p) + w_end' x q + w_end x (w_end x q) + 2 w_end x
+ * sum d s' + sum d s''. With three released rotations the rates are the angular velocity in the
+ * axes of the end. */
 #include "harness/time/time_impl.h"
 
 #include <stdlib.h>
@@ -41,7 +41,7 @@ void released_columns(const model *m, const model_state *s, int vertex, released
     out->ball = r != NULL && r->turns == BALL ? out->own : NONE;
 }
 
-/* Column of T, its turn or its shift. */
+/* Column of T for a released rotation or shift. */
 static void column_of(const released_masses *of, int column, int turn, double out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -192,7 +192,7 @@ static size_t of_members(const model *m)
     return (size_t)model_elements(m) * (size_t)model_strains(m);
 }
 
-/* members: with the stiffnesses of elements. */
+/* members: 1: with the stiffnesses of elements. */
 static status begin(const equations *eq, int members, run_damping *d, fault *f)
 {
     const model *m = eq->m;
@@ -284,7 +284,7 @@ status damping_matrix(const equations *eq, const model_state *s, double more, sp
     return begun;
 }
 
-/* Increments that the rates would be of an instant: those of rotations in fixed axes. */
+/* Increments of an instant that correspond to the rates, with rotations in fixed axes. */
 static void in_space(const model *m, const model_state *s, const double v[], double out[])
 {
     memcpy(out, v, (size_t)model_all_coordinates(m) * sizeof *out);
@@ -329,7 +329,7 @@ size_t dashpots_room(const model *m)
     return (size_t)model_all_coordinates(m) + (size_t)(SPRING_STRAINS * model_springs(m)) + 1;
 }
 
-/* -> [6 x springs], in the room. */
+/* Deformation rates of dashpots [6 x springs], stored in `room`. */
 static double *rates_of_dashpots(const model *m, const model_state *s, const double v[],
                                  double room[])
 {
@@ -389,7 +389,7 @@ double damping_power(const equations *eq, const double rate[])
     return sum + dashpots_power(m, rate + of_members(m));
 }
 
-/* Components of a rotation about fixed axes that move. */
+/* Number of free or prescribed rotations about fixed axes. */
 static int turns_of(const model *m, int vertex)
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -406,7 +406,7 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
-/* Do held turns that are kept as rows leave one axis at most? */
+/* Is at most one rotation axis free, considering fixed rotations that are kept as rows? */
 static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;
@@ -415,7 +415,7 @@ static int keeps_axis(const model *m, int vertex)
     return moving <= 1;
 }
 
-/* Names two axes that it turns about, and the third. */
+/* Names the two axes of free rotation, and the third. */
 static status refuse_turns(const model *m, int vertex, fault *f)
 {
     static const char axis[] = "xyz";
@@ -451,8 +451,8 @@ status forms_check(const model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Angles a_k about axes b_k, each carried by those before it:
- * w = sum b_k a_k', w' = sum b_k a_k'' + sum_(j<k) a_j' a_k' b_j x b_k. */
+/* Angles a_k about axes b_k, where each axis rotates with the previous angles: w = sum b_k a_k', w'
+ * = sum b_k a_k'' + sum_(j<k) a_j' a_k' b_j x b_k. */
 static void sequence_rates(const model *m, const model_state *s, int vertex, const double v[],
                            const double a[], frame_rates *out)
 {

@@ -9,7 +9,7 @@
 
 enum { MOST = ELEMENT_MAX_COORDINATES };
 
-/* States, velocities and accelerations of an element's nodes. */
+/* States, velocities and accelerations of the nodes of an element. */
 typedef struct moving_element {
     node_state x[ELEMENT_MAX_NODES];
     double rate[MOST], acceleration[MOST];
@@ -73,7 +73,7 @@ void spread_subtract(const model *m, const model_state *s, const double v[], con
     }
 }
 
-/* A[columns x columns] += B Q, Q [3 x 3] from the rotations of a node that begins at `at` to its
+/* A[columns x columns] += B Q, where Q [3 x 3] maps the rotations of a node starting at `at` to its
  * translations. */
 static void add_through(int columns, int at, const double B[], const double Q[9], double A[])
 {
@@ -83,7 +83,7 @@ static void add_through(int columns, int at, const double B[], const double Q[9]
                 A[columns * i + at + 3 + j] += B[columns * i + at + k] * Q[3 * k + j];
 }
 
-/* The same by rates that turn with the node: dw = d x w. */
+/* As add_through, for rates that rotate with the node: dw = d x w. */
 static void add_turning(int columns, int at, const double B[], const double w[3], double A[])
 {
     for (int i = 0; i < columns; i++) {
@@ -106,8 +106,9 @@ static void cross_all(const double x[3], const double A[9], double out[9])
     }
 }
 
-/* A node at rho from the body that moves it: v = v_b + w x rho, a = a_b + w' x rho + w x (w x rho).
- * What its rates gain by w and by turns d of the body beside what their Jacobian has. */
+/* For a node at rho from the body that moves it: v = v_b + w x rho, a = a_b + w' x rho + w x (w x
+ * rho). Adds the terms of w and of rotations d of the body that the Jacobian of the rates does not
+ * contain. */
 static void carry(int n, int at, const moving_element *e, const double rho[3], const double M[],
                   double C[], double K[])
 {
@@ -130,7 +131,7 @@ static void carry(int n, int at, const moving_element *e, const double rho[3], c
     add_through(n, at, M, by_w, C);
 }
 
-/* All of an element from its nodes to the bodies that move them. */
+/* Transforms all data of an element from its nodes to the bodies that move them. */
 static void to_bodies(const model *m, const mesh_element *el, const model_state *s,
                       const moving_element *e, double F[], spread_parts *p)
 {
@@ -188,8 +189,8 @@ void spread_element(const model *m, int element, const model_state *s, const dou
 
 static const double spread_one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* T[7 nodes x columns]: motion of the nodes by the coordinates of the element; moves NULL: by
- * spatial increments. */
+/* T[7 nodes x columns]: derivative of the motion of the nodes with respect to the coordinates of
+ * the element; moves NULL: to spatial increments. */
 static void wide_motion(const model *m, const spread_parts *p, const spread_motion moves[],
                         double T[MOST * MODEL_MAX_COORDINATES])
 {
@@ -301,7 +302,7 @@ void spread_place(const model *m, const spread_parts *p, spread_motion place[])
     }
 }
 
-/* Derivatives of the rates of the bodies by their coordinates. */
+/* Derivatives of the rates of the bodies with respect to their coordinates. */
 static void motions_of(const model *m, const mesh_element *el, const inertia_relation *with,
                        const spread_parts *p, spread_motion rates[])
 {

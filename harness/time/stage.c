@@ -62,8 +62,7 @@ status stage_direction(motion_stage *s, int fresh, fault *f)
     return STATUS_OK;
 }
 
-/* dx, from the equations of the present state. fresh 0: with the factors of the iteration before.
- */
+/* Computes dx from the equations of the present state. fresh 0: with the previous factors. */
 static status direction(motion_stage *s, int fresh, double time, const stage_rates *r,
                         model_state *now, step_record *record, fault *f)
 {
@@ -131,11 +130,12 @@ enum { MOST = ELEMENT_MAX_STRAINS };
 struct complement {
     const equations *eq;
     const model *m;
-    double *before; /* [elements x strains], from which stresses were advanced */
-    double settled; /* the correction after which all elements agreed; 0: not in this step */
+    double *before; /* [elements x strains] strains at which the stresses were linearised */
+    double
+        settled; /* size of the correction after which all elements agreed; 0: none in this step */
 };
 
-/* Does C change with the strains? */
+/* Does the stiffness C depend on the strains? */
 static int curved(const model *m, const element_data *data, double length)
 {
     double e[MOST] = {0}, sigma[MOST], rest[MOST * MOST] = {0}, C[MOST * MOST] = {0};
@@ -192,16 +192,17 @@ void complement_keep(complement *c, const model_state *s)
                (size_t)(model_elements(c->m) * model_strains(c->m)) * sizeof *s->e);
 }
 
-/* An element on its way. */
+/* Iteration of one element towards its target stresses. */
 typedef struct complement_way {
     const equations *eq;
     const model *m;
     int element;
-    double near;                                 /* stresses agree [N] */
+    double near;                                 /* [N] distance below which stresses agree */
     double e[MOST], sigma[MOST], C[MOST * MOST]; /* P' and P'' at e */
 } complement_way;
 
-/* Near enough: what is nearer converges as fast from the strains as from the stresses. */
+/* Distance that is close enough: below it Newton's method converges as fast from the strains as
+ * from the stresses. */
 static double near_of(int n, const double sigma[])
 {
     double largest = 0;
@@ -210,7 +211,7 @@ static double near_of(int n, const double sigma[])
     return 0.1 * largest;
 }
 
-/* gap[n] = goal - sigma; returns the largest size, NAN where one is not finite. */
+/* gap[n] = goal - sigma; returns the largest component, NAN if one is not finite. */
 static double gap_of(int n, const double goal[], const double sigma[], double gap[])
 {
     double sum = 0, largest = 0;
@@ -229,7 +230,7 @@ static int evaluate(complement_way *w)
                                     &(stress_output){.sigma = w->sigma, .C = w->C}) == STATUS_OK;
 }
 
-/* e += C^-1 gap. Strains that meet no stiffness (no warping) stay. */
+/* e += C^-1 gap. Strains without stiffness (no warping) do not change. */
 static int move(complement_way *w, double gap[])
 {
     const int n = model_strains(w->m);
@@ -251,7 +252,7 @@ static int move(complement_way *w, double gap[])
     return 1;
 }
 
-/* Newton's method, as long as the corrections contract. */
+/* Newton's method, as long as the corrections decrease. */
 static int arrive(complement_way *w, const double goal[])
 {
     enum { MOST_ITERATIONS = 8 };
@@ -269,7 +270,7 @@ static int arrive(complement_way *w, const double goal[])
     return 0;
 }
 
-/* From where it is, relative to the way from its stresses to the goal. */
+/* Follows the path from the present stresses towards the goal. */
 static int follow(complement_way *w, const double goal[])
 {
     const int n = model_strains(w->m);
@@ -295,9 +296,9 @@ static int follow(complement_way *w, const double goal[])
     return part >= shortest;
 }
 
-/* Target stresses for the strains of an element: those of the state or, where damping has a share
- * in these, the part that depends on strains alone: P'(e) + P''(e) de, with the strains e before
- * the increment. NULL: the element has no stresses at e. */
+/* Target stresses for the strains of an element: the stresses of the state; with damping, the part
+ * that depends on strains only: P'(e) + P''(e) de, with the strains e before the increment. NULL:
+ * the element has no stresses at e. */
 static const double *goal_of(const complement *c, const model_state *s, int element, double room[])
 {
     const model *m = c->m;
@@ -333,7 +334,7 @@ static void find(const complement *c, int element, const double sigma[], double 
         memcpy(e, w.e, n * sizeof *e);
 }
 
-/* Elements of one go whose stresses are those requested already. */
+/* Marks the elements of a batch whose stresses already agree. */
 static void settled(const complement *c, const model_state *s, int count, const int index[],
                     const double *const goal[], int is[])
 {
@@ -359,7 +360,7 @@ static void settled(const complement *c, const model_state *s, int count, const 
                                                 near_of(model_strains(m), goal[k]));
 }
 
-/* Returns whether all of them were settled. */
+/* Returns 1 when all of them agree. */
 static int follow_stresses(const complement *c, model_state *s, int first, int end)
 {
     const size_t n = (size_t)model_strains(c->m);

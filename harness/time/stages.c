@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Free coordinates that the mass of a coordinate couples it with, ascending; how many. */
+/* Free coordinates that the mass of a coordinate couples with it, ascending; returns their number.
+ */
 static int coupled(const model *m, const int frame_of[], const double warping[], int c, int list[6])
 {
     int count = 0;
@@ -24,13 +25,13 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
     return count;
 }
 
-/* Columns of stage k after each other; returns the entries. NULL row: they are counted. */
+/* Columns of stage k, one after the other; returns the number of entries. row NULL: only counts. */
 static int fill(const equations *eq, const sparse *single, const int frame_of[],
                 const carried_masses *masses, stages_matrix *out, int *row)
 {
     const model *m = eq->m;
     const int n = out->n, full = model_releases(m) > 0 || eq->run->damping != NULL ||
-                                 masses->spread; /* they couple nodes */
+                                 masses->spread; /* consistent masses couple nodes */
     const double *warping = masses->warping;
     int count = 0;
     for (int k = 0; k < STAGES; k++)
@@ -138,7 +139,8 @@ void stages_add(stages_matrix *s, int i, int k, int row, int column, double valu
     assemble_subtract(&s->whole, i * s->n + row, k * s->n + column, -value);
 }
 
-/* Rank of A[n x n], positive semidefinite, in which `none` is zero; destroys A. */
+/* Rank of the positive semidefinite A[n x n], where values up to `none` count as zero; destroys A.
+ */
 static int rank(int n, double A[], int used[], double none)
 {
     int rank = 0;
@@ -205,8 +207,8 @@ static double add_mass(const model *m, const carried_masses *all, int index, con
 }
 
 /* Adds an element with consistent mass: entries of the nodes that the body moves and of the ends
- * released from it, not those that couple these with other nodes. A motion without mass here has
- * none in the whole matrix. Returns the largest mass of a node. */
+ * released from it, without their coupling with other nodes. A motion without mass in this block
+ * has none in the whole matrix. Returns the largest mass of a node. */
 static double add_element(const model *m, int element, int body, const model_state *s,
                           const body_mass *g)
 {
@@ -268,7 +270,7 @@ double body_mass_of(const model *m, const carried_masses *all, int body, const m
     return largest;
 }
 
-/* Most ends that are released from one body. */
+/* Largest number of ends released from one body. */
 static int most_ends(const model *m, int ends[])
 {
     int most = 0;

@@ -9,8 +9,8 @@
 
 enum { PARTS = 5, BALL = 3 };
 
-/* Data of one coordinate over a step: its increment, and rates and their derivatives at both ends,
- * in units of the step. */
+/* Data of one coordinate in a step: its increment, and rates and their derivatives at both ends,
+ * with the step size as unit of time. */
 typedef struct between_ends {
     double whole, rate[2], second[2];
 } between_ends;
@@ -47,7 +47,7 @@ static void put(const step_between *b, int coordinate, const between_ends *e)
     memcpy(part, b->degree == BETWEEN_CUBIC ? cubic : quintic, sizeof cubic);
 }
 
-/* An additive coordinate that is `whole` further at the end. */
+/* For an additive coordinate that increases by `whole` in the step. */
 static void put_plain(const step_between *b, int c, double whole, double h)
 {
     const instant *from = b->from, *to = b->to;
@@ -58,7 +58,7 @@ static void put_plain(const step_between *b, int c, double whole, double h)
             whole, {h * from->v[c], h * to->v[c]}, {h * h * from->a[c], h * h * to->a[c]}});
 }
 
-/* Rates t' and t'' of the vector t of a turn, of body rates W, W'. */
+/* Rates t' and t'' of the rotation vector t, from body rates W, W'. */
 static void vector_rates(const double t[3], const double W[3], const double Wd[3], double rate[3],
                          double second[3])
 {
@@ -72,7 +72,7 @@ static void vector_rates(const double t[3], const double W[3], const double Wd[3
     mat3_mul_vec(inverse, more, second);
 }
 
-/* Rotation vector over the step, in the vertex's axes at the start of the step. */
+/* Rotation vector during the step, in the axes of the vertex at the start of the step. */
 static void turn_of(const step_between *b, int vertex, double t[3])
 {
     double back[4], q[4];
@@ -101,7 +101,7 @@ static void put_turn(const step_between *b, int vertex, double h)
                 &(between_ends){t[1][k], {rate[0][k], rate[1][k]}, {second[0][k], second[1][k]}});
 }
 
-/* Ends that are free to turn have no rates of it: evenly. */
+/* A ball joint has no rates: interpolates linearly. */
 static void put_ball(const step_between *b, int vertex)
 {
     const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
@@ -154,7 +154,7 @@ void between_take(step_between *b, between_degree degree, const instant *from, c
         put_plain(b, model_warp(m, i), to->state->warp[i] - from->state->warp[i], h);
 }
 
-/* Body rates of the turns, from those of their vectors. */
+/* Body rates of rotations, from the rates of their vectors. */
 static void turn_rates(const step_between *b, int vertex, const double inc[], const double rate[],
                        const double second[], instant *at)
 {
@@ -226,7 +226,7 @@ void between_at(const step_between *b, double time, instant *at)
     blend_elements(b, (time - b->from->time) / (b->to->time - b->from->time), at->state);
 }
 
-/* relative to a step: a station nearer than that to its end is at its end. */
+/* A station closer than this to the end of a step, relative to the step, counts as that end. */
 static const double same_instant = 1e-9;
 
 status stations_alloc(stations *s, fault *f)
@@ -247,7 +247,7 @@ void stations_free(stations *s)
     instant_free(&s->at);
 }
 
-/* The next one; infinite: there is none. */
+/* Time of the next station; INFINITY: none. */
 static double next_of(const stations *s)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
@@ -271,7 +271,7 @@ static status keep(stations *s, const instant *at, const double balance[SCENE_BA
     return outcome_keep(&s->out->path, m, at->state, 1, next_of(s), f);
 }
 
-/* Is more read at this station than positions and rates? */
+/* Do quantities at this station need more than positions and rates? */
 static int reads_forces(const stations *s, double time)
 {
     const scene *what = s->c->scene;
@@ -288,7 +288,7 @@ static int reads_forces(const stations *s, double time)
     return 0;
 }
 
-/* A step of its own from where the motion's began. */
+/* Makes a side step from the start of the motion's step. */
 static status step_to(stations *s, const instant *from, double time, fault *f)
 {
     double balance[SCENE_BALANCES];

@@ -1,4 +1,4 @@
-/* time/: integrators of motions, inertia, the runner. */
+/* time/: integrators of transient analyses, inertia, and the analysis itself. */
 #ifndef BEAMWORK_TIME_H
 #define BEAMWORK_TIME_H
 
@@ -12,37 +12,38 @@
 typedef struct instant {
     double time; /* [s] */
     model_state *state;
-    double *v, *a;           /* [free + driven] rates and their derivatives: see time_impl.h */
-    double work, dissipated; /* [J] since t = 0: by external forces; by damping */
-    double *strain,
-        *strain2; /* [model_stresses] rates of the strains of what is damped, and
-                     their derivatives as generalized-alpha has them; NULL: nothing is */
-    double stress,
-        contraction;   /* largest stress so far, and how Newton contracted last: newton.h */
-    double *ends;      /* [released ends x 6] of their masses as conserving steps integrate them:
-                          velocity of the centre, angular one in the end's axes; NULL: none is */
-    int ends_known;    /* 0: they are those of v */
-    double *algorithm; /* [free + driven] of generalized-alpha: the acceleration it averages */
+    double *v, *a; /* [free + driven] rates and their derivatives; time_impl.h defines them */
+    double work, dissipated;  /* [J] since t = 0: work of external forces; energy lost by damping */
+    double *strain, *strain2; /* [model_stresses] strain rates of damped members and their
+                                 derivatives as used by generalized-alpha; NULL: no damping */
+    double stress, contraction; /* largest stress so far, and the last contraction of Newton's
+                                   method: newton.h */
+    double *ends; /* [released ends x 6] velocities of their masses in conserving steps: velocity of
+                     the centre, angular velocity in the axes of the end; NULL: no such mass */
+    int ends_known;    /* 0: they follow from v */
+    double *algorithm; /* [free + driven] the acceleration that generalized-alpha averages */
 } instant;
 
 status instant_alloc(const model *, instant *, fault *);
 void instant_free(instant *);
 void instant_copy(const model *, const instant *from, instant *to);
-/* Numbers in `ends`. */
+/* Number of values in `ends`. */
 size_t instant_ends(const model *);
-/* The convergence history of Newton's method belongs to the instant: a rejected step leaves no
- * trace. Call recall before a step, and remember with the instant at its end. */
+/* The convergence history of Newton's method is part of the instant, so that a rejected step has no
+ * effect on it. Call instant_recall before a step, and instant_remember with the instant at its
+ * end. */
 void instant_recall(const instant *from, arrival *);
 void instant_remember(const arrival *, instant *to);
 
-/* A motion inside one of its steps: a polynomial of every coordinate's increment, that of rotations
- * of the vector in the frame's axes at the start, with the positions and rates of both ends, and
- * with the accelerations too where a scheme has them to the same order. Prescribed coordinates are
- * read from their drivers. */
+/* A motion inside one step, interpolated by a polynomial of the increment of every coordinate; for
+ * rotations, of the rotation vector in the axes of the frame at the start. It matches positions and
+ * rates at both ends, and accelerations too if the scheme has them to the same order. Prescribed
+ * coordinates come from their drivers. */
 
 typedef enum between_degree {
-    BETWEEN_CUBIC,  /* positions and rates: order 4 inside a step; accelerations are linear */
-    BETWEEN_QUINTIC /* accelerations too: order 6 */
+    BETWEEN_CUBIC,  /* matches positions and rates: order 4 inside a step; accelerations are linear
+                     */
+    BETWEEN_QUINTIC /* matches accelerations too: order 6 */
 } between_degree;
 
 typedef struct step_between {
@@ -50,93 +51,98 @@ typedef struct step_between {
     const model *m;
     const instant *from, *to;
     between_degree degree;
-    double *part; /* [free + driven] x 5: of s, s^2 .. s^5; s = 0 .. 1 along the step */
+    double
+        *part; /* [free + driven] x 5: coefficients of s, s^2 .. s^5; s = 0 .. 1 along the step */
     double *room; /* [3 x (free + driven)] */
 } step_between;
 
 status between_alloc(const equations *, step_between *, fault *);
 void between_free(step_between *);
-/* Sets the step; both instants must not change as long as it is read. */
+/* Sets the step; both instants must not change while the polynomial is in use. */
 void between_take(step_between *, between_degree, const instant *from, const instant *to);
-/* Positions and rates at a time of the step, or next to it [s]. */
+/* Positions and rates at a time inside the step or near it [s]. */
 void between_places(const step_between *, double time, instant *at);
-/* The whole state. Strains, stresses and inner unknowns are linear between the ends of the step:
- * for pictures, not for forces. */
+/* The whole state. Strains, stresses and inner unknowns are interpolated linearly: use them for
+ * pictures, not for forces. */
 void between_at(const step_between *, double time, instant *at);
 
-/* Masses at the frames of a model: those of the elements, lumped at their nodes, and rigid bodies.
- * All masses joined rigidly to a frame belong to it: one mass, one centre, one tensor. */
+/* Masses at the frames of a model: lumped masses of the elements, and rigid bodies. All masses
+ * joined rigidly to a frame are combined to one mass with one centre and one tensor. */
 
-/* At one frame, in axes that rotate with it and were the fixed ones at rest. */
+/* Mass at one frame, in axes that rotate with it and are parallel to the global ones in the
+ * undeformed state. */
 typedef struct carried_mass {
-    int frame;         /* vertex with its own coordinates, or of a released end */
+    int frame;         /* vertex with its own coordinates, or vertex of a released end */
     double mass;       /* [kg] */
-    double moment[3];  /* mass times its centre, from the frame [kg m] */
+    double moment[3];  /* mass times the position of its centre relative to the frame [kg m] */
     double inertia[9]; /* about the frame [kg m^2] */
 } carried_mass;
 
 typedef struct carried_masses {
     int masses;
-    carried_mass *mass; /* [masses] one for each frame that has any */
-    double *warping;    /* [coordinates] of warping amplitudes [kg m^4], else 0 */
-    double total;       /* [kg] of these */
-    int spread;         /* 1: elements have a consistent mass (time_impl.h), and none is here */
+    carried_mass *mass; /* [masses] one for each frame with mass */
+    double *warping;    /* [coordinates] mass of warping amplitudes [kg m^4], else 0 */
+    double total;       /* [kg] total mass */
+    int spread; /* 1: the elements have a consistent mass (time_impl.h), which is not included here
+                 */
 } carried_masses;
 
-/* Elements of two nodes have half their mass at each, of three Simpson's shares (Jonker, Eq. 73).
- * The mass of a released end moves with its own turns and shifts. */
+/* Lumps half of the mass of a two-node element at each node, and Simpson's weights for three nodes
+ * (Jonker, Eq. 73). The mass of a released end moves with the rotations and shifts of that end. */
 status carried_alloc(const model *, carried_masses *, fault *);
-/* Rigid bodies alone, in addition to consistent masses of elements. */
+/* Rigid bodies only, for elements with consistent mass. */
 status carried_alloc_spread(const model *, carried_masses *, fault *);
 void carried_free(carried_masses *);
-/* Share of one node in the mass of an element, about the node, and of its warping amplitude [kg
- * m^4]. */
+/* Share of one node in the mass of an element, about the node, and the mass of its warping
+ * amplitude [kg m^4]. */
 struct mesh_element;
 void carried_share(const model *, const struct mesh_element *, int node, carried_mass *,
                    double *warping);
 
-/* Work of external forces: of the loads and of the reactions at prescribed coordinates. */
+/* Work of external forces: loads, and reactions at prescribed coordinates. */
 
 typedef struct outer_work {
     const equations *eq;
     const model *m;
     const carried_masses *masses;
-    double *force, *holding; /* [free + driven] room */
+    double *force, *holding; /* [free + driven] work space */
     double *dashpots;        /* [dashpots_room] */
-    int elements, *element;  /* that prescribed coordinates move */
+    int elements, *element;  /* elements with prescribed coordinates */
 } outer_work;
 
 status work_alloc(const equations *, const carried_masses *, outer_work *, fault *);
 void work_free(outer_work *);
 
-/* Power [W] at rates v (or work [J] along increments, rotations by vectors in the frames' axes):
- * `along`; the forces are those of the state with rates v and accelerations a, at `time`. */
+/* Power [W] for `along` = rates v, or work [J] for `along` = increments, with rotations as vectors
+ * in the axes of the frames. The forces are those of the state with rates v and accelerations a at
+ * `time`. */
 double work_power(outer_work *, const model_state *, const double v[], const double a[],
                   double time, const double along[]);
-/* Work of a step: mean of the forces at its start and its end along its increment inc[free +
- * driven]. Exact for constant forces; else of second order. */
+/* Work of a step: mean of the forces at its start and end times its increment inc[free + driven].
+ * Exact for constant forces, else of second order. */
 double work_trapezoid(outer_work *, const instant *from, const instant *to, const double inc[]);
 
-/* Interface of all time integrators: one step from an instant to another. */
+/* Interface of all time integrators: a step from one instant to the next. */
 
 typedef struct scheme_request {
     analysis_context *c;
     const carried_masses *masses;
     const scene_motion *how;
-    outer_work *work; /* of external forces: for instant.work */
-    int estimate;     /* 1: the error of each step is wanted */
+    outer_work *work; /* work of external forces, for instant.work */
+    int estimate;     /* 1: an error estimate of each step is requested */
 } scheme_request;
 
 typedef struct motion_scheme motion_scheme;
 struct motion_scheme {
-    int order;             /* of the error of one step that is estimated, in its size */
-    int adds;              /* 1: the estimates add up to the error of the motion; 0: they are of a
-                              lower order and far above it */
-    const double *light;   /* what has no inertia and is in no error: metric_distance; NULL: none,
-                              or not known before the first step */
-    between_degree degree; /* inside a step; quintic: accelerations are as exact as rates */
-    /* One step of h [s]; *error: estimate of what it adds to positions, in the measure
-     * metric_distance. NOT_CONVERGED: `to` is of no use, `from` is as it was. */
+    int order; /* order of the estimated error of one step in the step size */
+    int adds;  /* 1: the estimates add up to the error of the motion; 0: they are of lower order and
+                  much larger */
+    const double *light; /* coordinates without inertia, which the error ignores: metric_distance;
+                            NULL: none, or not known before the first step */
+    between_degree
+        degree; /* interpolation inside a step; quintic: accelerations are as accurate as rates */
+    /* Makes one step of h [s]. *error: estimated error of the positions, in the measure
+     * metric_distance. NOT_CONVERGED: `to` is invalid, `from` has not changed. */
     status (*step)(motion_scheme *, const instant *from, double h, instant *to, double *error,
                    step_record *, fault *);
     void (*free)(motion_scheme *);
@@ -144,88 +150,90 @@ struct motion_scheme {
 
 /* Energy-balance error of a motion, relative to its energy. */
 
-/* Parts of account_size: energy gained without cause that ends a motion; energy lost that is
- * reported, and energy lost that ends a motion unless the scene asks for it. */
-enum { ACCOUNT_STEPS = 10 }; /* first steps: too little energy to measure an error by */
+/* Limits relative to account_size: unexplained energy gain that stops a motion; energy loss that is
+ * reported; energy loss that stops a motion unless the scene requests numerical damping. */
+enum {
+    ACCOUNT_STEPS = 10
+}; /* number of first steps in which the energy is too small to measure an error */
 extern const double account_gained, account_stated, account_lost;
 
 typedef struct account {
-    double largest; /* [J] energy so far */
-    double turned;  /* [J] sum of the work of all steps, whatever their signs */
-    double work;    /* [J] at the last one */
+    double largest; /* [J] largest energy so far */
+    double turned;  /* [J] sum of the absolute work of all steps */
+    double work;    /* [J] work at the last step */
 } account;
 
-/* Adds the balance at the start (steps 0), then of every step, in their order. */
+/* Adds the energy balance at the start (steps 0), then of every step in order. */
 void account_take(account *, int steps, const double balance[SCENE_BALANCES]);
-/* The largest energy so far, or all the work so far, if that is larger [J]. */
+/* The larger of the largest energy and the total absolute work so far [J]. */
 double account_size(const account *);
-/* [J] allowed energy-balance error: a part of that, and rounding. */
+/* [J] allowed energy-balance error: the given fraction of account_size, plus rounding. */
 double account_most(const account *, double part, double rounding);
 
-/* Is energy lost on purpose: by alpha with a spectral radius below 0.9, or by steps that the scene
- * prescribes? */
+/* Is numerical damping intended: by alpha with a spectral radius below 0.9, or by prescribed steps?
+ */
 int account_loses(const scene_motion *);
 
-/* NOT_CONVERGED: the motion has gained more energy than account_gained without cause, or lost more
- * than account_lost although the scene does not ask for it. rounding [J]: see balance_rounding. */
+/* NOT_CONVERGED: the motion gained more energy than account_gained without cause, or lost more than
+ * account_lost although the scene does not request numerical damping. rounding [J]: see
+ * balance_rounding. */
 status account_judge(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
-/* Stiffness-proportional damping: stresses gain eta S0 e', with the rates of the strains and the
- * stiffness S0 of the undeformed element. Rigid motions are not damped. Dashpots: the same with
- * the deformations of their spring and a matrix that is given. */
+/* Stiffness-proportional damping: stresses gain eta S0 e', with the strain rates and the stiffness
+ * S0 of the undeformed element. Rigid motions are not damped. Dashpots use the same form with the
+ * deformations of their spring and a given matrix. */
 
 /* Is any member or spring of the scene damped? */
 int damping_acts(const scene *);
 int damping_of_members(const scene *);
-/* S0 of all kinds, and from here on its share of the run's stresses, with rates that stay zero
- * until they are set. Nothing where no member is damped. */
+/* Computes S0 of all kinds of elements. From here on damping is included in the stresses of the
+ * run, with strain rates that are zero until set. Does nothing when no member is damped. */
 status damping_begin(const equations *, run_damping *, fault *);
 void damping_end(const equations *, run_damping *);
 
-/* C of small motions about a state, on a pattern of model.h; more [s]: damping that all members and
- * springs have besides, in proportion to their stiffness. */
+/* Damping matrix C of small motions about a state, on a pattern of model.h. more [s]: additional
+ * stiffness-proportional damping of all members and springs. */
 status damping_matrix(const equations *, const model_state *, double more, sparse *C, fault *);
 
-/* Rates of the strains now: known + g (e - those of `from`, as they are); known[model_stresses].
- * from NULL: g is 0. */
+/* Present strain rates: known + g (e - strains of `from`); known[model_stresses]. from NULL: g is
+ * 0. */
 void damping_follow(const equations *, double g, const double known[], const model_state *from);
-/* Strains of elements and springs -> e[model_stresses]. */
+/* Copies the strains of elements and springs to e[model_stresses]. */
 void damping_strains(const model *, const model_state *, double e[]);
-/* e' = J x' at rates v[free + driven] -> rate[model_stresses]. */
+/* e' = J x' for rates v[free + driven] -> rate[model_stresses]. */
 status damping_rates(const model *, const model_state *, const double v[], double rate[], fault *);
-/* What dashpots take at rates v: out[free + driven] -=; returns the power that they lose [W].
- * room[dashpots_room]. */
+/* Subtracts the forces of dashpots at rates v from out[free + driven]; returns the power that they
+ * dissipate [W]. room[dashpots_room]. */
 size_t dashpots_room(const model *);
 double dashpots_subtract(const model *, const model_state *, const double v[], double room[],
                          double out[]);
-/* F[6] += on a node's frame. */
+/* Adds the force of dashpots to F[6] on the frame of a node. */
 status dashpots_at_node(const model *, const model_state *, const double v[], int node, double F[6],
                         fault *);
-/* Rates of the strains by those of the coordinates, which stay; nothing where nothing is damped. */
+/* Computes strain rates from the rates of the coordinates; does nothing without damping. */
 status damping_now(const equations *, instant *, fault *);
-/* Power that rates of strains lose [W]. */
+/* Power dissipated by strain rates [W]. */
 double damping_power(const equations *, const double rate[]);
 
-/* Motion in time: states at the instants that were requested. */
+/* Transient analysis: states at the requested instants. */
 
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
-/* Quantities of a motion at an instant that need no forces. */
+/* Quantities at an instant of a motion that require no forces. */
 
-/* Is it read from positions and rates alone? */
+/* Does the quantity depend on positions and rates only? */
 int reading_is_kinematic(const scene_quantity *);
-/* As extracted, without factor and offset; kinematic kinds only. rate[free + driven] */
+/* The extracted value without factor and offset; for kinematic kinds only. rate[free + driven] */
 double reading_of(const model *, const scene_quantity *, const model_state *, const double rate[]);
 
-/* Quantities of a state that need more than positions and rates: reactions, resultants, stresses.
- */
+/* Quantities of a state that require forces: reactions, resultants, stresses. */
 
-/* As extracted, without factor and offset, of SCENE_REACTION, SCENE_INTERNAL and SCENE_STRESS. v,
- * a[free + driven]: rates of a motion and their derivatives; NULL: nothing moves. */
+/* The extracted value without factor and offset of SCENE_REACTION, SCENE_INTERNAL and SCENE_STRESS.
+ * v, a[free + driven]: rates of a motion and their derivatives; NULL: at rest. */
 status resultants_of(const equations *, const scene_quantity *, const model_state *,
                      const double v[], const double a[], double *out, fault *);
-/* Resultant in a section, in any state that internal_state describes. */
+/* Resultant in a section, for any state that internal_state describes. */
 status resultants_in_section(const equations *, const scene_quantity *, const internal_state *,
                              double *out, fault *);
 

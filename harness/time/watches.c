@@ -7,12 +7,9 @@
 
 #include "harness/numerics/numerics.h"
 
-enum {
-    PIECES = 4,
-    MOST_HALVINGS = 200
-}; /* of a step, between whose ends one root is searched for */
+enum { PIECES = 4, MOST_HALVINGS = 200 }; /* intervals of a step; each is searched for one root */
 
-static const double no_sign = 1e-13, /* of the size of what is read */
+static const double no_sign = 1e-13, /* relative to the size of the quantity */
     a_jump =
         1e-3; /* of the values beside a root: a rotation vector changes its sign at half a turn */
 
@@ -51,14 +48,14 @@ void watches_free(watches *s)
     instant_free(&s->at);
 }
 
-/* As extracted, of the polynomial inside the step. */
+/* Value as extracted, from the polynomial inside the step. */
 static double value_at(watches *s, const watched *one, double time)
 {
     between_places(&s->inside, time, &s->at);
     return reading_of(s->c->model, one->q, s->at.state, s->at.v);
 }
 
-/* Exact for what the polynomial is of fourth degree in. */
+/* Slope; exact if the quantity is a quartic of the polynomial. */
 static double slope_at(watches *s, const watched *one, double time)
 {
     const double d = (s->inside.to->time - s->inside.from->time) / 64;
@@ -74,7 +71,7 @@ static double above_level(watches *s, const watched *one, double time)
     return value_at(s, one, time) - one->q->passing.level;
 }
 
-/* Root between a and b, where f has the values fa and fb of two signs: secants, halvings where
+/* Root between a and b, where f has values fa and fb of opposite sign: secant steps, bisection when
  * these are slow. */
 static double root(watches *s, const watched *one, along *f, double a, double fa, double b,
                    double fb)
@@ -97,7 +94,7 @@ static double root(watches *s, const watched *one, along *f, double a, double fa
     return fabs(fa) < fabs(fb) ? a : b;
 }
 
-/* Difference between the value at the end of a step to the given time and the polynomial. */
+/* Difference between a side step to the given time and the polynomial. */
 static status disagreement(watches *s, const watched *one, const instant *from, double time,
                            double *out, fault *f)
 {
@@ -135,7 +132,7 @@ static status crossed(watches *s, watched *one, const instant *from, double time
     return STATUS_OK;
 }
 
-/* Does a change to this side count? */
+/* Does a crossing to this side count? */
 static int counts(const watched *one, int side)
 {
     const scene_direction way = one->q->passing.direction;
@@ -199,8 +196,8 @@ static status watch_extreme(watches *s, watched *one, const instant *from, doubl
     return STATUS_OK;
 }
 
-/* Six points of Gauss: exact for squares of what is of fifth degree.  A root mean square is taken
- * in parts of the largest value so far, whose square may be beyond all numbers. */
+/* Six-point Gauss quadrature: exact for squares of fifth-degree polynomials. A root mean square is
+ * computed relative to the largest value so far, so that its square does not overflow. */
 static void add_mean(watches *s, watched *one, double a, double b)
 {
     static const double x[] = {0.23861918608319690863, 0.66120938646626451366,
@@ -281,7 +278,7 @@ static int is_followed(const scene *s, int analysis)
     return 0;
 }
 
-/* Sizes of what is kept of this model. */
+/* Number of values stored for this model. */
 static void measure(const model *m, const instant *now, outcome_end *out)
 {
     out->between = (size_t)turns_between_count(m);
@@ -291,7 +288,7 @@ static void measure(const model *m, const instant *now, outcome_end *out)
     out->released = now->ends_known ? instant_ends(m) : 0;
 }
 
-/* Where the parts of an instant lie among the numbers of an end, and how many each has. */
+/* Positions and sizes of the parts of an instant in the stored array of an end. */
 enum { PARTS = 7 };
 typedef struct part {
     double *of;
