@@ -8,6 +8,7 @@
 
 #include "cases/format/format_impl.h"
 #include "elements/math/scalar.h"
+#include "elements/section/walls.h"
 
 static void add_point(section_spec *spec, double y, double z)
 {
@@ -120,7 +121,7 @@ static void angle(const fields *f, section_spec *spec)
 /* Rolled sections.  Sizes [mm]: depth, flange, web and flange thickness, root radius; of UPN the
  * constants too [cm^2, cm^4, cm^4, cm^4, 10^3 cm^6] and the shear centre from the centroid [cm],
  * since its flanges are inclined.  EN 10365:2017
- * (IPE, HEA, HEB, UPN). */
+ * (IPE, HEA, HEB, HEM, UPN). */
 enum { UPN = 12 };
 
 typedef struct rolled {
@@ -148,27 +149,83 @@ static const rolled ipe[] = {{80, 80, 46, 3.8, 5.2, 5},
                              {600, 600, 220, 12, 19, 24},
                              {0}};
 
-static const rolled hea[] = {{100, 96, 100, 5, 8, 12},       {120, 114, 120, 5, 8, 12},
-                             {140, 133, 140, 5.5, 8.5, 12},  {160, 152, 160, 6, 9, 15},
-                             {180, 171, 180, 6, 9.5, 15},    {200, 190, 200, 6.5, 10, 18},
-                             {220, 210, 220, 7, 11, 18},     {240, 230, 240, 7.5, 12, 21},
-                             {260, 250, 260, 7.5, 12.5, 24}, {280, 270, 280, 8, 13, 24},
-                             {300, 290, 300, 8.5, 14, 27},   {320, 310, 300, 9, 15.5, 27},
-                             {340, 330, 300, 9.5, 16.5, 27}, {360, 350, 300, 10, 17.5, 27},
-                             {400, 390, 300, 11, 19, 27},    {450, 440, 300, 11.5, 21, 27},
-                             {500, 490, 300, 12, 23, 27},    {550, 540, 300, 12.5, 24, 27},
-                             {600, 590, 300, 13, 25, 27},    {0}};
+static const rolled hea[] = {{100, 96, 100, 5, 8, 12},
+                             {120, 114, 120, 5, 8, 12},
+                             {140, 133, 140, 5.5, 8.5, 12},
+                             {160, 152, 160, 6, 9, 15},
+                             {180, 171, 180, 6, 9.5, 15},
+                             {200, 190, 200, 6.5, 10, 18},
+                             {220, 210, 220, 7, 11, 18},
+                             {240, 230, 240, 7.5, 12, 21},
+                             {260, 250, 260, 7.5, 12.5, 24},
+                             {280, 270, 280, 8, 13, 24},
+                             {300, 290, 300, 8.5, 14, 27},
+                             {320, 310, 300, 9, 15.5, 27},
+                             {340, 330, 300, 9.5, 16.5, 27},
+                             {360, 350, 300, 10, 17.5, 27},
+                             {400, 390, 300, 11, 19, 27},
+                             {450, 440, 300, 11.5, 21, 27},
+                             {500, 490, 300, 12, 23, 27},
+                             {550, 540, 300, 12.5, 24, 27},
+                             {600, 590, 300, 13, 25, 27},
+                             {650, 640, 300, 13.5, 26, 27},
+                             {700, 690, 300, 14.5, 27, 27},
+                             {800, 790, 300, 15, 28, 30},
+                             {900, 890, 300, 16, 30, 30},
+                             {1000, 990, 300, 16.5, 31, 30},
+                             {0}};
 
-static const rolled heb[] = {{100, 100, 100, 6, 10, 12},    {120, 120, 120, 6.5, 11, 12},
-                             {140, 140, 140, 7, 12, 12},    {160, 160, 160, 8, 13, 15},
-                             {180, 180, 180, 8.5, 14, 15},  {200, 200, 200, 9, 15, 18},
-                             {220, 220, 220, 9.5, 16, 18},  {240, 240, 240, 10, 17, 21},
-                             {260, 260, 260, 10, 17.5, 24}, {280, 280, 280, 10.5, 18, 24},
-                             {300, 300, 300, 11, 19, 27},   {320, 320, 300, 11.5, 20.5, 27},
-                             {340, 340, 300, 12, 21.5, 27}, {360, 360, 300, 12.5, 22.5, 27},
-                             {400, 400, 300, 13.5, 24, 27}, {450, 450, 300, 14, 26, 27},
-                             {500, 500, 300, 14.5, 28, 27}, {550, 550, 300, 15, 29, 27},
-                             {600, 600, 300, 15.5, 30, 27}, {0}};
+static const rolled heb[] = {{100, 100, 100, 6, 10, 12},
+                             {120, 120, 120, 6.5, 11, 12},
+                             {140, 140, 140, 7, 12, 12},
+                             {160, 160, 160, 8, 13, 15},
+                             {180, 180, 180, 8.5, 14, 15},
+                             {200, 200, 200, 9, 15, 18},
+                             {220, 220, 220, 9.5, 16, 18},
+                             {240, 240, 240, 10, 17, 21},
+                             {260, 260, 260, 10, 17.5, 24},
+                             {280, 280, 280, 10.5, 18, 24},
+                             {300, 300, 300, 11, 19, 27},
+                             {320, 320, 300, 11.5, 20.5, 27},
+                             {340, 340, 300, 12, 21.5, 27},
+                             {360, 360, 300, 12.5, 22.5, 27},
+                             {400, 400, 300, 13.5, 24, 27},
+                             {450, 450, 300, 14, 26, 27},
+                             {500, 500, 300, 14.5, 28, 27},
+                             {550, 550, 300, 15, 29, 27},
+                             {600, 600, 300, 15.5, 30, 27},
+                             {650, 650, 300, 16, 31, 27},
+                             {700, 700, 300, 17, 32, 27},
+                             {800, 800, 300, 17.5, 33, 30},
+                             {900, 900, 300, 18.5, 35, 30},
+                             {1000, 1000, 300, 19, 36, 30},
+                             {0}};
+
+static const rolled hem[] = {{100, 120, 106, 12, 20, 12},
+                             {120, 140, 126, 12.5, 21, 12},
+                             {140, 160, 146, 13, 22, 12},
+                             {160, 180, 166, 14, 23, 15},
+                             {180, 200, 186, 14.5, 24, 15},
+                             {200, 220, 206, 15, 25, 18},
+                             {220, 240, 226, 15.5, 26, 18},
+                             {240, 270, 248, 18, 32, 21},
+                             {260, 290, 268, 18, 32.5, 24},
+                             {280, 310, 288, 18.5, 33, 24},
+                             {300, 340, 310, 21, 39, 27},
+                             {320, 359, 309, 21, 40, 27},
+                             {340, 377, 309, 21, 40, 27},
+                             {360, 395, 308, 21, 40, 27},
+                             {400, 432, 307, 21, 40, 27},
+                             {450, 478, 307, 21, 40, 27},
+                             {500, 524, 306, 21, 40, 27},
+                             {550, 572, 306, 21, 40, 27},
+                             {600, 620, 305, 21, 40, 27},
+                             {650, 668, 305, 21, 40, 27},
+                             {700, 716, 304, 21, 40, 27},
+                             {800, 814, 303, 21, 40, 30},
+                             {900, 910, 302, 21, 40, 30},
+                             {1000, 1008, 302, 21, 40, 30},
+                             {0}};
 
 static const struct {
     rolled size;
@@ -185,6 +242,17 @@ static const struct {
               {{260, 260, 90, 10, 14, 14}, 48.3, 4820, 317, 25.5, 33.3, 4.66},
               {{280, 280, 95, 10, 15, 15}, 53.3, 6280, 399, 31.0, 48.5, 5.02},
               {{300, 300, 100, 10, 16, 16}, 58.8, 8030, 495, 37.4, 69.1, 5.41}};
+
+/* Legs and root radius of angles [mm] (EN 10056-1:2017); toes have half the radius. */
+static const double angle_root[][3] = {
+    {20, 20, 3.5},  {25, 25, 3.5},  {30, 20, 4},    {30, 30, 5},    {35, 35, 5},    {40, 20, 4},
+    {40, 25, 4},    {40, 40, 6},    {45, 30, 4.5},  {45, 45, 7},    {50, 30, 5},    {50, 50, 7},
+    {60, 30, 5},    {60, 40, 6},    {60, 60, 8},    {65, 50, 6},    {65, 65, 9},    {70, 50, 7},
+    {70, 70, 9},    {75, 50, 7},    {75, 75, 9},    {80, 40, 7},    {80, 60, 8},    {80, 80, 10},
+    {90, 90, 11},   {100, 50, 8},   {100, 65, 10},  {100, 75, 10},  {100, 100, 12}, {120, 80, 11},
+    {120, 120, 13}, {125, 75, 11},  {130, 130, 14}, {150, 75, 12},  {150, 90, 12},  {150, 100, 12},
+    {150, 150, 16}, {160, 160, 17}, {180, 180, 18}, {200, 100, 15}, {200, 150, 15}, {200, 200, 18},
+    {250, 250, 18}};
 
 /* Area between a corner of a square of side r and its inscribed quarter circle: area over r^2,
  * distance of its centroid from the sides over r, second moment about an axis through the centroid
@@ -218,6 +286,74 @@ static void add_rolled_i(section_spec *spec, const rolled *p, double mm)
     give(&spec->given.It, 2. / 3 * (b - 0.63 * tf) * tf * tf * tf + web * tw * tw * tw / 3 +
                               2 * tw / tf * (0.145 + 0.1 * r / tf) * pow(circle, 4));
     give(&spec->given.Iw, tf * b * b * b * middle * middle / 24);
+}
+
+/* Area, its place and its moments about its own centroid. */
+typedef struct patch {
+    double area, y, z, Iy, Iz, Iyz;
+} patch;
+
+static patch rectangle_patch(double y0, double y1, double z0, double z1)
+{
+    const double w = y1 - y0, h = z1 - z0;
+    return (patch){w * h, (y0 + y1) / 2, (z0 + z1) / 2, w * h * h * h / 12, h * w * w * w / 12, 0};
+}
+
+/* Between a corner and its inscribed quarter circle, which lies towards +y, +z (ky = kz = 1) or
+ * the other way; sign: -1 where it is cut off. */
+static patch spandrel_patch(double y, double z, double r, int ky, int kz, int sign)
+{
+    const double area = spandrel_area * r * r, at = spandrel_at * r,
+                 own = spandrel_moment * pow(r, 4),
+                 product = (19. / 24 - PI / 4) * pow(r, 4) - area * at * at;
+    return (patch){sign * area, y + ky * at, z + kz * at,
+                   sign * own,  sign * own,  sign * ky * kz * product};
+}
+
+static patch sum_of(int count, const patch p[])
+{
+    patch all = {0};
+    for (int i = 0; i < count; i++) {
+        all.area += p[i].area;
+        all.y += p[i].area * p[i].y;
+        all.z += p[i].area * p[i].z;
+    }
+    all.y /= all.area;
+    all.z /= all.area;
+    for (int i = 0; i < count; i++) {
+        const double y = p[i].y - all.y, z = p[i].z - all.z;
+        all.Iy += p[i].Iy + p[i].area * z * z;
+        all.Iz += p[i].Iz + p[i].area * y * y;
+        all.Iyz += p[i].Iyz + p[i].area * y * z;
+    }
+    return all;
+}
+
+/* Legs of outer lengths b along y and h along z with fillets, exact except It (Roark's Formulas for
+ * Stress and Strain, 7th ed., table 10.7, case 26, legs of one thickness). The origin is where the
+ * centre lines meet, which is the shear centre. */
+static void add_rolled_angle(section_spec *spec, double h, double b, double t, double root)
+{
+    const double o = -t / 2, toe = root / 2,
+                 circle = 2 * (2 * t + 3 * root - sqrt(2) * (2 * root + t)), in = h - t;
+    const patch all = sum_of(5, (const patch[]){rectangle_patch(o, o + b, o, o + t),
+                                                rectangle_patch(o, o + t, o + t, o + h),
+                                                spandrel_patch(o + t, o + t, root, 1, 1, 1),
+                                                spandrel_patch(o + b, o + t, toe, -1, -1, -1),
+                                                spandrel_patch(o + t, o + h, toe, -1, -1, -1)});
+    const double beta = h == b ? -PI / 4 : section_principal_angle(all.Iy, all.Iz, all.Iyz),
+                 c = cos(beta), d = sin(beta), mixed = 2 * c * d * all.Iyz;
+    add_angle(spec, b - t / 2, h - t / 2, t);
+    give(&spec->given.A, all.area);
+    give(&spec->given.beta, beta);
+    give(&spec->given.Iy, c * c * all.Iy - mixed + d * d * all.Iz);
+    give(&spec->given.Iz, c * c * all.Iz + mixed + d * d * all.Iy);
+    give(&spec->given.ys, -(c * all.y + d * all.z));
+    give(&spec->given.zs, d * all.y - c * all.z);
+    give(&spec->given.It,
+         b * pow(t, 3) * (1. / 3 - 0.21 * t / b * (1 - pow(t / b, 4) / 12)) +
+             in * pow(t, 3) * (1. / 3 - 0.105 * t / in * (1 - pow(t / in, 4) / 192)) +
+             (0.07 + 0.076 * root / t) * pow(circle, 4));
 }
 
 /* Hot finished (EN 10210-2:2019, outer radius 1.5 t, inner one t); the same formulas. */
@@ -269,14 +405,14 @@ static int add_profile(section_spec *spec, const char *name, double mm)
     static const struct {
         const char *family;
         const rolled *list;
-    } i_shapes[] = {{"IPE", ipe}, {"HEA", hea}, {"HEB", heb}};
+    } i_shapes[] = {{"IPE", ipe}, {"HEA", hea}, {"HEB", heb}, {"HEM", hem}};
     const double cm = 10 * mm;
     double size[3];
     const size_t letters = strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
     const int count = sizes_of(name + letters, size);
     spec->kind = SECTION_WALLS;
     spec->thickness_terms = 1;
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < sizeof i_shapes / sizeof i_shapes[0]; k++)
         for (const rolled *p = i_shapes[k].list; p->number > 0; p++)
             if (count == 1 && letters == 3 && strncmp(name, i_shapes[k].family, 3) == 0 &&
                 size[0] == p->number) {
@@ -318,6 +454,11 @@ static int add_profile(section_spec *spec, const char *name, double mm)
         const double leg = size[count == 3 ? 1 : 0], thick = size[count - 1];
         if (2 * thick > fmin(leg, size[0]))
             return 0;
+        for (size_t k = 0; k < sizeof angle_root / sizeof angle_root[0]; k++)
+            if (angle_root[k][0] == fmax(leg, size[0]) && angle_root[k][1] == fmin(leg, size[0])) {
+                add_rolled_angle(spec, size[0] * mm, leg * mm, thick * mm, angle_root[k][2] * mm);
+                return 1;
+            }
         add_angle(spec, (leg - thick / 2) * mm, (size[0] - thick / 2) * mm, thick * mm);
         return 1;
     }
@@ -330,7 +471,7 @@ static void known_profiles(const char *name, char *text, size_t size)
     static const struct {
         const char *family;
         const rolled *list;
-    } all[] = {{"IPE", ipe}, {"HEA", hea}, {"HEB", heb}, {"UPN", NULL}};
+    } all[] = {{"IPE", ipe}, {"HEA", hea}, {"HEB", heb}, {"HEM", hem}, {"UPN", NULL}};
     size_t used = 0;
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
         if (strncmp(name, all[k].family, 3) != 0)
@@ -344,8 +485,8 @@ static void known_profiles(const char *name, char *text, size_t size)
         return;
     }
     snprintf(text, size,
-             "write IPE200, HEA200, HEB200, UPN200, L100x75x8 (legs, thickness), SHS100x5, "
-             "RHS200x100x5 or CHS114.3x5 (outer sizes, thickness) in millimetres, or give sizes");
+             "write IPE200, HEA200 (HEB, HEM), UPN200, L100x75x8 (legs, thickness), SHS100x5,"
+             " RHS200x100x5 or CHS114.3x5 (outer sizes, thickness) in mm, or give sizes");
 }
 
 /* Blanks do not count, nor do small letters. */

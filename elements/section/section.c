@@ -188,7 +188,8 @@ static status apply_given(const section_spec *s, section *out, fault *f)
     const struct {
         const char *name;
         double value;
-    } whole[] = {{"A", s->given.A}, {"Iy", s->given.Iy}, {"Iz", s->given.Iz}};
+    } whole[] = {
+        {"A", s->given.A}, {"Iy", s->given.Iy}, {"Iz", s->given.Iz}, {"beta", s->given.beta}};
     for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++)
         if (!isnan(whole[i].value) && s->kind != SECTION_WALLS)
             return fault_set(f, STATUS_REFUSED,

@@ -58,11 +58,12 @@ typedef enum section_zero {
 } section_zero;
 
 /* Constants that a section may give in place of those that its shape has (a printed table's values,
- * fillets that thin walls do not have). A, Iy and Iz are of walls only. */
+ * fillets that thin walls do not have). A, Iy, Iz and beta are of walls only. */
 #define SECTION_GIVEN(X)                                                                           \
     X(A)                                                                                           \
     X(Iy)                                                                                          \
-    X(Iz) X(It) X(Ip) X(Iw) X(ys) X(zs) X(Dy) X(Dz) X(Dw) X(Dyz) X(Dyw) X(Dzw) X(wagner_torque)
+    X(Iz)                                                                                          \
+    X(It) X(Ip) X(Iw) X(ys) X(zs) X(Dy) X(Dz) X(Dw) X(Dyz) X(Dyw) X(Dzw) X(wagner_torque) X(beta)
 
 /* Section of a scene file; section_compute turns it into constants. */
 typedef struct section_spec {

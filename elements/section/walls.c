@@ -356,8 +356,7 @@ static double wagner_torque(const section_spec *s, const double y[], const doubl
     return sum / 8;
 }
 
-/* Rotation to principal axes, the smaller of the two; 0 where every axis is one. */
-static double principal_angle(double Iyy, double Izz, double Iyz)
+double section_principal_angle(double Iyy, double Izz, double Iyz)
 {
     double up = 2 * Iyz, across = Izz - Iyy;
     if (fabs(up) <= 1e-13 * (Iyy + Izz))
@@ -409,7 +408,7 @@ status walls_lines_of(const section_spec *s, walls_lines *lines, section *out, f
     }
     double Iyy, Izz, Iyz;
     second_moments(s, y, z, &Iyy, &Izz, &Iyz);
-    out->axes_angle = principal_angle(Iyy, Izz, Iyz);
+    out->axes_angle = isnan(s->given.beta) ? section_principal_angle(Iyy, Izz, Iyz) : s->given.beta;
     const double c = cos(out->axes_angle), d = sin(out->axes_angle);
     if (d != 0)
         for (int p = 0; p < s->points; p++) {

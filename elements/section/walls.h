@@ -88,6 +88,9 @@ typedef struct walls_lines {
     double pole[2];                 /* the shear centre [m] */
 } walls_lines;
 
+/* Angle of the principal y axis [rad], the smaller of the two; 0 where every axis is one. */
+double section_principal_angle(double Iyy, double Izz, double Iyz);
+
 /* A zeroed section's constants but for shear and the moments of higher order; REFUSED as
  * section_walls. */
 status walls_lines_of(const section_spec *spec, walls_lines *lines, section *out, fault *f);

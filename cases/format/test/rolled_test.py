@@ -1,5 +1,6 @@
 """Rolled sections by their name against what producers print of them (EN 10365 sections catalogue,
 ArcelorMittal 2021; EN 10210-2:2019 tables for hollow ones)."""
+import math
 import re
 
 from cases.format.test.scene_case import SceneCase, values
@@ -62,11 +63,58 @@ PRINTED = {
     "HEB500": ("238.6", "107200", "12620", "538", "7018"),
     "HEB550": ("254.1", "136700", "13080", "600", "8856"),
     "HEB600": ("270", "171000", "13530", "667", "10965"),
+    "HEA650": ("241.6", "175200", "11720", None, "11027"),
+    "HEA700": ("260.5", "215300", "12180", None, "13352"),
+    "HEA800": ("285.8", "303400", "12640", None, "18290"),
+    "HEA900": ("320.5", "422100", "13550", None, "24962"),
+    "HEA1000": ("346.8", "553800", "14000", None, "32074"),
+    "HEB650": ("286.3", "210600", "13980", None, "13363"),
+    "HEB700": ("306.4", "256900", "14440", None, "16064"),
+    "HEB800": ("334.2", "359100", "14900", None, "21840"),
+    "HEB900": ("371.3", "494100", "15820", None, "29461"),
+    "HEB1000": ("400", "644700", "16280", None, "37637"),
+    "HEM100": ("53.2", "1143", "399", None, "9.93"),
+    "HEM120": ("66.4", "2018", "703", None, "24.8"),
+    "HEM140": ("80.6", "3291", "1144", None, "54.3"),
+    "HEM160": ("97.1", "5098", "1759", None, "108"),
+    "HEM180": ("113.3", "7483", "2580", None, "199"),
+    "HEM200": ("131.3", "10640", "3651", None, "346"),
+    "HEM220": ("149.4", "14600", "5012", None, "573"),
+    "HEM240": ("199.6", "24290", "8153", None, "1152"),
+    "HEM260": ("219.6", "31310", "10450", None, "1728"),
+    "HEM280": ("240.2", "39550", "13160", None, "2520"),
+    "HEM300": ("303.1", "59200", "19400", None, "4386"),
+    "HEM320": ("312", "68130", "19710", None, "5004"),
+    "HEM340": ("315.8", "76370", "19710", None, "5584"),
+    "HEM360": ("318.8", "84870", "19520", None, "6137"),
+    "HEM400": ("325.8", "104100", "19340", None, "7410"),
+    "HEM450": ("335.4", "131500", "19340", None, "9251"),
+    "HEM500": ("344.3", "161900", "19150", None, "11187"),
+    "HEM550": ("354.4", "198000", "19160", None, "13516"),
+    "HEM600": ("363.7", "237400", "18980", None, "15908"),
+    "HEM650": ("373.7", "281700", "18980", None, "18650"),
+    "HEM700": ("383", "329300", "18800", None, "21398"),
+    "HEM800": ("404.3", "442600", "18630", None, "27775"),
+    "HEM900": ("423.6", "570400", "18450", None, "34746"),
+    "HEM1000": ("444.2", "722300", "18460", None, "43015"),
     "SHS100x5": ("18.7", "279", "279", "439", None),
     "RHS150x100x5": ("23.7", "739", "392", "807", None),
     "CHS114.3x5": ("17.2", "257", "257", "514", None),
 }
 SCALE = (1e-4, 1e-8, 1e-8, 1e-8, 1e-9)
+# Angles (EN 10056-1:2017; sections catalogue, ArcelorMittal 2021): A [cm^2], larger and smaller
+# principal moment [cm^4].
+ANGLES = {
+    "L30x3": ("1.74", "2.22", "0.585"),
+    "L50x5": ("4.80", "17.4", "4.55"),
+    "L60x6": ("6.91", "36.1", "9.44"),
+    "L80x8": ("12.3", "115", "29.9"),
+    "L100x10": ("19.2", "280", "73.0"),
+    "L200x20": ("76.3", "4530", "1170"),
+    "L100x75x8": ("13.5", "162", "34.6"),
+    "L120x80x8": ("15.5", "260", "46.6"),
+    "L200x100x10": ("29.2", "1290", "135"),
+}
 UPN = ("UPN80", "UPN100", "UPN120", "UPN140", "UPN160", "UPN180", "UPN200", "UPN220", "UPN240",
        "UPN260", "UPN280", "UPN300")
 SCENE = """beamwork: 1
@@ -148,18 +196,54 @@ class ProfilesTest(SceneCase):
                                        msg=f"{constant} of {name}")
 
     def test_sizes_without_fillets(self):
-        """A T and angles are their walls; areas of sharp corners are exact."""
+        """A T and angles of no norm are their walls; areas of sharp corners are exact."""
         got = self.constants({
             "t": "t: {depth: 0.1, flange: 0.1, flange_thickness: 0.01, web_thickness: 0.01}",
-            "l": "profile: L100x75x8",
+            "l": "profile: L100x77x8",
             "given": "profile: IPE200, given: {It: 7e-8}",
         })
         self.assertAlmostEqual(got["t"]["A"], 2e-3, delta=1e-12)
         self.assertAlmostEqual(got["t"]["Iy"], 1e-3 * 0.1**2 / 12 + 2e-3 * 0.025**2, delta=1e-15)
         self.assertAlmostEqual(got["t"]["Iz"], 0.01 * 0.1**3 / 12, delta=1e-15)
-        self.assertAlmostEqual(got["l"]["A"], 8e-3 * (0.1 + 0.075 - 8e-3), delta=1e-12)
+        self.assertAlmostEqual(got["l"]["A"], 8e-3 * (0.1 + 0.077 - 8e-3), delta=1e-12)
         self.assertEqual(got["given"]["It"], 7e-8)
         self.assertAlmostEqual(got["given"]["A"], 28.48e-4, delta=5e-7)
+
+    def test_angles(self):
+        """Printed digits; legs that change places turn the section; the shear centre of equal legs
+        is where their centre lines meet."""
+        sections = {f"s{i}": f"profile: {name}" for i, name in enumerate(ANGLES)}
+        got = self.constants(sections)
+        for key, printed in zip(sections, ANGLES.values()):
+            c = got[key]
+            found = (c["A"] / 1e-4, max(c["Iy"], c["Iz"]) / 1e-8, min(c["Iy"], c["Iz"]) / 1e-8)
+            for value, text in zip(found, printed):
+                self.assertEqual(float(f"{value:.3g}"), float(text), f"{sections[key]}: {found}")
+        text = scene({"l": "profile: L120x80x8", "m": "profile: L80x120x8", "e": "profile: L100x10"},
+                     loads={"lb": "[l.beta*1e9, l.yc, l.ey]", "mb": "[m.beta*1e9, m.zc, m.ez]",
+                            "eb": "[e.beta*1e9, e.ey, e.ez]"})
+        written = self.answered("scene", "--scene", self.scene(text)).stdout
+        l, m, e = ([float(v) for v in re.search(rf"{k}b: \{{force: \[(.*?)\]", written).group(1).split(",")]
+                   for k in "lme")
+        self.assertAlmostEqual(math.tan(abs(l[0]) * 1e-9), 0.4366, delta=1e-4)
+        self.assertAlmostEqual(l[0] + m[0], 0, delta=1e-3)
+        self.assertAlmostEqual(l[2], m[2], delta=1e-12)
+        self.assertAlmostEqual(e[0], -math.pi / 4 * 1e9, delta=1e-3)
+        self.assertAlmostEqual(e[1], -23.22e-3, delta=1e-5)  # 5 mm from 28.22 mm
+        self.assertAlmostEqual(e[2], -23.22e-3, delta=1e-5)
+
+    def test_angle_bends_askew(self):
+        """Under a load along one leg, by the products of area about axes along the legs:
+        d = F L^3/3E [Iz, -Iyz; -Iyz, Iy]/(Iy Iz - Iyz^2), of L100x75x8 with its fillets."""
+        text = scene({"l": "profile: L100x75x8"}, loads={"p": "[0, 0, 10]", "t": "[0, 0, 0]"})
+        text = text.replace("  t: {force: [0, 0, 0], on: b}", "  t: {moment: [10*l.ey, 0, 0], on: b}")
+        text = text.replace("  uz:", "  uy: {displacement: {analysis: run, node: b, component: uy}}\n  uz:")
+        text += "omit: {shear: yes}\n"
+        Iy, Iz, Iyz = 133.0487e-8, 64.0846e-8, -53.9e-8
+        got = values(self.record("solve", "--scene", self.scene(text), "-n", 4, "-f", "collocation"))
+        flexibility = 10 / (3 * 210e9) / (Iy * Iz - Iyz**2)
+        self.assertAlmostEqual(got["uz"] / (flexibility * Iz), 1, delta=2e-3)
+        self.assertAlmostEqual(got["uy"] / (-flexibility * Iyz), 1, delta=4e-3)
 
     def test_beam(self):
         """Deflection and stress of a cantilever by the printed constants: P L^3/(3 E Iy), P L/Wel,
