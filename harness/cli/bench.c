@@ -1,4 +1,5 @@
-/* Error against run time: every formulation and mesh of cases, timed in rounds on one processor. */
+/* Error against run time: every formulation and mesh of the cases, timed in rounds on one
+ * processor. */
 #include <stdio.h>
 #include <unistd.h>
 
@@ -53,7 +54,8 @@ static int answer(const command_line *l, void *request)
     return message_exit(outcome, &f);
 }
 
-/* In a process whose libraries have one thread: main passes what follows the program's name. */
+/* Restarts the program with single-threaded libraries; `arguments` are those after the program's
+ * name. */
 static void before(char **arguments)
 {
     rounds_single_thread(arguments - 1);

@@ -9,7 +9,7 @@
 #include "harness/model/model.h"
 #include "harness/study/study.h"
 
-/* Tables stand beside the packed reference values, of which there is one file. */
+/* Tables are added to the packed reference values, which are in one file. */
 static status read_either(const verb_option *o, void *member, const char *value, fault *f)
 {
     static const verb_option table = {"truths", .traits = OPTION_REPEATS | OPTION_INPUT};
@@ -83,7 +83,7 @@ status own_tables_findings(const text_list *tables, const case_type *const run[]
     return STATUS_OK;
 }
 
-/* All mistakes, a line each; as JSON where that is the form of the output. */
+/* Prints all errors, one per line; as JSON if that is the output format. */
 static void tell_mistakes(const command_line *l, const mistakes *m, status outcome, const fault *f)
 {
     const char *format = given_value(l, "format");
@@ -157,7 +157,7 @@ const case_type *case_input_scene(case_options *r)
         message_fail(STATUS_REFUSED, "a case and --scene: give one of them");
         return NULL;
     }
-    /* values that are requested count, not the defaults beside them */
+    /* parameters set on the command line count instead of the defaults */
     const int code = read_by(r->set.count > 0 ? scene_file_read_form : scene_file_read, r->line,
                              r->scene_path, &r->scene);
     if (code == EXIT_AS_EXPECTED)
@@ -194,7 +194,7 @@ static const case_type *named_case(const case_options *r)
     return type;
 }
 
-/* As if --scene had been given. */
+/* Treats the example as the value of --scene. */
 static void take_example(case_options *r, const char *path)
 {
     command_line *l = r->line;
@@ -251,7 +251,7 @@ static status add_truths(const case_options *r, const truths_options *of, truths
                             : r->line->arguments == 1 ? case_find(r->name, f)
                                                       : NULL;
     if (r->scene != NULL)
-        truths_read_rules(packed, t, NULL); /* a scene needs none */
+        truths_read_rules(packed, t, NULL); /* a scene does not need them */
     if (r->scene != NULL)
         TRY(scene_truths_add(r->scene, r->parameter, t, f));
     else

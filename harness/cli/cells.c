@@ -54,7 +54,7 @@ static void add_cell(digest *to, const cell_result *cell)
     add_numbers(to, work, sizeof work / sizeof work[0]);
 }
 
-/* An array that may not be there. */
+/* Writes an optional array. */
 static int put_array(FILE *to, const void *array, size_t size)
 {
     const int there = array != NULL;
@@ -136,18 +136,19 @@ void cells_keep(sweep *s, const char keep[])
     s->partial = s->unfinished > 0;
 }
 
-/* About, on the reference machine; little work is cut finer, so that every process has some. */
+/* [s] estimated, on the reference machine; little work is cut into smaller batches, so that every
+ * process gets some */
 static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32;
 
 /* The sweep cut into batches. An item is a series that is run. */
 typedef struct cut {
     const sweep_request *request;
-    truths *t; /* reference values: where their uncertainty requires it, scatter is measured */
+    truths *t; /* reference values, whose uncertainty decides whether scatter is measured */
     sweep *s;
     int items;
-    int *begin;   /* [items + 1] series that the item begins with; the last: of all */
-    double *each; /* [items] what it costs */
-    int *first;   /* [batches + 1] item that the batch begins with */
+    int *begin;   /* [items + 1] first series of each item; the last entry: number of series */
+    double *each; /* [items] cost */
+    int *first;   /* [batches + 1] first item of each batch */
     double *cost; /* [batches] */
     shard_work w;
 } cut;
@@ -158,7 +159,7 @@ static void add_item(cut *c, int index, double cost)
     c->each[c->items++] = cost;
 }
 
-/* The series of a batch: first[0] to first[1] - 1. Those that are not run may stand among them. */
+/* Series of a batch: first[0] to first[1] - 1, possibly including series that are not run. */
 static void series_of(const cut *c, int batch, int from_to[2])
 {
     from_to[0] = c->begin[c->first[batch]];
@@ -171,8 +172,7 @@ static status compute(void *context, int batch, FILE *to, digest *content, fault
     int range[2];
     series_of(c, batch, range);
     sweep part = *c->s;
-    sweep_request alone = *c->request; /* in a separate process that does not listen for an
-                                          interrupt */
+    sweep_request alone = *c->request; /* runs in a separate process that ignores interrupts */
     alone.jobs = alone.together = 1;
     alone.interruptible = 0;
     alone.progress = NULL;
@@ -218,7 +218,7 @@ static void sum_costs(int batches, const int first[], const double each[], doubl
     }
 }
 
-/* deal_cut, with the cost of each batch; returns their number. */
+/* deal_cut, with the cost of each batch; returns the number of batches. */
 static int cut_items(int items, const double each[], int first[], double cost[])
 {
     double all = 0;
@@ -239,7 +239,7 @@ static void make_batches(cut *c)
     c->w.batches = cut_items(c->items, c->each, c->first, c->cost);
 }
 
-/* Series of batches that are not there are taken out. */
+/* Removes the series of missing batches. */
 static status leave_out(const cut *c, const spread_end *end, fault *f)
 {
     char *keep = malloc((size_t)c->s->seriess + 1);

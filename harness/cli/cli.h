@@ -12,37 +12,38 @@
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 
-/* Verbs, their options, and the command lines that give them. A verb is an array of its own options
- * beside groups that it shares with others; its request is a struct of its own. The groups of a
- * topic stand with it: case_input, named, spread. */
+/* Verbs, their options, and command lines. A verb has an array of its own options, groups of
+ * options that it shares with others, and its own request struct. Each group is declared with its
+ * topic: case_input, named, spread. */
 
-/* Arguments of a verb, values of an option that may be given again; options in all. */
+/* Largest number of arguments of a verb or values of a repeated option; of options in total. */
 enum { COMMAND_MOST_WORDS = 64, COMMAND_MOST_GIVEN = 512 };
 
 typedef struct verb_option verb_option;
-/* Into the member. REFUSED: what the value is not, what to give. */
+/* Stores the value in the member. REFUSED: says why the value is invalid and what is expected. */
 typedef status option_reader(const verb_option *, void *member, const char *value, fault *f);
 
 enum {
-    OPTION_REPEATS = 1, /* paths: each once */
-    OPTION_INPUT = 2,   /* a file that is read, or exec:COMMAND */
-    OPTION_OUTPUT = 4,  /* a file that is written */
-    OPTION_HDF5 = 8,    /* that file is never a stream ... */
-    OPTION_FOLDER = 16, /* ... or it is a folder, a new one */
-    OPTION_ASIDE = 32,  /* no answer depends on it: how answers look, who computes them */
-    OPTION_VERDICT = 64 /* verdicts depend on it, cells do not */
+    OPTION_REPEATS = 1, /* may be repeated; for paths, each path once */
+    OPTION_INPUT = 2,   /* an input file, or exec:COMMAND */
+    OPTION_OUTPUT = 4,  /* an output file */
+    OPTION_HDF5 = 8,    /* the output file is never a stream ... */
+    OPTION_FOLDER = 16, /* ... or the output is a new folder */
+    OPTION_ASIDE =
+        32, /* does not affect results: only their presentation, or which process computes them */
+    OPTION_VERDICT = 64 /* affects verdicts but not cells */
 };
 
-/* Member that an option reads: a switch int, 1; a number int; else const char *; an option that may
- * be repeated text_list. */
+/* Member that an option sets: int for a switch (1) or a number, text_list for an option that may be
+ * repeated, else const char *. */
 struct verb_option {
     const char *name;
     char letter;                 /* 0: none */
-    const char *argument, *help; /* argument NULL: a switch; "[N]": optional */
-    size_t member;               /* of the group, or of the verb's request */
+    const char *argument, *help; /* argument NULL: a switch; "[N]": an optional argument */
+    size_t member;               /* offset in the group, or in the request of the verb */
     unsigned traits;
-    long least, most;    /* of a whole number, or that many values; 0: text, COMMAND_MOST_WORDS */
-    option_reader *read; /* NULL: as above */
+    long least, most;    /* range of an integer, or number of values; 0: text, COMMAND_MOST_WORDS */
+    option_reader *read; /* NULL: the default described above */
 };
 
 typedef struct verb verb;
@@ -50,91 +51,96 @@ typedef struct experiment_type experiment_type; /* harness/experiments/experimen
 
 typedef struct given_option {
     const verb_option *option;
-    const char *value; /* NULL: of a switch, or not given */
+    const char *value; /* NULL: a switch, or no value given */
 } given_option;
 
-/* A command line as it was given, in its order. */
+/* A command line, with options in the order given. */
 typedef struct command_line {
-    const verb *verb, *const *verbs; /* this one; all, and NULL: for what another one takes */
+    const verb *verb, *const *verbs; /* the verb; all verbs, NULL-terminated, for messages about
+                                        options of another verb */
     const char *argument[COMMAND_MOST_WORDS];
     int arguments;
-    given_option given[COMMAND_MOST_GIVEN + 1]; /* and --scene of an example */
+    given_option given[COMMAND_MOST_GIVEN + 1]; /* one more for the --scene of an example */
     int givens;
 } command_line;
 
-/* Options that verbs share. NULL: nothing to do. */
+/* Options that several verbs share. Function pointers may be NULL. */
 typedef struct option_group {
-    const verb_option *options;                           /* ends with a name of NULL */
-    void (*begin)(void *group, command_line *);           /* defaults, where these are not zero */
-    status (*end)(void *group, command_line *, fault *f); /* once all options are known */
+    const verb_option *options;                 /* ends with name NULL */
+    void (*begin)(void *group, command_line *); /* sets defaults other than zero */
+    status (*end)(void *group, command_line *,
+                  fault *f); /* called when all options have been read */
     void (*close)(void *group);
 } option_group;
 
 typedef struct verb_group {
     const option_group *group;
-    size_t member; /* of the verb's request */
+    size_t member; /* offset of the group in the request */
 } verb_group;
 
-/* A group of a verb's request; IN(at), which each verb defines: ".member = offsetof(..., at)". */
+/* A group of the request of a verb. Each verb defines IN(at): ".member = offsetof(..., at)". */
 #define SHARED(name, at) {&options_##name, IN(at)}
 
 struct verb {
     const char *name;
-    const char *arguments;        /* "OLD [NEW]": two at most, "CASE...": any number */
+    const char *arguments;        /* "OLD [NEW]": at most two; "CASE...": any number */
     const char *summary;          /* one line */
-    const char *about, *examples; /* examples: a line each */
-    const verb_group *shared;     /* ends with a group of NULL */
-    const verb_option *own;       /* ends with a name of NULL; NULL: none */
+    const char *about, *examples; /* examples: one per line */
+    const verb_group *shared;     /* ends with group NULL */
+    const verb_option *own;       /* ends with name NULL; NULL: no options */
     size_t request;
-    int (*answer)(const command_line *, void *request); /* the exit code; NULL: a heading */
-    void (*before)(char **arguments);                   /* before these are read; NULL: nothing */
-    const experiment_type *experiment; /* whose records it leaves in a group; NULL: none */
+    int (*answer)(const command_line *,
+                  void *request);     /* returns the exit status; NULL: a heading */
+    void (*before)(char **arguments); /* called before options are read; NULL: none */
+    const experiment_type
+        *experiment; /* experiment whose records the results file gets; NULL: none */
 };
 
-/* The i-th option of a verb, in the order of its help; NULL after the last. at: where its group is
- * in the request; NULL: not needed. */
+/* Option number i of a verb, in the order of its help; NULL after the last. at: receives the offset
+ * of its group in the request; may be NULL. */
 const verb_option *verb_option_at(const verb *, int i, size_t *at);
-/* The name that an option had in version 0.2; NULL where it has not changed. */
+/* Name of an option in version 0.2; NULL if it has not changed. */
 const char *verb_former_name(const verb_option *);
-/* Parses a word: "--name=VALUE", by its whole name, a former one or a unique beginning of it;
- * "-xyVALUE": the first letter that takes a value, else the last. *value: NULL: not in this word.
- * Returns NULL: the letter at *value is no option, or *begun options begin so. */
+/* Finds the option in a word: "--name=VALUE" by its full name, a former name or a unique
+ * abbreviation; "-xyVALUE" by the first letter that takes a value, else the last. *value: NULL: the
+ * word contains no value. Returns NULL when the letter at *value is no option, or when *begun
+ * options match the abbreviation. */
 const verb_option *verb_word(const verb *, const char *word, const char **value, int *begun);
-/* By its letter, also by one of former versions; NULL: none. */
+/* Does the letter belong to the option, also in previous versions? */
 int verb_is_letter(const verb_option *, char letter);
 const verb_option *verb_letter(const verb *, char letter, size_t *at);
-/* help, usage: at the end of each verb. */
+/* help and usage; added to each verb */
 extern const verb_option verb_help[];
 /* 1: its value is optional. */
 int verb_optional(const verb_option *);
-/* Finds the verb of that name; NULL: none. */
+/* Finds a verb by name; NULL: none. */
 const verb *verb_find(const verb *const *verbs, const char *name);
-/* that many arguments at most. */
+/* Largest number of arguments. */
 int verb_most_arguments(const char *arguments);
 
-/* The last value that was given, "" of a switch; NULL: it was not. */
+/* Last value given for the option, "" for a switch; NULL: not given. */
 const char *given_value(const command_line *, const char *name);
-/* The next option given, from *i on, that has one of the traits; advances *i. NULL: none left. */
+/* Next given option, from *i on, with one of the traits; advances *i. NULL: none. */
 const given_option *given_next(const command_line *, unsigned traits, int *i);
 
-/* Values of an option that may be given again. */
+/* Values of an option that may be repeated. */
 typedef struct text_list {
     int count;
     const char *text[COMMAND_MOST_WORDS];
 } text_list;
 
-/* Reads a value. value NULL (a switch, or an optional value that is not given): the largest
- * number. */
+/* Stores a value. value NULL: a switch, or an omitted optional value (the largest number). */
 status option_take(const verb_option *, void *member, const char *value, fault *f);
-option_reader option_error; /* double, of one error: "1%" or "0.01" */
-/* Errors, "1%,0.1%" or "0.01": relative, between 0 and 1, into level[most]; *count: how many. */
+option_reader option_error; /* double; one error: "1%" or "0.01" */
+/* Reads relative errors between 0 and 1, "1%,0.1%" or "0.01", into level[most]; *count: their
+ * number. */
 status errors_parse(const char *text, int most, double level[], int *count, fault *f);
 
 extern const option_group options_output;  /* const char *: -o FILE, text */
-extern const option_group options_results; /* const char *: -o FILE, text, or results in HDF5 */
+extern const option_group options_results; /* const char *: -o FILE, text or HDF5 results */
 extern const option_group options_format;  /* const char *: text, json or csv */
 extern const option_group options_select;  /* const char * */
-extern const option_group options_jobs;    /* int, at first the processors there are */
+extern const option_group options_jobs;    /* int, initially the number of processors */
 extern const option_group options_json;    /* const char * */
 
 typedef struct mesh_list {
@@ -143,101 +149,103 @@ typedef struct mesh_list {
 } mesh_list;
 extern const option_group options_meshes; /* mesh_list: -n */
 
-/* Beside options_json, which is of the first member. */
+/* options_json followed by further reports */
 typedef struct report_options {
     const char *json, *junit, *markdown, *propose;
 } report_options;
 extern const option_group options_reports;
 
-/* How cells are solved: the same answer. */
+/* Options for the solution that do not change its results. */
 typedef struct solver_options {
     int keep_all;
-    int threads; /* of the loop over elements; 0: one */
+    int threads; /* threads of the loop over elements; 0: one */
 } solver_options;
 extern const option_group options_solver;
 
-/* The case of a run, built in or a scene file, its parameters, and the reference values that belong
- * to it. */
+/* Case of a run (built in or scene file), its parameters, and its reference values. */
 
 typedef struct truths_options {
     const char *packed; /* --truths FILE; NULL: not given */
     text_list own;      /* --truths FILE.csv */
 } truths_options;
 extern const option_group options_truths;     /* --truths FILE */
-extern const option_group options_own_truths; /* FILE.csv as well */
+extern const option_group options_own_truths; /* also accepts FILE.csv */
 
-/* The packed truths: --truths, or their place (harness/study/study.h). */
+/* Path of the packed reference values: --truths, or the default (harness/study/study.h). */
 const char *own_tables_packed(const truths_options *);
-/* Adds the reference values of --truths FILE.csv, of one case where only is not NULL. run: the
- * cases of the run, NULL after the last. REFUSED: the first mistake, as file:line:column, and their
- * number. */
+/* Adds the reference values of --truths FILE.csv; only: for one case; NULL: for all. run: the cases
+ * of the run, NULL-terminated. REFUSED: reports the first error as file:line:column, and the number
+ * of errors. */
 status own_tables_truths(const truths_options *, const case_type *const run[],
                          const case_type *only, truths *t, fault *f);
-/* Adds the rules of tables; where there is such a table, new formulations count towards the exit
+/* Adds the rules of tables. If there is such a table, verdicts of new formulations affect the exit
  * status. */
 status own_tables_findings(const text_list *tables, const case_type *const run[], truths *t,
                            fault *f);
 
 typedef struct case_options {
-    const char *name;                      /* the argument; NULL: none */
-    const char *scene_path;                /* --scene: in its place */
+    const char *name;                      /* name of the case; NULL: none */
+    const char *scene_path;                /* --scene, instead of a name */
     text_list set;                         /* NAME=VALUE */
-    double parameter[CASE_MAX_PARAMETERS]; /* ... from case_input_find on */
-    scene_file *scene;                     /* what was read from scene_path */
-    int refusal;                           /* exit code without a case */
+    double parameter[CASE_MAX_PARAMETERS]; /* ... set by case_input_find */
+    scene_file *scene;                     /* contents of scene_path */
+    int refusal;                           /* exit status without a case */
     command_line *line;
 } case_options;
 extern const option_group options_case;  /* --scene, --set */
 extern const option_group options_scene; /* --scene alone */
 
-/* A name that is no built-in case but that of an example (cases/examples/NAME.yaml) becomes --scene
- * of that file. */
+/* If the name is not a built-in case but an example (cases/examples/NAME.yaml), treats it as
+ * --scene with that file. */
 void case_input_example(case_options *);
-/* The case of the request with its parameters, or NULL after a message. */
+/* The case of the request with its parameters; NULL after an error message. */
 const case_type *case_input_find(case_options *);
-/* The case of --scene FILE, or NULL after messages: all its mistakes. */
+/* The case of --scene FILE; NULL after messages about all its errors. */
 const case_type *case_input_scene(case_options *);
-/* Reads one scene file; EXIT_AS_EXPECTED, or an exit code after messages. */
+/* Reads one scene file; returns EXIT_AS_EXPECTED, or an exit status after error messages. */
 int case_input_read(const command_line *, const char *path, scene_file **out);
-/* Truths of the run: those stored, or, of a scene file, its own at the parameters of the request.
- */
+/* Reference values of the run: stored ones, or for a scene file its own at the parameters of the
+ * request. */
 status case_input_truths(const case_options *, const truths_options *, truths *t, fault *f);
-/* One line on stderr where the numbers of a scene file look like other units; NULL: none. */
+/* Prints one line on stderr if the numbers of a scene file suggest other units; NULL: does nothing.
+ */
 void case_input_tell_units(const scene_file *, const double parameter[]);
-/* One line on stderr: which analysis was made up where the scene file states none. */
+/* Prints one line on stderr that names the default analysis if the scene file has none. */
 void case_input_tell_analysis(const case_options *, const scene *s);
 
 enum { SCENES_MOST = 64 };
 
 typedef struct scenes_options {
     text_list scene; /* files, folders */
-    int built_in;    /* 1: the built-in cases beside them */
+    int built_in;    /* 1: built-in cases are also requested */
     truths_options truths;
-    text_list findings; /* tables added to the list of known deviations */
+    text_list findings; /* tables to be added to the list of known deviations */
 } scenes_options;
 
 typedef struct scenes {
     int count;
-    char *path[SCENES_MOST]; /* [count] of each file, folders looked into */
+    char *path[SCENES_MOST]; /* [count] paths of all files, including those in folders */
     scene_file *file[SCENES_MOST];
-    const case_type *type[2 * SCENES_MOST + 1]; /* the built-in ones too where they are wanted */
+    const case_type
+        *type[2 * SCENES_MOST + 1]; /* types of the files, and of built-in cases if requested */
 } scenes;
 
-/* All that --scene names: files, and of a folder every *.yaml in the order of their names; type
- * ends in NULL. Not EXIT_AS_EXPECTED: an exit code, after messages; no two are of one name. */
+/* Reads everything that --scene names: files, and every *.yaml of a folder in the order of names.
+ * type is NULL-terminated. Returns EXIT_AS_EXPECTED, or an exit status after error messages; two
+ * cases with the same name are an error. */
 int scenes_read(const command_line *, const scenes_options *, scenes *out);
 void scenes_free(scenes *);
-/* The built-in reference values where those cases are requested, the list of known deviations, the
- * reference values of each file, and the tables of your own project. */
+/* Reads the built-in reference values if those cases are requested, the list of known deviations,
+ * the reference values of each file, and user tables. */
 status scenes_truths(const scenes *, const scenes_options *, truths *t, fault *f);
 
-/* For one minor version: prints a line where the supports of members fix their warping at ends that
- * were free before, and the results of this formulation depend on it, as shown by a mesh of two
- * elements for each member. Built-in cases: none. */
+/* For one minor version: prints a line if members now fix warping at ends where it was free before,
+ * and results of this formulation depend on it, as a mesh of two elements per member shows. Does
+ * nothing for built-in cases. */
 void supports_told(const scene_file *, const double parameter[], const formulation *,
                    const scene *);
 
-/* A command line as a verb reads and answers it; exit codes. */
+/* Reads and runs the command line of a verb; exit statuses. */
 
 enum {
     EXIT_AS_EXPECTED = 0,
@@ -245,56 +253,57 @@ enum {
     EXIT_REFUSED = 2,
     EXIT_NOTHING = 3,
     EXIT_FAULT = 4,
-    EXIT_INTERRUPTED = 5 /* or parts are missing */
+    EXIT_INTERRUPTED = 5 /* also if parts are missing */
 };
 
-/* request: of verb->request bytes. Errors are printed and end the program with EXIT_REFUSED. */
+/* request: verb->request bytes. Prints errors and ends the program with EXIT_REFUSED. */
 void command_parse(const verb *, const verb *const *verbs, int count, char **arguments,
                    command_line *line, void *request);
-/* Reads, answers; the exit code. arguments[0]: the verb. */
+/* Parses the command line, runs the verb and returns the exit status. arguments[0]: the verb. */
 int command_run(const verb *, const verb *const *verbs, int count, char **arguments);
 
-/* Help page of a verb: usage, description, options, examples, within PARAGRAPH_WIDTH columns. */
+/* Writes the help page of a verb within PARAGRAPH_WIDTH columns: usage, description, options,
+ * examples. */
 void help_write(FILE *to, const verb *v);
 
-/* The files of a command line, examined before the work begins. */
+/* Checks the files of a command line before the work begins. */
 
-/* Every output can be written and is a file of its own, and none is an input. whole_file: -o is
- * HDF5. truths_path: NULL where no truths are read. */
+/* Checks that every output can be written, and that all outputs and inputs are different files.
+ * whole_file: -o is HDF5. truths_path: NULL if no reference values are read. */
 status files_check(const command_line *, int whole_file, const char *truths_path, fault *f);
-/* The same; stored: -o is a file of results, which other experiments may have written into. */
+/* As files_check; stored: -o is a results file, which may contain results of other experiments. */
 status files_check_results(const command_line *, int stored, const char *truths_path, fault *f);
-/* A file, every *.yaml of a folder in the order of their names, the files that exec:COMMAND
- * names. */
+/* Called for a file, every *.yaml of a folder in the order of names, and files named by
+ * exec:COMMAND. */
 typedef status file_visit(const void *context, const char *path, fault *f);
 status files_named(const char *input, file_visit *visit, const void *context, fault *f);
 
-/* How the program says that something went wrong, and with which exit status it ends. */
+/* Error messages of the program, and its exit status. */
 
-/* At the end of the program: the exit code, or EXIT_FAULT when standard output could not be
- * written. */
+/* Call at the end of the program. Returns the exit status, or EXIT_FAULT when standard output could
+ * not be written. */
 int message_finish(int code);
-/* One line on stderr; the exit code that belongs to a status. */
+/* Prints one line on stderr and returns the exit status for a status. */
 int message_fail(status s, const char *text);
-/* Prints the line and ends the program: invalid input. */
+/* Prints the line and ends the program with EXIT_REFUSED. */
 _Noreturn void message_refuse(const char *text);
-/* EXIT_AS_EXPECTED, or message_fail with what is wrong. */
+/* Returns EXIT_AS_EXPECTED, or prints the error and returns its exit status. */
 int message_exit(status s, const fault *f);
 
-/* Ends that are not its own: signals, crashes, libraries that call exit(). */
-/* A formulation from outside that runs in this process: when it crashes or does not come back,
- * the program ends with one line that names it. From now on; seconds: 0 for no limit. Does nothing
- * for formulations of the program's own. */
+/* Handles abnormal ends: signals, crashes, libraries that call exit(). */
+/* Protects against a formulation that is loaded into this process: if it crashes or exceeds
+ * `seconds` (0: no limit), the program ends with one line that names it. Does nothing for built-in
+ * formulations. */
 void guard_formulation(const formulation *chosen, int seconds);
-/* Called once, before any file is opened. Standard streams that are closed are opened on /dev/null,
- * which refuses writing: no file is mistaken for one of them. Signals that end the program
- * (SIGTERM, SIGHUP, SIGINT) and crashes first delete unfinished output files; a crash, or an exit()
- * of a library or an element, is reported in one line. */
+/* Call once, before any file is opened. Closed standard streams are opened on /dev/null without
+ * write permission, so that no other file takes their place. Signals that end the program (SIGTERM,
+ * SIGHUP, SIGINT) and crashes first delete unfinished output files. A crash, or a call of exit() by
+ * a library or an element, is reported in one line. */
 void ending_begin(void);
 
-/* The verbs of the command line. */
+/* Verbs of the command line. */
 
-/* In the order of help, below headings. A new verb is its file and a line here. */
+/* In the order of the help, below headings. A new verb needs its file and a line here. */
 #define VERBS(HEADING, VERB)                                                                       \
     HEADING(look)                                                                                  \
     VERB(list)                                                                                     \
@@ -321,11 +330,11 @@ void ending_begin(void);
 #define NO_HEADING(name)
 VERBS(NO_HEADING, VERB_DECLARED)
 
-/* `beamwork VERB ...`, `beamwork help [VERB]`, --help, --version: the exit code. arguments[0] is
- * the program. */
+/* Runs `beamwork VERB ...`, `beamwork help [VERB]`, --help and --version; returns the exit status.
+ * arguments[0] is the program. */
 int verb_table_run(int count, char **arguments);
 
-/* The word that is being written: `before` of it stays as it is, `begun` is to be completed. */
+/* Word being completed: `before` stays unchanged, `begun` is to be completed. */
 typedef struct offer {
     FILE *to;
     const char *before;
@@ -333,37 +342,38 @@ typedef struct offer {
     const char *begun;
 } offer;
 
-/* Prints a line "WORD<tab>SUMMARY" if the text begins with `begun`; WORD is `before` and the text.
- * A WORD that ends in '=' or ':' may be continued; ":files" and ":folders" are completed by the
- * shell. */
+/* Prints "WORD<tab>SUMMARY" if the text begins with `begun`; WORD is `before` followed by the text.
+ * After a WORD ending in '=' or ':' completion continues; the shell completes ":files" and
+ * ":folders". */
 void offer_text(const offer *o, const char *text, const char *summary);
 
-/* The words after the verb up to the cursor; the last one, which may be empty, is begun. */
+/* words: those after the verb up to the cursor; the last one, possibly empty, is completed. */
 void completion_write(FILE *to, const verb *v, int count, char *const *word);
 
-/* The formulations of a command line: those that -f names and those that --element loads, which may
- * are after the -f that names them. */
+/* Formulations of a command line: those named by -f and those loaded by --element, which may come
+ * after the -f that names them. */
 
 enum { COMMAND_MAX_FORMULATIONS = 64 };
 
 typedef struct chosen_formulations {
-    text_list element, named; /* as --element and -f say them */
+    text_list element, named; /* values of --element and -f */
     formulation formulation[COMMAND_MAX_FORMULATIONS];
     int formulations;
-    int time_limit; /* [s] of a cell, and of a process that says what it is; 0: none */
+    int time_limit; /* [s] limit of a cell, and of the first answer of a process; 0: none */
 } chosen_formulations;
 extern const option_group options_formulations; /* -f, --element */
 extern const option_group options_element;      /* --element alone */
-extern const option_group options_time_limit;   /* after one of these, of the same member */
+extern const option_group
+    options_time_limit; /* must follow one of the groups above in the same member */
 
-/* 1: every formulation of the request was requested by its name; 0: all were, or none. */
+/* Returns 1 when every formulation was requested by name; 0 when all were requested, or none. */
 int named_alone(const chosen_formulations *);
-/* One more of the request's formulations, or "all". What is refused ends the program. */
+/* Adds a formulation, or "all". An error ends the program. */
 void named_add(chosen_formulations *, const char *text);
 
 enum { DEFAULTS_NOTE = 2 * FAULT_TEXT + 200 };
 
-/* The one cell that is requested, where its -f and -n may be missing. */
+/* Request for one cell, in which -f and -n may be missing. */
 typedef struct defaults {
     solution_request wanted;
     chosen_formulations *chosen;
@@ -371,13 +381,14 @@ typedef struct defaults {
     const truths_options *truths;
 } defaults;
 
-/* Fills missing -f and -n for one cell of the case at its parameters. note: a line for each choice
- * and its reason; "" where both were given. why: solution_choice_free in any case; may be NULL.
- * REFUSED: no formulation supports what the case needs, or --error is not a valid number. */
+/* Chooses a missing -f and -n for one cell of the case at its parameters. note: one line for each
+ * choice and its reason; "" if both were given. why: call solution_choice_free in any case; may be
+ * NULL. REFUSED: no formulation supports what the case requires, or --error is not a valid number.
+ */
 status defaults_fill(const defaults *, char note[DEFAULTS_NOTE], solution_choice *why, fault *f);
-/* The same of -f alone. */
+/* As defaults_fill, for -f only. */
 status defaults_formulation(const defaults *, char note[DEFAULTS_NOTE], fault *f);
-/* The first of each, if there are any. */
+/* Request with the first formulation and mesh given, if any. */
 solution_request defaults_request(const defaults *);
 
 #endif

@@ -10,7 +10,7 @@ typedef struct compare_request {
     int hash; /* 1: of stored runs */
 } compare_request;
 
-/* As of diff. */
+/* Exit statuses, as for diff. */
 enum { SAME = 0, DIFFERS = 1, TROUBLE = 2 };
 
 static int trouble(const fault *f)
@@ -43,7 +43,7 @@ static void print_sums(const comparison *c)
     putchar('\n');
 }
 
-/* A line for each count of series that are in one of the two only and are no change. */
+/* Prints a line for each group of series that exist in one run only and are not changes. */
 static void print_left(const command_line *l, const stored_results *run[2], const comparison *c)
 {
     const char *const path[] = {l->argument[0], l->argument[1]};
@@ -95,7 +95,7 @@ static int compare(const command_line *l, const compare_request *r, const stored
     return trouble(f);
 }
 
-/* A sweep is compared with a sweep. */
+/* Checks that a sweep is compared only with a sweep. */
 static status check_sweeps(const command_line *l, const stored_results *before,
                            const stored_results *after, fault *f)
 {
@@ -132,7 +132,7 @@ static status read_runs(const command_line *l, const compare_request *r, compari
     return l->argument[1] == NULL ? write_table(r->output, before, f) : STATUS_OK;
 }
 
-/* A line for each run; of two: are they the same? */
+/* Prints a line for each run; for two runs also whether they are equal. */
 static int print_hashes(const command_line *l, const compare_request *r)
 {
     results_hash h[2] = {{.values = 0}};

@@ -1,5 +1,5 @@
-/* Completion of a command line: words that may are at the cursor, for shells: fixed words, names
- * of the program, and values that depend on the words before the cursor. */
+/* Completion of a command line: words that may be at the cursor, for shells: fixed words, names
+ * known to the program, and values that depend on the words before the cursor. */
 #include "harness/cli/cli.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@ void offer_text(const offer *o, const char *text, const char *summary)
         fprintf(o->to, "%.*s%s\t%s\n", o->length, o->before, text, summary);
 }
 
-/* Each of "a|b|c". */
+/* Offers each part of "a|b|c". */
 static void offer_choices(const offer *o, const char *choices)
 {
     char word[64];
@@ -28,7 +28,8 @@ static void offer_choices(const offer *o, const char *choices)
     }
 }
 
-/* The same offer after the last of the characters in what was begun (else: itself). */
+/* The offer that starts after the last of the given characters in the word; without one, the same
+ * offer. */
 static offer offer_behind(const offer *o, const char *characters)
 {
     offer behind = *o;
@@ -65,7 +66,7 @@ static void offer_assignment(const offer *o, const parameter_type *p)
     }
 }
 
-/* Is it among those before, "name:mass=lumped,"? */
+/* Does the option already occur in the text before the cursor, "name:mass=lumped,"? */
 static int is_given(const char *before, int length, const char *name)
 {
     const size_t size = strlen(name);
@@ -102,7 +103,7 @@ static void names_parameters(const offer *o, const case_type *type)
         offer_assignment(o, p);
 }
 
-/* NAME= only: of those that are numbers. */
+/* Offers NAME= only for numbers. */
 static void names_numbers(const offer *o, const case_type *type)
 {
     const parameter_type *p;
@@ -111,7 +112,7 @@ static void names_numbers(const offer *o, const case_type *type)
             offer_assignment(o, p);
 }
 
-/* The next word of a term that begins as what was said. */
+/* Offers the next word of a term that begins with the words already typed. */
 static void offer_term(const offer *o, const char *said, const char *term, const char *summary)
 {
     const size_t length = strlen(said);
@@ -132,8 +133,8 @@ static void offer_terms(const offer *o, const char *said, const glossary *g)
     }
 }
 
-/* Terms of `beamwork explain`. said: the words before the cursor, joined, with which a term of
- * several words may begin. */
+/* Terms of `beamwork explain`. said: the words before the cursor, joined, which may be the
+ * beginning of a term of several words. */
 static void names_words(const offer *o, const char *said)
 {
     const truths_options usual = {.packed = NULL};
@@ -155,15 +156,15 @@ static void names_words(const offer *o, const char *said)
 
 enum { SAID = 400 };
 
-/* Content of the words before the cursor. */
+/* Information from the words before the cursor. */
 typedef struct completion_reading {
     const verb *verb;
-    const verb_option *open; /* the option whose value the word at the cursor is; or NULL */
+    const verb_option *open; /* option whose value is at the cursor; NULL: none */
     int only_arguments;      /* after "--" */
-    const char *last;        /* argument; NULL: none yet */
+    const char *last;        /* last argument; NULL: none yet */
     int arguments;           /* that many */
     const char *scene;       /* value of --scene */
-    char said[SAID];         /* arguments, with a blank after each */
+    char said[SAID];         /* arguments, each followed by a blank */
 } completion_reading;
 
 static void keep_value(completion_reading *r, const verb_option *o, const char *value)
@@ -205,7 +206,7 @@ static void read_word(completion_reading *r, const char *word)
     }
 }
 
-/* A term of several words may stand in several arguments, and in one. */
+/* A term of several words may be given as several arguments or as one. */
 static void offer_words(const offer *o, const completion_reading *r)
 {
     const offer word = offer_behind(o, " ");
@@ -215,7 +216,8 @@ static void offer_words(const offer *o, const completion_reading *r)
     names_words(&word, said);
 }
 
-/* Upper case: what it is called; else the word itself, of "exec:COMMAND" up to the colon. */
+/* Upper-case words name kinds of arguments; other words are offered unchanged, "exec:COMMAND" up to
+ * the colon. */
 static void offer_part(const offer *o, const completion_reading *r, const char *part)
 {
     char word[40];
@@ -299,7 +301,7 @@ static void offer_options(const offer *o, const completion_reading *r)
     }
 }
 
-/* "-hf" or "--formulation=", and after it the beginning of a value. */
+/* Handles "-hf" or "--formulation=", followed by the beginning of a value. */
 static void offer_begun_option(FILE *to, const completion_reading *r, const char *word)
 {
     const offer whole = {to, word, 0, word};

@@ -1,5 +1,5 @@
-/* bench --against: one cell in alternation with another formulation, at equal error or at given
- * meshes, or with the same cell of another program. */
+/* bench --against: alternates one cell with another formulation, at equal error or with given
+ * meshes, or with the same cell in another program. */
 #include "harness/cli/cli_impl.h"
 
 #include <math.h>
@@ -14,16 +14,16 @@
 
 enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
 
-/* A and B on all meshes of the case, and the errors that are requested. */
+/* A and B on all meshes of the case, and the requested errors. */
 typedef struct duel {
-    sweep s; /* two series: A and B */
+    sweep s; /* with two series: A and B */
     truths t;
-    int levels, asked; /* asked: that many by --error */
+    int levels, asked; /* number of levels; asked: those given by --error */
     double level[LEVELS];
     char note[DEFAULTS_NOTE];
 } duel;
 
-/* Where both are within an error, timed. */
+/* A pair of meshes with which both meet an error, timed. */
 typedef struct bout {
     meeting at;
     int measured;
@@ -31,7 +31,7 @@ typedef struct bout {
     contest_clock answer;
 } bout;
 
-/* Not again where a former level has met on the same meshes. */
+/* Skipped if a previous level led to the same meshes. */
 static status measure(const duel *d, const bench_options *r, const bout *former, int formers,
                       bout *m, fault *f)
 {
@@ -92,7 +92,7 @@ static void show_meeting(const duel *d, double level, const bout *m)
     paragraph_write(stdout, at, 4, line);
 }
 
-/* Deviations that more elements do not reduce. */
+/* Lists deviations that do not decrease with more elements. */
 static void show_defects(const duel *d)
 {
     for (int i = 0; i < 2; i++)
@@ -168,7 +168,7 @@ static void show_json(const duel *d, const bout m[])
     json_decref(root);
 }
 
-/* The levels that are requested, or those of reach_level that both reach; their number. */
+/* Requested levels, or those of reach_level that both meet; returns their number. */
 static int choose_levels(duel *d, bout m[LEVELS])
 {
     for (int i = 0; i < REACH_LEVELS && d->asked == 0; i++) {
@@ -213,7 +213,7 @@ static status compare(duel *d, const bench_options *r, fault *f)
     return STATUS_OK;
 }
 
-/* Errors at which another model would be compared are not those of its elements. */
+/* REFUSED: one of the two is another model, so that its errors are not those of its elements. */
 static status check_models(const sweep *s, fault *f)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -246,10 +246,11 @@ static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
     return compare(d, r, f);
 }
 
-/* For each error the least number of elements of either from which on the error of every asked
- * quantity is within it (study/study.h), then these two cells in alternation. Errors: --error, or
- * those of reach_level that both reach; quantities: -k, or all that both have a reference value or
- * an agreement for. REFUSED: one does not run, no reference value for errors, none is reached. */
+/* For each error target finds the least number of elements of each formulation from which on all
+ * requested quantities meet it (study/study.h), then times these two cells in alternation. Targets:
+ * --error, or those of reach_level that both meet. Quantities: -k, or all with a reference value or
+ * an agreement for both. REFUSED: one does not run, there is no reference value, or no target is
+ * met. */
 static status against_error(bench_options *r, const case_type *type, fault *f)
 {
     duel d = {.levels = 0};
@@ -274,7 +275,7 @@ static void show_pair(const bench_options *r, const sweep_point *p, const contes
     json_decref(root);
 }
 
-/* Returns the parameter point that both are run at. The caller that built the scene frees it. */
+/* Returns the parameter point at which both are run. The caller frees the scene that it built. */
 static sweep_point point_of(const bench_options *r, const case_type *type, const scene *s)
 {
     sweep_point p = {.type = type, .scene = *s, .status = STATUS_OK};
@@ -282,8 +283,8 @@ static sweep_point point_of(const bench_options *r, const case_type *type, const
     return p;
 }
 
-/* Another build at equal n: both are programs, so that both start alike. The scene is freed by
- * against_meshes. */
+/* Compares with another build at equal n. Both are run as programs, so that both start alike.
+ * against_meshes frees the scene. */
 static status against_program(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
@@ -314,7 +315,7 @@ static status compete(const bench_options *r, const case_type *type, scene *s, f
     return STATUS_OK;
 }
 
-/* At given meshes: A's and B's. */
+/* Compares with given meshes for A and B. */
 static status against_meshes(bench_options *r, const case_type *type, int is_program, fault *f)
 {
     scene s = {0};

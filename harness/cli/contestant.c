@@ -16,7 +16,7 @@
 enum { MOST_REPEATS = 10000, NAME = 40 };
 static const double budget_seconds = 3, lap_seconds = 0.002;
 
-/* The pure numbers of a cell's record. */
+/* Selects the dimensionless numbers in the record of a cell. */
 static void set_counted(contestant *c)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -56,7 +56,7 @@ static status lap_here(contestant *c, double *seconds, fault *f)
     return STATUS_OK;
 }
 
-/* Reads the output of the program: its seconds and its counts of work. */
+/* Reads times and counts of work from the output of the program. */
 static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
 {
     json_error_t where;
@@ -103,12 +103,12 @@ static status lap(void *what, double *seconds, fault *f)
     return c->program != NULL ? lap_elsewhere(c, seconds, f) : lap_here(c, seconds, f);
 }
 
-/* Chooses the number of repeats so that one lap is long enough for the clock. */
+/* Chooses the number of repetitions so that one lap is long enough for the clock. */
 static status set_repeats(contestant *a, contestant *b, fault *f)
 {
     double first = 0, second = 0;
     a->repeats = b->repeats = 1;
-    for (int i = 0; i < 2; i++) { /* the first one warms up */
+    for (int i = 0; i < 2; i++) { /* the first lap warms up */
         TRY(lap(a, &first, f));
         TRY(lap(b, &second, f));
     }
@@ -173,7 +173,7 @@ status contestant_compete(contestant *a, contestant *b, contest_clock *out, faul
     return against_run(lap, a, b, budget_seconds, out, f);
 }
 
-/* Its name and time; a long name has lines of its own. */
+/* Prints name and time; a long name gets its own line. */
 static void show_one(char letter, const contestant *c, double seconds)
 {
     int at = printf("%c  ", letter);
@@ -205,7 +205,7 @@ static void show_work(const contestant *a, const contestant *b)
     paragraph_end(&words, at, 2);
 }
 
-/* Why the two are not ranked: "" where they are. */
+/* Why the two are not ranked; "" if they are. */
 static const char *unranked(const contestant *a, const contestant *b)
 {
     const char *why = reach_unranked(a->request.formulation);
@@ -227,7 +227,7 @@ void contestant_unranked(const contestant *a, const contestant *b)
     }
 }
 
-/* Physics of the scene that a formulation run in this process omits, in words; "": none. */
+/* Describes the physics of the scene that a formulation run in this process omits; "": none. */
 static void lacking(const contestant *c, char words[OMIT_WORDS])
 {
     words[0] = '\0';

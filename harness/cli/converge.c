@@ -15,7 +15,7 @@ typedef struct converge_request {
     int jobs, verbose;
 } converge_request;
 
-/* Reports what changed at the supports, for the first formulation that runs. */
+/* Reports changed supports for the first formulation that runs. */
 static void tell_supports(const converge_request *r, const sweep *s)
 {
     int i = 0;
@@ -56,7 +56,7 @@ static status converge(converge_request *r, const case_type *type, convergence *
     return experiment_run(&experiment_converge, &asked, &to, c, f);
 }
 
-/* Has any cell one? */
+/* Does any cell have a solution? */
 static int has_solution(const sweep *s)
 {
     int found = 0;

@@ -11,7 +11,7 @@ typedef struct element_test_request {
     int jobs, verbose, quiet;
 } element_test_request;
 
-/* A file, or a command, in the place of a name; NULL: none. */
+/* Returns an argument that is a file or a command instead of a name; NULL: none. */
 static const char *file_among(const command_line *l)
 {
     for (int i = 0; i < l->arguments; i++) {
@@ -23,7 +23,7 @@ static const char *file_among(const command_line *l)
     return NULL;
 }
 
-/* Selects the formulations that are named; by default those that were loaded. */
+/* Selects the named formulations; by default those that were loaded. */
 static void choose(const command_line *l, element_test_request *r)
 {
     for (int i = 0; i < l->arguments; i++)

@@ -101,7 +101,7 @@ static int explain_inputs(const char *word)
     return 1;
 }
 
-/* The rule whose cause this one is "the same" as: the last one before it that says a cause. */
+/* The rule that a cause "the same" refers to: the last previous one that gives a cause. */
 static const rule *said_before(const truths *ledger, int i)
 {
     while (i > 0 && strncmp(ledger->rule[i].cause, "the same", 8) == 0)
@@ -134,7 +134,7 @@ static int explain_rule(const dictionary *d, const char *word)
     return 0;
 }
 
-/* A quantity of one case: what it is there. Returns 1 where the case has it. */
+/* Explains a quantity of one case. Returns 1 when the case has it. */
 static int explain_quantity_of(const case_type *type, const char *word, int found)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -205,7 +205,7 @@ static void add_names(const dictionary *d, name_list *l)
         add_name(l, d->ledger.rule[k].name);
 }
 
-/* The name that differs from `word` in at most two letters (one, of short words), or NULL. */
+/* Name that differs from `word` in at most two letters (one, for short words), or NULL. */
 static const char *misspelt(const name_list *l, const char *word)
 {
     char a[GLOSSARY_WORD], b[GLOSSARY_WORD];
@@ -223,7 +223,7 @@ static const char *misspelt(const name_list *l, const char *word)
     return nearest;
 }
 
-/* Does `text` contain `word` as a whole word, whatever the letters' case? */
+/* Does `text` contain `word` as a whole word? Ignores case. */
 static int contains(const char *text, const char *word)
 {
     char all[2048];
@@ -256,7 +256,7 @@ static void add_related(const glossary *g, const char *word, int where, int *cou
     }
 }
 
-/* At most RELATED entries that share a word of four letters or more with `word`. */
+/* Finds at most RELATED entries that share a word of at least four letters with `word`. */
 static void find_related(const glossary *g, const char *word, char *line, size_t size)
 {
     char all[LONGEST], *rest = NULL;
@@ -318,7 +318,7 @@ static int explain_word(const dictionary *d, const char *word)
     return found > 0 ? EXIT_AS_EXPECTED : refuse_word(d, word);
 }
 
-/* Arguments are one word, so that none needs quotes. */
+/* Joins all arguments, so that a term needs no quotes. */
 static int explain_words(const command_line *l, const dictionary *d)
 {
     char word[LONGEST] = "";

@@ -1,4 +1,4 @@
-/* A case or a scene as an input deck of another program. */
+/* Writes a case or a scene as an input deck of another program. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +17,8 @@ typedef struct export_request {
 
 enum { DEFAULT_ELEMENTS = 20 };
 
-/* Name of the deck's scene, as an import has it: case or whole path of a scene file; parameters
- * that differ from their defaults. */
+/* Name of the scene in the deck, in the form that import reads: case, or full path of a scene file;
+ * parameters that differ from their defaults. */
 static void name_of(const export_request *r, const case_type *type, char *text, size_t size)
 {
     char parameters[PARAMETERS_TEXT], path[PATH_MAX];

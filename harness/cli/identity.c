@@ -16,7 +16,7 @@ static void name_build(char *out, size_t size)
              e.commit);
 }
 
-/* All words with blanks between them; a longer text ends in its digest. */
+/* Joins all words with blanks; a text that is too long ends with its digest. */
 static void name_request(const json_t *words, char out[IDENTITY_TEXT])
 {
     enum { KEPT = IDENTITY_TEXT - 2 * DIGEST_TEXT };
@@ -38,8 +38,7 @@ static void name_request(const json_t *words, char out[IDENTITY_TEXT])
         snprintf(out + KEPT, IDENTITY_TEXT - KEPT, " ... %s", hash);
 }
 
-/* How files are named: as they were, by paths that hold in any folder, by what is after their
- * folders. */
+/* Forms of file names: as given, absolute, or without the folder. */
 typedef enum path_form { PATHS_GIVEN, PATHS_ABSOLUTE, PATHS_LEAVES } path_form;
 
 static void add_path(json_t *to, const char *path, path_form form)
@@ -53,7 +52,7 @@ static void add_path(json_t *to, const char *path, path_form form)
     json_array_append_new(to, json_string(path));
 }
 
-/* Files have paths, commands have none. */
+/* For files adds their paths; commands have none. */
 static void add_given(json_t *to, const given_option *g, path_form form)
 {
     char text[160];
@@ -67,8 +66,8 @@ static void add_given(json_t *to, const given_option *g, path_form form)
         add_path(to, value, file ? form : PATHS_GIVEN);
 }
 
-/* All that answers depend on, in the order of the verb's options however they were given; not where
- * results go, how they look, nor how many processes work. */
+/* Everything that results depend on, in the fixed order of the verb's options. Excludes where
+ * results go, how they look, and the number of processes. */
 static json_t *words_of(const command_line *l, path_form form)
 {
     json_t *to = json_array();
@@ -80,7 +79,7 @@ static json_t *words_of(const command_line *l, path_form form)
             if (l->given[k].option == o) {
                 add_given(to, &l->given[k], form);
                 if (o->argument == NULL)
-                    break; /* a switch is on, however often it is given */
+                    break; /* repeating a switch has no effect */
             }
     return to;
 }
@@ -92,7 +91,7 @@ static status add_file(const void *context, const char *path, fault *f)
                : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
 }
 
-/* Truths are those of built-in cases. */
+/* Built-in reference values count only for built-in cases. */
 static status add_files(digest *plan, const command_line *l, fault *f)
 {
     const truths_options usual = {.packed = NULL};

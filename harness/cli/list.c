@@ -1,5 +1,5 @@
-/* Verb list: cases and formulations; for one of them what it supports, its limitations and known
- * deviations. */
+/* Verb list: cases and formulations; for one formulation its supported features, limitations and
+ * known deviations. */
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,15 +17,15 @@ enum { COLUMN = 26, LINE = 4000 };
 
 static const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX;
 
-/* A text whose further lines are indented by two more. */
+/* Prints a text with its continuation lines indented by two more. */
 static void hang(int indent, const char *text)
 {
     const int word = (int)strcspn(text, " ");
     paragraph_write(stdout, printf("%*s%.*s ", indent, "", word, text), indent + 2, text + word);
 }
 
-/* Reads a declared field of a formulation, as result files have it; returns its number, *out its
- * text. */
+/* Reads a declared field of a formulation, as in result files; returns its number, *out its text.
+ */
 static long declared(const formulation *chosen, const char *name, field_value *out)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -98,7 +98,7 @@ static void show_options(const element_type *t)
         list_formulation_option(o);
 }
 
-/* Where, and what comes of it. */
+/* Prints where the rule applies and the resulting verdicts. */
 static void show_verdicts(const rule *r)
 {
     char line[LINE];
@@ -126,7 +126,7 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
         printf("known deviations: none\n");
 }
 
-/* Prints the entries of one kind with the same words as the first, in one group. */
+/* Prints the entries of one kind with the same explanation as the first, as one group. */
 static void show_alike(const runs_on all[], int count, int first, const char *head)
 {
     char line[LINE];
@@ -181,7 +181,7 @@ static void list_formulation(const formulation *chosen, const rule *rules, int c
 
 typedef struct list_request {
     case_options of;
-    chosen_formulations chosen; /* that --element loads */
+    chosen_formulations chosen; /* formulations loaded by --element */
     truths_options truths;
     const char *format;
 } list_request;
@@ -283,7 +283,7 @@ static int list_case(const case_type *type)
     return message_exit(outcome, &f);
 }
 
-/* The list of known deviations, if there is one. */
+/* Reads the list of known deviations, if it exists. */
 static void read_ledger(const list_request *r, truths *ledger)
 {
     memset(ledger, 0, sizeof *ledger);

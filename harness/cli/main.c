@@ -1,4 +1,4 @@
-/* beamwork VERB ...: what the process needs before a verb runs. */
+/* beamwork VERB ...: prepares the process, then runs a verb. */
 #include <gsl/gsl_errno.h>
 #include <hdf5.h>
 #include <signal.h>
@@ -8,14 +8,14 @@
 
 #include "harness/cli/cli.h"
 
-/* Not inlined: what it needs of the stack is taken once the stack is known to suffice. */
+/* Not inlined, so that it uses the stack only after its size has been checked. */
 static __attribute__((noinline)) int run(int count, char **arguments)
 {
     return verb_table_run(count, arguments);
 }
 
-/* A stack that is too small ends a program without a word: it is raised as far as we may. 1: it is
- * large enough. */
+/* Raises the limit of the stack as far as allowed, because a stack overflow would end the program
+ * without a message. Returns 1 when it is large enough. */
 static int stack_suffices(void)
 {
     enum { LEAST = 1 << 20, USUAL = 1 << 23 }; /* [bytes] */
@@ -26,13 +26,13 @@ static int stack_suffices(void)
     return setrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur >= LEAST;
 }
 
-/* Without stdio, whose buffer for standard error lies on the stack: what starts at all says it. */
+/* Writes without stdio, whose buffer for standard error is on the stack. */
 static _Noreturn void refuse_stack(void)
 {
     static const char text[] = "beamwork: the stack is limited to less than 1 MB; allow more with "
                                "'ulimit -s 8192'\n";
     if (write(STDERR_FILENO, text, sizeof text - 1) < 0) {
-        /* the exit status says it still */
+        /* the exit status still reports the error */
     }
     _exit(EXIT_FAULT);
 }
@@ -43,10 +43,10 @@ int main(int count, char **arguments)
         refuse_stack();
     ending_begin();
     gsl_set_error_handler_off();
-    /* it closes nothing of its own accord: what we open we close, and where memory was short its
-     * own end crashes or fills the screen */
+    /* beamwork closes all HDF5 objects itself, and the exit handler of HDF5 crashes or prints many
+     * lines after memory was short */
     H5dont_atexit();
-    /* a file that reached its size limit is a write error, reported in one line */
+    /* exceeding the size limit of a file then becomes a write error, reported in one line */
     signal(SIGXFSZ, SIG_IGN);
     return message_finish(run(count, arguments));
 }

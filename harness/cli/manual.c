@@ -1,4 +1,4 @@
-/* The pages of the manual, in the words of mdoc(7). */
+/* Pages of the manual in mdoc(7). */
 #include "harness/cli/cli_impl.h"
 
 #include <ctype.h>
@@ -11,7 +11,7 @@
 
 enum { WIDTH = 78 };
 
-/* As it is typed: what formatters would set in another way is after a backslash. Returns the
+/* Writes text literally; characters that formatters would change are escaped. Returns the number of
  * characters written. */
 static int write_escaped(FILE *to, const char *text, size_t length)
 {
@@ -27,7 +27,7 @@ static int write_escaped(FILE *to, const char *text, size_t length)
     return written;
 }
 
-/* A word that a formatter would take for a request is not one after "\&". */
+/* Writes a word; "\&" before it prevents interpretation as a request. */
 static int write_word(FILE *to, const char *word, size_t length)
 {
     const int guard = length > 0 && word[0] == '.';
@@ -47,7 +47,7 @@ void roff_text(FILE *to, const char *text)
         column += write_word(to, text, length);
         text += length;
         if (text[-1] == '.' && *text != '\0')
-            column = 0 * fputc('\n', to); /* a new sentence, a new line */
+            column = 0 * fputc('\n', to); /* a new sentence starts on a new line */
     }
     fputc('\n', to);
 }
@@ -65,7 +65,7 @@ void roff_literal(FILE *to, const char *line, size_t length)
     fputc('\n', to);
 }
 
-/* "2026-11-21" as mdoc(7) has it: "November 21, 2026". */
+/* Converts "2026-11-21" to the form of mdoc(7): "November 21, 2026". */
 static void write_date(FILE *to, const char *released)
 {
     struct tm day = {0};
@@ -202,7 +202,7 @@ static int takes(const verb *v, const char *name)
     return o != NULL;
 }
 
-/* The other pages that a reader of this one may need. */
+/* References to related pages. */
 static void write_references(FILE *to, const verb *v)
 {
     roff_reference list[4] = {{"beamwork", 1}};
@@ -242,7 +242,7 @@ static const char opening[] = ".Bl -tag -width 2n -offset %s -compact\n";
 
 typedef struct keys {
     FILE *to;
-    int depth; /* lists that are open */
+    int depth; /* number of open lists */
 } keys;
 
 static void close_to(keys *k, int depth)
@@ -251,7 +251,7 @@ static void close_to(keys *k, int depth)
         fprintf(k->to, ".El\n");
 }
 
-/* A list for each depth: that of the keys below is in the item of the key above them. */
+/* Uses one list per depth; the list of lower keys is inside the item of the key above them. */
 static void write_key(void *context, int depth, const char *name, const char *form,
                       const char *text)
 {
@@ -274,7 +274,7 @@ static void write_keys(FILE *to, void list(key_list_take *, void *))
     close_to(&k, 0);
 }
 
-/* A leaf spring in ten lines. */
+/* Example: a leaf spring in ten lines. */
 static const char example[] =
     "beamwork: 1\n"
     "sections:\n"

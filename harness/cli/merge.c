@@ -1,4 +1,5 @@
-/* Batches of shards put together: the verb that they are of is asked again, to take them. */
+/* Merges batches of shards: repeats the command of the verb that made them, which then reads the
+ * batches. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,11 +10,11 @@
 
 enum { MOST = 1024 }; /* arguments */
 
-/* The command line that batches were computed by, asked once more. */
+/* The command line that computed the batches, repeated. */
 typedef struct again {
     int count;
-    char *argument[MOST + 1]; /* "beamwork", the verb, ..., NULL; their order may be changed */
-    char *owned[MOST + 1];    /* the same, which again_free releases */
+    char *argument[MOST + 1]; /* "beamwork", the verb, ..., NULL; their order may change */
+    char *owned[MOST + 1];    /* strings owned here, which again_free releases */
 } again;
 
 static status add(again *out, const char *text, fault *f)
@@ -26,7 +27,7 @@ static status add(again *out, const char *text, fault *f)
     return STATUS_OK;
 }
 
-/* A path that held in any folder, as long as it does. */
+/* Uses the absolute path if the file still exists. */
 static const char *choose(const char *absolute, const char *given)
 {
     return strcmp(absolute, given) != 0 && access(absolute, F_OK) == 0 ? absolute : given;
@@ -74,9 +75,9 @@ static status add_all(const batch_label *label, const command_line *l, again *ou
     return add_outputs(l, out, f);
 }
 
-/* Reads the request of the first batch of the first folder, with --from for all folders and the
- * outputs of this request. REFUSED: there are no batches; FAULT: no memory, or a file that cannot
- * be read. again_free frees it, also after a failure. */
+/* Reads the request from the first batch of the first folder, and adds --from for all folders and
+ * the outputs of this request. REFUSED: there are no batches; FAULT: out of memory, or a file
+ * cannot be read. Call again_free also after a failure. */
 static status again_make(const command_line *l, again *out, fault *f)
 {
     batch_label label;
@@ -117,7 +118,7 @@ static int answer(const command_line *l, void *request)
     return code;
 }
 
-/* Not used by this program: each is passed on. */
+/* Options that are passed on to the repeated command. */
 typedef struct merge_request {
     const char *output, *format;
     report_options reports;

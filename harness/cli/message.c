@@ -13,7 +13,8 @@
 
 int message_finish(int code)
 {
-    const int told = code == EXIT_REFUSED || code == EXIT_FAULT; /* that line is enough */
+    const int told =
+        code == EXIT_REFUSED || code == EXIT_FAULT; /* these statuses have already been explained */
     if ((fflush(stdout) == 0 && !ferror(stdout)) || told)
         return code;
     return message_fail(STATUS_FAULT, "standard output cannot be written");
@@ -48,16 +49,16 @@ void message_refuse(const char *text)
     exit(message_fail(STATUS_REFUSED, text));
 }
 
-static pid_t program; /* that these are for: its children end by themselves */
+static pid_t program; /* the process to which the handlers apply; its children end by themselves */
 
 static void say(const char *text)
 {
     if (write(STDERR_FILENO, text, strlen(text)) < 0) {
-        /* the exit status says it still */
+        /* the exit status still reports the error */
     }
 }
 
-/* By the same signal, so that whoever waits sees it. */
+/* Ends with the same signal, so that the parent process sees it. */
 static void end_by(int number)
 {
     signal(number, SIG_DFL);
@@ -81,7 +82,7 @@ static void crashed(int number)
     end_by(number);
 }
 
-/* Handles exit() with a status that beamwork does not use. */
+/* Handles a call of exit() with a status that beamwork does not use. */
 static void ended(int code, void *unused)
 {
     (void)unused;
@@ -93,8 +94,8 @@ static void ended(int code, void *unused)
     _exit(EXIT_FAULT);
 }
 
-/* Sets the handler only where the default one is in place: a sanitizer, or a parent that ignores
- * the signal, has set its own. */
+/* Sets the handler only in place of the default one, because a sanitizer, or a parent that ignores
+ * the signal, may have set another. */
 static void attend(int number, void (*handler)(int))
 {
     struct sigaction action, before;
@@ -118,7 +119,7 @@ void ending_begin(void)
 {
     static const int asking[] = {SIGTERM, SIGHUP, SIGINT},
                      crashing[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
-    static char stack[1 << 16]; /* a stack that is full ends so, too */
+    static char stack[1 << 16]; /* also needed after a stack overflow */
     const stack_t other = {.ss_sp = stack, .ss_size = sizeof stack};
     program = getpid();
     fill_streams();
@@ -130,7 +131,7 @@ void ending_begin(void)
     on_exit(ended, NULL);
 }
 
-/* Signals and the line for each, which is prepared in advance. */
+/* Signals and their messages, which are prepared in advance. */
 static struct {
     int signal;
     const char *what;
@@ -154,7 +155,7 @@ static void tell(int which)
     _exit(EXIT_DIFFERS);
 }
 
-/* Also where the stack is what has run out. */
+/* Uses a separate stack, so that a stack overflow is handled too. */
 static void stand_on_another_stack(void)
 {
     static char stack[1 << 16];
@@ -234,7 +235,8 @@ static int others_take(const verb *const *verbs, const char *word)
     return 0;
 }
 
-/* The verb has no such option; another verb may. begun: that many options begin so. */
+/* REFUSED: the verb has no such option, although another verb may. begun: number of options that
+ * match the abbreviation. */
 static status refuse_word(const verb *v, const verb *const *verbs, const char *text, int begun,
                           fault *f)
 {
@@ -263,7 +265,7 @@ static void report_former(const verb_option *o, const char *word)
                 was, o->name);
 }
 
-/* *more: 1 where the next argument is its value. */
+/* *more: 1 when the next argument is the value. */
 static status check_word(const verb *v, const verb *const *verbs, const char *word, int last,
                          int *more, fault *f)
 {
@@ -286,8 +288,8 @@ static status check_word(const verb *v, const verb *const *verbs, const char *wo
                : STATUS_OK;
 }
 
-/* Refuses unknown options and missing values in one line, with the nearest name, before any option
- * is taken. */
+/* Checks the whole command line first: unknown options and missing values are reported in one line,
+ * with the nearest name. */
 static status check_options(const verb *v, const verb *const *verbs, int count,
                             char *const argument[], fault *f)
 {
@@ -300,7 +302,7 @@ static status check_options(const verb *v, const verb *const *verbs, int count,
     return STATUS_OK;
 }
 
-/* The same as argp's own, but an output that cannot be written is reported. */
+/* As in argp, but reports an output that cannot be written. */
 static void show_usage(const struct argp_state *state)
 {
     argp_state_help(state, stdout, ARGP_HELP_USAGE & ~(unsigned)ARGP_HELP_EXIT_ERR);
@@ -314,8 +316,8 @@ static void add_argument(command_line *l, const char *text)
     l->argument[l->arguments++] = text;
 }
 
-/* An option that takes one value has it once; lists (-f, -n, --set) and switches may be given
- * again. */
+/* An option with a single value may be given once; lists (-f, -n, --set) and switches may be
+ * repeated. */
 static void add_given(command_line *l, const verb_option *o, const char *value)
 {
     char text[160];
@@ -367,7 +369,7 @@ static error_t take(int key, char *value, struct argp_state *state)
     return 0;
 }
 
-/* The options as argp has them: letters and former names are other names of an option. */
+/* Options in the form of argp; letters and former names are aliases of an option. */
 static int add_row(struct argp_option row[], int n, const verb_option *o, int index)
 {
     const char *was = verb_former_name(o);

@@ -15,7 +15,7 @@ void named_add(chosen_formulations *o, const char *text)
         message_refuse(f.text);
 }
 
-/* element-test: of one part. */
+/* element-test: limit of one part */
 static void begin(void *group, command_line *l)
 {
     chosen_formulations *o = group;
@@ -29,7 +29,7 @@ static status load(const char *element, fault *f)
     return formulations_add(type, element, f);
 }
 
-/* The time limit is known, which holds for a process that says what it is. */
+/* Applies the time limit, now that it is known, to the first answer of a process. */
 static status end(void *group, command_line *l, fault *f)
 {
     chosen_formulations *o = group;
@@ -82,7 +82,7 @@ solution_request defaults_request(const defaults *d)
     return out;
 }
 
-/* A line of the note. */
+/* Adds a line to the note. */
 static void add_note(char note[DEFAULTS_NOTE], const char *choice, const char *why,
                      const char *option)
 {
@@ -116,7 +116,8 @@ static status choose(const defaults *d, int elements, char note[DEFAULTS_NOTE],
     truths ledger = {0};
     solution_request wanted = defaults_request(d);
     if (d->chosen->formulations == 0)
-        truths_read_rules(own_tables_packed(d->truths), &ledger, NULL); /* it may be missing */
+        truths_read_rules(own_tables_packed(d->truths), &ledger,
+                          NULL); /* the file may be missing */
     const status outcome = solution_choose(&wanted, ledger.rule, ledger.rules, elements, why, f);
     truths_free(&ledger);
     TRY(outcome);

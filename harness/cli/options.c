@@ -11,7 +11,8 @@
 #include "harness/numerics/numerics.h"
 #include "harness/records/records.h"
 
-/* Letters of version 0.1; they are read until the next version and reported with their names. */
+/* Letters of version 0.1. They are accepted until the next version, with a note on the new names.
+ */
 static const struct {
     char letter;
     const char *name;
@@ -33,7 +34,7 @@ static const struct {
               {'u', "integrator"}, {'a', "step"},           {'3', "conservation-only"},
               {'1', "expected"}};
 
-/* Names of version 0.2; they are read until the next version and reported with the new ones. */
+/* Names of version 0.2. They are accepted until the next version, with a note on the new ones. */
 static const struct {
     const char *was, *name;
 } renamed[] = {{"keep-all", "all-dofs"},           {"beside", "imported"},
@@ -46,7 +47,7 @@ const verb_option verb_help[] = {{"help", 'h', NULL, "this list", .traits = OPTI
                                  {"usage", 0, NULL, "the options in short", .traits = OPTION_ASIDE},
                                  {0}};
 
-/* The i-th of an array, or i less those that it has. */
+/* Option i of an array; if i is too large, reduces it by the number of options. */
 static const verb_option *among(const verb_option *list, int *i)
 {
     for (; list != NULL && list->name != NULL; list++)
@@ -78,7 +79,7 @@ const char *verb_former_name(const verb_option *o)
     return NULL;
 }
 
-/* 2: `name` is the text of this length, 1: it begins with it, 0: neither. */
+/* 2: `name` equals the text of this length, 1: it begins with it, 0: neither. */
 static int match_name(const char *name, const char *text, size_t length)
 {
     if (name == NULL || strncmp(name, text, length) != 0)
@@ -215,7 +216,7 @@ status option_take(const verb_option *o, void *member, const char *value, fault 
     return STATUS_OK;
 }
 
-/* One of the list; returns where it ends, NULL: it is not one. */
+/* Reads one entry of the list; returns the position after it, NULL: invalid. */
 static const char *parse_one(const char *at, double *out)
 {
     char *end;
@@ -339,7 +340,7 @@ const option_group options_meshes = {meshes, NULL, NULL, NULL};
 const option_group options_reports = {reports, NULL, NULL, NULL};
 const option_group options_solver = {solver, NULL, NULL, NULL};
 
-enum { OUTPUTS = 7 }; /* of one verb, each once */
+enum { OUTPUTS = 7 }; /* largest number of outputs of a verb */
 
 typedef struct named_place {
     char option[40];
@@ -370,7 +371,7 @@ static status check_pair(const named_place *a, const named_place *b, fault *f)
 
 static status find_scenes(const char *folder, glob_t *found, fault *f)
 {
-    /* the folder's own name is no pattern */
+    /* characters of the folder's name are not wildcards */
     char *pattern = malloc(2 * strlen(folder) + sizeof "/*.yaml"), *at = pattern;
     if (pattern == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for scene files");
@@ -405,7 +406,7 @@ static status visit_command(const char *command, file_visit *visit, const void *
     char **word;
     struct stat there;
     if (words_split(command, &word, NULL) != STATUS_OK)
-        return STATUS_OK; /* refused where it is loaded */
+        return STATUS_OK; /* reported when it is loaded */
     status outcome = STATUS_OK;
     for (int i = 0; word[i] != NULL && outcome == STATUS_OK; i++)
         if (stat(word[i], &there) == 0 && S_ISREG(there.st_mode))
@@ -425,7 +426,7 @@ status files_named(const char *input, file_visit *visit, const void *context, fa
                : visit(context, input, f);
 }
 
-/* Arguments are files, or names. */
+/* Checks arguments, which are files or names. */
 static status check_arguments(const named_place *out, const command_line *l, fault *f)
 {
     const int read =

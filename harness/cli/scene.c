@@ -1,4 +1,4 @@
-/* Scene files written from any case; their keys described. */
+/* Writes scene files from any case; describes their keys. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,8 +10,8 @@
 
 typedef struct scene_request {
     case_options of;
-    const char *output, *format; /* format: of mistakes */
-    int schema, keys;            /* 1: describe the keys of scene files as JSON Schema, as a list */
+    const char *output, *format; /* format: of error messages */
+    int schema, keys; /* 1: describe the keys of scene files, as JSON Schema or as a list */
 } scene_request;
 
 static status describe(FILE *to, const scene_request *r, fault *f)

@@ -1,4 +1,4 @@
-/* Scene files of a command line: what those of an older version mean now; several of them. */
+/* Scene files of a command line: several files, and effects of changes since older versions. */
 #include "harness/cli/cli.h"
 
 #include <math.h>
@@ -47,7 +47,7 @@ static int is_same(const scene *s, const cell_result *a, const cell_result *b)
     return 1;
 }
 
-/* 1: the results of the two scenes differ, or that cannot be determined. */
+/* Returns 1 when the results of the two scenes differ, or when that cannot be determined. */
 static int differs(const scene *now, const scene *before, const formulation *chosen)
 {
     cell_result held = {.size = {0}}, freed = {.size = {0}};
@@ -137,7 +137,7 @@ int scenes_read(const command_line *l, const scenes_options *r, scenes *out)
     int code = EXIT_AS_EXPECTED;
     for (int i = 0; i < out->count; i++) {
         const int one = add_type(l, i, &types, out);
-        code = one != EXIT_AS_EXPECTED ? one : code; /* mistakes of all files are reported */
+        code = one != EXIT_AS_EXPECTED ? one : code; /* errors of all files are reported */
     }
     return code;
 }

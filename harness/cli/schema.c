@@ -1,4 +1,4 @@
-/* Verb schema: content of result files, from the tables that write them. */
+/* Verb schema: contents of result files, from the tables that write them. */
 #include <stdio.h>
 #include <string.h>
 
@@ -32,7 +32,8 @@ const char *const results_about[] = {
     "marked * as columns, too.",
     NULL};
 
-/* Place i of a list that ends with NULL, counted down; NULL: it is after. */
+/* Entry i of a NULL-terminated list; decreases i by the length if it is beyond the end, and returns
+ * NULL. */
 static const record_type *take(const record_type *const *list, int *i)
 {
     for (; *list != NULL; list++)

@@ -18,11 +18,11 @@ typedef struct solve_request {
     const char *select, *output, *format;
     double error; /* 0: not given */
     int steps;
-    int shapes;                 /* states of a path whose shapes are stored; 0: none */
-    const char *follow;         /* NAME=A..B/N: modes over a parameter */
+    int shapes;                 /* number of path states with stored shapes; 0: none */
+    const char *follow;         /* NAME=A..B/N: follow modes over this parameter */
     const char *matrices;       /* folder for the matrices of all states */
-    const char *ends, *restart; /* files: where the final state of motions is stored, and where
-                                   motions continue from */
+    const char *ends, *restart; /* files: output for the final state of motions; state from which
+                                   motions continue */
 } solve_request;
 
 /* One solution, from the request to the result. */
@@ -43,7 +43,7 @@ static void work_free(solve_work *w)
     solution_choice_free(&w->why);
 }
 
-/* The request without -f and -n. */
+/* Request for the choice of -f and -n. */
 static defaults defaults_of(solve_request *r, const case_type *type)
 {
     return (defaults){.wanted = {.type = type,
@@ -60,7 +60,7 @@ static defaults defaults_of(solve_request *r, const case_type *type)
                       .truths = &r->truths};
 }
 
-/* note: lines on what was chosen for the user, before what is read by people. */
+/* note: explains what was chosen by default; printed before text output. */
 static status write_to(FILE *to, const solve_request *r, const char *note, const sweep *s,
                        const truths *t, fault *f)
 {
@@ -84,13 +84,13 @@ static status write_out(const solve_request *r, const char *note, const sweep *s
         fputs(note, stdout);
         table_solution(stdout, s, t);
         TRY(store_write_solution(r->output, s, &e, f));
-        return output_flush(f); /* of the table, which may have no reader */
+        return output_flush(f); /* the reader of the table may have gone */
     }
     TRY(output_open(r->output, &file, f));
     return output_finish(&file, write_to(file.stream, r, note, s, t, f), f);
 }
 
-/* The matrices of all states that were reached, where they are wanted. */
+/* Writes the matrices of all states, if requested. */
 static status write_matrices(const solve_request *r, const sweep *s, fault *f)
 {
     const cell_result *cell = &s->series[0].cell[0];
@@ -102,7 +102,7 @@ static status write_matrices(const solve_request *r, const sweep *s, fault *f)
     return system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f);
 }
 
-/* NAME=A..B/N: both ends within the limits of the parameter. */
+/* Reads NAME=A..B/N; both ends must be within the limits of the parameter. */
 static status range_of(const solve_request *r, const case_type *type, follow_request *out, fault *f)
 {
     const char *ends = strchr(r->follow, '='), *dots = ends != NULL ? strstr(ends, "..") : NULL,
@@ -148,7 +148,7 @@ static status write_curves(const solve_request *r, const char *note, const char 
     return output_finish(&file, written, f);
 }
 
-/* --follow: modes over a parameter instead of one solution. */
+/* --follow: follows modes over a parameter, instead of one solution. */
 static status follow_modes(solve_request *r, const case_type *type, fault *f)
 {
     char name[SCENE_NAME], note[DEFAULTS_NOTE];
@@ -175,7 +175,7 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
     return written;
 }
 
-/* A motion continues with the formulation and the elements of its first part. */
+/* A continued motion uses the formulation and the elements of its first part. */
 static status take_restart(solve_request *r, restart *from, fault *f)
 {
     TRY(restart_read(r->restart, from, f));
@@ -206,7 +206,7 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
     if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
         fprintf(stderr, "beamwork: without reference values: %s\n",
-                f->text); /* a solution needs none */
+                f->text); /* a solution does not need them */
     else
         TRY(known);
     if (r->restart != NULL)
@@ -218,7 +218,7 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
     return prepare_ends(r, &w->from, &w->what, &w->s.point[0].scene, f);
 }
 
-/* Stores the ends of motions that reached them. */
+/* Stores the final states of completed motions. */
 static status write_ends(const solve_request *r, const solution_request *what, const sweep *s,
                          fault *f)
 {
@@ -238,8 +238,8 @@ static status write_all(const solve_request *r, const solve_work *w, fault *f)
     return write_matrices(r, &w->s, f);
 }
 
-/* Reports a quantity without a value; the other quantities are still computed. That a mesh has no
- * such mode, or a path no such point, is a result. */
+/* Reports a quantity without a value; the others are still computed. If a mesh has no such mode, or
+ * a path no such point, this counts as a result. */
 static int tell_missing(status solved, const cell_result *cell, const fault *f)
 {
     const int refused = cell_values(cell) > 0 && solved == STATUS_REFUSED;
@@ -252,7 +252,7 @@ static int tell_missing(status solved, const cell_result *cell, const fault *f)
     return refused ? message_fail(STATUS_NO_VALUE, f->text) : message_exit(solved, f);
 }
 
-/* Solved in this process. */
+/* Solves in this process. */
 static int solve_and_write(const solve_request *r, solve_work *w)
 {
     fault f = {""}, unwritten = {""};

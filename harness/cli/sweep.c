@@ -1,4 +1,4 @@
-/* A case over ranges of its parameters. */
+/* Verb sweep: a case over ranges of its parameters. */
 #include "harness/cli/cli_impl.h"
 
 #include <errno.h>
@@ -20,14 +20,14 @@ typedef struct sweep_options {
     shard_options shards;
     const char *select, *output, *format;
     double error;       /* 0: not given */
-    text_list vary;     /* NAME=A..B/N ...: what it is over */
-    const char *design; /* of its points; NULL: a grid */
-    int points, seed;   /* of a design that is not a grid */
-    int derive;         /* 1: reference values are computed where none is stored */
+    text_list vary;     /* NAME=A..B/N ...: varied parameters */
+    const char *design; /* design of the points; NULL: a grid */
+    int points, seed;   /* for designs other than a grid */
+    int derive;         /* 1: computes reference values that are not stored */
     int verbose;
 } sweep_options;
 
-/* A sweep and what it needs while it runs. */
+/* A sweep and its data during the run. */
 typedef struct sweeping {
     parameter_ranges ranges;
     ranges_work work;
@@ -35,12 +35,12 @@ typedef struct sweeping {
     ranges_output output;
     char batches[PATH_MAX]; /* folder */
     char script[PATH_MAX];  /* of --compute-references */
-    char partial[PATH_MAX]; /* output of --partial */
+    char partial[PATH_MAX]; /* output name for --partial */
     identity_texts texts;
     shard_work all;
-    int asked;      /* 1: as a shard, or from batches */
-    spread_end end; /* how that was */
-    int lost;       /* batches that are not there: exit status 5 */
+    int asked;      /* 1: runs as a shard, or from batches */
+    spread_end end; /* outcome of that */
+    int lost;       /* number of missing batches: exit status 5 */
 } sweeping;
 
 static status read_design(const sweep_options *r, ranges_request *q, fault *f)
@@ -62,7 +62,7 @@ static status read_design(const sweep_options *r, ranges_request *q, fault *f)
     return STATUS_OK;
 }
 
-/* Nothing that varies is set. */
+/* Checks that no varied parameter is also set. */
 static status check_set(const sweep_options *r, const parameter_ranges *s, fault *f)
 {
     for (int i = 0; i < r->of.set.count; i++)
@@ -119,7 +119,7 @@ static status prepare(sweep_options *r, const case_type *type, sweeping *s, faul
     return identify(r, s, f);
 }
 
-/* Where results go. */
+/* Determines the output of the results. */
 static status place_output(const sweep_options *r, sweeping *s, fault *f)
 {
     if (r->output == NULL)
@@ -133,11 +133,11 @@ static status place_output(const sweep_options *r, sweeping *s, fault *f)
     return ranges_collect_check(&s->output, f);
 }
 
-/* The folder is that of this process until it ends: of two runs with one output one ends here. */
+/* Locks the folder until this process ends: of two runs with the same output, one is refused. */
 static status hold_batches(const char *folder, fault *f)
 {
     struct stat there = {.st_nlink = 0};
-    while (there.st_nlink == 0) { /* whoever held it has removed it meanwhile */
+    while (there.st_nlink == 0) { /* the previous owner has removed the folder meanwhile */
         const int made = mkdir(folder, 0777),
                   held = made == 0 || errno == EEXIST
                              ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
@@ -158,8 +158,7 @@ static status hold_batches(const char *folder, fault *f)
     return STATUS_OK;
 }
 
-/* Folder in which batches are kept until all are complete: next to the output, or a temporary
- * one. */
+/* Folder for batches until all are complete: next to the output, or a temporary one. */
 static status place_batches(const sweep_options *r, sweeping *s, fault *f)
 {
     if (r->output != NULL) {
@@ -174,7 +173,8 @@ static status place_batches(const sweep_options *r, sweeping *s, fault *f)
                                                    s->batches, strerror(errno));
 }
 
-/* Batches of the stock, or those that --from names; where some of these are missing, nothing. */
+/* Reads the batches of the stock, or those that --from names; does nothing if some of these are
+ * missing. */
 static status take_all(const sweep_options *r, sweeping *s, const stock *there, fault *f)
 {
     ranges_collect c;
@@ -204,7 +204,7 @@ static status collect(const sweep_options *r, sweeping *s, fault *f)
     return outcome;
 }
 
-/* All batches here and now. */
+/* Computes all batches in this run. */
 static status run_here(const sweep_options *r, sweeping *s, fault *f)
 {
     shard_outcome done = {0};
@@ -228,7 +228,7 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
         s->work.csv = stdout;
     else if (!r->shards.quiet)
         ranges_table_head(stdout, &s->ranges);
-    if (r->output == NULL) /* else what goes there matters more */
+    if (r->output == NULL) /* otherwise the text output stays free for other data */
         TRY(output_flush(f));
     if (!s->asked)
         return run_here(r, s, f);
@@ -236,7 +236,7 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
                                     : spread_work(&r->shards, &s->all, &s->end, f);
 }
 
-/* Reports missing points, which the same command computes when it is run again. */
+/* Reports missing points, which the same command computes when repeated. */
 static int tell(const sweep_options *r, const sweeping *s)
 {
     if (s->asked)
@@ -359,7 +359,7 @@ status spread_asked(const shard_options *r, int *asked, fault *f)
                      folder);
 }
 
-/* Reports the outcome of the shard, in one line. */
+/* Reports the outcome of the shard in one line. */
 static int tell_shard(const shard_options *r, const shard_request *q, const shard_outcome *o)
 {
     const int left = o->mine - o->before - o->done;
@@ -391,7 +391,7 @@ static status compute(const shard_options *r, const shard_work *w, spread_end *o
     return output_flush(f);
 }
 
-/* All kinds that there are. */
+/* Names all kinds of processors. */
 static void name_processors(const stock *s, spread_end *out)
 {
     size_t at = 0;

@@ -16,7 +16,7 @@ typedef struct truth_request {
 
 enum { NAME = 28, INDENT = 6 };
 
-/* Two lines: the value, and where it comes from. */
+/* Prints two lines: the value and its source. */
 static void print_value(const char *quantity, double value, double uncertainty, const char *unit,
                         const char *kind, const char *whose, const char *source, const char *note)
 {
@@ -27,7 +27,8 @@ static void print_value(const char *quantity, double value, double uncertainty, 
     paragraph_say(stdout, 0, INDENT, "%s%s%s", source, note[0] != '\0' ? "; " : "", note);
 }
 
-/* Stored rows of this point; returns how many are of the continuum and of the same model. */
+/* Prints the stored rows of this point; returns the number of rows for the continuum and the same
+ * model. */
 static int print_stored(const truths *t, const case_type *type, const double parameter[])
 {
     int continuum = 0, discrete = 0;
@@ -75,7 +76,7 @@ static status print_derived(const case_type *type, const double parameter[], fau
     return outcome;
 }
 
-/* All parameters of the scene: a line without them would apply to any values. */
+/* Prints all parameters of the scene, since a line without them would apply to any values. */
 static void print_point(const case_type *type, const double parameter[])
 {
     const parameter_type *p;
@@ -94,7 +95,7 @@ static void print_point(const case_type *type, const double parameter[])
     printf("%s", parameter_at(type->parameters, 0) != NULL ? "}" : "");
 }
 
-/* As a line for the file. */
+/* Prints a line for the scene file. */
 static void print_line(const derived_value *v, const case_type *type, const double parameter[])
 {
     printf("  - {quantity: %s, value: %.17g, uncertainty: %.1e, kind: exact, source: \"%s\"",
@@ -127,7 +128,8 @@ static status print_scene_of(const case_type *type, const double parameter[], FI
     return STATUS_OK;
 }
 
-/* Prints the reference values of a scene file, solved as a network of members and bodies. */
+/* Prints the reference values of a scene file, which are computed for a network of members and
+ * bodies. */
 static status print_scene(const case_type *type, const double parameter[], fault *f)
 {
     FILE *text = tmpfile();

@@ -95,7 +95,7 @@ static int help(void)
     return EXIT_AS_EXPECTED;
 }
 
-/* VERB -h in other words; another form: a page of the manual. */
+/* Handles `beamwork help VERB`; another form prints a page of the manual. */
 static int help_of(const char *name, void write(FILE *, const verb *))
 {
     const verb *v = verb_find(verbs, name);
@@ -110,7 +110,7 @@ static void write_results(FILE *to)
     manual_write_results(to, verbs);
 }
 
-/* Not a verb: a page about files. */
+/* Page about a file format, which is not a verb. */
 static void (*file_page(const char *name))(FILE *)
 {
     if (strcmp(name, "beamwork-scene.5") == 0)
@@ -140,7 +140,7 @@ static int write_page(const char *name)
     return help_of(bare, manual_write_verb);
 }
 
-/* The verb itself, and what is not one. */
+/* Completes verbs, and words that are not verbs. */
 static void complete_verb(const char *begun, int others)
 {
     const offer o = {stdout, begun, 0, begun};
@@ -154,7 +154,7 @@ static void complete_verb(const char *begun, int others)
     }
 }
 
-/* Prints completions of the last word, for shells (harness/cli). */
+/* Prints completions of the last word for shells. */
 static int complete(int count, char **words)
 {
     const verb *v = verb_find(verbs, words[0]);

@@ -13,25 +13,25 @@ typedef struct verify_request {
     report_options reports;
     shard_options shards;
     const char *select, *output;
-    text_list imported;     /* stored imports: compared programs of a run */
+    text_list imported;     /* stored imports: other programs to compare */
     int imported_must_pass; /* 1: their verdicts affect the exit status */
     int exit_zero;          /* 1: verdicts do not change the exit status */
-    double tolerance;       /* in the place of those of the cases */
-    const char *former;     /* results that this run may not be worse than */
-    int refine;             /* of the finest mesh */
-    int shapes;             /* states of a path whose shapes are stored; 0: none */
-    int verbose;            /* every limit; shards.quiet: only what is unexpected */
+    double tolerance;       /* replaces those of the cases */
+    const char *former;     /* previous results; this run must not be worse */
+    int refine;             /* number of refinements beyond the finest mesh */
+    int shapes;             /* number of path states with stored shapes; 0: none */
+    int verbose;            /* verbose: every limit; shards.quiet: only unexpected results */
 } verify_request;
 
 enum { PICTURED_STATES = 5 };
 
-/* Is every limit shown? With --verbose, or where cases or formulations were selected. */
+/* Are all limits shown? Yes with --verbose, or if cases or formulations were selected. */
 static int shows_limits(const verify_request *r, const overview *o)
 {
     return r->verbose || r->select != NULL || o->rows == 1;
 }
 
-/* On standard output, a screen: the matrix, the counts, what is unexpected, and how it ended. */
+/* Prints one screen: the matrix, the counts, unexpected results, and the conclusion. */
 static void show(const verify_request *r, const sweep *s, const judgement *j, const truths *t,
                  const overview *o, double seconds)
 {
@@ -56,7 +56,7 @@ static void show(const verify_request *r, const sweep *s, const judgement *j, co
     table_run_end(stdout, look, sentence);
 }
 
-/* Prints what the exit status alone does not show, and returns that status. */
+/* Prints details that the exit status does not show, and returns that status. */
 static int tell(const verify_request *r, const sweep *s, const judgement *j, const spread_end *e)
 {
     int first = 0;
@@ -81,7 +81,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     return r->exit_zero ? EXIT_AS_EXPECTED : code;
 }
 
-/* Adds other programs to the comparison; programs for no point of this run are reported. */
+/* Adds other programs to the comparison; reports those that match no point of this run. */
 static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
 {
     import_left left;
@@ -99,15 +99,15 @@ static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* All that a verification makes; verify_scenes frees it. */
+/* Data of a verification; verify_scenes frees it. */
 typedef struct trial {
     sweep sweep;
     truths truths;
     judgement judgement;
     overview overview;
     verification_files files;
-    stored_results former; /* that this run may not be worse than */
-    spread_end end;        /* of shards, or of batches that are merged */
+    stored_results former; /* previous results; this run must not be worse */
+    spread_end end;        /* outcome of shards, or of merged batches */
 } trial;
 
 static status add_all_imported(const verify_request *r, sweep *s, fault *f)
@@ -117,7 +117,7 @@ static status add_all_imported(const verify_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Prints the supports of each scene file, as the first formulation that runs on it has them. */
+/* Prints the supports of each scene file as the first formulation that runs it interprets them. */
 static void tell_supports(const scenes *own, const sweep *s)
 {
     for (int k = 0; k < own->count; k++)
@@ -131,7 +131,7 @@ static void tell_supports(const scenes *own, const sweep *s)
         }
 }
 
-/* Here, or by batches of shards, which are evaluated when all of them are there. */
+/* Runs here, or as batches of shards, which are evaluated when all exist. */
 static status run_and_judge(const verify_request *r, const scenes *own,
                             const sweep_request *request, trial *v, fault *f)
 {
@@ -184,8 +184,8 @@ static status run(const verify_request *r, const scenes *own, trial *v, fault *f
         return STATUS_OK;
     show(r, &v->sweep, &v->judgement, &v->truths, &v->overview, clock_wall_seconds() - begun);
     const environment e = spread_environment(&v->end, r->shards.jobs);
-    TRY(verification_files_close(&v->files, &v->overview, &e, f)); /* also where no output was
-                                                                      requested */
+    TRY(verification_files_close(&v->files, &v->overview, &e,
+                                 f)); /* needed even if no output was requested */
     return output_flush(f);
 }
 

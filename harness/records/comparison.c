@@ -41,8 +41,8 @@ static int selected(const char *select, const char *name)
     return select == NULL || select_matches(select, name) > 0;
 }
 
-/* A series that is in one of the two only, or a mesh of it (elements > 0). which: 0: the old one
- * has it. *last: the series that was counted last, in the order of their names. */
+/* Handles a series, or a mesh of it (elements > 0), that exists in one run only. which: 0: in the
+ * old run. *last: the last series counted, in the order of their names. */
 static void tell_lone(const listing *l, int which, const char **last)
 {
     const stored_results *here = which == 0 ? l->before : l->after,
@@ -65,7 +65,7 @@ static void run_cells(listing l, const stored_results *before, const stored_resu
 {
     const char *last = NULL;
     for (int i = 0, k = 0; i < before->cells || k < after->cells;) {
-        int order = i == before->cells ? 1 : -1; /* all of one are done */
+        int order = i == before->cells ? 1 : -1; /* one list is exhausted */
         if (i < before->cells && k < after->cells)
             order = results_order(&before->cell[i], &after->cell[k]);
         const result_cell *a = order <= 0 ? &before->cell[i++] : NULL;
@@ -127,7 +127,7 @@ int comparison_differs(const comparison *c)
     return lines > 0;
 }
 
-/* Two meshes of whole runs side by side, every quantity by itself. */
+/* Compares two meshes of complete runs, quantity by quantity. */
 
 static const result_value *value_named(const result_cell *c, int near, const char *quantity)
 {
@@ -139,7 +139,7 @@ static const result_value *value_named(const result_cell *c, int near, const cha
     return NULL;
 }
 
-/* Errors are evaluated by their size; a value without a reference value can only have changed. */
+/* Errors are compared by magnitude; a value without a reference value can only change. */
 static void compare_value(const listing *l, const result_value *a, const result_value *b)
 {
     const comparison_limits *m = l->limits;
@@ -191,7 +191,7 @@ void comparison_cells(const listing *l, const result_cell *a, const result_cell 
     if (l->before->swept)
         comparison_lines_cost(l, a->cost, b->cost);
     else if (!results_part_differ(l->before, l->after,
-                                  l->name)) /* work is that of the requested quantities */
+                                  l->name)) /* work of the requested quantities only */
         comparison_lines_work(l, a->work, b->work, 1);
     compare_values(l, a, b);
 }
@@ -255,16 +255,16 @@ void comparison_lines_cost(const listing *l, double before, double after)
             100 * (after - before) / before);
 }
 
-/* Two series side by side where one of them is known by its row of the short table only. */
+/* Compares two series, at least one of which is known only from the short table. */
 
-/* Relative to a number written with that many digits: how far it may be from what it was. */
+/* Largest relative difference due to rounding to that many digits. */
 static double last_digit(int digits)
 {
     return 0.5 * pow(10, 1 - digits);
 }
 
-/* A line for each mesh whose status has changed or that is in one of them only; 1: they have the
- * same meshes. */
+/* Writes a line for each mesh whose status has changed or that exists in one run only. Returns 1 if
+ * the meshes are the same. */
 static int compare_meshes(const listing *l, const result_series *a, const result_series *b)
 {
     int same = 1;
@@ -286,7 +286,7 @@ static int compare_meshes(const listing *l, const result_series *a, const result
     return same;
 }
 
-/* 1: it has moved. */
+/* Returns 1 when the error has changed. */
 static int compare_error(const listing *l, const char *which, const result_error *a,
                          const result_error *b)
 {
@@ -355,9 +355,9 @@ static void compare_limits(const listing *l, const result_series *a, const resul
 
 void comparison_series(const listing *l, const result_series *a, const result_series *b)
 {
-    if (compare_meshes(l, a, b)) { /* sums over other meshes say nothing */
+    if (compare_meshes(l, a, b)) { /* sums over different meshes cannot be compared */
         if (results_part_differ(l->before, l->after, l->name)) {
-            l->out->partial++; /* errors and work are those of what is selected only */
+            l->out->partial++; /* errors and work depend on the selected quantities */
         } else {
             comparison_lines_work(l, a->work, b->work, a->meshes);
             compare_errors(l, a, b);
@@ -367,7 +367,7 @@ void comparison_series(const listing *l, const result_series *a, const result_se
         compare_limits(l, a, b);
 }
 
-/* Two sweeps side by side: at each of their points each has all of its formulations and meshes. */
+/* Compares two sweeps, each of which has all formulations and meshes at each of its points. */
 
 enum { TOLD = 1 << 14, NAME = 2048 };
 
@@ -375,11 +375,11 @@ enum { TOLD = 1 << 14, NAME = 2048 };
 typedef struct lone {
     comparison_kind kind;
     const stored_results *other;
-    char told[TOLD];  /* formulations and meshes, a line each */
+    char told[TOLD];  /* formulations and meshes, one per line */
     char where[NAME]; /* the last point */
 } lone;
 
-/* Begins the name of a cell beside `next` like this one, by that many characters? */
+/* Do this cell and `next` have the same first `length` characters in their names? */
 static int is_beside(const stored_results *r, int next, const char *name, size_t length)
 {
     for (int i = next - 1; i <= next; i++)
@@ -404,7 +404,7 @@ static void tell_point(const listing *l, lone *only, int length)
     tell(l, only->kind, only->where, 0);
 }
 
-/* Reports an entry that one run has alone at all points: case/formulation, or a mesh of the case.
+/* Reports an entry that only one run has, at all points: case/formulation, or a mesh of the case.
  */
 static void tell_column(const listing *l, lone *only, const char *key, int elements)
 {
@@ -418,7 +418,8 @@ static void tell_column(const listing *l, lone *only, const char *key, int eleme
     tell(l, only->kind, name, elements);
 }
 
-/* A cell that only one of them has; in the other, cells beside it are at `next`. */
+/* Handles a cell that only one run has; `next` is the position of neighbouring cells in the other
+ * run. */
 static void tell_cell(const listing *l, int next, lone *only)
 {
     const char *key = strrchr(l->name, '/');

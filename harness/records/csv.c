@@ -5,8 +5,8 @@
 
 #include "cases/scene/scene.h"
 
-/* A line for a value; for a curve one for each of its points, and one that says why it ends early.
- */
+/* Writes a line for a value; for a curve a line for each point, and one with the reason if it ends
+ * early. */
 static void write_lines(FILE *to, int parts, csv_part row[], int value)
 {
     const subject s = row[value].s;
@@ -41,8 +41,8 @@ void csv_solution(FILE *to, const sweep *s)
     gather_free(&list);
 }
 
-/* A line for each quantity of each mesh, or for those with a reference value; the parts are of the
- * quantity and its cell. */
+/* Writes a line for each quantity of each mesh, or for those with a reference value only; `parts`
+ * are records of the quantity and its cell. */
 static void list_meshes(FILE *to, const gathering *g, int with_truth, int parts, csv_part row[])
 {
     const sweep *s = g->sweep;
@@ -190,7 +190,7 @@ typedef struct titled {
     const char *comment;
 } titled;
 
-/* Name of an analysis; what no folder can be called stands as '_'. */
+/* Name of an analysis, with '_' for characters that a folder name cannot have. */
 static scene_words plain_folder(const scene *s, int analysis)
 {
     scene_words out;
@@ -229,7 +229,7 @@ static void name_state(const contents *c, const state_matrices *s, char name[NAM
         snprintf(name, NAME, "%s_station_%d", analysis.text, s->station);
 }
 
-/* Its name or nothing, as a field of CSV. */
+/* Writes the name, or an empty field. */
 static void name_cell(FILE *to, const scene *s, scene_list list, int index)
 {
     if (index != SCENE_NONE)
@@ -254,7 +254,7 @@ static void write_rows(FILE *to, const void *what)
     }
 }
 
-/* Writes the part of its member that a load acts on, and its vector at the end of that part;
+/* Writes the range of the member that a load acts on, and its vector at the end of that range;
  * nothing for a load on a node. */
 static void write_extent(FILE *to, const scene_load *l)
 {
@@ -312,7 +312,7 @@ static void write_matrix(FILE *to, const void *what)
     matrix_market_write(to, t->matrix, t->comment);
 }
 
-/* A matrix without rows or columns is not one. */
+/* Adds a matrix, unless it has no rows or columns. */
 static status add_matrix(const output_folder *folder, const char *state, const char *letter,
                          const triplets *t, const char *comment, fault *f)
 {

@@ -148,7 +148,7 @@ static void add_float(walk *w, const char *at, size_t size)
 
 static void add_value(walk *w, hid_t type, const char *at);
 
-/* Members in their order; times are omitted. */
+/* Members in order, without times. */
 static void add_compound(walk *w, hid_t type, const char *at)
 {
     const int members = H5Tget_nmembers(type);
@@ -210,7 +210,7 @@ typedef struct table {
     hid_t set, space, type; /* of memory */
     int rank;
     hsize_t size[MOST_RANK];
-    size_t row; /* [bytes] of all that has one first index */
+    size_t row; /* bytes per first index */
 } table;
 
 /* Rows first to first + count - 1. */
@@ -271,8 +271,7 @@ static int is_left_out(const char *path)
     return strcmp(leaf, "timings") == 0 || strncmp(leaf, "seconds", 7) == 0;
 }
 
-/* Visits links, for which every version of HDF5 has the same function; that for objects changed in
- * 1.12. */
+/* Visits links, since the function for objects changed in HDF5 1.12. */
 static herr_t visit(hid_t file, const char *path, const H5L_info_t *link, void *context)
 {
     walk *w = context;

@@ -14,7 +14,7 @@ static void get_features(const subject *s, field_value *out)
     out->text = out->room;
 }
 
-/* Lines that no longer fit end the text. */
+/* Lines that do not fit are cut off. */
 static void get_left_out(const subject *s, field_value *out)
 {
     const cell_result *cell = fields_keys_cell(s);
@@ -97,7 +97,7 @@ static void get_model(const subject *s, field_value *out)
     schema_set_text(out, s->series->imported != NULL ? s->series->imported->model : "beam");
 }
 
-/* NAN: no physics is omitted, or the change is not known. */
+/* NAN: no physics is omitted, or the change is unknown. */
 static void get_model_change(const subject *s, field_value *out)
 {
     schema_set_number(out, s->series->without.what != 0 ? s->series->without.change : NAN);
@@ -168,7 +168,7 @@ static const schema_field fields_of_cell[] = {
      CELL(solve.seconds_solve)},
     {0}};
 
-/* A new counter is one line here. */
+/* Add new counters here, one line each. */
 #define WORK(counter) AT(cell_result, counters.counter)
 static const schema_field fields_of_work[] = {
     {"strain_evaluations", "1", FIELD_LONG, "deformation functions of elements",
@@ -282,7 +282,7 @@ static const rounds_reading *reading_of(const field_value *out, const cell_timin
     return out->of->offset < offsetof(cell_timing, keep_all) ? &t->as_is : &t->keep_all;
 }
 
-/* NAN where nothing was measured: a number at the offset, a round of it. */
+/* NAN if nothing was measured; the offset selects a number or a round. */
 static void get_measured(const subject *s, field_value *out)
 {
     const cell_timing *t = timing_of(s);
@@ -294,7 +294,7 @@ static void get_round(const subject *s, field_value *out)
 {
     get_measured(s, out);
     if (out->number == 0)
-        out->number = NAN; /* there were fewer rounds */
+        out->number = NAN; /* fewer rounds were measured */
 }
 
 static void get_least(const subject *s, field_value *out)
@@ -386,7 +386,8 @@ const record_type record_timing = {
     "repeated runs of a cell",
     {keys_of_point, keys_of_series, key_of_mesh, fields_of_readings, fields_of_parts}};
 
-/* Records of what other programs found: each value with its place in the file it was read from. */
+/* Records of results of other programs: each value with its position in the file it was read from.
+ */
 
 static void get_file(const subject *s, field_value *out)
 {

@@ -1,4 +1,4 @@
-/* Records of what a cell found and of the way there. */
+/* Records of the results of a cell and of its solution path. */
 #include "harness/records/records.h"
 
 #include <math.h>
@@ -285,7 +285,7 @@ const record_type record_matrix = {"matrix",
                                    "small motions of a node at a station of a path",
                                    {keys_of_point, keys_of_series, key_of_mesh, fields_of_matrix}};
 
-/* Declarations of a formulation at the options that it runs with. */
+/* Declarations of a formulation with its present options. */
 
 static const element_type *type_of(const subject *s)
 {
@@ -350,7 +350,7 @@ static void get_theory(const subject *s, field_value *out)
     schema_set_text(out, words);
 }
 
-/* The offset counts: least and highest of each analysis. */
+/* The offset selects the lowest or highest order of each analysis. */
 static void get_order(const subject *s, field_value *out)
 {
     const size_t i = out->of->offset;
@@ -359,7 +359,7 @@ static void get_order(const subject *s, field_value *out)
     out->whole = i % 2 == 0 ? order.least : order.highest;
 }
 
-/* The offset: 0 least, 1 highest. */
+/* Offset 0: lowest order, 1: highest order. */
 static void get_motion(const subject *s, field_value *out)
 {
     const element_order order = element_order_of_motion();

@@ -1,5 +1,5 @@
-/* Records of what a case is made of: its scenes, parameters, what its quantities mean,
- * and what is assumed of its sections. */
+/* Records of the contents of a case: scenes, parameters, quantities, and assumptions on its
+ * sections. */
 #include "harness/records/records.h"
 
 #include <float.h>
@@ -143,7 +143,7 @@ const record_type record_meaning = {"meaning",
                                     "what a quantity of a point is",
                                     {keys_of_point, names_of_quantity, fields_of_meaning}};
 
-/* Records of the judge: verdicts and agreements with stored discrete values. */
+/* Records of the evaluation: verdicts, and agreement with stored discrete values. */
 
 static const char *word_of_verdict(int kind)
 {
@@ -200,7 +200,7 @@ static void get_reach(const subject *s, field_value *out)
     out->whole = mesh >= 0 ? s->series->mesh[mesh] : 0;
 }
 
-/* A new field of a verdict is one line here. */
+/* Add new fields of a verdict here, one line each. */
 static const schema_field fields_of_verdict[] = {
     {"verdict", "", FIELD_ENUM, "of the judge", AT(verdict, kind), .word = word_of_verdict,
      .words = VERDICT_KINDS},

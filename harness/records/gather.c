@@ -62,7 +62,8 @@ subject gather_coverage(const gathering *g, const coverage *c, int left_out)
         .sweep = g->sweep, .point = &g->sweep->point[c->point], .record = c, .index = left_out};
 }
 
-/* Verdicts come in the order of the series: index of the first one of it or of a later one. */
+/* Index of the first verdict of the series or a later one; verdicts are in the order of the series.
+ */
 static int first_verdict(const judgement *j, int series_index)
 {
     int low = 0, high = j->verdicts;
@@ -140,7 +141,7 @@ static void add_matrices(subject s, const solve_result *r, subjects *out)
 {
     for (int i = 0; i < r->matrix_sets; i++)
         add_array(s, r->matrices[i].stations, &r->matrices[i], 0,
-                  out); /* one record, read station by station */
+                  out); /* one record, read at each station */
 }
 
 void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh,
@@ -237,7 +238,7 @@ void gather_assumptions(const sweep_point *p, subjects *out)
         gather_add(out, &s);
 }
 
-/* Adds the records of the first point, or of all. */
+/* Adds the records of the first point only, or of all points. */
 static void gather_of_points(const gathering *g, const record_type *type, const case_type *of,
                              subjects *out)
 {
@@ -274,7 +275,7 @@ static void gather_coverages(const gathering *g, const case_type *of, subjects *
                 }
 }
 
-/* Is there one of this key? */
+/* Does the list contain a formulation with this key? */
 static int has_formulation(const subjects *list, const char *key)
 {
     int i = 0;

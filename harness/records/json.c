@@ -23,7 +23,7 @@ static json_t *values_of(const assignment_list *l, const double value[])
     return all;
 }
 
-/* All truths of the continuum that hold here, with the error against each. */
+/* All applicable reference values of the continuum, with the error against each. */
 static json_t *truths_of(const subject *s, const truths *t)
 {
     const sweep_point *p = s->point;
@@ -42,7 +42,7 @@ static json_t *truths_of(const subject *s, const truths *t)
     return list;
 }
 
-/* Records of one kind of the first cell, as a list named as their table. */
+/* Adds the records of one kind of the first cell, as a list named after their table. */
 static void add_list(json_t *root, const gathering *g, const record_type *type)
 {
     subjects list = {0};
@@ -69,7 +69,7 @@ static void add_quantities(json_t *root, const gathering *g)
     gather_free(&list);
 }
 
-/* As in HDF5 the points stand in arrays; here each curve has its own. */
+/* HDF5 stores the points of all curves in shared arrays; here each curve has its own. */
 static void add_curves(json_t *root, const gathering *g)
 {
     subjects list = {0};
@@ -137,8 +137,8 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     return json_finish(root, to, f);
 }
 
-/* Text before and after the verdicts where they are the only content, in the form of the whole
- * document. */
+/* Text before and after the verdicts when the document has no other contents, in the same layout.
+ */
 static const char alone_before[] = "{\n \"verdicts\": [", alone_behind[] = "\n ]\n}",
                   none[] = "\n \"verdicts\": []";
 
@@ -212,7 +212,7 @@ static json_t *regressions_of(const judgement *j)
     return all;
 }
 
-/* All but the verdicts. */
+/* The document without the verdicts. */
 static json_t *around_verdicts(const sweep *s, const judgement *j, const environment *e)
 {
     const gathering g = {s, j, NULL};
@@ -247,7 +247,7 @@ static json_t *around_verdicts(const sweep *s, const judgement *j, const environ
     return root;
 }
 
-/* Writes the document with the verdicts in their position. 0: written. */
+/* Writes the document with the verdicts at their position. Returns 0 on success. */
 static int write_around(FILE *to, const char *around, const json_part *part)
 {
     const char *place = strstr(around, none);

@@ -42,7 +42,8 @@ static json_t *number(double x)
     return isfinite(x) ? json_real(x) : json_null();
 }
 
-/* A curve: how far each mesh is from the finest one, and that from another formulation. */
+/* A curve: difference of each mesh from the finest one, and of the finest mesh from another
+ * formulation. */
 static json_t *curve_of(const sweep *s, const series *one, int quantity, const series *other)
 {
     const scene *what = &s->point[one->point].scene;
@@ -79,7 +80,7 @@ static json_t *curves_of(const sweep *s, const series *one)
     return all;
 }
 
-/* The last line of the text. */
+/* Conclusion, as in the last line of the text output. */
 static json_t *sentence_of(const sweep *s, const truths *t, double level)
 {
     char *text = NULL;
@@ -93,8 +94,8 @@ static json_t *sentence_of(const sweep *s, const truths *t, double level)
     return out;
 }
 
-/* Formulations within the level, in the order of the line; rank 0: its verdict is not a pass, or
- * its cost ranks nothing. */
+/* Formulations within the level, in the order of the line. rank 0: its verdict is not a pass, or it
+ * is not ranked by cost. */
 static json_t *answers_of(const sweep *s, const truths *t, double level)
 {
     json_t *out = json_array();
@@ -156,7 +157,7 @@ static void write_reached(FILE *to, const sweep *s, const reached *r)
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
-/* Writes the formulations with a verdict other than pass; those with the same words together. */
+/* Writes the formulations with a verdict other than pass, grouped by verdict. */
 static void write_defective(FILE *to, const reach_question *q, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -176,7 +177,7 @@ static void write_defective(FILE *to, const reach_question *q, const reached lis
     }
 }
 
-/* The cheapest ones, those after them, those with a defect. */
+/* Writes first those with the lowest cost, then the others, then those with a defect. */
 static void write_ranking(FILE *to, const reach_question *q, const reached list[], int count)
 {
     const int ties = reach_ties(list, count);
@@ -215,8 +216,8 @@ static int is_reached(const reached list[], int count, int series_index)
     return found;
 }
 
-/* Writes the requested quantity that the series does not reach within the level: the one with the
- * largest error on the finest mesh, or without a value there. */
+/* Writes the requested quantity in which the series is not within the level: that with the largest
+ * error on the finest mesh, or without a value there. */
 static void write_worst(FILE *to, const reach_question *q, int series_index)
 {
     const series *one = &q->s->series[series_index];
@@ -258,7 +259,7 @@ static void write_others(FILE *to, const reach_question *q, const reached list[]
     }
 }
 
-/* Writes the other models that were solved, each kind once. */
+/* Writes the other models that were solved, each once. */
 static void write_other_models(FILE *to, const reach_question *q)
 {
     const char *before = "; another model, which is not ranked: ";
@@ -280,8 +281,8 @@ static int has_reference(const reach_question *q, int quantity)
     return known;
 }
 
-/* Requested quantities: all except curves, or those with a reference value; the others are named.
- * Returns how many have one. */
+/* Writes the requested quantities: all except curves, or those with a reference value, naming the
+ * others. Returns how many have a reference value. */
 static int write_asked(FILE *to, const reach_question *q)
 {
     const char *before = " (without a reference: ";
@@ -310,7 +311,7 @@ static int write_asked(FILE *to, const reach_question *q)
     return known;
 }
 
-/* 1: its model error is the difference from a solid, plate or shell that was computed. */
+/* Returns 1 when its model error is the difference from a computed solid, plate or shell. */
 static int is_of_another_model(const verdict *v)
 {
     const truth *other = v->model_truth;
@@ -318,7 +319,8 @@ static int is_of_another_model(const verdict *v)
            strcmp(other->kind, "agreement") != 0 && strcmp(other->kind, "experiment") != 0;
 }
 
-/* How far those that pass (where none does: the cheapest one) are from another model at most. */
+/* Writes the largest difference of the passing formulations from another model; if none passes,
+ * that of the one with the lowest cost. */
 static void write_model_error(FILE *to, const reach_question *q, const reached list[], int count)
 {
     const verdict *most = NULL;
@@ -337,7 +339,7 @@ static void write_model_error(FILE *to, const reach_question *q, const reached l
             q->s->point[q->point].scene.quantity[most->quantity].name);
 }
 
-/* Writes why no formulation runs. Returns 0 where one runs. */
+/* Writes why no formulation runs. Returns 0 if one does. */
 static int write_nothing_runs(FILE *to, const sweep *s)
 {
     const char *before = "nothing was run: ";

@@ -64,7 +64,7 @@ static void open_test(FILE *to, const sweep_point *p)
     escaped(to, p->text[0] != '\0' ? p->text : "default");
 }
 
-/* A skip that was not expected is a failure. */
+/* An unexpected skip counts as a failure. */
 static int is_skipped(const verdict *v)
 {
     return (v->kind == VERDICT_SKIP || v->kind == VERDICT_OTHER_MODEL) && v->matches;
@@ -188,7 +188,7 @@ const char *assumptions_kind(int kind)
     return kind >= 0 && kind < ASSUMPTION_KINDS ? names[kind] : "";
 }
 
-/* 1: the section has one of that kind. */
+/* Returns 1 when the section has an assumption of that kind. */
 static int of_section(const scene *s, assumption *a)
 {
     const scene_words name = scene_name(s, SCENE_SECTIONS, a->section);
@@ -207,7 +207,7 @@ static int of_section(const scene *s, assumption *a)
     return a->physics[0] != '\0';
 }
 
-/* A built-in case has from its source what there is. */
+/* Only scenes of users have assumptions; data of a built-in case come from its source. */
 int assumptions_at(const sweep_point *p, int index, assumption *out)
 {
     int found = 0;
@@ -225,7 +225,7 @@ int assumptions_at(const sweep_point *p, int index, assumption *out)
 
 void assumptions_words(const sweep_point *p, size_t size, char out[])
 {
-    const size_t rest = 40; /* for the number of those that find no room */
+    const size_t rest = 40; /* for the number of the remaining ones */
     size_t used = 0;
     int left = 0;
     assumption a;

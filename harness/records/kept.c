@@ -17,7 +17,7 @@ hid_t kept_group(record_file *r, const char *name)
     return own;
 }
 
-/* 1: its first bytes are those of HDF5. */
+/* Returns 1 when the file begins with the HDF5 signature. */
 static int is_hdf5(const char *path)
 {
     static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
@@ -37,7 +37,8 @@ static status unfit(const char *path, fault *f)
                      path);
 }
 
-/* Waits for that many tenths of a second; patience -1: for ever. 0: it is fixed; -1 and errno. */
+/* Locks a file, waiting up to `patience` tenths of a second; -1: without limit. Returns 0 on
+ * success, -1 with errno. */
 static int hold(int file, int kind, int patience)
 {
     const int wait = patience < 0 ? 0 : LOCK_NB;
@@ -49,7 +50,8 @@ static int hold(int file, int kind, int patience)
     return 0;
 }
 
-/* The HDF5 library locks what it writes, and reads nothing that is locked. */
+/* Waits for another writer: the HDF5 library locks files that it writes and cannot read locked
+ * files. */
 static status await_writer(const char *path, int patience, fault *f)
 {
     const int file = open(path, O_RDONLY | O_CLOEXEC), held = hold(file, LOCK_SH, patience),
@@ -71,7 +73,7 @@ static int is_ours(hid_t file)
             strcmp(schema, SCHEMA_NAME) == 0);
 }
 
-/* *file: -1: nothing is there that is to be kept. */
+/* *file: -1: there is nothing to be kept. */
 static status open_former(const char *path, int patience, hid_t *file, fault *f)
 {
     *file = -1;
@@ -114,7 +116,7 @@ static herr_t copy_attribute(hid_t from, const char *name, const H5A_info_t *unu
     return 0;
 }
 
-/* Links that are not here yet. */
+/* Copies links that do not exist here yet. */
 static void copy_links(record_file *r, hid_t from, hid_t to)
 {
     enum { NAME = 256 };
@@ -161,7 +163,7 @@ static void copy_former(record_file *r, const char *name, hid_t former)
         copy_all(r, former, r->file);
 }
 
-/* Writes the schema into a file that has no results of verify yet. */
+/* Writes the schema into a file without results of verify. */
 static void put_schema(record_file *r)
 {
     if (H5Aexists(r->file, "schema") > 0)
@@ -170,8 +172,8 @@ static void put_schema(record_file *r)
     record_count(r, r->file, "schema_version", SCHEMA_VERSION);
 }
 
-/* Merges the former content. The new content is written to the disk first, since the former may be
- * larger than the memory. */
+/* Merges the previous content. The new content is written to disk first, since the previous one may
+ * be larger than the memory. */
 static status merge(record_file *r, const char *name, hid_t former, const char *path, fault *f)
 {
     record_file all;
@@ -204,7 +206,7 @@ static status close_merged(record_file *r, const char *name, const file_place *a
     return record_close(r, path, f);
 }
 
-/* Has whoever held it before taken it away? */
+/* Does the lock file still exist after waiting, or has its previous owner removed it? */
 static int is_there(int lock, const char *name)
 {
     struct stat own, there;
@@ -212,8 +214,8 @@ static int is_there(int lock, const char *name)
            own.st_ino == there.st_ino;
 }
 
-/* The file beside is the lock, as the results themselves are replaced. One that a killed run has
- * left is no hindrance: the lock ends with its process. -1 and errno: none. */
+/* Uses a separate lock file, because the results file is replaced. A lock file left by a killed run
+ * does no harm: the lock ends with its process. Returns -1 with errno when there is no lock. */
 static int take_lock(const char *name, int patience)
 {
     for (;;) {
@@ -256,7 +258,7 @@ static void unlock(const char *beside, int lock)
 
 status kept_check(const char *path, fault *f)
 {
-    enum { PATIENCE = 100 }; /* [0.1 s]: longer than it takes to write one */
+    enum { PATIENCE = 100 }; /* [0.1 s] longer than writing a file takes */
     char beside[PATH_MAX];
     hid_t file;
     file_place at;

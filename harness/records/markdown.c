@@ -6,9 +6,9 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-enum { MOST_ROWS = 50 }; /* a comment is read, not searched: the JSON has the rest */
+enum { MOST_ROWS = 50 }; /* a comment should stay readable; the JSON contains the rest */
 
-/* A cell of a table: bars and line ends would break it. */
+/* A cell of a table; escapes bars and line ends, which would break it. */
 static void cell(FILE *to, const char *text)
 {
     for (; *text != '\0'; text++)
@@ -105,7 +105,7 @@ static void write_formulations(FILE *to, const sweep *s, const judgement *j)
     }
 }
 
-/* The marks that were used, the worst first, with their words. */
+/* Explains the marks that occur, the worst first. */
 static void write_legend(FILE *to, const overview *o)
 {
     int used[OVERVIEW_MARKS] = {0}, entries = 0;
@@ -139,7 +139,7 @@ static void write_row(FILE *to, const overview *o, int row)
     fprintf(to, " |\n");
 }
 
-/* Cases without a row, of which something is evaluated or nothing. */
+/* Lists cases without a row, of which something is evaluated, or nothing. */
 static void write_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     int named = 0;
@@ -173,7 +173,7 @@ static void write_overview(FILE *to, const overview *o)
     write_legend(to, o);
 }
 
-/* Writes the physics that scenes omit: a line for each case, and for points that differ from it. */
+/* Writes the omitted physics: a line for each case, and for each point that differs from it. */
 static void write_omitted(FILE *to, const sweep *s)
 {
     int lines = 0;

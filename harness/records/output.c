@@ -11,10 +11,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MOST_TRIES = 100, LEAF = 100 }; /* [bytes] of the name that a temporary name begins with */
+enum {
+    MOST_TRIES = 100,
+    LEAF = 100
+}; /* LEAF: bytes of the given name that a temporary name begins with */
 
-/* Files and folders that are written beside their places now, as far as there is room for their
- * names: of the process `owner`; 0: free, -1: a name is being written. */
+/* Temporary files and folders that exist now, up to MOST_OPEN. owner: the process; 0: free, -1: a
+ * name is being written. */
 enum { MOST_OPEN = 16 };
 static struct {
     atomic_int owner;
@@ -40,10 +43,10 @@ void output_forget(const char *path)
             atomic_store(&unfinished[i].owner, 0);
 }
 
-/* Removes all outputs; only system calls from here on, as a signal handler requires. */
+/* Removes all outputs. From here on only system calls, as a signal handler requires. */
 static void remove_all(int at, const char *name);
 
-/* Entries that there were. */
+/* Returns the number of entries found. */
 static int empty_once(int folder)
 {
     _Alignas(struct dirent64) char room[4096];
@@ -63,7 +66,7 @@ static int empty_once(int folder)
     return entries;
 }
 
-/* A file, or a folder with all that is in it: again, as entries that are taken away may hide
+/* Removes a file, or a folder with its contents; repeats, because removed entries may reveal
  * others. */
 static void remove_all(int at, const char *name)
 {
@@ -108,7 +111,7 @@ int output_beside(const char *path, int (*make)(const char *name), char temporar
             errno = ENAMETOOLONG;
             return -1;
         }
-        remember(temporary); /* before it is there: a signal may come at any time */
+        remember(temporary); /* before the file exists, since a signal may come at any time */
         const int made = make(temporary);
         if (made >= 0)
             return made;
@@ -124,7 +127,7 @@ static int make_file(const char *name)
     return open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-/* Owner (where we may) and permissions of the file that will be replaced. */
+/* Copies the permissions, and if possible the owner, of the file to be replaced. */
 static void keep_permissions(const file_place *to, int file)
 {
     if (to->kind == PLACE_FILE &&
@@ -136,7 +139,7 @@ static int open_stream(const file_place *to)
 {
     if (to->descriptor < 0)
         return open(to->path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
-    /* what was said before stays before */
+    /* keeps the order of output to the same file */
     fflush(to->descriptor == STDOUT_FILENO ? stdout : stderr);
     return dup(to->descriptor);
 }
@@ -206,8 +209,7 @@ static void discard(output *out)
     }
 }
 
-/* Onto the disk, where there is one; what cannot be synchronised (a pipe, a device) needs no such
- * thing. */
+/* Writes to the disk; a file that cannot be synchronised (a pipe, a device) counts as stored. */
 static int is_stored(FILE *stream)
 {
     if (ferror(stream) || fflush(stream) != 0)
@@ -311,7 +313,7 @@ static int make_folder(const char *name)
     return mkdir(name, S_IRWXU);
 }
 
-/* There may be an empty one in its place. */
+/* An empty folder may exist at its path. */
 static status create(output_folder *out, fault *f)
 {
     if (output_beside(out->to.path, make_folder, out->temporary) < 0) {
@@ -324,7 +326,7 @@ static status create(output_folder *out, fault *f)
     return STATUS_OK;
 }
 
-/* 1: a folder with nothing in it. */
+/* Returns 1 when the folder is empty. */
 static int is_empty(const char *path)
 {
     DIR *folder = opendir(path);
@@ -334,7 +336,7 @@ static int is_empty(const char *path)
     while (readdir(folder) != NULL)
         entries++;
     closedir(folder);
-    return entries <= 2; /* itself and the one above */
+    return entries <= 2; /* "." and ".." */
 }
 
 status output_folder_open(const char *path, output_folder *out, fault *f)
@@ -359,7 +361,7 @@ status output_folder_try(const char *path, file_place *where, fault *f)
     return STATUS_OK;
 }
 
-/* 0: too long. */
+/* Returns 0 when the path is too long. */
 static int name_inside(const output_folder *out, const char *name, char path[PATH_MAX])
 {
     return snprintf(path, PATH_MAX, "%s/%s", out->temporary, name) < PATH_MAX;

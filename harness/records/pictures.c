@@ -8,9 +8,9 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-enum { RING = 24 }; /* sides of a tube */
+enum { RING = 24 }; /* number of sides of a tube */
 
-/* Corners of a wall of thickness t whose mid-line runs from a to b. */
+/* Corners of a wall with thickness t and a mid-line from a to b. */
 static void add_wall(outline *out, const double a[2], const double b[2], double t)
 {
     const double length = hypot(b[0] - a[0], b[1] - a[1]);
@@ -24,8 +24,8 @@ static void add_wall(outline *out, const double a[2], const double b[2], double 
     }
 }
 
-/* Side k of a tube drawn as a polygon: corners lie on its circles, from inside to outside at either
- * end. */
+/* Side k of a tube drawn as a polygon: its corners lie on the circles of the tube, inner before
+ * outer at each end. */
 static void add_side(outline *out, const section_spec *spec, int k)
 {
     double(*corner)[2] = out->corner[out->walls++];
@@ -46,10 +46,10 @@ static void principal(const section *s, const double point[2], double out[2])
     out[1] = c * z - d * y;
 }
 
-/* Sides along y and z of a rectangle that stands for a section. */
+/* Sides along y and z of a rectangle that represents a section. */
 static void sides_of(const section_spec *spec, const section *c, double side[2])
 {
-    const double ratio = sqrt(c->Iy / c->Iz); /* of width to height: Iy/Iz = (w/h)^2 */
+    const double ratio = sqrt(c->Iy / c->Iz); /* ratio of width to height: Iy/Iz = (w/h)^2 */
     side[0] = spec->kind == SECTION_MATRICES ? sqrt(12 * c->Iz / c->A) : sqrt(c->A / ratio);
     side[1] = spec->kind == SECTION_MATRICES ? sqrt(12 * c->Iy / c->A) : sqrt(c->A * ratio);
     if (c->rectangle) {
@@ -106,16 +106,16 @@ void outline_between(const outline *near, const outline *far, double x, outline 
                 out->corner[w][k][i] += x * (far->corner[w][k][i] - near->corner[w][k][i]);
 }
 
-enum { POLY_LINE = 4, QUAD = 9 }; /* VTK's cell types */
+enum { POLY_LINE = 4, QUAD = 9 }; /* cell types of VTK */
 
-/* Every point of a centre line is followed by both edges of every wall there. */
+/* Each point of a centre line is followed by both edges of every wall there. */
 typedef struct grid {
     const scene *scene;
     const shapes *shapes;
-    outline *outline;       /* [sections] */
-    outline *far;           /* [members] of the far ends where sections change; NULL: none does */
-    int points, cells, ids; /* of one state */
-    int states, *state;     /* the states that are time steps */
+    outline *outline; /* [sections] */
+    outline *far; /* [members] outlines at the far ends of tapered members; NULL: none is tapered */
+    int points, cells, ids; /* numbers for one state */
+    int states, *state;     /* states that are written as time steps */
 } grid;
 
 static const outline *outline_at(const grid *g, int member)
@@ -138,7 +138,7 @@ static void count(grid *g)
     }
 }
 
-/* A motion is a history, or else a path; without one, solutions and modes are its steps. */
+/* Chooses the states: of a motion, else of a path, else solutions and modes. */
 static void choose_states(grid *g)
 {
     int paths = 0, frames = 0;
@@ -212,7 +212,7 @@ static const struct {
                    {"moment (Mx, My, Mz)", "N m", 3},
                    {"bimoment", "N m^2", 1}};
 
-/* The fields of a point of a centre line moved by (0, y, z) of its section; rest: the same point
+/* Fields of a point at (0, y, z) of the section of a centre-line point; rest: the same point
  * undeformed. */
 static void fill_point(const centreline_point *p, const centreline_point *rest, double y, double z,
                        double *out[FIELDS])
@@ -291,7 +291,7 @@ static void put_offsets(record_file *r, hid_t at, const char *name, const grid *
     free(value);
 }
 
-/* The cells stay, the points of the next state follow those of the one before. */
+/* Cells do not change; the points of successive states follow one another. */
 static void put_steps(record_file *r, hid_t at, const grid *g)
 {
     const hid_t steps = record_group(r, at, "Steps");

@@ -11,8 +11,8 @@ static void check(record_file *r, int good)
     r->bad |= !good;
 }
 
-/* Access to a file of HDF5: of the oldest format, as an image of the newer ones carries a wrong
- * checksum of its head (HDF5 1.10). FAULT: nothing is fixed. */
+/* Creates an HDF5 file of the oldest format, because an image of newer formats has a wrong checksum
+ * in its header (HDF5 1.10). FAULT: nothing was created. */
 static status open_file(record_file *r, const char *name, hid_t access, fault *f)
 {
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
@@ -26,7 +26,8 @@ static status open_file(record_file *r, const char *name, hid_t access, fault *f
 
 status record_open(record_file *r, fault *f)
 {
-    static unsigned number; /* files in memory that are open together have names of their own */
+    static unsigned
+        number; /* files in memory that are open at the same time need different names */
     char name[40];
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     snprintf(name, sizeof name, "beamwork-%u", number++);
@@ -88,7 +89,7 @@ status record_drop(record_file *r, status outcome)
     return r->to.stream != NULL ? output_finish(&r->to, outcome, NULL) : outcome;
 }
 
-/* The last line after what the library has written, and the file in its place. */
+/* Appends the checksum line and renames the file. */
 static status close_on_disk(record_file *r, fault *f)
 {
     char line[CHECKSUM_LENGTH + 1];
@@ -137,7 +138,7 @@ static void put(record_file *r, hid_t at, const char *name, hid_t type, const vo
 void record_text(record_file *r, hid_t at, const char *name, const char *text)
 {
     const hid_t type = record_text_type(strlen(text));
-    put(r, at, name, type, text); /* an empty text is stored as its final zero */
+    put(r, at, name, type, text); /* an empty text is stored as its terminating zero */
     H5Tclose(type);
 }
 
@@ -171,10 +172,10 @@ void record_ascii(record_file *r, hid_t at, const char *name, const char *text)
     H5Tclose(type);
 }
 
-/* Layout of a data set: large ones are compressed, in chunks along their first dimension. */
+/* Layout of a data set: large ones are compressed, in chunks along the first dimension. */
 static hid_t layout_of(hid_t type, int rank, const hsize_t size[])
 {
-    enum { LEAST = 4096, PIECE = 1 << 20, LEVEL = 3 }; /* [bytes]; of deflate */
+    enum { LEAST = 4096, PIECE = 1 << 20, LEVEL = 3 }; /* [bytes]; LEVEL: of compression */
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     hsize_t piece[MOST_RANKS], line = H5Tget_size(type);
     for (int i = 1; i < rank; i++) {
@@ -224,7 +225,8 @@ hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int c
     return record_array(r, at, name, type, 1, &size, row);
 }
 
-/* text[count] side by side, each as long as the longest; its length. NULL: out of memory. */
+/* Concatenates text[count], each padded to the length of the longest, which is returned. NULL: out
+ * of memory. */
 static char *side_by_side(int count, const char *const text[], size_t *longest)
 {
     *longest = 1;
@@ -270,7 +272,7 @@ typedef struct rows_column {
     size_t offset, size;
 } rows_column;
 
-/* [bytes] of one value; of a text: those of the longest in its column. */
+/* bytes of one value; for a text the length of the longest in its column */
 static const size_t size_of_kind[FIELD_KINDS] = {[FIELD_INT] = sizeof(int),
                                                  [FIELD_LONG] = sizeof(long),
                                                  [FIELD_DOUBLE] = sizeof(double),
@@ -293,7 +295,7 @@ static size_t longest_text(const schema_field *which, int count, const subject r
     return longest;
 }
 
-/* Fills the columns; size of a row. */
+/* Sets the columns; returns the size of a row. */
 static size_t lay_out(int fields, const schema_field *const list[], int count, const subject row[],
                       rows_column out[])
 {
@@ -307,7 +309,7 @@ static size_t lay_out(int fields, const schema_field *const list[], int count, c
     return size;
 }
 
-/* As h5py and others have it. */
+/* Boolean type as used by h5py and others. */
 static hid_t boolean_type(void)
 {
     const hid_t type = H5Tenum_create(H5T_NATIVE_INT8);

@@ -21,9 +21,9 @@
 #include "harness/newton/newton.h"
 #include "harness/study/study.h"
 
-/* Assumptions on the sections of a user's scene: properties that their numbers do not give
- * are zero; physics of them that no formulation models is omitted. One list for text, CSV, JSON,
- * HDF5 and the report. */
+/* Assumptions on the sections of a user's scene: properties that its section data do not define are
+ * set to zero, and physics that no formulation models is omitted. Text, CSV, JSON, HDF5 and the
+ * report share this list. */
 
 typedef enum assumption_kind {
     ASSUMPTION_NOT_KNOWN,
@@ -34,20 +34,20 @@ typedef enum assumption_kind {
 enum { ASSUMPTION_TEXT = 320 };
 typedef struct assumption {
     assumption_kind kind;
-    int section;                /* of the scene */
-    char physics[100];          /* "shear, warping": in words of `omit`; "": none of these */
+    int section;                /* index of the section in the scene */
+    char physics[100];          /* "shear, warping": words of `omit`; "": none */
     char text[ASSUMPTION_TEXT]; /* what is assumed, with the name of the section */
 } assumption;
 
 const char *assumptions_kind(int kind); /* "not known" */
-/* The index-th of the point. 0: there is none. */
+/* Returns assumption number `index` of the point, or 0 when there is none. */
 int assumptions_at(const sweep_point *p, int index, assumption *out);
-/* All of them, "kind: text", with semicolons between; what finds no room is counted. */
+/* All of them as "kind: text", separated by semicolons; if the text is too small, the number of the
+ * remaining ones. */
 void assumptions_words(const sweep_point *p, size_t size, char out[]);
 
-/* Results of a stored run: errors and work, cell by cell, and in one line for each series of
- * meshes. Read back from results.h5, or from the short table of its series that can be committed.
- */
+/* Results of a stored run: errors and work of each cell, and a summary of each series of meshes.
+ * Read from results.h5, or from the short table of its series, which can be committed. */
 
 typedef enum results_work {
     WORK_ITERATIONS,
@@ -57,8 +57,7 @@ typedef enum results_work {
 } results_work;
 extern const char *const results_work_names[RESULTS_WORKS];
 
-/* Errors below this, relative to the reference value, are round-off and the criterion of
- * iterations. */
+/* Relative errors below this are due to round-off and the convergence criterion of iterations. */
 #define RESULTS_FLOOR 1e-8
 
 enum { RESULTS_STATUS = 16, RESULTS_MOST_ELEMENTS = 10000000 };
@@ -66,9 +65,10 @@ enum { RESULTS_STATUS = 16, RESULTS_MOST_ELEMENTS = 10000000 };
 typedef struct result_value {
     char quantity[SCENE_NAME];
     double value,
-        near_zero; /* [unit of the quantity]; NAN: none; below near_zero it counts as zero */
-    double error;  /* relative to the reference value; NAN: no truth */
-    double limit;  /* of the series, at its finest mesh of a default point; NAN: none */
+        near_zero; /* [unit of the quantity]; NAN: none; values below near_zero count as zero */
+    double error;  /* relative to the reference value; NAN: no reference value */
+    double
+        limit; /* limit of the series, stored with its finest mesh at a default point; NAN: none */
 } result_value;
 
 typedef struct result_cell {
@@ -76,7 +76,7 @@ typedef struct result_cell {
     int elements;
     char status[RESULTS_STATUS];
     long work[RESULTS_WORKS];
-    double cost; /* of counted work [s], of a sweep; not positive or NAN: not known */
+    double cost; /* cost of the counted work [s], of a sweep; not positive or NAN: unknown */
     int values;
     result_value *value;
 } result_cell;
@@ -91,7 +91,7 @@ typedef struct result_limit {
     double value, near_zero; /* as of a value; near_zero 0: not known */
 } result_limit;
 
-/* Largest of the |errors| of one mesh. elements 0: no value has an error. */
+/* Largest |error| of one mesh. elements 0: no value has an error. */
 typedef struct result_error {
     double size;
     int elements;
@@ -104,57 +104,59 @@ typedef struct result_series {
     int meshes, limits;
     result_mesh *mesh;        /* [meshes] ascending by elements */
     long work[RESULTS_WORKS]; /* sums over the meshes */
-    int errors;               /* values that have one, of all meshes */
-    double decades; /* sum of log10(|error| + RESULTS_FLOOR) over them: moves with every one */
-    result_error least, largest; /* of the mesh where it is least; of all meshes */
-    result_limit *limit;         /* [limits] of a default point, in the order of its quantities */
+    int errors;               /* number of values with an error, on all meshes */
+    double
+        decades; /* sum of log10(|error| + RESULTS_FLOOR) over them: it changes with every error */
+    result_error least,
+        largest;         /* least: on the mesh where it is smallest; largest: on all meshes */
+    result_limit *limit; /* [limits] at a default point, in the order of its quantities */
 } result_series;
 
-/* The selection of a run: series outside it were not requested; they are not missing. NULL: all. */
+/* Selection of a run: series outside it are not missing, because they were not requested. NULL: no
+ * selection. */
 typedef struct results_part {
     char *select;               /* expression of harness/formulations/formulations.h */
-    char *cases, *formulations; /* a line each */
-    char *fresh;                /* formulations that do not affect the exit status yet, a line
-                                   each; NULL: none */
+    char *cases, *formulations; /* one per line */
+    char *fresh; /* formulations that do not affect the exit status yet, one per line; NULL: none */
 } results_part;
 
 typedef struct stored_results {
     results_part part;
     int cells, seriess;
-    int whole;             /* 1: with cells, 0: with series only */
-    int limits;            /* 1: limits were evaluated */
-    int swept;             /* 1: a sweep; its cells of no mesh have the references of a point */
-    result_cell *cell;     /* ascending by name and elements */
+    int whole;         /* 1: with cells, 0: with series only */
+    int limits;        /* 1: limits were evaluated */
+    int swept;         /* 1: a sweep; its cells without a mesh contain the references of a point */
+    result_cell *cell; /* ascending by name and elements */
     result_series *series; /* ascending by name */
 } stored_results;
 
-/* HDF5 or table, distinguished by the first bytes. FAULT: missing, truncated, foreign or damaged,
- * or a sweep. */
+/* Reads HDF5 or a table, distinguished by the first bytes. FAULT: missing, truncated, foreign or
+ * damaged, or a sweep. */
 status results_read(const char *path, stored_results *out, fault *f);
-/* The same of an experiment: "verify", "bench", or "sweep", which has no series; NULL: the first of
- * these that is there. */
+/* As results_read for an experiment: "verify", "bench", or "sweep", which has no series; NULL: the
+ * first of these in the file. */
 status results_read_any(const char *path, const char *experiment, stored_results *out, fault *f);
 void results_free(stored_results *r);
 
-/* A zeroed one at the end, or NULL. */
+/* Appends a zeroed cell; NULL: out of memory. */
 result_cell *results_add(stored_results *r);
 result_series *results_add_series(stored_results *r);
 result_mesh *results_add_mesh(result_series *s);
 result_limit *results_add_limit(result_series *s);
 
-int results_order(const result_cell *a, const result_cell *b); /* of name, then elements */
-/* Fills the series from the cells, which are in order. FAULT: out of memory. */
+int results_order(const result_cell *a,
+                  const result_cell *b); /* compares by name, then by elements */
+/* Computes the series from the sorted cells. FAULT: out of memory. */
 status results_series_summarise(stored_results *r, fault *f);
 
-/* Is the text one of the lines? lines NULL: no. */
+/* Is the text one of the lines? Returns 0 for lines NULL. */
 int results_part_has(const char *lines, const char *text);
 /* Was the quantity of a series (case/parameters/formulation) requested? */
 int results_part_selects(const results_part *p, const char *series, const char *quantity);
-/* Was a series that `other` alone has requested, of the run r: any of its quantities, as the two
- * know them? */
+/* Did only `other`, and not the selection of run r, request the series, with any quantity that the
+ * two runs know? */
 int results_part_wants(const stored_results *r, const stored_results *other, const char *series);
-/* Were other quantities of a series requested in one run than in the other, as the two know them?
- */
+/* Did the two runs request different quantities of a series, as far as they know them? */
 int results_part_differ(const stored_results *a, const stored_results *b, const char *series);
 /* Is its formulation new to the run? */
 int results_part_is_fresh(const results_part *p, const char *series);
@@ -164,15 +166,17 @@ status results_hdf5_read(const char *path, const char *experiment, stored_result
 status results_table_read(const char *path, FILE *from, stored_results *out, fault *f);
 void results_table_write(FILE *to, const stored_results *r);
 
-/* Two stored runs side by side: what became worse, better, or is there in one of them only. Whole
- * runs, and sweeps, cell by cell and quantity by quantity, else series by series. No truth is
- * involved: a former run says nothing of what is right, only that something has changed. */
+/* Comparison of two stored runs: what became worse or better, or exists in only one of them.
+ * Complete runs and sweeps are compared cell by cell and quantity by quantity, others series by
+ * series. No reference value is used: a previous run only shows that something has changed, not
+ * which result is right. */
 
 typedef struct comparison_limits {
-    double error; /* relative change of an error */
-    double floor; /* change of a value relative to its reference value that is round-off */
-    double
-        work; /* relative change of a count of one mesh; of a series: of the mean of its meshes */
+    double error; /* threshold for the relative change of an error */
+    double floor; /* largest change of a value, relative to its reference value, that counts as
+                     round-off */
+    double work; /* threshold for the relative change of a count of one mesh; for a series, relative
+                    to the mean of its meshes */
 } comparison_limits;
 /* Default limits. */
 extern const comparison_limits comparison_limits_default;
@@ -189,45 +193,45 @@ extern const char *const comparison_kind_names[COMPARISON_KINDS];
 
 typedef struct comparison {
     int whole;                     /* 1: cell by cell; 0: series by series */
-    int judged;                    /* 1: both have limits */
+    int judged;                    /* 1: both runs have limits */
     int swept;                     /* 1: sweeps */
-    int pairs;                     /* cells or series in both */
-    int count[COMPARISON_KINDS];   /* lines of each kind */
-    double work[2][RESULTS_WORKS]; /* sums over the pairs: old | new */
-    double cost[2];                /* of counted work [s], of sweeps */
-    /* series in one of the two only (old | new) that are no change: outside the selection of the
-     * other run; of formulations that do not affect the exit status yet */
+    int pairs;                     /* number of cells or series in both runs */
+    int count[COMPARISON_KINDS];   /* number of lines of each kind */
+    double work[2][RESULTS_WORKS]; /* sums over the pairs: old, new */
+    double cost[2];                /* cost of the counted work [s], of sweeps */
+    /* number of series in one run only (old, new) that do not count as changes: outside the
+     * selection of the other run; of formulations that do not affect the exit status yet */
     int outside[2], fresh[2];
-    int partial; /* series of which one run omits some quantities: neither their errors nor their
-                    work are compared */
+    int partial; /* number of series for which one run omits some quantities: their errors and work
+                    are not compared */
 } comparison;
 
-/* "error=0.01,floor=1e-8,work=0.02", any of them. REFUSED names the culprit. */
+/* Reads any of "error=0.01,floor=1e-8,work=0.02". REFUSED names the invalid entry. */
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f);
-/* Writes one line for each difference. Series outside the selection of one of the two are counted,
- * not written, and so are series of new formulations in one of them. Names that do not match
- * `select` (of study.h; NULL: all) are omitted. */
+/* Writes one line for each difference. Series outside the selection of one run, and series of new
+ * formulations in one run only, are counted but not written. Names that do not match `select`
+ * (study.h; NULL: all) are skipped. */
 void comparison_run(FILE *to, const stored_results *before, const stored_results *after,
                     const comparison_limits *limits, const char *select, comparison *out);
 int comparison_differs(const comparison *c);
 
-/* Results for spreadsheets: one row per value, full precision, empty where there is none. */
+/* Results for spreadsheets: one row per value in full precision; empty where there is no value. */
 
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);
-/* Table of a benchmark: a row for every cell and judged quantity. */
+/* Table of a benchmark: a row for every cell and evaluated quantity. */
 void csv_timing(FILE *to, const sweep *s, const judgement *j);
 
-/* One schema for all records: a table of fields for each kind of record, from which HDF5, JSON, CSV
- * and `beamwork schema` are written, with the same names. A new field is one line of a table. */
+/* One schema for all records: a table of fields for each kind of record. HDF5, JSON, CSV and
+ * `beamwork schema` are written from it with the same names. A new field is one line in a table. */
 
 enum { SCHEMA_VERSION = 3, SCHEMA_OLDEST = 2, SCHEMA_MOST_FIELDS = 96, FIELD_ROOM = 2048 };
 #define SCHEMA_NAME "beamwork-results"
-/* Unit of a number that is in the unit which the record's own field `unit` names. */
+/* Unit of a number whose unit is given by the field `unit` of the same record. */
 #define OWN_UNIT "unit"
 
-/* Role of a field that identifies the subject of the record. KEY_AROUND: only where nothing around
- * the record identifies it (CSV, lists of JSON). */
+/* Role of a field that identifies the subject of the record. KEY_AROUND: only needed where the
+ * context does not identify it (CSV, lists in JSON). */
 enum { KEY = 1, KEY_AROUND = 2 };
 
 typedef enum field_kind {
@@ -240,21 +244,22 @@ typedef enum field_kind {
     FIELD_KINDS
 } field_kind;
 
-/* A record in its surroundings; what does not apply is NULL (numbers: 0). */
+/* A record with its context; members that do not apply are NULL (numbers: 0). */
 typedef struct subject {
     const sweep *sweep;
     const sweep_point *point;
     const series *series;
-    int mesh;           /* of the series */
-    const void *record; /* what most offsets refer to */
-    int index;          /* among its like: of a quantity, a step, an iteration, a station */
-    int group;          /* step that an iteration belongs to; first point of a curve */
+    int mesh;           /* index in the series */
+    const void *record; /* record to which most offsets refer */
+    int index; /* index among records of the same kind: a quantity, a step, an iteration, a station
+                */
+    int group; /* step of an iteration; first point of a curve */
     const verdict *verdict;
-    const truth *truth, *model_truth; /* that a quantity is compared with */
-    const void *owner;                /* what the record is part of */
+    const truth *truth, *model_truth; /* reference values of a quantity */
+    const void *owner;                /* record that contains this one */
 } subject;
 
-/* Surroundings of a record: offsets may refer to it. */
+/* Parts of the context to which the offset of a field may refer. */
 typedef enum field_base {
     BASE_RECORD,
     BASE_SUBJECT,
@@ -263,73 +268,74 @@ typedef enum field_base {
     BASE_SERIES,
     BASE_FORMULATION, /* element_type */
     BASE_CELL,
-    BASE_QUANTITY, /* scene_quantity that the index counts */
+    BASE_QUANTITY, /* scene_quantity with that index */
     BASE_TRUTH,
     BASE_MODEL_TRUTH
 } field_base;
 
 typedef struct schema_field schema_field;
-/* The member that the kind names is set. */
+/* The kind determines which member is set. */
 typedef struct field_value {
     const schema_field *of;
-    long whole;            /* INT, LONG, FLAG, ENUM */
-    const double *numbers; /* DOUBLE: [count of the field]; NAN: there is none */
-    const char *text;      /* TEXT, ENUM (its word) */
-    double number;         /* room for one number ... */
-    char room[FIELD_ROOM]; /* ... and for a text that is put together */
+    long whole;            /* for INT, LONG, FLAG, ENUM */
+    const double *numbers; /* DOUBLE: [count of the field]; NAN: no value */
+    const char *text;      /* TEXT, or the word of an ENUM */
+    double number;         /* storage for one number ... */
+    char room[FIELD_ROOM]; /* ... and for a composed text */
 } field_value;
 
 typedef void field_getter(const subject *s, field_value *out);
 
 struct schema_field {
-    const char *name, *unit; /* "1": a number without; "": not a number */
+    const char *name, *unit; /* "1": dimensionless number; "": not a number */
     field_kind kind;
     const char *summary;
-    field_base base; /* that the offset refers to; where it is NULL there is no value */
+    field_base base; /* object to which the offset refers; if it is NULL there is no value */
     size_t offset;
-    int address;              /* 1: a TEXT of which the address is there */
-    field_getter *get;        /* derived: instead of what is at the offset */
+    int address;              /* 1: the offset is that of a pointer to the TEXT */
+    field_getter *get;        /* computes a derived value; the offset is then not used */
     const char *(*word)(int); /* ENUM: its words ... */
     int words;                /* ... 0 to words - 1 */
-    int count;                /* DOUBLE: numbers of an array (a square matrix); 0: a single one */
-    int key;                  /* KEY, KEY_AROUND, or 0: it is what was found */
+    int count;                /* DOUBLE: length of an array (a square matrix); 0: a single number */
+    int key;                  /* KEY, KEY_AROUND, or 0: a result */
 };
 
 /* Value of a member of the record. */
 #define AT(type, member) .offset = offsetof(type, member)
-/* In a member of what surrounds it; the same, the address of a text. */
+/* Value of a member of the context; the second macro: a text stored as a pointer. */
 #define OF(place, type, member)      .base = BASE_##place, .offset = offsetof(type, member)
 #define TEXT_OF(place, type, member) OF(place, type, member), .address = 1
 
 /* Tables end with a field without name. */
 enum { RECORD_PARTS = 5 };
 typedef struct record_type {
-    const char *name, *table, *summary;     /* table: in HDF5 and lists of JSON */
-    const schema_field *part[RECORD_PARTS]; /* one after the other; NULL: no more */
+    const char *name, *table, *summary;     /* name of the table in HDF5 and of lists in JSON */
+    const schema_field *part[RECORD_PARTS]; /* field tables, in order; NULL-terminated */
 } record_type;
 
-/* A series of meshes, one mesh of it, what it found and how, its time, what the judge says. */
+/* Records of a series of meshes, one mesh, its results and how they were found, its times, and its
+ * evaluation. */
 extern const record_type record_point, record_series, record_cell, record_quantity, record_curve,
     record_step, record_iteration, record_event, record_motion, record_matrix, record_timing,
     record_verdict, record_agreement, record_coverage, record_import, record_scene,
     record_parameter, record_meaning, record_assumption;
-extern const record_type *const record_types[]; /* all of them; ends with NULL */
+extern const record_type *const record_types[]; /* all of them; NULL-terminated */
 extern const record_type record_omission;       /* of a value, in the CSV of a solution only */
 extern const record_type record_truth;          /* of a quantity, in JSON only */
 extern const record_type record_declaration;    /* of a whole run, in HDF5 only */
 
-/* Pointers to the fields whose key is at most `keys`, in order; their number. */
+/* Pointers to the fields whose key is at most `keys`, in order; returns their number. */
 int schema_fields(const record_type *type, int keys, const schema_field *out[SCHEMA_MOST_FIELDS]);
 void schema_read(const subject *s, const schema_field *which, field_value *out);
 const char *schema_kind_name(field_kind kind);
-/* Helps getters: a text that may be NULL, a number. */
+/* For getters: sets a text that may be NULL, or a number. */
 void schema_set_text(field_value *out, const char *text);
 void schema_set_number(field_value *out, double number);
 
 /* Records as lines of CSV: full precision, empty where there is no value. */
 
-/* A line is made of several records of one subject each; of fields of the same name the first is
- * written. Matrices are omitted. */
+/* A line consists of several records, each with one subject. Of fields with the same name only the
+ * first is written. Matrices are omitted. */
 typedef struct csv_part {
     const record_type *type;
     subject s;
@@ -338,30 +344,32 @@ typedef struct csv_part {
 void csv_record_head(FILE *to, int parts, const csv_part part[]);
 void csv_record_line(FILE *to, int parts, const csv_part part[]);
 
-/* A field, in quotes where it must be. */
+/* Writes a field, in quotes if necessary. */
 void csv_record_text(FILE *to, const char *text);
 
-/* SHA-256 (FIPS 180-4) of bytes that come one after the other. */
+/* SHA-256 (FIPS 180-4) of consecutive bytes. */
 
-enum { DIGEST_TEXT = 65 }; /* 64 hexadecimal digits and the end */
+enum { DIGEST_TEXT = 65 }; /* 64 hexadecimal digits and the terminating zero */
 
 typedef struct digest {
     uint32_t state[8];
-    uint64_t length; /* [bytes] so far */
+    uint64_t length; /* number of bytes so far */
     unsigned char block[64];
 } digest;
 
 digest digest_begin(void);
 void digest_add(digest *, const void *data, size_t size);
-void digest_add_text(digest *, const char *text); /* with its end: "ab", "c" is not "a", "bc" */
-/* Numbers that are equal are the same: -0 as 0, every NaN as one. */
+void digest_add_text(
+    digest *,
+    const char *text); /* includes the terminating zero, so that "ab", "c" differs from "a", "bc" */
+/* Equal numbers give equal digests: -0 as 0, and all NaN alike. */
 void digest_add_number(digest *, double value);
-/* The digits; the digest may be continued. */
+/* Returns the digits; the digest may be continued. */
 void digest_text(const digest *, char out[DIGEST_TEXT]);
-/* All bytes of a file. 0, or -1: it cannot be read. */
+/* Adds all bytes of a file. Returns 0, or -1 when it cannot be read. */
 int digest_add_file(digest *, const char *path);
 
-/* Identity of a record: the first fields of the tables of fields_*.c, and what these share. */
+/* Identity of a record: the first fields of the tables of fields_*.c, and shared helpers. */
 
 extern const schema_field keys_of_point[];     /* case, parameter point */
 extern const schema_field keys_of_series[];    /* its parameters, formulation */
@@ -373,7 +381,7 @@ enum { STATUSES = STATUS_NO_VALUE + 1 };
 const char *fields_keys_word_of_status(int status);
 const char *fields_keys_word_of_moments(int convention);
 
-/* The quantity that s->index counts. */
+/* The quantity with index s->index. */
 const scene_quantity *fields_keys_quantity(const subject *s);
 const cell_result *fields_keys_cell(const subject *s);
 /* Physics that the scene omits, in words. */
@@ -382,7 +390,7 @@ void fields_keys_omitted(const subject *s, field_value *out);
 /* Assumptions on its sections, in words. */
 void fields_keys_assumed(const subject *s, field_value *out);
 
-/* Modes followed over a parameter, for programs. */
+/* Modes followed over a parameter, as CSV and JSON. */
 
 /* A row for each value and mode. */
 void follow_record_csv(FILE *to, const char *parameter, const follow_curves *);
@@ -395,12 +403,12 @@ typedef struct held_record held_record;
 typedef struct subjects {
     int count, room;
     subject *row;
-    held_record *held; /* that are in no result */
+    held_record *held; /* records that are not part of a result */
     int bad;           /* 1: out of memory */
 } subjects;
 
-/* Truths that quantities are compared with: those of the verdicts; where nothing was evaluated the
- * stored ones. Both may be NULL. */
+/* Reference values with which quantities are compared: those of the verdicts, or the stored ones if
+ * nothing was evaluated. Both may be NULL. */
 typedef struct gathering {
     const sweep *sweep;
     const judgement *judged;
@@ -409,10 +417,10 @@ typedef struct gathering {
 
 /* Adds the records of all series of a case. */
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out);
-/* Adds those of one mesh; a kind that a mesh has none of adds nothing. */
+/* Adds the records of one mesh. If the mesh has no records of a kind, nothing is added. */
 void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh,
                  subjects *out);
-/* One of each formulation that was run here, in the order of the series. */
+/* Adds one record for each formulation that was run here, in the order of the series. */
 void gather_declarations(const gathering *g, subjects *out);
 /* Assumptions on its sections. */
 void gather_assumptions(const sweep_point *p, subjects *out);
@@ -421,13 +429,13 @@ subject gather_verdict(const gathering *g, const verdict *v);
 subject gather_agreement(const gathering *g, const agreement *a);
 subject gather_coverage(const gathering *g, const coverage *c, int left_out);
 void gather_add(subjects *list, const subject *one);
-/* A copy of a record that lives as long as the list; NULL: out of memory. */
+/* Copies a record; the copy exists as long as the list. NULL: out of memory. */
 const void *gather_keep(subjects *list, const void *record, size_t size);
 void gather_free(subjects *list);
 
 /* JSON of one solution and of a verification (jansson). */
 
-/* Writes and frees root; FAULT when it is NULL (out of memory) or cannot be written. */
+/* Writes and frees root. FAULT: root is NULL (out of memory), or cannot be written. */
 status json_finish(json_t *root, FILE *to, fault *f);
 
 /* Adds the physics that the scene of a point omits ("omitted"), and the assumptions on its sections
@@ -435,74 +443,75 @@ status json_finish(json_t *root, FILE *to, fault *f);
 void json_add_physics(json_t *root, const sweep_point *p);
 /* Solution of one cell of a one-point sweep; t may be NULL. */
 status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f);
-/* Verdicts as text, while others are still reached. */
+/* Verdicts as text, collected while others are still being computed. */
 typedef struct json_part {
-    int verdicts; /* that it has: the first ones */
+    int verdicts; /* number of verdicts in the text so far */
     char *text;
     size_t size;
     FILE *to; /* NULL: out of memory */
 } json_part;
 
-/* It stays where it is until it is freed. */
+/* The structure must not move until it is freed. */
 void json_part_begin(json_part *);
-/* Adds what has been evaluated since. */
+/* Adds the verdicts since the last call. */
 void json_part_add(json_part *, const sweep *s, const judgement *j);
 void json_part_free(json_part *);
-/* part: what is there already; NULL: nothing. */
+/* part: verdicts already converted; NULL: none. */
 status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e,
                            json_part *part, fault *f);
 
-/* JSON of what meshes show: values, limits, orders. */
+/* JSON of a convergence study: values, limits, orders. */
 
-/* Every quantity of every series over its meshes, with limit, order and verdict; which formulations
- * are within the level (relative error) in every quantity. */
+/* Every quantity of every series over its meshes, with limit, order and verdict; and the
+ * formulations whose error is within the level in every quantity. */
 status json_convergence_write(FILE *to, const sweep *s, const truths *t, double level, fault *f);
 
-/* Records as objects of JSON, field by field. */
+/* Records as JSON objects, field by field. */
 
-/* JSON has no NaN: a value that does not exist is null. */
+/* A value that does not exist is null, since JSON has no NaN. */
 json_t *json_record_numbers(int count, const double value[]);
-/* keys: KEY_AROUND where nothing around the record says where it belongs; 0: all of it is said. */
+/* keys: KEY_AROUND when the context does not identify the record; 0 when it does. */
 json_t *json_record(const record_type *type, const subject *s, int keys);
 void json_record_add(json_t *list, const record_type *type, const subject *s, int keys);
-json_t *json_record_type(const record_type *type); /* what a record consists of */
+json_t *json_record_type(const record_type *type); /* describes the fields of a record */
 
 /* Verdicts for continuous integration: JUnit XML, values and tolerances as properties. */
 
 void junit_write(FILE *to, const sweep *s, const judgement *j);
 
-/* Target of a path: its kind, and whether two paths lead to the same file. */
+/* Target of a path: its kind, and whether two paths refer to the same file. */
 
 typedef enum place_kind {
-    PLACE_FREE,   /* nothing is there, its folder is */
-    PLACE_FILE,   /* a regular file */
+    PLACE_FREE,   /* does not exist, but its folder does */
+    PLACE_FILE,   /* a pipe or a device, or the file to which standard output or error is redirected
+                   */
     PLACE_STREAM, /* a pipe or a device, or the file that standard output or error goes to */
     PLACE_FOLDER
 } place_kind;
 
 typedef struct file_place {
     place_kind kind;
-    int descriptor;      /* 1, 2: it is our own standard output or error; -1 */
-    int shared;          /* 1: several may write there (a character device) */
-    char path[PATH_MAX]; /* links followed; of a stream: as given */
-    dev_t device;        /* of what is there; of a free place: of its folder */
+    int descriptor;      /* 1, 2: standard output or error of this process; -1: none */
+    int shared;          /* 1: a character device, to which several may write */
+    char path[PATH_MAX]; /* with links resolved; for a stream as given */
+    dev_t device;        /* of the file; if free, of its folder */
     ino_t inode;
-    mode_t mode; /* permissions of what is there */
+    mode_t mode; /* permissions of the existing file */
     uid_t owner;
     gid_t group;
 } file_place;
 
-/* REFUSED: an empty path. FAULT: too long, or its folder is not there. */
+/* REFUSED: an empty path. FAULT: the path is too long, or its folder does not exist. */
 status place_find(const char *path, file_place *out, fault *f);
-/* The same file, by device and inode; of free places: the same name in the same folder. */
+/* Are they the same file, by device and inode? Free paths: the same name in the same folder. */
 int place_same(const file_place *a, const file_place *b);
 /* The part of a path after its folder. */
 const char *place_leaf(const char *path);
 
-/* Files that appear complete or not at all: written beside, then renamed onto the place that links
- * lead to. Pipes and devices are written to directly, and take text only. */
+/* Files that appear complete or not at all: written under a temporary name in the same folder, then
+ * renamed to the target of any links. Pipes and devices are written directly, and only as text. */
 
-/* A whole file needs a regular file: it is read at any place, not from its beginning to its end. */
+/* A whole file must be a regular file, because it is accessed at arbitrary positions. */
 typedef enum output_form { OUTPUT_TEXT, OUTPUT_WHOLE_FILE } output_form;
 
 typedef struct output {
@@ -513,91 +522,96 @@ typedef struct output {
 
 /* 1: its name says that it is HDF5. */
 int output_is_hdf5(const char *path);
-/* Text; path NULL: onto standard output. */
+/* Opens a text file; path NULL: standard output. */
 status output_open(const char *path, output *out, fault *f);
 status output_open_whole(const char *path, output *out, fault *f);
-/* Flushes and renames; every error is found here. On failure nothing is left. */
+/* Flushes and renames; reports every error of writing. After a failure no file remains. */
 status output_close(output *out, fault *f);
-/* Closes what was written and discards what was not. */
+/* Closes the output if it was written; otherwise discards it. */
 status output_finish(output *out, status written, fault *f);
-/* Standard output has gone where it goes, or FAULT. */
+/* FAULT: standard output could not be written. */
 status output_flush(fault *f);
-/* Checks an output before anything is computed: REFUSED an invalid name or one that cannot take the
- * form, FAULT a file that cannot be written. *where: its location, for comparison with others. */
+/* Checks an output before any computation. REFUSED: an invalid name, or a target that cannot take
+ * this form. FAULT: it cannot be written. *where: its location, for comparison with others. */
 status output_try(const char *path, output_form form, file_place *where, fault *f);
-/* Deletes the files and folders of this process that were written beside their places and are not
- * complete; a signal handler may call it. */
+/* Deletes incomplete temporary files and folders of this process; may be called by a signal
+ * handler. */
 void output_abandon(void);
-/* Calls `make` with an unpredictable name next to `path` and returns its result (-1 and errno: it
+/* Calls `make` with an unpredictable name next to `path` and returns its result (-1 with errno:
  * failed). The file counts as incomplete until output_forget. */
 int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX]);
 void output_forget(const char *temporary);
-/* A file, or a folder with all that is in it. */
+/* Removes a file, or a folder with its contents. */
 void output_remove(const char *temporary);
-/* "results.partial.h5" of "results.h5": of a run that was interrupted. A stream keeps its name. */
+/* Name of the partial result of an interrupted run: "results.partial.h5" for "results.h5". A stream
+ * keeps its name. */
 status output_partial(const char *path, char partial[PATH_MAX], fault *f);
 
-/* Writing an HDF5 file that appears complete or not at all: it is made in memory and then written
- * beside, or made beside, and renamed. Every call is checked; after the first failure nothing more
- * is tried and record_close says so. */
+/* Writes an HDF5 file that appears complete or not at all: it is built in memory or under a
+ * temporary name, then renamed. Every call is checked. After the first failure no further call has
+ * an effect, and record_close reports it. */
 
 typedef struct record_file {
     hid_t file, scalar; /* scalar: the shape of an attribute */
     int bad;
-    output to; /* of one that is made on disk; stream NULL: in memory */
+    output to; /* of a file built on disk; stream NULL: in memory */
 } record_file;
 
 status record_open(record_file *r, fault *f);
-/* On disk, for what is larger than memory. REFUSED, FAULT: nothing can be written there. */
+/* Builds the file on disk, for data larger than memory. REFUSED, FAULT: it cannot be written there.
+ */
 status record_open_beside(record_file *r, const char *path, fault *f);
-/* Writes what was recorded to `path` (NULL: nothing; on disk: that of its opening) and frees it. */
+/* Writes the file to `path` (NULL: nothing; on disk: the path given at opening) and frees its
+ * memory. */
 status record_close(record_file *r, const char *path, fault *f);
-/* Frees what was recorded; the outcome that led to it. */
+/* Frees the memory without writing; returns the given outcome. */
 status record_drop(record_file *r, status outcome);
 
-/* Group of this name, made where it does not exist; the caller closes it with H5Gclose. */
+/* Opens a group of this name, or creates it; the caller closes it with H5Gclose. */
 hid_t record_group(record_file *r, hid_t at, const char *name);
 /* Attributes. */
 void record_text(record_file *r, hid_t at, const char *name, const char *text);
-/* An attribute text[count]. */
+/* Writes an attribute text[count]. */
 void record_text_list(record_file *r, hid_t at, const char *name, int count,
                       const char *const text[]);
 void record_count(record_file *r, hid_t at, const char *name, long value);
 void record_number(record_file *r, hid_t at, const char *name, double value);
-/* Two whole numbers; a text in ASCII of exactly its length (what VTK expects). */
+/* Write two integers, or an ASCII text of exactly its length (as VTK requires). */
 void record_version(record_file *r, hid_t at, const char *name, const int version[2]);
 void record_ascii(record_file *r, hid_t at, const char *name, const char *text);
-/* New data set of any type, compressed where it is large; the caller closes it with H5Dclose. */
+/* Creates a data set of any type, compressed if large; the caller closes it with H5Dclose. */
 hid_t record_array(record_file *r, hid_t at, const char *name, hid_t type, int rank,
                    const hsize_t size[], const void *value);
-/* New data set of rank 0 to 3 with its unit (NULL: none); the caller closes it with H5Dclose. */
+/* Creates a data set of rank 0 to 3 with its unit (NULL: none); the caller closes it with H5Dclose.
+ */
 hid_t record_values(record_file *r, hid_t at, const char *name, int rank, const hsize_t size[],
                     const double value[], const char *unit);
-/* UTF-8 of a fixed length; the caller closes it with H5Tclose. */
+/* Fixed-length UTF-8 type; the caller closes it with H5Tclose. */
 hid_t record_text_type(size_t length);
-/* New data set row[count] of the given type; the caller closes it with H5Dclose. */
+/* Creates a data set row[count] of the given type; the caller closes it with H5Dclose. */
 hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int count,
                    const void *row);
-/* New data set text[count]. */
+/* Creates a data set text[count]. */
 void record_texts(record_file *r, hid_t at, const char *name, int count, const char *const text[]);
 
-/* One file of results for all experiments: each has a group of its own below /experiments, which a
- * later run replaces whole; what verify leaves is the root. Several runs may write one file at a
- * time: each reads again, under a lock, what the others have left. */
+/* One results file for all experiments. Each has its own group below /experiments, which a later
+ * run replaces completely; verify writes to the root. Several runs may write to one file at the
+ * same time: each one merges, under a lock, what others have written. */
 
 #define KEPT_GROUPS "experiments"
 #define KEPT_SWEEP  "sweep"
-/* An attribute of the group of a sweep, or of the root of a file that a sweep had for itself: the
- * group of such a file is made of it when others write there. */
+/* Attribute of the group of a sweep, or of the root of a file written for one sweep only; when
+ * another experiment is added to such a file, its root becomes the group. */
 #define KEPT_SWEEP_MARK "beamwork_sweep"
 
-/* Group of an experiment's output; name NULL: the root. The caller closes it with H5Gclose. */
+/* Group for the output of an experiment; name NULL: the root. The caller closes it with H5Gclose.
+ */
 hid_t kept_group(record_file *r, const char *name);
-/* As record_close, with all that the file at `path` holds of other experiments than `name`. On
- * FAULT the file is as it was. */
+/* As record_close, keeping everything that the file at `path` contains of experiments other than
+ * `name`. After FAULT the file is unchanged. */
 status kept_close(record_file *r, const char *name, const char *path, fault *f);
-/* Before the work. REFUSED: HDF5 is there that is damaged, or not of results, and would be lost, or
- * another program does not let go of it; FAULT: it cannot be locked. */
+/* Call before the computation. REFUSED: the existing HDF5 file is damaged or contains no results
+ * and would be lost, or another program has locked it; FAULT: it cannot be locked. */
 status kept_check(const char *path, fault *f);
 
 /* Summary of a verification as Markdown, for the description of a pull request. */
@@ -605,94 +619,95 @@ status kept_check(const char *path, fault *f);
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
                     const environment *e);
 
-/* A folder that appears complete or not at all: its files are written into one beside it, which is
- * then renamed.  Nothing that is there is replaced. */
+/* A folder that appears complete or not at all: its files are written to a temporary folder next to
+ * it, which is then renamed. Existing files are never replaced. */
 
 typedef struct output_folder {
     file_place to;
     char temporary[PATH_MAX];
 } output_folder;
 
-/* Can it be made, at *where? REFUSED: something is there, other than an empty folder. FAULT: it
- * cannot be written. */
+/* Can the folder be created? Sets *where. REFUSED: the path exists and is not an empty folder.
+ * FAULT: it cannot be written. */
 status output_folder_try(const char *path, file_place *where, fault *f);
 status output_folder_open(const char *path, output_folder *out, fault *f);
-/* A folder inside it. */
+/* Creates a folder inside it. */
 status output_folder_below(const output_folder *, const char *name, fault *f);
-/* A file inside it, "K.mtx" or "state/K.mtx", is what `write` writes of `what`. */
+/* Creates a file inside it, "K.mtx" or "state/K.mtx", with the output of `write` for `what`. */
 status output_folder_file(const output_folder *, const char *name,
                           void (*write)(FILE *, const void *what), const void *what, fault *f);
-/* Renames it where all was written, and else takes away what there is. */
+/* Renames the folder if everything was written; otherwise removes it. */
 status output_folder_finish(output_folder *, status written, fault *f);
 
-/* Result of a table of convergence: which formulation, with how many elements. */
+/* Conclusion of a convergence table: which formulation, with how many elements. */
 
 #define REACH_LINE_LEVEL 0.01 /* where none is requested */
 
 /* "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2 (0.4 ms): within noise
- * of each other; beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work;
- * after it those that have a defect, those that are not within the level, and how far the ones
- * that pass are from truths of another model. "in 5 of 6 quantities (without a reference:
- * frequency_1)" where some have neither a reference value nor an agreement; curves do not count. Of
- * the first point. One line. */
+ * of each other; beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work.
+ * Then follow the formulations with a defect, those not within the level, and the difference of
+ * passing ones from reference values of another model. "in 5 of 6 quantities (without a reference:
+ * frequency_1)" is added if some have neither a reference value nor an agreement; curves do not
+ * count. Refers to the first point. One line. */
 void reach_line_write(FILE *to, const sweep *s, const truths *t, double level);
 
 /* Records as rows of a typed, compressed table; units and summaries of the columns are its
  * attributes. */
 
-/* New table `name` below `at`; texts have the length of the longest in their column. */
+/* Creates table `name` below `at`; text columns have the length of their longest text. */
 void record_rows(record_file *r, hid_t at, const char *name, int fields,
                  const schema_field *const list[], int count, const subject row[]);
 /* The table of a kind of record, with its keys. */
 void record_rows_of_type(record_file *r, hid_t at, const record_type *type, int count,
                          const subject row[]);
-/* The same where nothing around it says what the records belong to. */
+/* As record_rows_of_type, where the context does not identify the records. */
 void record_rows_alone(record_file *r, hid_t at, const record_type *type, int count,
                        const subject row[]);
-/* A record as attributes. */
+/* Writes a record as attributes. */
 void record_fields(record_file *r, hid_t at, const record_type *type, const subject *s);
 
-/* One number for all that a stored run says: two runs that differ in nothing but times, machines
- * and versions have the same. */
+/* One hash for the content of a stored run: two runs that differ only in times, machines and
+ * versions have the same hash. */
 
 typedef struct results_hash {
     char text[DIGEST_TEXT]; /* SHA-256 */
-    long values;            /* numbers and texts that it is of */
+    long values;            /* number of hashed numbers and texts */
 } results_hash;
 
-/* Every dataset in the order of names, by rows: results.h5, and any other file of beamwork.
- * Omitted: tables `timings`, datasets named `seconds...`, attributes. FAULT: not a file of
- * beamwork. */
+/* Hashes every data set in the order of names, row by row; for results.h5 and any other file of
+ * beamwork. Omits tables `timings`, data sets named `seconds...`, and attributes. FAULT: not a file
+ * of beamwork. */
 status results_hash_of(const char *path, results_hash *out, fault *f);
 
-/* results.h5: everything a sweep found, for the reports. Below /cases/CASE a table for each kind of
- * record (record_type), the points of curves and the shapes in arrays beside; `beamwork schema`
- * describes them. */
+/* results.h5: all results of a sweep, for the reports. Below /cases/CASE there is a table for each
+ * kind of record (record_type), with arrays for the points of curves and the shapes; `beamwork
+ * schema` describes them. */
 
-/* A file that is filled case by case, while others are still run. */
+/* A file that is filled case by case during the run. */
 typedef struct store {
     record_file file;
     hid_t root, cases;
-    const char *experiment; /* whose group is filled; NULL: the root */
+    const char *experiment; /* experiment whose group is written; NULL: the root */
     const sweep *sweep;
     const judgement *judged;
 } store;
 
-/* All live as long as the file is open. */
+/* The arguments must exist as long as the file is open. */
 status store_open(const char *experiment, const sweep *s, const judgement *j, store *out, fault *f);
-/* A case, all of whose series have been evaluated. */
+/* Adds a case, all of whose series have been evaluated. */
 void store_case(store *, const case_type *);
-/* Adds the cases that are not there yet, and the description of the run. Written next to the file
- * and renamed: FAULT leaves no file behind. path NULL: nothing is written. */
+/* Adds the remaining cases and the description of the run. Written under a temporary name and
+ * renamed: FAULT leaves no file. path NULL: nothing is written. */
 status store_close(store *, const char *path, const environment *e, fault *f);
 
-/* Written beside and renamed: FAULT leaves no file behind. */
+/* Written under a temporary name and renamed: FAULT leaves no file. */
 status store_write(const char *path, const char *experiment, const sweep *s, const judgement *j,
                    const environment *e, fault *f);
-/* The first cell of a sweep in the same way, without verdicts, and its shapes for VTK too. */
+/* Writes the first cell of a sweep in the same way, without verdicts, and with its shapes also for
+ * VTK. */
 status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f);
 
-/* The attributes by which a group says of which program, commit and time it is. */
+/* Attributes of a group with program, commit and time. */
 void store_environment(record_file *r, hid_t at, const environment *e);
 
 /* A folder with the matrices of small motions about the states of a solution:
@@ -704,24 +719,24 @@ void store_environment(record_file *r, hid_t at, const environment *e);
 status system_folder_write(const char *path, const char *title, const scene *,
                            const system_matrices *, fault *);
 
-/* Reading columns of a table of HDF5 into rows of the caller. Everything in the file is checked. */
+/* Reads columns of an HDF5 table into rows of the caller. All contents of the file are checked. */
 
-/* Into a member of the row: INT, LONG, DOUBLE, FLAG (a signed char), or a text of at most room - 1
- * bytes (an ENUM is stored as its word). */
+/* Reads into a member of the row: INT, LONG, DOUBLE, FLAG (a signed char), or a text of at most
+ * room - 1 bytes (an ENUM is stored as its word). */
 typedef struct table_column {
     const char *name;
     field_kind kind;
-    size_t offset, room; /* room: of a text */
+    size_t offset, room; /* room: size of a text */
 } table_column;
 
-/* Rows of `size` bytes, which the caller frees; their number. -1: the table, a column of that kind,
- * or memory is missing. */
+/* Returns the number of rows of `size` bytes, which the caller frees. -1: the table or a column of
+ * that kind is missing, or memory is. */
 int table_reader_rows(hid_t at, const char *name, int columns, const table_column column[],
                       size_t size, void **rows);
 
-/* Text attribute of fixed length; 0: it is not there, too long or of another type. */
+/* Text attribute of fixed length; returns 0 if it is missing, too long or of another type. */
 int table_reader_attribute_text(hid_t at, const char *name, char *text, size_t size);
-/* Whole number of a scalar attribute; 0: it is not there or of another type. */
+/* Integer from a scalar attribute; returns 0 if it is missing or of another type. */
 int table_reader_attribute_count(hid_t at, const char *name, long *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* The inside of records/. */
+/* Internal declarations of records/. */
 #ifndef BEAMWORK_RECORDS_IMPL_H
 #define BEAMWORK_RECORDS_IMPL_H
 
@@ -10,7 +10,7 @@
 #include "harness/newton/newton.h"
 #include "harness/records/records.h"
 
-/* How a difference becomes a line. */
+/* Writes differences as lines. */
 
 /* Destination of the lines, their counts, and their subject. */
 typedef struct listing {
@@ -19,24 +19,25 @@ typedef struct listing {
     comparison *out;
     const stored_results *before, *after;
     const char *name;
-    int elements; /* 0: of no single mesh */
+    int elements; /* 0: not of a single mesh */
 } listing;
 
 /* Counts a line and writes its beginning: kind, name, mesh. */
 void comparison_lines_heading(const listing *l, comparison_kind kind);
-/* A line where something is in one of the two only. */
+/* Writes a line for something that exists in one run only. */
 void comparison_lines_lone(const listing *l, comparison_kind kind);
 void comparison_lines_status(const listing *l, const char *before, const char *after);
-/* Sums of `meshes` meshes: what one of them may change by is noticed, whatever their number. */
+/* Compares sums over `meshes` meshes; the threshold is that of one mesh, whatever their number. */
 void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
                            const long after[RESULTS_WORKS], int meshes);
 
-/* Line of counted work, where both are known. */
+/* Writes the difference of counted work if both are known. */
 void comparison_lines_cost(const listing *l, double before, double after);
 
 void comparison_cells(const listing *l, const result_cell *a, const result_cell *b);
 void comparison_series(const listing *l, const result_series *a, const result_series *b);
-/* All of two sweeps: a line too for each point, formulation and mesh that one of them has not. */
+/* Compares two sweeps, with a line also for each point, formulation and mesh that exists in one of
+ * them only. */
 void comparison_sweeps(const listing *l, const char *select);
 
 /* Matrices as text that other programs read: Matrix Market, coordinate format (R. F. Boisvert,
@@ -49,52 +50,52 @@ void matrix_market_write(FILE *to, const triplets *, const char *comment);
 
 typedef struct outline {
     int walls;
-    /* 1: of a section given by its constants only: the rectangle of the same A and Iy : Iz; by its
-     * matrices: of the same radii of inertia */
+    /* 1: equivalent rectangle, for a section given by constants (same A and Iy : Iz) or by matrices
+     * (same radii of inertia) */
     int equivalent;
-    /* (y, z) [m]: two at one end of the wall's mid-line, two at the other, going round */
+    /* (y, z) [m]: two corners at one end of the wall's mid-line, then two at the other, in order
+     * around it */
     double corner[SECTION_MAX_WALLS][4][2];
 } outline;
 
-/* c: what the spec comes to. */
+/* c: the constants of the section. */
 void outline_of(const section_spec *spec, const section *c, outline *out);
-/* Outline of the far end of a member whose section changes along it, wall by wall and corner by
- * corner as that of its near end, `near`; between them corners are on straight lines. */
+/* Outline at the far end of a tapered member, with the same walls and corners as that of its near
+ * end, `near`; corners are joined by straight lines. */
 void outline_of_far_end(const section_spec *spec, const section *c, const section *near,
                         outline *out);
 void outline_between(const outline *near, const outline *far, double x, outline *out);
 
 /* One case of a stored run. */
 
-/* Adds its cells. at: the group of the case, whose name is given. */
+/* Adds the cells of a case. at: its group; the name of the case is given. */
 status results_case_read(const char *path, hid_t at, const char *name, stored_results *out,
                          fault *f);
-/* Reports which part of a file is damaged. */
+/* FAULT: names the damaged part of a file. */
 status results_case_damaged(const char *path, const char *where, const char *what, fault *f);
 
-/* A sweep, read back. */
+/* Reads a stored sweep. */
 
-/* Adds a cell for each point, formulation and mesh, named by the values of all parameters that the
- * file knows, in the order of their names; and one of no mesh, for the references of each point. */
+/* Adds a cell for each point, formulation and mesh, named by the values of all parameters in the
+ * file, in the order of their names; and one without a mesh for the references of each point. */
 status results_sweep_read(const char *path, hid_t at, stored_results *out, fault *f);
 
-/* The short table of a run: a row for each series, small enough to be committed and read in a
- * diff. */
+/* Short table of a run: a row for each series, small enough to be committed and read in a diff. */
 
-/* Columns, as harness/README.md explains them. */
+/* Columns; harness/README.md explains them. */
 extern const char results_table_head[];
 
-/* Digits of what is written, which is as near as two runs can be compared. */
+/* Number of digits written; two runs cannot be compared more accurately. */
 enum { RESULTS_ERROR_DIGITS = 6, RESULTS_LIMIT_DIGITS = 10, RESULTS_DECADES_DECIMALS = 6 };
 
 /* Centre lines and sections of the states of a path. */
 
-/* Group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */
+/* Writes a group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */
 hid_t store_shapes(record_file *r, hid_t at, const char *name, const scene *sc, const shapes *s);
 
 /* Centre lines and walls for ParaView and VTK: the group /VTKHDF of an HDF5 file (VTKHDF file
- * format, type UnstructuredGrid). One state: version 1.0; several: version 2.0, the states as time
- * steps. */
+ * format, type UnstructuredGrid). One state: version 1.0; several states as time steps:
+ * version 2.0. */
 
 void vtkhdf_write(record_file *r, const scene *sc, const shapes *s);
 

@@ -8,8 +8,8 @@
 const char *const results_work_names[RESULTS_WORKS] = {"iterations", "evaluations",
                                                        "factorisations"};
 
-/* A zeroed item at the end of *list (the address of its pointer), which grows by `step` items;
- * NULL: out of memory. */
+/* Appends a zeroed item to *list (the address of its pointer), which grows by `step` items; NULL:
+ * out of memory. */
 static void *add(void *list, int *count, int step, size_t size)
 {
     char *all;
@@ -67,7 +67,7 @@ void results_free(stored_results *r)
     memset(r, 0, sizeof *r);
 }
 
-/* The cells of a stored run in one line for each series. */
+/* Summarises the cells of a stored run by series. */
 
 /* Adds the errors of a mesh to those of its series. */
 static void take_errors(result_series *s, const result_cell *cell)
@@ -106,7 +106,7 @@ static int take_limits(result_series *s, const result_cell *cell)
     return 1;
 }
 
-/* 0: out of memory. */
+/* Returns 0 when out of memory. */
 static int take_cell(result_series *s, const result_cell *cell)
 {
     result_mesh *mesh = results_add_mesh(s);
@@ -139,7 +139,7 @@ const char results_table_head[] =
     "series,meshes,iterations,evaluations,factorisations,errors,decades,least,least_elements,"
     "least_quantity,largest,largest_elements,largest_quantity,limits";
 
-/* "1:singular 2 4 8": the status where it is not ok. */
+/* Writes "1:singular 2 4 8": the status is given if it is not ok. */
 static void write_meshes(FILE *to, const result_series *s)
 {
     for (int i = 0; i < s->meshes; i++) {
@@ -183,8 +183,8 @@ void results_table_write(FILE *to, const stored_results *r)
     }
 }
 
-/* Reading the short table of a run. Everything is checked: a file may be foreign, cut short or
- * damaged. */
+/* Reads the short table of a run. Everything is checked, because a file may be foreign, truncated
+ * or damaged. */
 
 enum {
     SERIES,
@@ -201,8 +201,8 @@ enum { LONGEST_NAME = 1200, LONGEST_LINE = 16384, MOST_ERRORS = 100000000 };
 static const long most_work = 1000000000000000000L;
 static const double most_number = 1e300;
 
-/* Splits a line into its fields, of which the first may be quoted; 0: there are not FIELDS of
- * them. */
+/* Splits a line into fields, the first of which may be quoted. Returns 0 if their number is not
+ * FIELDS. */
 static int split(char *line, char *field[FIELDS])
 {
     char *at = line;
@@ -251,7 +251,7 @@ static int word(const char *text, char *out, size_t size)
     return 1;
 }
 
-/* "4" or "4:singular", in ascending order. */
+/* Reads "4" or "4:singular"; meshes must be in ascending order. */
 static int take_mesh(char *text, result_series *s)
 {
     long elements = 0;
@@ -287,7 +287,7 @@ static int take_words(char *list, result_series *s, int take(char *text, result_
     return 1;
 }
 
-/* Size, elements, quantity; all of them or, where no value has an error, none. */
+/* Reads size, elements and quantity; all of them, or none if no value has an error. */
 static int take_error(char *field[], int errors, result_error *e)
 {
     long elements = 0;
@@ -318,7 +318,7 @@ static int take(char *field[FIELDS], result_series *s)
     return s->name != NULL && s->meshes > 0;
 }
 
-/* A line with its end, which is taken off. */
+/* Reads a line and removes its line end. */
 static int take_line(char *line)
 {
     const size_t length = strcspn(line, "\n");

@@ -1,4 +1,4 @@
-/* Stored runs, distinguished by their first bytes. */
+/* Reads stored runs; the first bytes determine the format. */
 #include "harness/records/records_impl.h"
 
 #include <errno.h>
@@ -88,7 +88,7 @@ status results_read(const char *path, stored_results *out, fault *f)
                      path);
 }
 
-/* The tables of one case of results.h5 as cells. All of their contents are checked. */
+/* Reads the tables of one case of results.h5 as cells. All contents are checked. */
 
 enum { NAME = 200 };
 
@@ -120,7 +120,7 @@ typedef struct limit_row {
     double limit;
 } limit_row;
 
-/* A text whose column has the member's name. */
+/* A text column with the name of the member. */
 #define TEXT(row, member) #member, FIELD_TEXT, offsetof(row, member), sizeof((row *)0)->member
 static const table_column point_columns[] = {{TEXT(case_point_row, point)},
                                              {TEXT(case_point_row, parameters)}};
@@ -150,7 +150,7 @@ static const table_column limit_columns[] = {
     {"limit", FIELD_DOUBLE, offsetof(limit_row, limit), 0}};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
-/* The tables of one case. limits: -1: nothing was evaluated. */
+/* Tables of one case. limits: -1: nothing was evaluated. */
 typedef struct case_tables {
     int points, cells, values, limits;
     case_point_row *point;
@@ -167,7 +167,7 @@ static void free_tables(case_tables *t)
     free(t->limit);
 }
 
-/* NULL, or the name of the table that is damaged. */
+/* Returns NULL, or the name of the damaged table. */
 static const char *read_tables(hid_t at, case_tables *t)
 {
     void *rows;
@@ -193,7 +193,7 @@ static const char *read_tables(hid_t at, case_tables *t)
     return t->limits < 0 ? "verdicts" : NULL;
 }
 
-/* The parameters of a point in words, or NULL: there is no such point. */
+/* Text of the parameters of a point; NULL: no such point. */
 static const char *parameters_of(const case_tables *t, const char *name)
 {
     for (int i = 0; i < t->points; i++)
@@ -209,7 +209,8 @@ static int is_of(const cell_row *cell, const case_value_row *value)
            strcmp(cell->point, value->point) == 0;
 }
 
-/* Values stand in the order of their cells: those of this one, from *next on. 0: out of memory. */
+/* Takes the values of one cell, from *next on; values are in the order of their cells. Returns 0
+ * when out of memory. */
 static int take_values(const case_tables *t, const cell_row *row, int *next, result_cell *cell)
 {
     int count = 0;
@@ -230,7 +231,7 @@ static int take_values(const case_tables *t, const cell_row *row, int *next, res
     return cell->value != NULL;
 }
 
-/* Counts of work that a run can have, so small that their sums stay in range. */
+/* Are the counts of work plausible, and small enough for their sums? */
 static int are_counts(const cell_row *row)
 {
     static const long most = 1L << 50;
@@ -263,7 +264,7 @@ static status take_cell(const char *path, const char *of, const case_tables *t, 
     return STATUS_OK;
 }
 
-/* The row of the finest mesh of what a limit belongs to; -1: there is none. */
+/* Row of the finest mesh of the series of a limit; -1: none. */
 static int finest_cell(const case_tables *t, const limit_row *limit)
 {
     int finest = -1;
@@ -285,7 +286,7 @@ static int set_limit(result_cell *cell, const limit_row *limit)
     return 0;
 }
 
-/* Limits at the default point, to the finest of the cells, which are those of the tables in their
+/* Adds the limits at the default point to the finest cells; cells and table rows are in the same
  * order. */
 static status take_limits(const char *path, const char *of, const case_tables *t,
                           result_cell cell[], fault *f)
@@ -329,7 +330,7 @@ status results_case_read(const char *path, hid_t at, const char *name, stored_re
     return outcome;
 }
 
-/* Reading results.h5 back. Everything is checked: a file may be foreign, cut short or damaged. */
+/* Reads results.h5. Everything is checked, because a file may be foreign, truncated or damaged. */
 
 enum { HDF5_NAME = 200 };
 
@@ -370,7 +371,7 @@ static status hdf5_read_tables(const char *path, hid_t at, stored_results *out, 
     return outcome;
 }
 
-/* A text attribute as a copy, NULL where it is not there; 0: out of memory. */
+/* Copies a text attribute; NULL if it is missing. Returns 0 when out of memory. */
 static int read_text(hid_t file, const char *name, char **out)
 {
     enum { MOST = 1 << 16 };
@@ -388,7 +389,7 @@ typedef struct declared_row {
     signed char is_new;
 } declared_row;
 
-/* Keys of formulations that do not affect the exit status; files that declare none have none. */
+/* Reads the keys of formulations that do not affect the exit status; a file may declare none. */
 static status read_fresh(const char *path, hid_t file, results_part *out, fault *f)
 {
     static const table_column columns[] = {
@@ -442,8 +443,8 @@ static status check_version(const char *path, hid_t file, fault *f)
                      path, version, SCHEMA_OLDEST, SCHEMA_VERSION);
 }
 
-/* Where an experiment of that name has left what is there; -1. The root is that of verify, or of a
- * sweep that had the file for itself. */
+/* Opens the group of an experiment; -1: none. The root belongs to verify, or to a sweep in its own
+ * file. */
 static hid_t open_group(hid_t file, const char *name)
 {
     const int is_sweep = strcmp(name, KEPT_SWEEP) == 0, is_own = strcmp(name, "verify") == 0;

@@ -1,4 +1,4 @@
-/* A sweep as cells, each named by its point. All of its contents are checked. */
+/* Reads a sweep as cells, each named by its point. All contents are checked. */
 #include "harness/records/records_impl.h"
 
 #include <math.h>
@@ -10,8 +10,8 @@
 enum {
     VERSION = 1,
     NAME = 200,
-    WORDS = 1 << 14, /* of an attribute */
-    DIGITS = 12,     /* of a value of an axis: ranges of other ends meet at the same points */
+    WORDS = 1 << 14, /* length of an attribute */
+    DIGITS = 12,     /* digits of a value of an axis: different ranges share their common points */
     MOST_LISTED = 4096,
     RANKS = 4
 };
@@ -21,7 +21,7 @@ typedef struct name_row {
     char name[NAME];
 } name_row;
 
-/* Arrays by point. */
+/* Arrays indexed by point. */
 typedef enum sweep_column {
     POINT,
     REFERENCE,
@@ -35,11 +35,11 @@ typedef enum sweep_column {
 
 typedef struct sweep_file {
     const char *path;
-    hid_t at; /* its group, or its file */
+    hid_t at; /* group of the sweep, or its file */
     char name[NAME], fixed[PARAMETERS_TEXT], status[WORDS];
     int points, axes, quantities, formulations, meshes;
     name_row *axis, *quantity, *formulation;
-    char (*word)[WORDS]; /* [axes] of an axis of words a line each */
+    char (*word)[WORDS]; /* [axes] for an axis of words, one per line */
     int *mesh;
     void *column[COLUMNS];
 } sweep_file;
@@ -72,8 +72,8 @@ static hid_t open_set(const sweep_file *s, const char *name)
     return H5Lexists(s->at, name, H5P_DEFAULT) > 0 ? H5Dopen2(s->at, name, H5P_DEFAULT) : -1;
 }
 
-/* All of an array of that shape, where an extent of 0 stands for the one that it has, at most
- * `most`; NULL. */
+/* Reads an array of that shape completely; an extent of 0 accepts the actual one up to `most`.
+ * NULL: it is missing or of another shape. */
 static void *read_array(const sweep_file *s, const char *name, hid_t type, int ranks,
                         hsize_t size[RANKS])
 {
@@ -96,7 +96,7 @@ static void *read_array(const sweep_file *s, const char *name, hid_t type, int r
     return out;
 }
 
-/* One text column of a table; its rows, 0: it is not there. */
+/* Reads one text column of a table; returns the number of rows, 0 if it is missing. */
 static int read_names(const sweep_file *s, const char *table, const char *column, name_row **out)
 {
     const table_column columns[] = {{column, FIELD_TEXT, 0, sizeof(name_row)}};
@@ -106,7 +106,7 @@ static int read_names(const sweep_file *s, const char *table, const char *column
     return count > 0 && count <= MOST_LISTED ? count : 0;
 }
 
-/* A text attribute of an array; empty: there is none. */
+/* Reads a text attribute of an array; empty if it is missing. */
 static void read_words(const sweep_file *s, const char *array, const char *name, char out[WORDS])
 {
     const hid_t set = open_set(s, array);
@@ -116,7 +116,7 @@ static void read_words(const sweep_file *s, const char *array, const char *name,
     handles_close(1, &set);
 }
 
-/* NULL, or what is damaged. */
+/* Returns NULL, or the name of the damaged part. */
 static const char *read_lists(sweep_file *s)
 {
     hsize_t meshes[RANKS] = {0};
@@ -147,7 +147,7 @@ static const char *read_columns(sweep_file *s)
         const char *name;
         hid_t type;
         int ranks;
-        hsize_t size[RANKS]; /* but for the points */
+        hsize_t size[RANKS]; /* dimensions after the points */
     } column[COLUMNS] = {{"points", H5T_NATIVE_DOUBLE, 2, {0, a}},
                          {"reference", H5T_NATIVE_DOUBLE, 2, {0, q}},
                          {"value", H5T_NATIVE_DOUBLE, 4, {0, f, m, q}},
@@ -185,7 +185,7 @@ static const char *read_request(sweep_file *s, stored_results *out)
     return out->part.select != NULL ? NULL : "selection";
 }
 
-/* Line `at` of a text, at most size - 1 bytes; empty: there is none. */
+/* Line `at` of a text, at most size - 1 bytes; empty if there is none. */
 static void take_line(const char *lines, double at, char *out, int size)
 {
     const char *line = lines;
@@ -214,7 +214,7 @@ static int compare_words(const void *a, const void *b)
 
 enum { WORD = NAME + ASSIGNMENT_VALUE + 1, MOST_WORDS = 2 * CASE_MAX_PARAMETERS };
 
-/* Words "name=value" of the parameters that do not vary. */
+/* Writes "name=value" for the parameters that do not vary. */
 static int fixed_words(const sweep_file *s, char word[MOST_WORDS][WORD])
 {
     int count = 0;
@@ -230,7 +230,7 @@ static int fixed_words(const sweep_file *s, char word[MOST_WORDS][WORD])
     return count;
 }
 
-/* All parameters that the file knows. */
+/* Text of all parameters that the file contains. */
 static void point_text(const sweep_file *s, int which, char *out, size_t size)
 {
     char word[MOST_WORDS][WORD];
@@ -246,7 +246,7 @@ static void point_text(const sweep_file *s, int which, char *out, size_t size)
         used += (size_t)snprintf(out + used, size - used, "%s%s", i > 0 ? ";" : "", word[i]);
 }
 
-/* A cell named case/parameters/`of`, with room for its values; NULL: out of memory. */
+/* Adds a cell named case/parameters/`of`, with room for its values; NULL: out of memory. */
 static result_cell *add_cell(const sweep_file *s, const char *text, const char *of,
                              stored_results *out)
 {
@@ -297,7 +297,8 @@ static int add_mesh(const sweep_file *s, size_t row, int mesh, const char *text,
     return 1;
 }
 
-/* A system that promises memory it does not have ends the program without a word. */
+/* Checks the size first, because some systems promise memory that they do not have and then end the
+ * program. */
 static status check_size(const sweep_file *s, fault *f)
 {
     char what[FAULT_TEXT];
@@ -358,7 +359,7 @@ status results_sweep_read(const char *path, hid_t at, stored_results *out, fault
 enum { MOST_ROWS = 50000000 };
 static const size_t most_bytes = (size_t)1 << 31;
 
-/* In memory, of a stored member of the type; -1: it is of another kind. */
+/* Memory type for a stored member; -1: it is of another kind. */
 static hid_t memory_type(hid_t member, const table_column *c)
 {
     const H5T_class_t class = H5Tget_class(member);
@@ -374,11 +375,12 @@ static hid_t memory_type(hid_t member, const table_column *c)
         return -1;
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, c->room);
-    H5Tset_cset(type, H5Tget_cset(member)); /* the library does not convert from ASCII to UTF-8 */
+    H5Tset_cset(type,
+                H5Tget_cset(member)); /* because the library does not convert ASCII to UTF-8 */
     return type;
 }
 
-/* 0: the stored type has no such column. */
+/* Returns 0 when the stored type has no such column. */
 static int add_column(hid_t type, hid_t stored, const table_column *c)
 {
     const int index = H5Tget_member_index(stored, c->name);

@@ -94,7 +94,7 @@ const char *schema_kind_name(field_kind kind)
     return kind < FIELD_KINDS ? name[kind] : "?";
 }
 
-enum { MOST_LINKS = 40 }; /* as the kernel follows */
+enum { MOST_LINKS = 40 }; /* limit of the kernel */
 
 const char *place_leaf(const char *path)
 {
@@ -108,7 +108,7 @@ static status fail(const char *path, int why, fault *f)
                      strerror(why));
 }
 
-/* Replaces a path by what the link there says, beside it where that is relative. 0: no link. */
+/* Replaces a path by the target of the link there. Returns 0 if it is not a link. */
 static int follow_link(char path[PATH_MAX])
 {
     char text[PATH_MAX], next[2 * PATH_MAX];
@@ -148,7 +148,7 @@ static void set_kind(const struct stat *there, file_place *out)
         out->kind = S_ISREG(there->st_mode) && out->descriptor < 0 ? PLACE_FILE : PLACE_STREAM;
 }
 
-/* Nothing is at out->path: the folder it would be in. */
+/* If out->path does not exist: finds the folder for it. */
 static status find_folder(const char *given, file_place *out, fault *f)
 {
     char folder[PATH_MAX] = ".";
@@ -199,7 +199,7 @@ int place_same(const file_place *a, const file_place *b)
     return !is_free || strcmp(place_leaf(a->path), place_leaf(b->path)) == 0;
 }
 
-/* Request of a stored run. */
+/* Functions for the selection of a stored run. */
 
 enum { NAME = 2048 };
 
@@ -214,7 +214,7 @@ int results_part_has(const char *lines, const char *text)
     return 0;
 }
 
-/* The formulation of case/parameters/formulation. */
+/* Formulation part of case/parameters/formulation. */
 static const char *formulation_of(const char *series_name)
 {
     const char *slash = strrchr(series_name, '/');
@@ -233,7 +233,7 @@ int results_part_selects(const results_part *p, const char *series_name, const c
     return p->select == NULL || select_matches(p->select, text) != 0;
 }
 
-/* Has the run a quantity of the series that this part of one leaves out? */
+/* Does the run have a quantity of the series that this selection omits? */
 static int leaves_out(const results_part *p, const stored_results *known, const char *series_name)
 {
     for (int i = 0; p->select != NULL && i < known->cells; i++)
@@ -258,8 +258,8 @@ int results_part_differ(const stored_results *a, const stored_results *b, const 
            leaves_out(&b->part, a, series_name) || leaves_out(&b->part, b, series_name);
 }
 
-/* Is what a run knows at `name` of the series, or, where the series has no options, of its case?
- * With options only those quantities are evaluated for which these matter: the ones with limits. */
+/* Does `name` belong to the series, or, if the series has no options, to its case? With options
+ * only quantities are evaluated that depend on them, namely those with limits. */
 static int speaks_for(const char *name, const char *series_name)
 {
     return strchr(formulation_of(series_name), ':') != NULL
@@ -267,7 +267,7 @@ static int speaks_for(const char *name, const char *series_name)
                : strncmp(name, series_name, strcspn(series_name, "/") + 1) == 0;
 }
 
-/* Is any quantity selected that a run knows? */
+/* Does the selection include any quantity that a run knows? */
 static int selects_any(const results_part *p, const stored_results *known, const char *series_name)
 {
     const int judged = strchr(formulation_of(series_name), ':') != NULL;
@@ -287,7 +287,7 @@ static int selects_any(const results_part *p, const stored_results *known, const
     return 0;
 }
 
-/* Has any series of the run that formulation? */
+/* Does any series of the run have that formulation? */
 static int has_formulation(const stored_results *r, const char *key)
 {
     for (int i = 0; i < r->seriess; i++)
@@ -307,7 +307,7 @@ int results_part_wants(const stored_results *r, const stored_results *other,
         return 0;
     if (p->formulations != NULL && !results_part_has(p->formulations, key))
         return 0;
-    /* options that run only on request */
+    /* options are run only on request */
     if (strchr(key, ':') != NULL && results_part_has(other->part.formulations, key) &&
         !has_formulation(r, key))
         return 0;

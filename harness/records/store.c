@@ -23,11 +23,11 @@ static void put_noise(record_file *r, hid_t at)
 {
     char noise[32];
     snprintf(noise, sizeof noise, "%.15g", price_noise);
-    record_text(r, at, "cost_noise", noise); /* ratios of costs below it tie */
+    record_text(r, at, "cost_noise", noise); /* smaller ratios of costs count as ties */
 }
 
-/* A column of its own for each parameter. The record is the point: the offset counts its
- * parameters. */
+/* A separate column for each parameter. The record is the point; the offset is the index of the
+ * parameter. */
 static void get_choice(const subject *s, field_value *out)
 {
     const size_t i = out->of->offset;
@@ -66,7 +66,8 @@ static void put_points(record_file *r, hid_t at, const case_type *type, const su
     record_rows(r, at, record_point.table, count, fields, list->count, list->row);
 }
 
-/* The record of a scene is its text; of a point that was refused, or that no file can say, "". */
+/* The record of a scene is its text; "" for a refused point, or a scene that a file cannot express.
+ */
 static void put_scenes(record_file *r, hid_t at, subjects *list)
 {
     char **text = calloc((size_t)list->count + 1, sizeof *text);
@@ -85,7 +86,8 @@ static void put_scenes(record_file *r, hid_t at, subjects *list)
     free(text);
 }
 
-/* The points of all curves, one after the other: records of curves say where each begins. */
+/* Points of all curves in one array; the records of curves contain the index of their first point.
+ */
 static void put_curves(record_file *r, hid_t at, const subjects *list)
 {
     size_t points = 0;
@@ -105,7 +107,7 @@ static void put_curves(record_file *r, hid_t at, const subjects *list)
     free(value);
 }
 
-/* One picture of a point is enough: that of the first formulation with a solution. */
+/* Stores one picture per point, of the first formulation with a solution. */
 static void put_pictures(record_file *r, hid_t at, const subjects *cells)
 {
     hid_t all = -1;
@@ -159,7 +161,7 @@ static void put_case(record_file *r, hid_t cases, const gathering *g, const case
     H5Gclose(here);
 }
 
-/* Attribute of names, a line each. at(s, i): name i, NULL after the last. */
+/* Attribute with names, one per line. at(s, i): name i, NULL after the last. */
 static void put_names(record_file *r, hid_t group, const char *attribute, const sweep *s,
                       const char *(*at)(const sweep *s, int i))
 {
@@ -188,7 +190,7 @@ static const char *given_at(const sweep *s, int i)
     return i < s->givens ? s->given[i].key : NULL;
 }
 
-/* The selection of a run: series outside it were not requested; they are not missing. */
+/* Stores the selection of a run: series outside it were not requested and are not missing. */
 static void put_selection(record_file *r, hid_t at, const sweep *s)
 {
     if (s->cases == NULL)
@@ -224,7 +226,7 @@ void store_case(store *to, const case_type *of)
     put_case(&to->file, to->cases, &g, of);
 }
 
-/* How the run ended, as its last line says it. */
+/* Stores how the run ended, in the words of its last line. */
 static void put_outcome(record_file *r, hid_t at, const sweep *s, const judgement *j)
 {
     char sentence[SENTENCE_OF_RUN];
@@ -233,7 +235,7 @@ static void put_outcome(record_file *r, hid_t at, const sweep *s, const judgemen
     record_text(r, at, "sentence", sentence);
 }
 
-/* All cases that are not there yet, and what is said of the run. */
+/* Adds the remaining cases and the description of the run. */
 static void finish(store *to, const environment *e)
 {
     const sweep *s = to->sweep;
@@ -304,7 +306,7 @@ static void put_columns(record_file *r, hid_t at, const char *name, const shapes
     free(table);
 }
 
-/* One number of every state. */
+/* Stores one number for every state. */
 static void put_state_numbers(record_file *r, hid_t at, const shapes *s)
 {
     const hsize_t size = (hsize_t)s->states;
@@ -374,7 +376,7 @@ static void put_sections(record_file *r, hid_t at, const scene *sc)
         char name[16];
         section c;
         if (scene_constants(sc, i, &c, NULL) != STATUS_OK)
-            continue; /* the cell could not have been solved */
+            continue; /* such a cell cannot have been solved */
         outline_of(&sc->section[i], &c, &o);
         const hsize_t size[3] = {(hsize_t)o.walls, 4, 2};
         snprintf(name, sizeof name, "%d", i);

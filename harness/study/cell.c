@@ -42,7 +42,7 @@ static status set_up(const cell_request *request, const scene *s, model **m, cel
     return copy_left_out(*m, out, f);
 }
 
-/* The scene of the request, or one of its own, which stays in the result. */
+/* The scene of the request, or one that is built here and stored in the result. */
 static status scene_of(const cell_request *request, const scene **s, cell_result *out, fault *f)
 {
     *s = request->scene;
@@ -78,7 +78,7 @@ void cell_formulation(cell_request *request, const formulation *chosen)
     request->solve.newton = formulation_newton(chosen);
 }
 
-/* Whatever came of it. */
+/* Marks the result as failed: no quantity has a value. */
 static status nothing_counts(const char *trouble, solve_result *out, fault *f)
 {
     out->status = STATUS_NOT_CONVERGED;
@@ -124,16 +124,16 @@ void cell_result_free(cell_result *r)
 
 const double omission_most = 1e-4;
 const double omission_safety = 2;
-/* [s] of a solution, about: where it would take longer, the change is reported as unknown. */
+/* [s] estimated time of a solution; above it the change is reported as unknown */
 static const double longest = 20;
-/* [s] of a solution, about, that is always made. */
+/* [s] estimated time of a solution that is always made */
 static const double brief = 0.2;
-/* A change beyond that many times omission_most is significant without further checks. */
+/* A change above this multiple of omission_most is significant without further checks. */
 static const double surely = 100;
-/* relative to the largest value in the same unit: smaller values count as zero. */
+/* relative to the largest value in the same unit: smaller values count as zero */
 static const double nothing = 1e-9;
 
-/* Physics of which the constants of a section have none. */
+/* Physics that the section does not have, because the constants are zero. */
 static unsigned absent_in(const section *c)
 {
     const double length = sqrt(c->Ip / c->A), moment = 1e-12 * c->Ip * length;
@@ -151,7 +151,7 @@ static unsigned absent_in(const section *c)
     return absent | (c->Iw <= 0 ? FEATURE_WARPING : 0);
 }
 
-/* Physics of second order that the undeformed state does not show, and inertia at rest. */
+/* Second-order physics that linear analyses do not depend on, and inertia in analyses at rest. */
 static unsigned absent_in_analyses(const scene *s)
 {
     const unsigned higher = FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
@@ -178,8 +178,8 @@ static unsigned absent_in_sections(const scene *s)
     return absent;
 }
 
-/* Are all its sections such that leaving it out of an element is what it says? Those by matrices
- * are taken whole. */
+/* Can the effect of the physics be shown by removing it from an element? Sections given by matrices
+ * cannot be split. */
 static int can_be_shown(const scene *s)
 {
     int can = 1;
@@ -220,7 +220,7 @@ static status solve(const scene *s, const element_type *type, unsigned omit, int
     return cell_run(&request, out, f);
 }
 
-/* Largest value of those in the unit of one of them. */
+/* Largest value among quantities of the same unit. */
 static double size_of_unit(const scene *s, const solve_result *r, int quantity)
 {
     double size = 0;
@@ -236,7 +236,7 @@ static double relative(double apart, double scale)
     return apart > 0 ? apart / scale : isfinite(apart) ? 0 : INFINITY;
 }
 
-/* Over the points of a curve, by the largest of its values. */
+/* Largest difference over the points of a curve, relative to its largest value. */
 static double change_of_curve(const curve *a, const curve *b, double least)
 {
     double apart = 0, size = least;
@@ -246,12 +246,12 @@ static double change_of_curve(const curve *a, const curve *b, double least)
         size = fmax(size, fabs(a->value[i]));
         apart = fmax(apart, fabs(b->value[i] - a->value[i]));
         if (fabs(a->x[i] - b->x[i]) > 1e-9 * fmax(fabs(a->x[i]), fabs(a->x[a->points - 1])))
-            return INFINITY; /* another path: nothing to hold it against */
+            return INFINITY; /* a different path cannot be compared */
     }
     return relative(apart, size);
 }
 
-/* Change of one quantity; INFINITY where one of the two has no value. */
+/* Relative change of one quantity; INFINITY when one of the two has no value. */
 static double change_of(const scene *s, const solve_result *with, const solve_result *without,
                         int quantity)
 {
@@ -265,7 +265,7 @@ static double change_of(const scene *s, const solve_result *with, const solve_re
     return relative(fabs(b->value - a->value), fmax(fabs(a->value), least));
 }
 
-/* Have all asked quantities a value there? */
+/* Do all requested quantities have a value? */
 static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
 {
     if (c->solve.status != STATUS_OK || c->solve.quantities < s->quantities) {
@@ -281,7 +281,7 @@ static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
     return 1;
 }
 
-/* On one mesh; NAN: not all values are there, and why. */
+/* Change on one mesh; NAN: some value is missing, and f gives the reason. */
 static double change_on(const scene *s, const element_type *type, int elements, omission *out)
 {
     cell_result with, without;
@@ -304,15 +304,15 @@ static double change_on(const scene *s, const element_type *type, int elements, 
     return largest;
 }
 
-/* Do two meshes say the same of it? Rounding is all of what is less than noise. */
+/* Do two meshes give the same change? Changes below the noise count as rounding. */
 static int agree(double coarse, double fine)
 {
     const double noise = 1e-9, apart = 2;
     return fmax(coarse, fine) <= noise || (coarse <= apart * fine && fine <= apart * coarse);
 }
 
-/* Each mesh has twice the elements of the one before; the larger of two that agree counts. A change
- * that is clearly significant is refined only as far as a short run time allows. */
+/* Solves on meshes that double their elements, until two of them agree; the larger change counts. A
+ * clearly significant change is refined only within a short run time. */
 static void estimate(const scene *s, const element_type *type, omission *out)
 {
     enum { FINEST = 32 };
@@ -371,7 +371,7 @@ void omission_of(const scene *s, const element_type *type, omission *out)
     if (out->what == 0)
         return;
     find_change(s, out);
-    out->other = !(out->change <= omission_most); /* NAN is not */
+    out->other = !(out->change <= omission_most); /* also true for NAN */
 }
 
 void omission_words(const omission *o, char text[OMISSION_TEXT])

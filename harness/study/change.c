@@ -6,9 +6,8 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Round-off is below a thousandth of these: of strains, of positions and turns; and of other
- * values.
- */
+/* Round-off is below a thousandth of these: for strains, for positions and rotations, for other
+ * values. */
 static const double small_strain = 1e-14, small_part = 1e-12, small_beside = 1e-9;
 
 /* Largest extent of the positions of nodes [m]. */
@@ -65,7 +64,7 @@ static double of_resultant(const scene *s, scene_resultant which)
     return which <= SCENE_QZ ? force : force * size;
 }
 
-/* Places, turns and plain numbers; of rates and others nothing is known. */
+/* Scale of positions, rotations and plain numbers; 0 (unknown) for rates and others. */
 static double of_reading(const scene *s, const char *unit)
 {
     if (strcmp(unit, "m") == 0)
@@ -96,7 +95,7 @@ static double physical_scale(const scene *s, const scene_quantity *q)
     }
 }
 
-/* Is it the time or the number at which something is met? */
+/* Is the value the time or the number of an event? */
 static int is_of_time(const scene_quantity *q)
 {
     return q->reduction >= SCENE_MAX_TIME && q->reduction <= SCENE_PER_SECOND;
@@ -115,7 +114,7 @@ double change_scale(const scene *s, int quantity, const solve_result *r)
     return is_of_time(q) ? out : fmax(out, fabs(q->factor) * physical_scale(s, q));
 }
 
-/* NAN: neither has a value. */
+/* NAN: both have no value. */
 static double change_of(const scene *s, int index, const solve_result *a, const solve_result *b)
 {
     const double x = index < a->quantities ? a->quantity[index].value : (double)NAN,
@@ -156,7 +155,7 @@ void change_between(const scene *s, const cell_result *before, const cell_result
         out->largest = INFINITY;
 }
 
-/* Are its points those of steps, which differ from mesh to mesh? */
+/* Are its points those of steps, which differ between meshes? */
 static int has_own_points(const scene *s, const scene_quantity *q)
 {
     return s->analysis[q->analysis].kind == SCENE_CONTINUATION;

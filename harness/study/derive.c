@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 static const char python[] = "/usr/bin/python3";
-enum { NOT_DERIVABLE = 3, LINE = 600 }; /* as of reference/derive/at.py */
+enum { NOT_DERIVABLE = 3, LINE = 600 }; /* as in reference/derive/at.py */
 
 status derive_script(const char *name, char out[PATH_MAX], fault *f)
 {
@@ -22,7 +22,7 @@ status derive_script(const char *name, char out[PATH_MAX], fault *f)
                              : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", out);
 }
 
-/* Its two streams as files. */
+/* Both streams of the script as files. */
 typedef struct script {
     pid_t process;
     FILE *says, *complains;
@@ -55,9 +55,8 @@ static status start(const derive_question *q, script *s, fault *f)
         }
         if (q->input != NULL && dup2(fileno(q->input), STDIN_FILENO) < 0)
             _exit(127);
-        /* By its full name: it takes its libraries from beside the name it is called by, looked up
-         * in PATH; and isolated
-         * (-I) from the environment of whoever works in a virtual one. */
+        /* with its full name, because Python finds its libraries relative to the name by which it
+         * was called; isolated (-I) from the environment, for users of virtual environments */
         execl(python, python, "-I", "-B", q->path, q->case_name, q->parameters, (char *)NULL);
         _exit(127);
     }
@@ -112,7 +111,7 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
     return STATUS_OK;
 }
 
-/* Closes its streams and waits for its end; how that was, as of waitpid. */
+/* Closes its streams and waits for its end; returns its status from waitpid. */
 static int stop(script *s)
 {
     int how = 0;
@@ -126,16 +125,16 @@ static int stop(script *s)
     return how;
 }
 
-/* The caller, derive_asked, stops the script and frees, also after a failure. */
+/* The caller, derive_asked, stops the script and frees memory, also after a failure. */
 static status derive(const derive_question *q, script *s, derived_value **out, int *count, fault *f)
 {
     char complaint[LINE] = "", more[LINE];
     TRY(start(q, s, f));
     TRY(read_lines(s->says, out, count, f));
     while (fgets(more, sizeof more, s->complains) != NULL) {
-        memcpy(complaint, more, sizeof complaint); /* the last line says it */
+        memcpy(complaint, more, sizeof complaint); /* the reason is in the last line */
         if (*count > 0)
-            fputs(complaint, stderr); /* what of a scene is beyond the program */
+            fputs(complaint, stderr); /* parts of the scene that the program cannot compute */
     }
     complaint[strcspn(complaint, "\n")] = '\0';
     const int how = stop(s);
@@ -180,19 +179,19 @@ status derive_scene(const char *path, FILE *scene_text, derived_value **out, int
     return derive_asked(&q, out, count, f);
 }
 
-/* Data of an installed copy; defined in one place only, as the prefix is a matter of the build. */
+/* Data of an installed copy; only this file depends on the installation prefix. */
 #ifndef BEAMWORK_DATA
 #define BEAMWORK_DATA "/usr/local/share/beamwork"
 #endif
 
-/* Is it in a folder? */
+/* Does the folder contain the data? */
 static int is_in(const char *folder, const char *below, const char *name, char path[PATH_MAX])
 {
     const int length = snprintf(path, PATH_MAX, "%s/%s%s", folder, below, name);
     return length < PATH_MAX && access(path, R_OK) == 0;
 }
 
-/* bin/ and lib/ stand beside share/; lib/x86_64-linux-gnu one deeper. */
+/* bin/ and lib/ are next to share/; lib/x86_64-linux-gnu is one level deeper. */
 static int is_near(const char *folder, const char *name, char path[PATH_MAX])
 {
     static const char *const below[] = {"", "../", "../share/beamwork/", "../../share/beamwork/"};
@@ -214,7 +213,7 @@ static void program_folder(char out[PATH_MAX])
         snprintf(out, PATH_MAX, ".");
 }
 
-/* The folder of the shared library that this code is part of; 0: it is part of a program. */
+/* Folder of the shared library that contains this code; 0: it is linked into a program. */
 static int library_folder(char out[PATH_MAX])
 {
     static const char here = 0;
@@ -264,6 +263,6 @@ void data_place_modules(void)
     snprintf(both, room, "%s%s%s", given != NULL ? given : "",
              given != NULL && given[0] != '\0' ? ":" : "", path);
     setenv("PYTHONPATH", both, 1);
-    setenv("PYTHONDONTWRITEBYTECODE", "1", 0); /* nothing is written into an installed copy */
+    setenv("PYTHONDONTWRITEBYTECODE", "1", 0); /* Python must not write into an installed copy */
     free(both);
 }

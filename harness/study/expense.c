@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns the number of stations of the path that an analysis follows, its own or that of the
- * analysis it is about. */
+/* Number of stations of the path that an analysis follows: its own path, or that of its base
+ * analysis. */
 static double stations_of(const scene *s, const scene_analysis *a)
 {
     while (scene_path_of(a) == NULL && a->follows != SCENE_NONE)
@@ -13,15 +13,15 @@ static double stations_of(const scene *s, const scene_analysis *a)
     return scene_path_of(a) != NULL ? scene_path_of(a)->stations : 1;
 }
 
-/* Steps that were shorter to begin with become whole ones. */
+/* Number of load steps; initially shorter steps count as if they had full length. */
 static double steps_of(const scene_analysis *a, int steps)
 {
     const int between = steps > 0 ? steps : scene_walk_of(a)->steps_between;
     return scene_path_of(a)->stations + between - 1;
 }
 
-/* Steps of a motion. Those that adapt to a tolerance are about as many whatever the motion, which
- * is posed at its own pace, and more by a power of the tolerance: measured on four motions. */
+/* Estimated number of time steps. With a tolerance it depends little on the motion, whose time
+ * scale the scene sets, and grows with a power of the tolerance; measured on four motions. */
 static double motion_steps(const scene_motion *m)
 {
     static const double usual = 1e-4, steps[] = {80, 40}, power[] = {0.45, 0.3};
@@ -100,16 +100,16 @@ double expense_of_cell(const sweep *s, int series_index, int mesh)
     return expense_of_scene(&p->scene, p->steps, one->formulation.type, one->mesh[mesh]);
 }
 
-/* relative to the share of one process: the order of cheaper tasks does not matter at the end. */
+/* relative to the work of one process; below it the order of tasks does not matter */
 static const double dear_share = 0.01;
 
 /* A series that is run. */
 typedef struct expense {
-    double all; /* 0: not expensive */
+    double all; /* cost of the series; 0: not expensive */
     int series;
 } expense;
 
-/* Sorts by cost, most expensive first; ties in their order. */
+/* Sorts by decreasing cost; equal costs keep their order. */
 static int dearest(const void *left, const void *right)
 {
     const expense *a = left, *b = right;
@@ -146,16 +146,17 @@ int expense_order(const sweep *s, int jobs, workload_task tasks[])
     return 0;
 }
 
-/* A cell's result is a tree of arrays that records point to; records and elements are sent as they
- * stand in memory, and the addresses in them replaced by those of their own arrays. A new array is
- * one line in the tables below; a new number none. */
+/* The result of a cell is a tree of arrays. Records and elements are sent as stored in memory, and
+ * pointers are replaced by those of the receiver. A new array needs a line in the tables below; a
+ * new number does not. */
 typedef struct branch branch;
 struct branch {
-    size_t pointer, size; /* of the address in the record; of an element [bytes] */
-    /* ints in the record whose product counts the elements; count 0: a text; times 0: none */
+    size_t pointer, size; /* position of the pointer in the record; size of an element [bytes] */
+    /* positions of the integers whose product is the number of elements; count 0: a text; times 0:
+     * one factor */
     size_t count, times;
-    size_t each, more;   /* elements for each of the product, and besides */
-    const branch *parts; /* arrays of each element; NULL: none */
+    size_t each, more;   /* elements per unit of the product, and additional ones */
+    const branch *parts; /* arrays inside each element; NULL: none */
 };
 
 #define CELL(member)     offsetof(cell_result, member)
@@ -225,7 +226,7 @@ static int get(FILE *from, void *data, size_t size)
     return size == 0 || fread(data, size, 1, from) == 1 ? 0 : -1;
 }
 
-/* Every array after its length. */
+/* Writes every array after its length. */
 static int put_parts(FILE *to, const void *record, const branch parts[])
 {
     for (const branch *b = parts; b->size > 0; b++) {
@@ -241,17 +242,17 @@ static int put_parts(FILE *to, const void *record, const branch parts[])
     return 0;
 }
 
-/* The addresses are those of the other process. */
+/* Clears pointers, which are those of the other process. */
 static void forget(void *record, const branch parts[])
 {
     for (const branch *b = parts; b->size > 0; b++)
         set_address(record, b, NULL);
 }
 
-/* As serialise_read; *out NULL then. */
+/* As serialise_read; *out is NULL after a failure. */
 static int get_array(FILE *from, const branch *b, size_t count, char **out)
 {
-    enum { LARGEST = 1 << 28 }; /* [bytes] a count beyond this is damage */
+    enum { LARGEST = 1 << 28 }; /* [bytes] a larger count means damage */
     *out = NULL;
     if (count >= LARGEST / b->size)
         return SERIALISE_DAMAGED;
@@ -319,11 +320,11 @@ int serialise_read(FILE *from, cell_result *cell)
         return -1;
     }
     forget(cell, of_cell);
-    memset(&cell->scene, 0, sizeof cell->scene); /* it stays with the point */
+    memset(&cell->scene, 0, sizeof cell->scene); /* the point keeps the scene */
     const int bad = get_parts(from, cell, of_cell);
     if (bad == 0)
         return 0;
     free_parts(cell, of_cell);
-    memset(cell, 0, sizeof *cell); /* nothing half-read is left */
+    memset(cell, 0, sizeof *cell); /* removes partly read data */
     return bad;
 }

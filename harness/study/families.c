@@ -9,7 +9,7 @@
 
 enum { MOST_SERIES = 64 };
 
-/* A limit that is known. */
+/* A limit with its uncertainty. */
 typedef struct families_known_limit {
     int series;
     const char *family;
@@ -17,7 +17,7 @@ typedef struct families_known_limit {
     double value, uncertainty;
 } families_known_limit;
 
-/* Is it known to have another limit in what the scene has? */
+/* Is the formulation known to have a biased or wrong limit for a feature of the scene? */
 static int is_known_wrong(const truths *t, unsigned features, const char *key)
 {
     for (int i = 0; i < t->rules; i++) {
@@ -29,7 +29,7 @@ static int is_known_wrong(const truths *t, unsigned features, const char *key)
     return 0;
 }
 
-/* May what it finds count as a witness? */
+/* May the formulation take part in the agreement? */
 static int may_vote(const sweep *s, const series *one, const truths *t)
 {
     const element_type *type = one->formulation.type;
@@ -59,7 +59,7 @@ static int known_limits(const sweep *s, int point_index, int quantity, const tru
     return count;
 }
 
-/* How far two limits are apart, and what both are uncertain by. */
+/* Difference of two limits, and their combined uncertainty. */
 typedef struct families_difference {
     double apart, unknown;
 } families_difference;
@@ -111,7 +111,7 @@ static families_limit around(const scene_quantity *q, const families_known_limit
     return out;
 }
 
-/* A mean of limits by 1/U^2. */
+/* Mean of limits weighted by 1/U^2. */
 typedef struct mean {
     double value, uncertainty, spread;
 } mean;
@@ -121,7 +121,7 @@ static mean mean_of(const families_known_limit *all, int count, const int in[])
     double sum = 0, weights = 0, squares = 0;
     mean out;
     for (int pass = 0; pass < 2; pass++) {
-        out.value = sum / weights; /* of the first pass */
+        out.value = sum / weights; /* centre from the first pass */
         for (int i = 0; i < count; i++) {
             const double least = 1e-15 * fabs(all[i].value) + DBL_MIN,
                          u = fmax(all[i].uncertainty, least), w = 1 / (u * u);
@@ -145,7 +145,8 @@ static int is_near(const families_known_limit *one, const mean *m)
     return fabs(one->value - m->value) <= one->uncertainty + m->uncertainty;
 }
 
-/* Removes the limit that is furthest off beyond its uncertainty, until none is: in[count]. */
+/* Repeatedly removes the limit that is farthest outside its uncertainty, until none is outside:
+ * in[count]. */
 static mean settle(const families_known_limit *all, int count, int in[])
 {
     for (;;) {
@@ -165,7 +166,7 @@ static mean settle(const families_known_limit *all, int count, int in[])
     }
 }
 
-/* The mean of those around the centre that are within their uncertainty of it, if they are of two
+/* Mean of the limits that are within their uncertainty of the centre, if they belong to two
  * families. */
 static void refine(const scene_quantity *q, const families_known_limit *all, int count, int centre,
                    families_limit *out)
@@ -226,7 +227,7 @@ families_limit families_limit_of(const sweep *s, int point_index, int quantity, 
     return best;
 }
 
-/* "beamw_consistent (beamw) and collocation (reissner) agree": the source of the truth. */
+/* "beamw_consistent (beamw) and collocation (reissner) agree": source of the reference value. */
 static char *source_of(const sweep *s, const families_limit *l)
 {
     char *text = NULL;
@@ -292,7 +293,7 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
     return STATUS_OK;
 }
 
-/* May agreements of it become truths? */
+/* May agreements for the point become reference values? */
 static int is_open(const sweep_point *p, int files_only)
 {
     return p->status == STATUS_OK && (!files_only || p->type->file != NULL);
@@ -329,7 +330,7 @@ status families_reserve(const sweep *s, int files_only, truths *t, fault *f)
     return truths_reserve(t, most, f);
 }
 
-/* Which are kept: of the point's quantities and of the series. */
+/* Marks the selected quantities of the point and of the series. */
 typedef struct kept {
     char *quantity, *series;
 } kept;
@@ -351,7 +352,7 @@ static void drop(sweep *s, const kept *k)
 {
     scene *wanted = &s->point[0].scene;
     int quantities = 0, seriess = 0;
-    for (int q = 0; q < wanted->quantities; q++) /* with what their curves are over */
+    for (int q = 0; q < wanted->quantities; q++) /* together with the abscissae of their curves */
         if (k->quantity[q] && scene_abscissa_of(wanted, &wanted->quantity[q]) != SCENE_NONE)
             k->quantity[scene_abscissa_of(wanted, &wanted->quantity[q])] = 1;
     for (int q = 0; q < wanted->quantities; q++)
@@ -372,7 +373,7 @@ static const char *quantity_at(const void *context, int i)
     return i < s->quantities ? s->quantity[i].name : NULL;
 }
 
-/* The nearest of the point's quantities, else of the names that there are. */
+/* Nearest name: among the quantities of the point, otherwise among all names. */
 static status check_words(const sweep *s, const char *select, const select_words *words, fault *f)
 {
     const sweep_point *p = &s->point[0];
@@ -398,7 +399,7 @@ static status narrow(sweep *s, const char *select, kept *k, fault *f)
     for (int i = 0; i < s->seriess; i++)
         if (s->series[i].without.what != 0) {
             plan_omissions(s, s->series[i].point);
-            break; /* there is one point */
+            break; /* the sweep has one point */
         }
     return s->seriess > 0 ? STATUS_OK
                           : fault_set(f, STATUS_REFUSED,

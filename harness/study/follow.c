@@ -9,7 +9,7 @@
 
 enum { HALVINGS = 20 };
 
-/* The shapes become the walk's, also after a failure. */
+/* The walk takes ownership of the shapes, also after a failure. */
 static status keep_sample(follow_walk *w, double value, int asked, follow_shapes *s, fault *f)
 {
     follow_curves *c = w->out;
@@ -50,7 +50,8 @@ static void drop_sample(follow_walk *w)
     follow_match_free(&w->shapes[last]);
 }
 
-/* One step from the last sample; *least < follow_sure: it was too long, and nothing is kept. */
+/* One step from the last sample; *least < follow_sure: the step was too large, and nothing is
+ * stored. */
 static status try_step(follow_walk *w, double target, int asked, double *least, fault *f)
 {
     follow_shapes next;
@@ -70,7 +71,7 @@ static status try_step(follow_walk *w, double target, int asked, double *least, 
     return STATUS_OK;
 }
 
-/* From the last sample to `to`, in as many steps as it takes. */
+/* From the last sample to `to`, in as many steps as necessary. */
 static status step_to(follow_walk *w, double to, fault *f)
 {
     const follow_curves *c = w->out;
@@ -133,10 +134,10 @@ void follow_free(follow_curves *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Largest last correction of a step that counts as converged: the next one would be of the size
- * of its square; a larger one, up to the second, is the last where the one after it is predicted
- * and negligible. With more elements than these it is larger in proportion: rounding of their
- * places keeps it there. */
+/* Largest last correction of a converged step: the next correction would be its square. A larger
+ * one, up to the second value, may be the last if the next one is predicted to be negligible. With
+ * more elements than given here the limit grows in proportion, because rounding of the positions
+ * limits the corrections. */
 static const double promised_correction = 1e-8, largest_correction = 1e-6,
                     negligible_correction = 1e-14, many_elements = 1e4;
 
@@ -148,7 +149,7 @@ static int iterations_of_steps(const solve_result *r)
     return sum;
 }
 
-/* Tries of longer steps that failed before the ones that were kept. */
+/* Number of rejected longer steps before the accepted ones. */
 static long rejected_before_steps(const solve_result *r)
 {
     long sum = 0;
@@ -157,7 +158,7 @@ static long rejected_before_steps(const solve_result *r)
     return sum;
 }
 
-/* The first step that ended too soon, or -1. */
+/* Index of the first step that ended without convergence, or -1. */
 static int unfinished_step(const solve_result *r, double promised)
 {
     for (int i = 0; i < r->steps; i++)
@@ -168,8 +169,8 @@ static int unfinished_step(const solve_result *r, double promised)
     return -1;
 }
 
-/* 1: nothing but Newton's iterations without rejected steps: then each is one evaluation of every
- * element and one factorisation. */
+/* Returns 1 when the solution has only Newton iterations without rejected steps: each one then
+ * evaluates every element once and factors once. */
 static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -178,7 +179,8 @@ static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
     return newton == NEWTON_MIXED && cell->counters.rejected_steps == 0;
 }
 
-/* A continuation begins each step with the tangent that the one before it ended with. */
+/* Factorisations saved by continuation, where each step starts with the last tangent of the
+ * previous one. */
 static long most_reused(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -187,7 +189,7 @@ static long most_reused(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* The steps of a motion reuse the factors of their first iterations. */
+/* Factorisations saved in time steps, where iterations reuse earlier factors. */
 static long most_stale(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -196,8 +198,8 @@ static long most_stale(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* The first count that is less than the iterations need, or in a plain cell another one; NULL:
- * none. */
+/* Name of the first count that is smaller than the iterations require, or differs from them for a
+ * plain solution; NULL: none. */
 static const char *wrong_count(const cell_result *cell, long reused, long stale, int plain)
 {
     const counters *c = &cell->counters;
@@ -244,7 +246,7 @@ int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char
     return 0;
 }
 
-/* relative, of a value against its own stored discrete value */
+/* relative difference of a value from its stored discrete value */
 static const double agreement_least = 1e-6;
 
 static status add_agreement(const agreement *one, judgement *out, fault *f)
@@ -254,7 +256,7 @@ static status add_agreement(const agreement *one, judgement *out, fault *f)
     return STATUS_OK;
 }
 
-/* The values of one mesh against a row of the truths. */
+/* Compares the values of one mesh with a row of the reference values. */
 static status compare_mesh(const sweep *s, const truth *row, int index, int mesh, judgement *out,
                            fault *f)
 {
@@ -291,7 +293,7 @@ status agreements_add(const sweep *s, const truths *t, int index, judgement *out
     return STATUS_OK;
 }
 
-/* How often limits lie within their uncertainty of an exact reference value. */
+/* Counts how often limits lie within their uncertainty of an exact reference value. */
 
 /* Returns the row of the series' case and formulation. */
 static coverage *row_of(const sweep *s, judgement *j, const series *one, fault *f)

@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/scalar.h"
 
-/* Frequencies whose shapes are not their own: relative distance. */
+/* Relative distance below which frequencies count as equal, so that their shapes are not unique. */
 static const double alike = 1e-6;
 
 static status allocate(int modes, int rows, follow_shapes *out, fault *f)
@@ -63,7 +63,7 @@ status follow_match_first(const state_matrices *s, int modes, follow_shapes *out
     return outcome;
 }
 
-/* The group of equal frequencies that begins at mode j ends before this one. */
+/* End of the group of equal frequencies that starts at mode j. */
 static int group_end(const state_matrices *s, int j)
 {
     int end = j + 1;
@@ -75,11 +75,12 @@ static int group_end(const state_matrices *s, int j)
 /* Modes of a state, normalised to unit mass, and M times them. */
 typedef struct match_workspace {
     double *mode, *product; /* [modes x rows] */
-    double *share;          /* [modes] of the followed shape */
-    int *taken;             /* [modes] followed modes in the group that begins here */
+    double *share;          /* [modes] share of the followed shape in each mode */
+    int *taken;             /* [modes] number of followed modes in the group that starts here */
 } match_workspace;
 
-/* Mode i of before: the group that it is in most, and the mean frequency of it there. */
+/* Finds the group that contains most of mode i of `before`, and the mean frequency of that mode in
+ * it. */
 static void match_one(const follow_shapes *before, int i, const state_matrices *s,
                       match_workspace *w, follow_shapes *out)
 {
@@ -153,7 +154,7 @@ status follow_match_next(const follow_shapes *before, const state_matrices *s, f
     return outcome;
 }
 
-/* Frequencies as quantities of the first modal analysis: its index, and how many; 0: none. */
+/* Finds the first modal analysis with frequency quantities and their number; 0: none. */
 static int count_wanted(const scene *s, int *analysis)
 {
     int count = 0;
@@ -212,11 +213,12 @@ status follow_solve(follow_walk *w, double value, const follow_shapes *before, f
 }
 
 enum { MOST_REFINEMENTS = 30 };
-static const double equal = 1e-9;       /* frequencies, relative to themselves */
-static const double exact = 1e-12;      /* of a crossing's place, relative to the step */
-static const double close_enough = 0.1; /* gap of a veering that is reported */
+static const double equal = 1e-9; /* relative difference of equal frequencies */
+static const double exact =
+    1e-12; /* accuracy of the position of a crossing, relative to the step */
+static const double close_enough = 0.1; /* largest gap of a veering that is reported */
 
-/* f_i - f_j at a value, the modes matched with those of sample k; *mean of both [Hz]. */
+/* f_i - f_j at a parameter value, with modes matched to sample k; *mean of both [Hz]. */
 static status difference_at(follow_walk *w, int k, double value, const int mode[2],
                             double *difference, double *mean, double *least, fault *f)
 {
@@ -237,14 +239,14 @@ static double difference_of(const follow_sample *s, const int mode[2])
     return s->frequency[mode[0]] - s->frequency[mode[1]];
 }
 
-/* Distance of the two relative to their mean. */
+/* Difference of the two frequencies relative to their mean. */
 static double gap_of(const follow_sample *s, const int mode[2])
 {
     return 2 * fabs(difference_of(s, mode)) / (s->frequency[mode[0]] + s->frequency[mode[1]]);
 }
 
-/* Between samples a and b, of different sign: regula falsi that halves the value of an end that
- * stays (Illinois). */
+/* Finds the crossing between samples a and b of opposite sign by the Illinois variant of regula
+ * falsi. */
 static status find_crossing(follow_walk *w, int a, int b, follow_event *e, double *least, fault *f)
 {
     const follow_sample *s = w->out->sample;
@@ -261,7 +263,7 @@ static status find_crossing(follow_walk *w, int a, int b, follow_event *e, doubl
         TRY(difference_at(w, a, next, e->mode, &here, &e->frequency, least, f));
         if (*least < follow_sure || fabs(here) <= equal * e->frequency || change <= exact * width)
             return STATUS_OK;
-        const int side = (here > 0) == (d[1] > 0); /* the end that it replaces */
+        const int side = (here > 0) == (d[1] > 0); /* the end that is replaced */
         x[side] = next;
         d[side] = here;
         d[!side] /= kept == !side ? 2 : 1;
@@ -280,7 +282,7 @@ static status add_event(follow_curves *c, const follow_event *e, fault *f)
     return STATUS_OK;
 }
 
-/* The last step again, where two modes change their order. */
+/* Repeats the last step where two modes change their order. */
 status follow_events_step(follow_walk *w, double *least, fault *f)
 {
     const int last = w->out->samples - 1;
@@ -297,7 +299,7 @@ status follow_events_step(follow_walk *w, double *least, fault *f)
     return STATUS_OK;
 }
 
-/* Samples where the gap of two modes is least: they come close and part again. */
+/* Finds samples with a minimum of the gap between two modes. */
 static status find_veerings(follow_walk *w, const int mode[2], fault *f)
 {
     const follow_sample *s = w->out->sample;
@@ -314,7 +316,7 @@ static status find_veerings(follow_walk *w, const int mode[2], fault *f)
     return STATUS_OK;
 }
 
-/* Crossings at samples themselves; confirm has found the others. */
+/* Finds crossings at samples; follow_events_step finds the others. */
 static status find_crossings(follow_walk *w, const int mode[2], fault *f)
 {
     const follow_sample *s = w->out->sample;

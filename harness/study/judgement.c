@@ -1,4 +1,5 @@
-/* All verdicts of a sweep, which of them were expected, and the exit status. */
+/* Evaluates all verdicts of a sweep, compares them with the expected ones, and sets the exit
+ * status. */
 #include "harness/study/study_impl.h"
 
 #include <fnmatch.h>
@@ -8,14 +9,15 @@
 
 #include "harness/numerics/numerics.h"
 
-/* Beyond what the rule explains?  A limit that was derived binds by its own distance. */
+/* Is the limit outside the range that the rule covers? For a derived limit its own distance counts.
+ */
 static int is_beyond(const rule *r, const verdict *v)
 {
     return isfinite(v->departure) && isfinite(r->largest_error) &&
            fabs(v->departure) > r->largest_error;
 }
 
-/* A verdict that is not a pass is expected where exactly one known deviation applies to it. */
+/* A verdict other than pass is expected if exactly one known deviation applies to it. */
 static void expect(const sweep *s, truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -25,7 +27,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
         p->type,  p->parameter,         features_needed(&p->scene), one->formulation.key,
         quantity, verdict_name(v->kind)};
     v->matches = v->kind == v->expected;
-    if (one->imported != NULL) /* known deviations apply to formulations only */
+    if (one->imported != NULL) /* known deviations apply only to formulations */
         return;
     for (int i = 0; i < t->rules && !v->matches; i++) {
         rule *r = &t->rule[i];
@@ -53,7 +55,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
     v->matches = v->kind == v->expected;
 }
 
-/* Every cell of a series against what it says of its own work. */
+/* Checks the run record of every cell of a series. */
 static status check_cells(const sweep *s, int index, judgement *out, fault *f)
 {
     const series *one = &s->series[index];
@@ -68,8 +70,8 @@ static status check_cells(const sweep *s, int index, judgement *out, fault *f)
     return STATUS_OK;
 }
 
-/* Marks the reference values of this quantity, including lower-ranked ones and those of other
- * models. */
+/* Marks the reference values of this quantity as used, including lower-ranked ones and those of
+ * other models. */
 static void mark_met(truths *t, const sweep_point *p, const formulation *chosen,
                      const char *quantity, int judged)
 {
@@ -106,7 +108,7 @@ static status check_units(const sweep *s, const truths *t, fault *f)
     return STATUS_OK;
 }
 
-/* Has a series that was imported a value of the quantity at all? */
+/* Does an imported series have any value of the quantity? */
 static int is_imported(const series *one, int quantity)
 {
     for (int i = 0; i < one->meshes; i++)
@@ -115,7 +117,7 @@ static int is_imported(const series *one, int quantity)
     return 0;
 }
 
-/* Is its limit known to lie within the tolerance, whatever else is said of it? */
+/* Is the limit known to be within the tolerance, whatever the verdict? */
 static int is_within(const verdict *v)
 {
     return v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED ||
@@ -136,7 +138,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
         v->expected = v->kind;
         v->matches = 1;
     }
-    if (!gates && one->imported != NULL) { /* shown, and does not count */
+    if (!gates && one->imported != NULL) { /* shown without effect on the exit status */
         v->expected = v->kind;
         v->matches = 1;
         return;
@@ -155,7 +157,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
              v->kind != VERDICT_SKIP && v->kind != VERDICT_OTHER_MODEL);
 }
 
-/* Is a last change so small that noise may be all of it, or the verdict open? */
+/* Could noise account for the whole last change, or is the verdict open? */
 static int noise_may_decide(const sweep *s, const truths *t, int index, int quantity)
 {
     const double small_change = 1e-7;
@@ -195,7 +197,7 @@ static void judge_series(const sweep *s, truths *t, int index, judgement *out)
     const sweep_point *p = &s->point[one->point];
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *quantity = &p->scene.quantity[q];
-        /* a curve is drawn beside its truths; a point of it is evaluated by a quantity of its own
+        /* a curve is only drawn with its reference values; another quantity evaluates a point of it
          */
         if (one->imported != NULL && (quantity->reduction == SCENE_CURVE || !is_imported(one, q)))
             continue;
@@ -233,7 +235,7 @@ status judgement_add(const sweep *s, truths *t, int series_index, judgement *out
 
 void judgement_end(const sweep *s, truths *t, int whole, judgement *out)
 {
-    /* findings are of the tolerances of the cases */
+    /* known deviations assume the tolerances of the cases */
     out->unobserved = s->tolerance > 0 ? 0 : missed_rules(s, t, whole);
     if (whole)
         missed_truths(s, t, out);
@@ -286,7 +288,7 @@ static int is_run(const sweep *s, const case_type *type, const element_type *ele
     return 0;
 }
 
-/* Is a formulation of that name with options run? */
+/* Does the run include a formulation of that name with options? */
 static int key_is_run(const sweep *s, const char *word)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -295,7 +297,7 @@ static int key_is_run(const sweep *s, const char *word)
     return 0;
 }
 
-/* Everything that the word of a list may mean? */
+/* Does the run include every formulation that the word of a list can match? */
 static int formulations_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;
@@ -309,7 +311,7 @@ static int formulations_are_run(const sweep *s, const char *word)
     return all && found;
 }
 
-/* All points and quantities of them: the word selects cases alone. */
+/* Are all points and quantities of the cases included, so that the word selects only cases? */
 static int cases_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;

@@ -2,22 +2,23 @@
 
 #include <math.h>
 
-/* of consecutive meshes; closer ones say nothing that noise does not drown */
+/* least ratio of elements between successive meshes; changes between closer ones are mostly noise
+ */
 static const double least_refinement = 1.4;
 static const double unmeasured_noise = 3e-11, least_noise = 2.3e-16; /* relative */
-/* a change of that many noises says nothing of an order */
+/* changes below this multiple of the noise do not show an order */
 static const double noisy_changes = 10;
-static const double least_seen_order = 0.5; /* accepted as seen ... */
-/* ... and assumed of what remains */
+static const double least_seen_order = 0.5; /* smallest observed order that is accepted ... */
+/* ... and order assumed for the remaining error */
 static const double remaining_order = 1;
 static const double settled_part = 1e-4;
-/* least part of the extrapolation that counts as uncertainty where scatter was not measured */
+/* least uncertainty as a fraction of the extrapolation step, if scatter was not measured */
 static const double doubted_step = 0.02;
 static const double sure = 1.25, unsure = 3;
-static const double end_factor = 4; /* multiple of the scatter that is the uncertainty of a value
-                                       without extrapolation */
+static const double end_factor =
+    4; /* uncertainty of a value without extrapolation, as a multiple of the scatter */
 
-/* The thinned sequence, coarsest mesh first, and what is derived from it. */
+/* The thinned sequence, coarsest mesh first, and derived values. */
 typedef struct meshes {
     int count;
     double n[LIMIT_MESHES], f[LIMIT_MESHES];
@@ -33,8 +34,8 @@ const char *limit_kind_name(limit_kind kind)
     return names[kind];
 }
 
-/* The finest mesh with a value that is at least least_refinement coarser than one of `fine`
- * elements; -1: none. */
+/* The finest mesh with a value that is coarser than `fine` elements by at least least_refinement;
+ * -1: none. */
 static int coarser_than(const limit_sequence *s, double fine)
 {
     int best = -1;
@@ -45,7 +46,7 @@ static int coarser_than(const limit_sequence *s, double fine)
     return best;
 }
 
-/* From the finest mesh down, each at least least_refinement coarser than the one before. */
+/* From the finest mesh down, each coarser than the previous one by at least least_refinement. */
 static void thin(const limit_sequence *s, meshes *m)
 {
     int kept[LIMIT_MESHES];
@@ -86,7 +87,7 @@ static void prepare(const limit_sequence *s, meshes *m)
 
 static int is_good(double order, const limit_sequence *s)
 {
-    return order >= least_seen_order && order <= 1.1 * s->highest_order + 0.5; /* NAN is not */
+    return order >= least_seen_order && order <= 1.1 * s->highest_order + 0.5; /* false for NAN */
 }
 
 static double refinement(const meshes *m, int before_last)
@@ -95,7 +96,7 @@ static double refinement(const meshes *m, int before_last)
     return m->n[i] / m->n[i - 1];
 }
 
-/* Fewer than three meshes: the order is assumed. */
+/* For fewer than three meshes the order is assumed. */
 static void few(const meshes *m, mesh_limit *out)
 {
     out->kind = LIMIT_NOT_YET;
@@ -107,7 +108,8 @@ static void few(const meshes *m, mesh_limit *out)
             end_factor * m->noise;
 }
 
-/* The last change is noise, and the one before no chance crossing. 1: it is so. */
+/* Returns 1 when the last change is within the noise, and the previous one was not small by
+ * accident. */
 static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const double a = fabs(m->change[m->count - 2]), b = fabs(m->change[m->count - 3]),
@@ -122,14 +124,14 @@ static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Limit of meshes first, first + 1, first + 2 with their own order. */
+/* Limit of meshes first, first + 1, first + 2 with their observed order. */
 static double own_limit(const meshes *m, int first)
 {
     return richardson_limit(m->n + first, m->f + first, m->order[first]);
 }
 
-/* Change of the limit with the last mesh, and the factor of its uncertainty; the last three meshes
- * begin at k > 0. */
+/* Change of the limit due to the last mesh, and the factor for its uncertainty; the last three
+ * meshes start at k > 0. */
 static double change_of_limit(const limit_sequence *s, const meshes *m, int k, double *factor)
 {
     const double R = refinement(m, 0), value = own_limit(m, k);
@@ -138,13 +140,13 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     *factor = sure;
     if (k > 1 && is_good(m->order[k - 2], s)) {
         const double before = fabs(own_limit(m, k - 1) - own_limit(m, k - 2));
-        /* the limits do not settle: noise, perhaps */
+        /* the limits do not converge, possibly because of noise */
         if (!measured && change > before / pow(R, remaining_order)) {
             change = fmax(change, before);
             *factor = unsure;
         }
-        /* small by accident; above the highest order that there is, another term comes into sight,
-         * and accident is likely */
+        /* a small change may be accidental; an order above the highest possible one means that
+         * another error term contributes, and accidents are likely */
         const double next =
             m->order[k] <= 1.1 * s->highest_order ? m->order[k] + 2 : s->nominal_order;
         change = fmax(change, before / pow(R, next));
@@ -152,17 +154,18 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     return measured ? change : fmax(change, doubted_step * fabs(value - m->f[k + 2]));
 }
 
-/* Is the middle one the least or the greatest, by more than orders of one term scatter? */
+/* Is the middle order the smallest or largest, by more than the scatter of orders of a single error
+ * term? */
 static int turns(double a, double b, double c)
 {
     static const double scatter = 0.1;
     return (a - b) * (b - c) < 0 && fmin(fabs(a - b), fabs(b - c)) > scatter;
 }
 
-/* Two orders agree: what remains is bounded by the change of the limit. 1: it is so. */
+/* Returns 1 when two orders agree; the change of the limit then bounds the remaining error. */
 static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
-    const int k = m->count - 3; /* the last three begin here */
+    const int k = m->count - 3; /* start of the last three meshes */
     if (m->count < 4 || !is_good(m->order[k], s) || !is_good(m->order[k - 1], s))
         return 0;
     const double p = m->order[k], apart = fabs(p - m->order[k - 1]);
@@ -182,8 +185,8 @@ static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* An order that still drifts, or three meshes only: the worst of the last changes, with the least
- * order in sight. 1: it is so. */
+/* For an order that still changes, or only three meshes: the largest of the last changes, with the
+ * smallest plausible order. Returns 1 if this applies. */
 static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int k = m->count - 3;
@@ -196,12 +199,12 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     if (k == 0) {
         q = fmin(p, nominal);
         rest = fmax(a, b * pow(R, -nominal));
-        /* rising towards what is declared */
+        /* increasing towards the declared order */
     } else if (before >= least_seen_order && before <= p && p <= 1.1 * nominal) {
         q = p;
         rest = a;
         factor = p >= 0.9 * nominal ? sure : unsure;
-    } else { /* an order that overshoots announces a change of sign: it is extrapolated downwards */
+    } else { /* too high an order indicates a coming change of sign; it is extrapolated downwards */
         q = fmax(fmin(fmin(p, highest), fmin(before, 2 * before - p)), fmin(remaining_order, p));
         rest = fmax(a, b * pow(R, -fmax(before, q)));
     }
@@ -213,8 +216,8 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* No order: the worst of the last three changes, each reduced as the nominal order promises; more
- * where they grow. */
+/* Without an order: the largest of the last three changes, each reduced by the nominal order;
+ * increased if changes grow. */
 static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int last = m->count - 1;
@@ -262,7 +265,7 @@ mesh_limit limit_of(const limit_sequence *s)
 
 static const double lowest_order = 0.05, bisected_order = 40;
 
-/* (n0^-p - n1^-p)/(n1^-p - n2^-p), which grows with p. */
+/* (n0^-p - n1^-p)/(n1^-p - n2^-p), which increases with p. */
 static double ratio_at(double p, const double n[3])
 {
     const double a = pow(n[2] / n[0], p), b = pow(n[2] / n[1], p);

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <zlib.h>
 
-/* Formulations with options beyond this have one column with all their options. */
+/* If there are more columns, all options of a formulation share one. */
 enum { MOST_COLUMNS = 10 };
-/* More cases than that: those that pass share lines. */
+/* If there are more cases, those that pass share lines. */
 enum { MOST_ROWS = 24 };
 
 static const overview_mark marks[VERDICT_KINDS] = {
@@ -95,7 +95,7 @@ static void add_columns(const sweep *s, overview *out, int of_new)
     }
 }
 
-/* New formulations are after the others. */
+/* Places new formulations after the others. */
 static void find_columns(const sweep *s, overview *out, int joined)
 {
     out->joined = joined;
@@ -121,7 +121,7 @@ static overview_cell *cell_of(const sweep *s, const overview *o, int series_inde
     return &o->cell[row * o->columns + column_of(o, name_of(one, o->joined))];
 }
 
-/* Adds a mark; an earlier mark of the list is worse. */
+/* Adds a mark; marks with a higher value replace lower ones. */
 static void add(overview_cell *to, overview_mark mark, int unexpected)
 {
     const int rank = OVERVIEW_MARKS * unexpected + (int)mark;
@@ -199,7 +199,7 @@ int overview_shown(const overview *o, int row)
     return o->rows <= MOST_ROWS || !overview_passes(o, row);
 }
 
-/* CRC-32 of IEEE 802.3; a sum is begun with 0 and continued with the sum so far. */
+/* CRC-32 of IEEE 802.3; start with 0 and pass the previous result to continue. */
 static uint32_t checksum(uint32_t sum, const unsigned char *data, size_t size)
 {
     return (uint32_t)crc32_z(sum, data, size);
@@ -234,7 +234,8 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
     return bad ? fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path) : STATUS_OK;
 }
 
-/* Sum of all but the last CHECKSUM_LENGTH bytes, which go to `tail`. -1: shorter than that. */
+/* Checksum of all but the last CHECKSUM_LENGTH bytes, which are copied to `tail`. Returns -1 when
+ * the file is shorter. */
 static long read_body(FILE *from, uint32_t *sum, char tail[CHECKSUM_LENGTH + 1])
 {
     enum { PIECE = 1 << 18 };

@@ -25,16 +25,16 @@ enum {
     COLUMNS
 };
 
-/* Where the reading is. */
+/* State of the reader. */
 typedef struct findings_reader {
     const case_type *const *run;
     truths *t;
     mistakes *m;
     const own_table_row *row;
-    int good; /* of this row */
+    int good; /* 1: the present row has no error */
 } findings_reader;
 
-/* A mistake in a column of the row. */
+/* Reports an error in a column of the row. */
 #define WRONG(r, column, ...)                                                                      \
     ((r)->good = 0, mistakes_add((r)->m, (r)->row->line, (column) + 1, __VA_ARGS__))
 
@@ -67,7 +67,7 @@ static void check_case(findings_reader *r, const char *word)
               own_names_near_case(r->run, word, near));
 }
 
-/* Is it a quantity of the case, at the defaults or where truths are known? */
+/* Does the case have the quantity, at the defaults or at points with reference values? */
 static int case_has(const findings_reader *r, const case_type *type, const char *quantity,
                     scene *defaults)
 {
@@ -77,7 +77,7 @@ static int case_has(const findings_reader *r, const case_type *type, const char 
     return own_names_quantity(defaults, quantity) != NULL;
 }
 
-/* A quantity that no case of the rule has would never be seen. */
+/* Checks that some case of the rule has the quantity; otherwise the rule would never apply. */
 static void check_quantity(findings_reader *r, const char *word)
 {
     char near[FAULT_TEXT] = "", pattern[RULES_WORD];
@@ -158,7 +158,7 @@ static void check_name(findings_reader *r)
                   r->t->rule[i].from != NULL ? r->t->rule[i].from : "the list of known deviations");
 }
 
-/* A rule that says neither why nor how that is known explains nothing. */
+/* Requires the cause, and how it is known. */
 static void check_grounds(findings_reader *r)
 {
     if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)
@@ -196,7 +196,7 @@ static void check(findings_reader *r, double *largest)
         WRONG(r, LARGEST_ERROR, "largest_error '%.40s' is not a number of at least zero", text);
 }
 
-/* The cases of the run and the built-in ones, NULL after the last; the caller frees it. */
+/* Cases of the run and built-in cases, NULL-terminated; the caller frees the list. */
 static const case_type **all_cases(const case_type *const run[])
 {
     int count = 0;
@@ -349,7 +349,8 @@ const char *own_names_near_quantity(const scene *s, const char *name, char text[
                            "; 'beamwork list CASE' shows them", text);
 }
 
-/* Returns 1 where all quotations end in the line; another one would include the next lines. */
+/* Returns 1 when all quotes end in the line; otherwise the field would continue on the next lines.
+ */
 static int quotes_are_even(const char *line)
 {
     int quotes = 0;

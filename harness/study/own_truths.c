@@ -30,17 +30,17 @@ static const char *const names[COLUMNS] = {
     "case",  "parameters", "formulation", "theory", "elements", "quantity",   "at",
     "value", "unit",       "uncertainty", "kind",   "model",    "convention", "source"};
 
-/* Where the reading is. */
+/* State of the reader. */
 typedef struct truths_reader {
     const case_type *const *run;
     const case_type *only;
     truths *t;
     mistakes *m;
     const own_table_row *row;
-    int good; /* of this row */
+    int good; /* 1: the present row has no error */
 } truths_reader;
 
-/* A mistake in a column of the row. */
+/* Reports an error in a column of the row. */
 #define WRONG(r, column, ...)                                                                      \
     ((r)->good = 0, mistakes_add((r)->m, (r)->row->line, (column) + 1, __VA_ARGS__))
 
@@ -66,7 +66,7 @@ static void take_elements(truths_reader *r, int *out)
         *out = (int)count;
 }
 
-/* The quantity and its unit, of the scene at these parameters. */
+/* Checks the quantity and its unit, in the scene at these parameters. */
 static void check_quantity(truths_reader *r, const case_type *type, const double value[])
 {
     char near[FAULT_TEXT];
@@ -109,7 +109,7 @@ static int same_point(const truth *a, const truth *b)
     return 1;
 }
 
-/* Only one of them would ever be examined. */
+/* Finds an existing reference value for the same quantity; only one of them would be used. */
 static const truth *known(const truths *t, const truth *row)
 {
     for (int i = 0; i < t->rows; i++) {
@@ -124,7 +124,7 @@ static const truth *known(const truths *t, const truth *row)
     return NULL;
 }
 
-/* The row but for its texts, which are those of the file. */
+/* Copies the row without its texts. */
 static void take_row(truths_reader *r, const case_type *type, truth *out)
 {
     char *const *field = r->row->field;

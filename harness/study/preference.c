@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reasons against a formulation, the strongest first; the formulation with the weakest reasons is
- * chosen. */
+/* Reasons against a formulation, the most serious first; the formulation with the least serious
+ * reasons is chosen. */
 enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
 typedef struct standing {
     int against[REASONS];
 } standing;
 
-/* Does the rule say so of a quantity of the scene? */
+/* Does the rule apply to a quantity of the scene? */
 static int holds_here(const rule *r, const scene *s, rule_subject at)
 {
     for (int q = 0; q < s->quantities; q++)
@@ -24,7 +24,7 @@ static int holds_here(const rule *r, const scene *s, rule_subject at)
     return 0;
 }
 
-/* Features that it does not have, counted. */
+/* Number of features of the scene that the formulation does not have. */
 static int count_omits(const scene *s, const element_type *type)
 {
     int count = 0;
@@ -33,7 +33,7 @@ static int count_omits(const scene *s, const element_type *type)
     return count;
 }
 
-/* The least order of the requested quantities. */
+/* Lowest order in the requested quantities. */
 static int order_of(const scene *s, const element_type *type)
 {
     double options[ELEMENT_MAX_OPTIONS] = {0};
@@ -76,7 +76,7 @@ static int is_better(const standing *a, const standing *b)
     return 0;
 }
 
-/* Has it all of the scene, or, where `other`, what it needs to be another model of it? */
+/* Does the type support the whole scene or, with `other`, enough to run as another model of it? */
 static int can_run(const scene *s, const element_type *type, int other)
 {
     char words[OMIT_WORDS];
@@ -85,7 +85,7 @@ static int can_run(const scene *s, const element_type *type, int other)
     return !missing_words(s, type, words, sizeof words) && !lacks_of(s, type, words, sizeof words);
 }
 
-/* Formulations that can run, best first: as good as the first one, and at most two of a family. */
+/* Candidates, best first: equal in rank to the first one, and at most two of a family. */
 enum { CANDIDATES = 5, OF_FAMILY = 2 };
 typedef struct preference_candidates {
     int count;
@@ -93,7 +93,7 @@ typedef struct preference_candidates {
     standing here[CANDIDATES];
 } preference_candidates;
 
-/* Is it one of them, or one too many of its family? */
+/* Is it already a candidate, or is its family full? */
 static int is_taken(const preference_candidates *all, const element_type *type)
 {
     int same = 0;
@@ -113,7 +113,7 @@ static int as_sound(const standing *a, const standing *b)
     return 1;
 }
 
-/* The best that is not taken yet; 0: there is none as sound as the first one. */
+/* The best one not yet chosen; 0: none is equal in rank to the first. */
 static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
                      int other, preference_candidates *all)
 {
@@ -123,7 +123,7 @@ static int take_next(const scene *s, const rule_subject *where, const rule *rule
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
         if (formulations_is_new(type) || type->misprint != NULL || is_taken(all, type) ||
-            !can_run(s, type, other)) /* defects of new ones are not known */
+            !can_run(s, type, other)) /* defects of new formulations are unknown */
             continue;
         const standing here = standing_of(s, type, where, rules, rules != NULL ? count : 0);
         if (*chosen != NULL && !is_better(&here, best))
@@ -145,7 +145,7 @@ static preference_candidates candidates_of(const scene *s, const rule_subject *w
     return out;
 }
 
-/* Candidates, and the first half of the line on the choice. */
+/* Finds the candidates, and writes the first half of the explanation. */
 static status find(const scene *s, const rule_subject *where, const rule *rules, int count,
                    preference_candidates *all, char why[FAULT_TEXT], fault *f)
 {
@@ -178,7 +178,7 @@ status preference_formulation(const scene *s, const rule_subject *where, const r
     return STATUS_OK;
 }
 
-/* Returns 1 for a path on which a coarse mesh may follow another branch. */
+/* Returns 1 for a path with unstable states, on which a coarse mesh may follow another branch. */
 static int met_unstable(const solve_result *r)
 {
     for (int i = 0; i < r->steps; i++)
@@ -191,12 +191,12 @@ static int met_unstable(const solve_result *r)
 typedef struct runner {
     cell_request request;
     formulation chosen;
-    cell_result cell[2];         /* of the last meshes, in turn */
-    double asked;                /* change that counts as none */
-    value_change last;           /* from mesh to mesh */
-    int tried, before, elements; /* meshes; elements of the last two */
-    int unstable;                /* one met unstable states, which finer ones may not pass */
-    double cost, next;           /* of the last mesh; what the next one may cost [s] */
+    cell_result cell[2];         /* results of the last two meshes, alternating */
+    double asked;                /* relative change that counts as converged */
+    value_change last;           /* change between the last two meshes */
+    int tried, before, elements; /* number of meshes; elements of the last two */
+    int unstable;      /* 1: a mesh had unstable states, which finer meshes may not have */
+    double cost, next; /* cost of the last mesh; estimated cost of the next one [s] */
 } runner;
 
 static status begin(runner *r, const cell_request *request, const formulation *chosen, double asked,
@@ -224,7 +224,7 @@ static void end(runner *r)
     cell_result_free(&r->cell[1]);
 }
 
-/* The meshes of the scene, then twice as many elements each. */
+/* Next mesh: those of the scene, then twice the elements each time. */
 static int next_mesh(const scene *s, const runner *r)
 {
     return r->tried < s->meshes ? s->mesh[r->tried] : 2 * r->elements;
@@ -236,10 +236,11 @@ static int settled(const scene *s, const runner *r)
     return r->last.largest <= r->asked && (sure || r->tried >= s->meshes);
 }
 
-/* Is another mesh too much? */
+/* Is the next mesh too expensive? */
 static int exhausted(const scene *s, const runner *r)
 {
-    const int tells = r->tried < 2 || isfinite(r->last.largest); /* what finer ones would settle */
+    const int tells =
+        r->tried < 2 || isfinite(r->last.largest); /* could a finer mesh still converge? */
     return r->tried >= s->meshes &&
            (!tells || r->next > PREFERENCE_COST || r->elements >= PREFERENCE_FINEST);
 }
@@ -252,7 +253,7 @@ static void refine(const scene *s, runner *r)
     memset(now, 0, sizeof *now);
     r->before = r->elements;
     r->request.elements = r->elements = next_mesh(s, r);
-    cell_run(&r->request, now, &f); /* one that fails is not settled */
+    cell_run(&r->request, now, &f); /* a mesh that fails has not converged */
     if (r->tried > 0)
         change_between(s, &r->cell[(r->tried + 1) % 2], now, &r->last);
     r->unstable |= met_unstable(&now->solve);
@@ -261,8 +262,8 @@ static void refine(const scene *s, runner *r)
     r->tried++;
 }
 
-/* Takes a step with whoever has the cheapest one before it, until one has settled; NULL: none does
- * within bounds. */
+/* Always advances the runner whose next mesh has the lowest cost, until one has converged; NULL:
+ * none does within the limits. */
 static runner *race(const scene *s, runner of[], int count)
 {
     for (;;) {
@@ -292,7 +293,7 @@ static void tell_elements(const scene *s, const runner *r, char why[FAULT_TEXT])
                  r->unstable ? "; coarser ones met unstable states" : "");
 }
 
-/* Returns the runner whose values changed least, where none has settled. */
+/* The runner whose values changed least, when none has converged. */
 static runner *calmest(runner of[], int count)
 {
     runner *out = &of[0];
@@ -302,7 +303,7 @@ static runner *calmest(runner of[], int count)
     return out;
 }
 
-/* Stores the result of a runner; *out takes its changes. */
+/* Stores the result of a runner; *out takes ownership of its changes. */
 static void keep(const scene *s, runner *r, preference *out)
 {
     out->chosen = r->chosen;
@@ -331,7 +332,7 @@ status preference_elements(const cell_request *request, const formulation *chose
     return STATUS_OK;
 }
 
-/* Chooses the first of the candidates whose values settle. */
+/* Chooses the first candidate whose values converge. */
 static void choose(const scene *s, runner of[], int count, preference *out)
 {
     runner *first = race(s, of, count);

@@ -42,7 +42,7 @@ static double count_of(const cell_result *c, price_count which)
     }
 }
 
-/* Is "key=value" of the given length one of the options in "name:key=value,..."? */
+/* Is "key=value", of the given length, one of the options in "name:key=value,..."? */
 static int has_option(const char *key, const char *option, size_t length)
 {
     const char *at = strchr(key, ':');
@@ -55,8 +55,7 @@ static int has_option(const char *key, const char *option, size_t length)
     return 0;
 }
 
-/* Number of options of the row that the formulation has, plus one; 0: the row is for another
- * one. */
+/* Number of options of the row that the formulation has, plus one; 0: the row does not apply. */
 static int match(const char *row, const char *key)
 {
     const size_t name = strcspn(row, ":");
@@ -72,7 +71,7 @@ static int match(const char *row, const char *key)
     return options;
 }
 
-/* Name of the formulation in the rows: that with most options among those that match it; or "*". */
+/* Name of the matching rows with the most options, or "*". */
 static const char *row_name(const price_row *rows, const char *key)
 {
     const char *best = "*";
@@ -118,7 +117,7 @@ int reach_mesh(const sweep *s, const verdict *v, double level)
     for (int i = one->meshes - 1; i >= 0; i--) {
         const solve_result *r = &one->cell[i].solve;
         const double value = v->quantity < r->quantities ? r->quantity[v->quantity].value : NAN;
-        if (!(fabs(verdict_error(q, value, v->truth->value)) <= level)) /* NAN is not within */
+        if (!(fabs(verdict_error(q, value, v->truth->value)) <= level)) /* also false for NAN */
             break;
         first = i;
     }
@@ -143,7 +142,7 @@ const char *reach_defect_words(verdict_kind kind)
     }
 }
 
-/* Is the quantity requested: by itself, or as one that some formulation has a reference value for?
+/* Is the quantity part of the question: named, or one with a reference value for some formulation?
  */
 static int is_asked(const reach_question *q, int quantity)
 {
@@ -195,7 +194,7 @@ static int has_no_rank(const formulation *chosen)
     return reach_unranked(chosen->type)[0] != '\0';
 }
 
-/* Fills the answer of one series. Returns 0 where it does not reach the level in all requested
+/* Answers the question for one series. Returns 0 if it does not meet the level in all requested
  * quantities. */
 static int reach_one(const reach_question *q, int series_index, reached *out)
 {
@@ -222,7 +221,7 @@ static int reach_one(const reach_question *q, int series_index, reached *out)
     return 1;
 }
 
-/* Sorts a before b where it is better. */
+/* Ranks a before b if it is better. */
 static int is_before(const sweep *s, const reached *a, const reached *b)
 {
     if ((a->defect != NULL) != (b->defect != NULL))

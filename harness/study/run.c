@@ -22,7 +22,7 @@ static void report(progress *p, const workload *w, int last)
     progress_show(p, now, w->finished, workload_share(w), what);
 }
 
-/* One worker that has something to say, or has ended. *running: workers there are. */
+/* Handles a worker that has sent results or ended. *running: number of workers. */
 static status attend(progress *p, workload *w, int self, worker *one, int *running, fault *f)
 {
     const int i = worker_receive(w, one);
@@ -38,12 +38,12 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
     return STATUS_OK;
 }
 
-/* Waits for the workers and for a request to end. 1: the run is to end. */
+/* Waits for workers or a request to stop. Returns 1 when the run must stop. */
 static int wait_for_any(const workload *w, int jobs, const worker workers[], int asked,
                         struct pollfd ends[])
 {
-    /* [ms] so often it is looked which workers are late, and which have ended while another process
-     * holds their pipe */
+    /* [ms] interval of checks for workers that are late, or have ended while another process holds
+     * their pipe open */
     const int interval = workload_can_tell(w) ? 0 : w->time_limit > 0 ? 100 : 1000;
     for (int i = 0; i < jobs; i++)
         ends[i] = (struct pollfd){.fd = workers[i].from, .events = POLLIN};
@@ -53,10 +53,10 @@ static int wait_for_any(const workload *w, int jobs, const worker workers[], int
     return ends[jobs].revents != 0;
 }
 
-/* The processes that run, and who may ask them to end. */
+/* The running processes, and the descriptor of requests to stop. */
 typedef struct cell_crew {
     int jobs, running, interrupted;
-    int asked; /* descriptor that becomes readable on a request to end; -1: none */
+    int asked; /* becomes readable on a request to stop; -1: none */
     worker workers[WORKERS_MOST];
 } cell_crew;
 
@@ -69,7 +69,7 @@ static status start_all(const workload *w, cell_crew *c, fault *f)
     return STATUS_OK;
 }
 
-/* Reads the processes that have sent something; the others may be late. */
+/* Reads from processes that have sent data; checks the time limit of the others. */
 static status attend_all(progress *p, workload *w, cell_crew *c, const struct pollfd ends[],
                          fault *f)
 {
@@ -94,7 +94,7 @@ static status work_off(progress *p, workload *w, cell_crew *c, fault *f)
         if (c->interrupted)
             break;
         TRY(attend_all(p, w, c, ends, f));
-        if (workload_can_tell(w)) /* of one: the workers wait meanwhile */
+        if (workload_can_tell(w)) /* one series at a time, since workers wait meanwhile */
             TRY(workload_tell(w, f));
     }
     return STATUS_OK;
@@ -129,7 +129,7 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-/* Passes all remaining series to the follower. */
+/* Passes all remaining series to the observer. */
 static status tell_all(workload *w, fault *f)
 {
     while (workload_can_tell(w))
@@ -158,8 +158,8 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
     return outcome == STATUS_OK ? tell_all(w, f) : outcome;
 }
 
-/* Even one job runs in a process of its own, so that a crash is a result and answers do not depend
- * on the number. */
+/* Uses a separate process even for one job, so that a crash is reported as a result, and results do
+ * not depend on the number of jobs. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f)
 {
     workload w;
@@ -174,9 +174,9 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f)
 }
 
 enum { COLUMNS = 79, LINE = 400 };
-/* [s] between two lines, and before the first estimate of the time left */
+/* [s] between two outputs, and before the first estimate of the remaining time */
 static const double interval = 0.2, first_word = 1;
-static const double least_share = 0.01; /* that a guess may rest on */
+static const double least_share = 0.01; /* least completed fraction for an estimate */
 
 progress progress_begin(FILE *to, const char *things, int count, double now)
 {
@@ -188,7 +188,7 @@ int progress_is_due(const progress *p, double now)
     return p->to != NULL && now - p->last >= interval;
 }
 
-/* Columns that a line may have. */
+/* Width available for the line. */
 static int columns_of(FILE *to)
 {
     struct winsize size = {0};
@@ -209,7 +209,7 @@ static void write_time(double seconds, char *text, size_t size)
         snprintf(text, size, "%d h %d min", minutes / 60, minutes % 60);
 }
 
-/* The line in place of the one that stands there. */
+/* Overwrites the present line. */
 static void write_over(progress *p, const char *line)
 {
     const int most = columns_of(p->to);
@@ -268,7 +268,8 @@ void interrupt_end(interrupt *out)
     struct signalfd_siginfo asked;
     if (out->descriptor < 0)
         return;
-    while (read(out->descriptor, &asked, sizeof asked) > 0) /* the ones already answered */
+    while (read(out->descriptor, &asked, sizeof asked) >
+           0) /* discards requests that have been handled */
         ;
     close(out->descriptor);
     out->descriptor = -1;

@@ -1,4 +1,4 @@
-/* A verdict in words: what the meshes show, with the numbers that decided. */
+/* Describes a verdict in words, with the numbers that determined it. */
 #include "harness/study/study.h"
 
 #include <math.h>
@@ -21,9 +21,8 @@ static void passed(const verdict *v, char *text, size_t size)
                  digits);
 }
 
-/* Uncertainty of a limit, in percent of the reference value; in the quantity's unit where that is
- * zero or too small to measure by: its error is then relative to the value that counts as near
- * zero. */
+/* Uncertainty of a limit in percent of the reference value. If that is zero or very small, in the
+ * unit of the quantity; the error is then relative to near_zero. */
 static void doubt_of(const verdict *v, char text[2 * ROUNDING_TEXT])
 {
     const double size = fabs(v->truth->value), apart = fabs(v->fit.limit - v->truth->value);
@@ -118,7 +117,7 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     unjudged(v, text, size);
 }
 
-/* One more part of a text; parts stand side by side with the joint between them. */
+/* Appends a part to a text, after a joint if there are earlier parts. */
 static void add_part(char *text, size_t size, int *parts, const char *joint, const char *part)
 {
     const size_t used = strlen(text);
@@ -144,7 +143,7 @@ static int count_undecided(const judgement *j)
     return count;
 }
 
-/* Counts the unexpected verdicts, in words. */
+/* Describes the number of unexpected verdicts. */
 static void failures(const judgement *j, char *text, size_t size)
 {
     int parts = 0;
@@ -165,9 +164,9 @@ static void failures(const judgement *j, char *text, size_t size)
                "reference values refer to nothing that exists");
 }
 
-/* Expected verdicts other than pass: by a derived limit, or by a rule alone. */
+/* Numbers of expected verdicts other than pass: due to a derived limit, or to a rule alone. */
 typedef struct known_value {
-    int derived[2]; /* within the tolerance, beyond it */
+    int derived[2]; /* within the tolerance; outside it */
     int by_rule;
 } known_value;
 
@@ -186,8 +185,8 @@ static known_value count_known(const judgement *j)
     return out;
 }
 
-/* Verdicts of formulations that do not affect the exit status, and how many of them would need a
- * known deviation. */
+/* Describes the verdicts of formulations that do not affect the exit status, and how many would
+ * need a known deviation. */
 static void new_ones(const judgement *j, char *text, size_t size)
 {
     if (j->proposed == 0)
@@ -257,7 +256,7 @@ void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size
                  more[0] != '\0' ? "; " : "", more);
 }
 
-/* Decimal exponent of the value when it is rounded to that many digits. */
+/* Decimal exponent of the value after rounding to that many digits. */
 static int exponent_of(double value, int digits)
 {
     char text[ROUNDING_TEXT];
@@ -265,7 +264,7 @@ static int exponent_of(double value, int digits)
     return atoi(strchr(text, 'e') + 1);
 }
 
-/* "1.2e-7", with its sign where that is wanted or "-". */
+/* "1.2e-7", with a plus sign if requested. */
 static void with_exponent(double value, int digits, int sign, char text[ROUNDING_TEXT])
 {
     char padded[ROUNDING_TEXT];
@@ -287,7 +286,7 @@ void rounding_digits(double value, int digits, char text[ROUNDING_TEXT])
         return;
     }
     const int exponent = exponent_of(value, digits), behind = digits - 1 - exponent;
-    const int widest = digits > 9 ? digits : 9; /* places before the point */
+    const int widest = digits > 9 ? digits : 9; /* digits before the decimal point */
     if (exponent < -3 || exponent >= widest)
         with_exponent(value, digits, 0, text);
     else if (behind >= 0)

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Does the quantity depend on what the formulation's options change? */
+/* Does the quantity depend on features that the options of the formulation change? */
 static int option_matters(const sweep_point *p, const formulation *chosen, const char *quantity)
 {
     const unsigned features = formulation_bears_on(chosen);
@@ -203,7 +203,7 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     return STATUS_OK;
 }
 
-/* Copies the effect of an omission from a formulation that omits the same at the same point; else
+/* Copies the omission from a formulation that omits the same physics at the same point; otherwise
  * computes it. */
 static void find_omission(const sweep *s, int index)
 {
@@ -227,7 +227,7 @@ void plan_omissions(sweep *s, int point_index)
             find_omission(s, i);
 }
 
-/* Room for the formulations of a point; the others are omitted. */
+/* Largest number of formulations at a point; others are ignored. */
 enum { MOST_FORMULATIONS = 64 };
 typedef struct chosen_cells {
     int count;
@@ -240,7 +240,7 @@ static void choose_given(const sweep_request *request, chosen_cells *out)
         out->list[out->count++] = request->formulation[i];
 }
 
-/* Selects the formulations whose options have verdicts too. */
+/* Selects formulations with options that also get verdicts. */
 static void choose_options(const element_type *type, chosen_cells *out)
 {
     for (int k = 0; k < parameter_count(type->options); k++) {
@@ -252,7 +252,7 @@ static void choose_options(const element_type *type, chosen_cells *out)
     }
 }
 
-/* Options for which there is a discrete reference value at the point. */
+/* Options for which the point has a discrete reference value. */
 static void choose_stored(const truths *t, const sweep_point *p, chosen_cells *out)
 {
     for (int i = 0; i < t->rows && out->count < MOST_FORMULATIONS; i++) {
@@ -275,8 +275,8 @@ static void choose_all(const truths *t, const sweep_point *p, chosen_cells *out)
     choose_stored(t, p, out);
 }
 
-/* One that any quantity is selected of; words of the selection are met in all of them. asked:
- * [quantities or 1] becomes 1 of those that are. */
+/* Is any quantity of the series selected? Records all words of the selection that match. asked:
+ * [quantities or 1] set to 1 for selected quantities. */
 static int is_selected(const sweep *s, const sweep_point *p, const formulation *one,
                        select_words *words, char asked[])
 {
@@ -292,8 +292,8 @@ static int is_selected(const sweep *s, const sweep_point *p, const formulation *
     return selected;
 }
 
-/* Formulations of one point: those given, or all, and the options for which there is a discrete
- * reference value. */
+/* Formulations at one point: those requested, or all, and options with a discrete reference value.
+ */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
                           select_words *words, char asked[], fault *f)
 {
@@ -309,7 +309,7 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
     return STATUS_OK;
 }
 
-/* Removes the quantities that no formulation is requested. */
+/* Removes quantities that are requested for no formulation. */
 static void drop_quantities(scene *s, const char asked[])
 {
     int kept = 0;

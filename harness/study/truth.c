@@ -1,4 +1,4 @@
-/* Which reference values apply to a point, a formulation, a quantity. */
+/* Finds the reference values for a point, a formulation and a quantity. */
 #include "harness/study/study_impl.h"
 
 #include <assert.h>
@@ -13,7 +13,7 @@ const char truth_kinds[] =
     "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|"
     "unrepeatable";
 
-/* Where mass lies changes what a mesh gives, and not what meshes go to. */
+/* Lumped and consistent masses have the same limit but different discrete values. */
 static int may_differ(const truth *row, const parameter_type *p)
 {
     return row->formulation[0] == '\0' && case_is_mass(p);
@@ -30,7 +30,7 @@ static int same_point(const truth *row, const case_type *type, const double valu
     return 1;
 }
 
-/* Is the pattern that of a formulation's key, or of its name without options? */
+/* Does the pattern match the key of a formulation, or its name without options? */
 static int is_of_formulation(const char *pattern, const char *key)
 {
     char bare[64];
@@ -102,7 +102,7 @@ static int is_of(const truth *row, const case_type *type, const char *quantity)
     return row->type == type && strcmp(row->quantity, quantity) == 0;
 }
 
-/* FNV-1a of the quantity, begun with the case. */
+/* FNV-1a hash of case and quantity. */
 static uint64_t hash_of(const case_type *type, const char *quantity)
 {
     uint64_t hash = 14695981039346656037ULL ^ (uint64_t)(uintptr_t)type;
@@ -111,7 +111,7 @@ static uint64_t hash_of(const case_type *type, const char *quantity)
     return hash;
 }
 
-/* Where the first row of the case and quantity stands, or would stand. */
+/* Position of the first row of the case and quantity in the hash table, or where it would be. */
 static int place_of(const truths *t, const case_type *type, const char *quantity)
 {
     int at = (int)(hash_of(type, quantity) % (uint64_t)t->places);
@@ -120,7 +120,7 @@ static int place_of(const truths *t, const case_type *type, const char *quantity
     return at;
 }
 
-/* From row i on, without the index. */
+/* Search from row i on, without the index. */
 static int walk(const truths *t, const case_type *type, const char *quantity, int i)
 {
     while (i < t->rows && !is_of(&t->row[i], type, quantity))
@@ -142,8 +142,8 @@ int truth_index_next(const truths *t, int i)
     return walk(t, row->type, row->quantity, i < t->indexed ? t->indexed : i + 1);
 }
 
-/* From the last row to the first, so that what is at a place comes before what it found there.
- */
+/* Fills the index from the last row to the first, so that each entry links to the next row of the
+ * same quantity. */
 static void chain(truths *t)
 {
     for (int k = 0; k < t->places; k++)
@@ -182,7 +182,8 @@ void truth_index_free(truths *t)
     t->indexed = t->places = 0;
 }
 
-/* Parameters of a row, and whether they still mean what they meant when the table was packed. */
+/* Reads the parameters of a row and checks that they still have their meaning of the time when the
+ * table was packed. */
 static status check_row(const table_columns *r, const case_type *type, int i, const char *text,
                         uint64_t hash, parameters_words *before, double value[], int any[])
 {
@@ -198,7 +199,7 @@ static status check_row(const table_columns *r, const case_type *type, int i, co
     return STATUS_OK;
 }
 
-/* Conventions: of a moment whose node rotates, and of the order of prescribed rotations. */
+/* Conventions: for a moment on a rotating node, and for the order of prescribed rotations. */
 static const char conventions[] =
     "vector|RyRzRx|spatial|spatial vector|spatial RyRzRx|semitangential|semitangential vector|"
     "semitangential RyRzRx|symmetrised|symmetrised vector|symmetrised RyRzRx";
@@ -213,7 +214,7 @@ static int is_known_or_empty(const char *word, const char *choices)
     return word[0] == '\0' || is_known(word, choices);
 }
 
-/* Are formulation and elements filled as the kind asks? */
+/* Are formulation and elements set as the kind requires? */
 static int elements_fit(const truth *row)
 {
     const int of_formulation = row->formulation[0] != '\0';
@@ -268,7 +269,7 @@ static status read_columns(const table_columns *r, loose_columns *loose, truth *
     return columns_strings(r, "parameters", loose->parameters);
 }
 
-/* Does row i repeat the parameters of the one before? */
+/* Does row i repeat the parameters of the previous row? */
 static int is_of_same_point(const loose_columns *loose, int i)
 {
     return i > 0 && loose->hash[i] == loose->hash[i - 1] &&

@@ -44,7 +44,7 @@ static status read_case(const char *path, hid_t all, const case_type *type, trut
     table_columns r = {.path = path, .f = f};
     snprintf(r.name, sizeof r.name, "%s", type->name);
     if (H5Lexists(all, type->name, H5P_DEFAULT) <= 0)
-        return STATUS_OK; /* its verdicts will be "no truth" */
+        return STATUS_OK; /* verdicts will be "no truth" */
     r.group = H5Gopen2(all, type->name, H5P_DEFAULT);
     const status outcome = read_table(&r, type, out);
     if (r.group >= 0)
@@ -61,7 +61,7 @@ static status read_cases(const char *path, hid_t all, const case_type *only, tru
     return STATUS_OK;
 }
 
-/* Tables of cases that do not exist would otherwise never be missed. */
+/* Finds tables of cases that do not exist, which would otherwise remain unused without notice. */
 static void find_strangers(hid_t all, truths *out)
 {
     char name[64];
@@ -78,7 +78,7 @@ static void find_strangers(hid_t all, truths *out)
 
 /* Tables to be read from a file. */
 typedef struct truths_wanted {
-    const char *group; /* of tables, one for every case; NULL: none */
+    const char *group; /* group of tables, one per case; NULL: none */
     const case_type *only;
     int rules;
 } truths_wanted;
@@ -165,7 +165,7 @@ void truths_free(truths *t)
     memset(t, 0, sizeof *t);
 }
 
-/* 1: it is a beamwork file of this version. */
+/* Returns 1 for a beamwork file of this version. */
 static status check_schema(hid_t file, const char *path, fault *f)
 {
     char name[64] = "";

@@ -18,8 +18,8 @@ static const char *const names[VERDICT_KINDS] = {"pass",
                                                  "skip",
                                                  "no truth",
                                                  "other model"};
-static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
-/* that many uncertainties from the reference value, a limit is another one */
+static const double order_slack = 0.3; /* an order observed on finite meshes is not more accurate */
+/* a limit differs significantly if it is this many uncertainties away */
 static const double surely = 3;
 
 const verdict_kind verdict_defects[VERDICT_DEFECTS] = {
@@ -49,11 +49,11 @@ double verdict_error(const scene_quantity *q, double value, double truth_value)
     return scale > 0 ? (value - truth_value) / scale : value - truth_value;
 }
 
-/* Values of all meshes, and how the finest one failed. */
+/* Values on all meshes, and the failure of the finest one. */
 typedef struct verdict_history {
     int n[SERIES_MAX_MESHES];
     double value[SERIES_MAX_MESHES]; /* NAN: none */
-    status failure;                  /* of the finest mesh */
+    status failure;                  /* status of the finest mesh */
     const char *reason;
 } verdict_history;
 
@@ -105,16 +105,16 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
                                      .noise = one->noise != NULL ? one->noise[quantity] : NAN,
                                      .nominal_order = fmax(1, ceil(q->least_order)),
                                      .highest_order = scene_tapers(here) && order.highest > 2
-                                                          ? 2 /* of prismatic pieces */
+                                                          ? 2 /* for prismatic pieces */
                                                           : order.highest,
                                      .near_zero = q->near_zero};
     return limit_of(&sequence);
 }
 
-/* Is the order known and too low?  Two low orders agree by accident where terms of two signs cross
- * or elements are as long as a layer is thick, and rise again: with five meshes or more the one
- * before them must be below the nominal order too, and the three go one way.  Changes that the
- * reference value's uncertainty hides say nothing. */
+/* Is the order known and too low? Two low orders may agree by accident, where error terms of
+ * opposite sign cancel or elements are as long as a boundary layer. Therefore with five meshes or
+ * more the previous order must also be below the nominal one, and the three must be monotonic.
+ * Changes below the uncertainty of the reference value are ignored. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
     const double least = q->least_order - order_slack, nominal = ceil(q->least_order);
@@ -123,8 +123,8 @@ static int order_is_low(const scene_quantity *q, const verdict *v)
            v->fit.last_change > v->truth->uncertainty;
 }
 
-/* 1: the limit is the derived one, within the uncertainty of both. The same measure as that of a
- * bias: a significantly different limit is not the predicted one. */
+/* Returns 1 when the limit equals the derived one within both uncertainties. Uses the same measure
+ * as for a bias, so that a significantly different limit is not the derived one. */
 static int is_predicted(const verdict *v)
 {
     if (v->predicted == NULL)
@@ -133,8 +133,8 @@ static int is_predicted(const verdict *v)
     return apart <= surely * v->fit.limit_uncertainty + v->predicted->uncertainty;
 }
 
-/* Against the truth.  A bias is as much a statement about the truth: it is not stated of one whose
- * uncertainty is an estimate. */
+/* Compares with the reference value. A bias is not stated if the uncertainty of the reference value
+ * is an estimate. */
 static verdict_kind compare(const scene_quantity *q, const verdict *v)
 {
     const double error = fabs(v->fit.limit - v->truth->value), doubt = v->fit.limit_uncertainty;
@@ -150,8 +150,8 @@ static verdict_kind compare(const scene_quantity *q, const verdict *v)
     return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
 }
 
-/* Words of truth.theory that the formulation is evaluated by; NULL: any.  A form whose modes see no
- * shear has no theory that anything else follows: its limits are shown against what there is. */
+/* Values of truth.theory that apply to the formulation; NULL: any. A formulation whose modes have
+ * no shear follows a theory of its own; its limits are shown against any reference. */
 static const char *theories_of(const scene *s, const element_type *type)
 {
     switch (features_theory(s, type)) {
@@ -187,19 +187,21 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
     v->truth = verdict_truth(t, p, &one->formulation, v->quantity);
     v->model_truth = truth_of(t, p->type, p->parameter, name, "other");
     if (v->truth == NULL && v->model_truth == NULL)
-        /* of another theory of shear */
+        /* another theory of shear */
         v->model_truth = truth_of(t, p->type, p->parameter, name, "same");
     if (v->truth == NULL && v->model_truth == NULL)
         v->model_truth = truth_agreed(t, p->type, p->parameter, name);
     const int foreign = one->imported != NULL && !imported_same_model(one->imported);
     if ((foreign || one->without.other) && v->truth != NULL) {
-        v->model_truth = v->truth; /* a difference of models, whoever solved it */
+        v->model_truth =
+            v->truth; /* a difference between models, whatever the source of the reference */
         v->truth = NULL;
     }
     v->predicted = truth_predicted(t, p->type, p->parameter, name, one->formulation.key);
 }
 
-/* A published value of the same model and theory, ranked below the truth: no limit of it. */
+/* A published value of the same model and theory with a lower rank than the reference value, if the
+ * limit differs from it. */
 static const truth *contradiction(const sweep *s, const truths *t, const verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -218,7 +220,7 @@ static const truth *contradiction(const sweep *s, const truths *t, const verdict
     return NULL;
 }
 
-/* Another model is shown and never judged, whatever came of it. */
+/* Reports another model, which gets no verdict on its values. */
 static void say_other_model(const series *one, verdict *v)
 {
     char words[OMISSION_TEXT];
@@ -227,7 +229,7 @@ static void say_other_model(const series *one, verdict *v)
     snprintf(v->reason, sizeof v->reason, "%.*s", (int)sizeof v->reason - 1, words);
 }
 
-/* Returns 1 where the series gets no verdict by comparison, and sets the one it has. */
+/* Returns 1, and sets the verdict, when the series cannot be compared with a reference value. */
 static int is_hindered(const sweep *s, verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -310,7 +312,7 @@ static const char *quantity_of(const sweep *s, const verdict *v)
     return s->point[series_of(s, v)->point].scene.quantity[v->quantity].name;
 }
 
-/* Would one rule explain both? */
+/* Does one rule explain both? */
 static int same_rule(const sweep *s, const verdict *a, const verdict *b)
 {
     return a->needs_finding && b->needs_finding && a->kind == b->kind &&
@@ -318,7 +320,7 @@ static int same_rule(const sweep *s, const verdict *a, const verdict *b)
            strcmp(series_of(s, a)->formulation.key, series_of(s, b)->formulation.key) == 0;
 }
 
-/* Index of the first verdict of the same rule; of the same quantity too. */
+/* Index of the first verdict with the same rule, and also with the same quantity. */
 static int first_of(const sweep *s, const judgement *j, int index, int quantity)
 {
     const verdict *v = &j->verdict[index];

@@ -12,7 +12,7 @@
 
 #include "harness/numerics/numerics.h"
 
-/* A task, and the one with the same answers. */
+/* A task, and another one with the same results. */
 typedef struct asked {
     const workload *w;
     const cell_request *request;
@@ -20,8 +20,8 @@ typedef struct asked {
     int task, same;
 } asked;
 
-/* Adds the inputs of a cell other than its model: the words that its scene is made from, and the
- * requested quantities. */
+/* Adds the inputs of a cell that the model does not contain: words of its scene, and requested
+ * quantities. */
 static void add_request(identity *out, const workload *w, const asked *a)
 {
     const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
@@ -62,7 +62,8 @@ static int is_known(void *context, const model *m)
     return a->same >= 0;
 }
 
-/* The same in other words, for its values alone; without a result where they mean no scene. */
+/* Runs the equivalent scene of a repetition, for its values only; no result if that scene is
+ * invalid. */
 static void run_again(const workload *w, const asked *a, cell_request *request, cell_result *out)
 {
     const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
@@ -79,7 +80,7 @@ static void run_again(const workload *w, const asked *a, cell_request *request, 
     scene_free(&edited);
 }
 
-/* The task with the same answers, or -1: then *out has them. */
+/* Returns the task with the same results, or -1 and the results in *out. */
 static int run_task(const workload *w, int i, int alone, cell_result *out)
 {
     cell_request request = sweep_cell(w->s, w->tasks[i].series, w->tasks[i].mesh);
@@ -98,9 +99,9 @@ static int run_task(const workload *w, int i, int alone, cell_result *out)
     return a.same;
 }
 
-/* Before every result. */
+/* Header of every result. */
 typedef struct heading {
-    int task, same; /* same: the task whose answers it has; -1: its own follow */
+    int task, same; /* same: task that has the same results; -1: results follow */
     size_t bytes;
 } heading;
 
@@ -116,7 +117,7 @@ static int write_all(int to, const char *bytes, size_t count)
     return 0;
 }
 
-/* 0, or -1: the pipe has no reader. */
+/* Returns 0, or -1 when the pipe has no reader. */
 static int tell(int to, int i, int same, const cell_result *cell)
 {
     heading head = {.task = i, .same = same};
@@ -136,7 +137,7 @@ static int tell(int to, int i, int same, const cell_result *cell)
     return bad ? -1 : 0;
 }
 
-/* Child: takes tasks until none is left. */
+/* In the child: runs tasks until none is left. */
 static void work(const workload *w, int self, int to)
 {
     int alone, i, bad = 0;
@@ -176,7 +177,7 @@ status worker_start(const workload *w, int self, worker *out, fault *f)
     return STATUS_OK;
 }
 
-/* Room for more than what is there. 0: it is there. */
+/* Enlarges the buffer. Returns 0 on success. */
 static int grow(worker *from)
 {
     enum { LEAST = 1 << 16 };
@@ -191,7 +192,7 @@ static int grow(worker *from)
     return 0;
 }
 
-/* 0: taken; SERIALISE_DAMAGED, SERIALISE_NO_MEMORY. */
+/* Returns 0, SERIALISE_DAMAGED or SERIALISE_NO_MEMORY. */
 static int take_result(workload *w, const heading *head, char *bytes)
 {
     if (head->same >= 0) {
@@ -208,8 +209,7 @@ static int take_result(workload *w, const heading *head, char *bytes)
     return bad;
 }
 
-/* Is it the heading of a task that is not done? A worker whose memory is spoilt may write
- * anything. */
+/* Is it the header of an unfinished task? A worker with corrupted memory may write anything. */
 static int is_heading(const workload *w, const heading *head)
 {
     enum { LARGEST = 1 << 30 }; /* [bytes] */
@@ -217,7 +217,7 @@ static int is_heading(const workload *w, const heading *head)
            head->bytes <= LARGEST && (head->same >= 0 ? head->bytes == 0 : head->bytes > 0);
 }
 
-/* Its pipe ends then. */
+/* Marks the output as damaged; the pipe is then closed. */
 static int spoilt(worker *from)
 {
     from->damaged = 1;
@@ -225,7 +225,7 @@ static int spoilt(worker *from)
     return WORKER_ENDED;
 }
 
-/* Takes all results that are whole. As worker_receive. */
+/* Reads all complete results; as worker_receive. */
 static int take_whole(workload *w, worker *from)
 {
     size_t at = 0;
@@ -251,7 +251,7 @@ static int take_whole(workload *w, worker *from)
 int worker_receive(workload *w, worker *from)
 {
     ssize_t got;
-    const int gone = child_is_gone(from->process); /* then nothing more comes */
+    const int gone = child_is_gone(from->process); /* if it has ended, no more data will arrive */
     if (grow(from) != 0)
         return WORKER_NO_MEMORY;
     do
@@ -280,7 +280,7 @@ int worker_bury(workload *w, int self, worker *dead)
     if (w->together && !dead->stopped && !dead->damaged && WIFSIGNALED(how) &&
         WTERMSIG(how) == SIGKILL)
         kill(getpid(), SIGKILL);
-    sem_post(&w->board->news); /* in place of what it may have heard */
+    sem_post(&w->board->news); /* replaces a wake-up that the worker may have consumed */
     if (i < 0 || w->done[i])
         return dead->stopped || i >= 0;
     solve_result *r = &workload_cell(w, i)->solve;

@@ -34,8 +34,8 @@ static void list_tasks(workload *w)
     w->board->ended = w->due == 0;
 }
 
-/* Allocates for the largest number of tasks that may be added: each task of scatter once, and each
- * task on its own once. */
+/* Allocates for the largest number of tasks that may be added: each repetition once, and each
+ * separate solution once. */
 static board *alloc_board(int all, size_t *size)
 {
     *size = sizeof(board) + 2 * ((size_t)all + 1) * sizeof(atomic_int);
@@ -95,8 +95,8 @@ void workload_end(workload *w)
     free(w->after);
 }
 
-/* Task i, number n of a counter: the worker notes that it is at it before it takes it, so that none
- * is lost with a worker that ends in between. 0: another one took it. */
+/* Takes task i, number n of a counter. The worker first records that it works on it, so that the
+ * task is not lost if the worker ends in between. Returns 0 if another worker took it. */
 static int take(board *b, int self, atomic_int *counter, int n, int i)
 {
     b->since[self] = clock_wall_seconds();
@@ -159,7 +159,7 @@ static void begin_noise(workload *w, int i)
         say(w, task_of_noise(w, i, k));
 }
 
-/* Marks a series as done; *last: the task that was its last one. */
+/* Marks a series as complete; *last: its last task. */
 static void all_done(workload *w, int i, const workload_task *last)
 {
     series *one = &w->s->series[i];
@@ -205,8 +205,8 @@ static int copy(const cell_result *from, cell_result *to)
     return bad;
 }
 
-/* The answers of another one that is done. What was solved without success is solved by each: each
- * has its own words for it. */
+/* Copies the results of another task that is complete. A failed solution is repeated by each task,
+ * because messages differ. */
 static void settle(workload *w, int i, int same)
 {
     if (workload_cell(w, same)->solve.status == STATUS_OK &&
@@ -242,7 +242,7 @@ double workload_share(const workload *w)
     for (int i = 0; i < w->all; i++) {
         const workload_task *t = &w->tasks[i];
         if (t->again > 0 && w->state[t->series] != SERIES_NOISE && !w->done[i])
-            continue; /* not requested, or not yet */
+            continue; /* not requested, or not now */
         const double cost = expense_of_cell(w->s, t->series, t->mesh);
         all += cost;
         done += w->done[i] ? cost : 0;
@@ -277,7 +277,7 @@ void workload_keep_whole(workload *w)
     w->s->seriess = kept;
 }
 
-/* the larger of two differences, twice: the standard deviation or more, nineteen times of twenty */
+/* twice the larger of two differences exceeds the standard deviation in nineteen of twenty cases */
 static const double cover = 2;
 
 scene_edit noise_words(const formulation *chosen, int repetition)
@@ -297,7 +297,7 @@ static double value_of(const cell_result *cell, int quantity)
                : NAN;
 }
 
-/* Twice the larger difference; NAN when one is not known. */
+/* Twice the larger difference; NAN if one is unknown. */
 static double noise_of(const scene_quantity *q, double value, const double again[NOISE_REPETITIONS])
 {
     double largest = 0;
@@ -323,7 +323,7 @@ int noise_take(const sweep_point *p, const cell_result again[NOISE_REPETITIONS],
             value[k] = value_of(&again[k], q);
         const double measured =
             noise_of(&p->scene.quantity[q], value_of(&one->cell[one->meshes - 1], q), value);
-        /* differences are off by the same on every mesh: in other words, too */
+        /* errors of differences are equal on all meshes and in equivalent scenes */
         one->noise[q] =
             isnan(measured) ? measured : fmax(measured, adapters_error(one->formulation.type));
     }
@@ -338,14 +338,14 @@ int noise_cells(const sweep *s)
     return cells;
 }
 
-/* Lock of one task; key 0: free. */
+/* Claim of one task; key 0: free. */
 typedef struct process_claim {
     _Atomic uint64_t key, check;
-    atomic_int task; /* after the first, 1 is added; 0: not yet said */
+    atomic_int task; /* task + 1; 0: not yet written */
 } process_claim;
 
 struct claims {
-    size_t size; /* [bytes] of the whole */
+    size_t size; /* size of the shared memory [bytes] */
     uint64_t places;
     process_claim place[];
 };
@@ -368,7 +368,7 @@ void claims_free(claims *c)
         munmap(c, c->size);
 }
 
-/* Is it the same thing? One that is just being said is taken for another. */
+/* Is it the same problem? A claim that is being written counts as another one. */
 static int is_same(process_claim *at, const identity *what)
 {
     return atomic_load(&at->task) != 0 && atomic_load(&at->check) == what->part[1];
