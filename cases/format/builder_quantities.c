@@ -16,11 +16,25 @@ static const char *usual_unit(const scene *s, const scene_quantity *q)
     return quantity_type_of(q)->unit(s, q);
 }
 
+/* "m^2/Hz", "(m/s)^2/Hz" */
+static void make_density(char unit[SCENE_UNIT])
+{
+    char of[SCENE_UNIT];
+    memcpy(of, unit, sizeof of);
+    const int plain = strpbrk(of, " /^") == NULL;
+    if (strcmp(of, "1") == 0)
+        snprintf(unit, SCENE_UNIT, "1/Hz");
+    else
+        snprintf(unit, SCENE_UNIT, "%s%.8s%s^2/Hz", plain ? "" : "(", of, plain ? "" : ")");
+}
+
 static void read_unit(const fields *f, scene_quantity *q)
 {
     const document_node *unit = document_find(f->map, "unit");
     char own[SCENE_UNIT];
     units_translate(&f->b->units, usual_unit(f->b->scene, q), sizeof own, own);
+    if (q->transform == SCENE_PSD)
+        make_density(own);
     /* a factor may make any unit of it */
     if (unit != NULL && !fields_have(f, "factor")) {
         if (!f->b->units.given)
@@ -74,16 +88,17 @@ static void read_abscissa(const fields *f, scene_quantity *q)
                       s->analysis[q->analysis].kind == SCENE_MOTION;
     const int steady = q->analysis >= 0 && q->analysis < s->analyses &&
                        s->analysis[q->analysis].kind == SCENE_HARMONIC;
+    const int hertz = steady || q->transform != SCENE_HISTORY;
     const int seconds = (timed || steady) && !(fabs(fields_number(&x, "factor", 1) - 1) > 0);
     scene_set_curve(q,
                     fields_text(&x, "name",
-                                timed    ? "time"
-                                : steady ? "frequency"
-                                         : "path"),
+                                hertz   ? "frequency"
+                                : timed ? "time"
+                                        : "path"),
                     fields_text(&x, "unit",
                                 !seconds ? "1"
-                                : timed  ? "s"
-                                         : "Hz"),
+                                : hertz  ? "Hz"
+                                         : "s"),
                     fields_number(&x, "factor", 1), fields_number(&x, "offset", 0));
 }
 
@@ -92,6 +107,10 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
 {
     const int taken = fields_word(what, "take", SCENE_TAKE_CHOICES, 0);
     q->reduction = (scene_reduction)(taken + (taken >= SCENE_AT));
+    if (q->reduction >= SCENE_REDUCTIONS) {
+        q->transform = (scene_transform)(SCENE_SPECTRUM + q->reduction - SCENE_REDUCTIONS);
+        q->reduction = SCENE_CURVE;
+    }
     if (fields_have(what, "at"))
         scene_set_at(q, fields_number(what, "at", 0));
     if (q->reduction == SCENE_CURVE)

@@ -283,7 +283,13 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
         fprintf(to, ", least value along the %s", name);
         break;
     case SCENE_CURVE:
-        fprintf(to, ", along the %s, over %s [%s]", name, q->x.name, q->x.unit);
+        if (q->transform == SCENE_HISTORY)
+            fprintf(to, ", along the %s, over %s [%s]", name, q->x.name, q->x.unit);
+        else
+            fprintf(to, ", %s of its stations%s, over %s [%s]",
+                    q->transform == SCENE_PSD ? "power spectral density" : "spectrum of amplitudes",
+                    q->passing.taper == SCENE_TAPER_HANN ? " with Hann's window" : "", q->x.name,
+                    q->x.unit);
         break;
     case SCENE_MAX_TIME:
     case SCENE_MIN_TIME:

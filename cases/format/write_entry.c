@@ -374,7 +374,10 @@ static void write_taken(writer *w, const void *entry)
     if (q->reduction == SCENE_AT)
         write_values_number(w, q->at);
     else
-        write_values_word(w, SCENE_TAKE_CHOICES, (int)q->reduction - (q->reduction > SCENE_AT));
+        write_values_word(w, SCENE_TAKE_CHOICES,
+                          q->transform != SCENE_HISTORY
+                              ? SCENE_REDUCTIONS - 1 + (int)q->transform - SCENE_SPECTRUM
+                              : (int)q->reduction - (q->reduction > SCENE_AT));
 }
 
 static void write_unit(writer *w, const void *entry)

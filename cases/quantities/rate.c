@@ -1,30 +1,59 @@
-/* Velocity of a node, or its angular velocity in its own axes. */
+/* Velocity of a node, or its angular velocity in its own axes; acceleration, jerk. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {QUANTITY_ANALYSIS,
-                                     QUANTITY_NODE(component.node),
-                                     QUANTITY_COMPONENT("of its coordinates", component.component),
+                                     QUANTITY_NODE(rated.at.node),
+                                     QUANTITY_COMPONENT("of its coordinates", rated.at.component),
+                                     {"of", ENTRY_WORD, .words = SCENE_RATE_CHOICES,
+                                      .summary = "its rate, the rate of that, or the third one",
+                                      .usual = "velocity",
+                                      ENTRY_IN(scene_quantity, what.of.rated.rate)},
                                      QUANTITY_TAKEN,
                                      {.name = NULL}};
 
 static const char *unit(const scene *s, const scene_quantity *q)
 {
     (void)s;
-    return q->what.of.component.component <= SCENE_UZ ? "m/s" : "rad/s";
+    static const char *const of[][2] = {
+        {"m/s", "rad/s"}, {"m/s^2", "rad/s^2"}, {"m/s^3", "rad/s^3"}};
+    return of[q->what.of.rated.rate][q->what.of.component.component > SCENE_UZ];
 }
 
 static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 {
+    static const char *const of[] = {"velocity", "acceleration", "jerk"};
     const int turn = q->what.of.component.component >= SCENE_RX;
-    fputs(turn ? "angular velocity" : "velocity", to);
+    fprintf(to, "%s%s", turn ? "angular " : "", of[q->what.of.rated.rate]);
     meaning_node(to, s, "of", q->what.of.component.node);
     fprintf(to, turn ? " about its own %c axis" : " along %c",
             meaning_axis(q->what.of.component.component));
 }
 
+/* Of a jerk the acceleration, whose slope it is: harness/time. */
 static double read(const scene_quantity *q, const quantity_state *state)
 {
-    return state->rate(state, q->what.of.component.node, q->what.of.component.component);
+    const scene_component *what = &q->what.of.component;
+    return q->what.of.rated.rate == SCENE_SPEED
+               ? state->rate(state, what->node, what->component)
+               : state->acceleration(state, what->node, what->component);
+}
+
+/* Which integrators know it. */
+static status check(const scene *s, const scene_quantity *q, fault *f)
+{
+    const scene_scheme scheme = scene_motion_of(&s->analysis[q->analysis])->scheme;
+    const scene_rate_of what = q->what.of.rated.rate;
+    if (what == SCENE_SPEEDING && scheme == SCENE_CONSERVING)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: conserving steps know the mean acceleration of each step "
+                         "only; take integrator: radau, alpha or explicit",
+                         q->name);
+    if (what == SCENE_JERK && scheme != SCENE_RADAU && scheme != SCENE_EXPLICIT)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: integrators of order 2 know no jerk; take integrator: radau "
+                         "or explicit",
+                         q->name);
+    return STATUS_OK;
 }
 
 /* Its own turn. */
@@ -35,14 +64,16 @@ static int turns(const scene *s, const scene_quantity *q, int i, scene_component
     return i < 1;
 }
 
-const quantity_type quantity_rate = {.key = "rate",
-                                     .summary =
-                                         "velocity of a node, or angular velocity in its own axes",
-                                     .kind = SCENE_RATE,
-                                     .field = fields,
-                                     .analyses = 1u << SCENE_MOTION,
-                                     .passing = QUANTITY_CROSSINGS,
-                                     .unit = unit,
-                                     .meaning = meaning,
-                                     .read = read,
-                                     .turns = turns};
+const quantity_type quantity_rate = {
+    .key = "rate",
+    .summary = "velocity, acceleration or jerk of a node, or angular in its "
+               "own axes",
+    .kind = SCENE_RATE,
+    .field = fields,
+    .analyses = 1u << SCENE_MOTION,
+    .passing = QUANTITY_CROSSINGS,
+    .unit = unit,
+    .meaning = meaning,
+    .read = read,
+    .turns = turns,
+    .check = check};

@@ -29,6 +29,9 @@ static const entry_field when[] = {
      ENTRY_IN(scene_quantity, passing.from)},
     {"until", ENTRY_NUMBER, .summary = "its end [s]", .left_out = "that of the motion",
      ENTRY_IN(scene_quantity, passing.until)},
+    {"taper", ENTRY_WORD, .words = SCENE_TAPER_CHOICES,
+     .summary = "of a spectrum: hann weights its history with sin^2 from end to end",
+     .usual = "none", ENTRY_IN(scene_quantity, passing.taper)},
     {.name = NULL}};
 
 static const entry_field prediction[] = {
@@ -59,7 +62,7 @@ const entry_field entry_quantity[] = {
      ENTRY_IN(scene_quantity, least_order)},
     {"x", ENTRY_MAP, .below = abscissa, .summary = "abscissa of a curve",
      .left_out = "the path or time"},
-    {"when", ENTRY_MAP, .below = when, .summary = "of a motion: which crossing, and its window",
+    {"when", ENTRY_MAP, .below = when, .summary = "of a motion: which crossing; its window",
      .left_out = "the first that rises through 0"},
     {"prediction", ENTRY_MAP, .below = prediction, .summary = "shown, never judged",
      .left_out = "none"},

@@ -284,12 +284,12 @@ typedef enum scene_quantity_kind {
     SCENE_DRIVER_VALUE,     /* of an unknown driver */
     SCENE_INTERNAL,         /* resultant of the stresses on a section of a member */
     SCENE_STRESS,           /* largest of a section or a member */
-    SCENE_RATE,             /* velocity of a node, or its angular velocity in its own axes */
-    SCENE_BALANCE,          /* energy or momentum of a motion */
-    SCENE_RELATIVE,         /* displacement or rotation of a node in the axes of another */
-    SCENE_RESPONSE,         /* of a harmonic analysis */
-    SCENE_DAMPING_RATIO,    /* of a damped mode, or its rate of decay */
-    SCENE_READING           /* what a file of cases/quantities reads of nodes, as it says itself */
+    SCENE_RATE,     /* velocity of a node, its angular velocity in its own axes, or what follows */
+    SCENE_BALANCE,  /* energy or momentum of a motion */
+    SCENE_RELATIVE, /* displacement or rotation of a node in the axes of another */
+    SCENE_RESPONSE, /* of a harmonic analysis */
+    SCENE_DAMPING_RATIO, /* of a damped mode, or its rate of decay */
+    SCENE_READING        /* what a file of cases/quantities reads of nodes, as it says itself */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -330,8 +330,21 @@ static inline int scene_is_timed(scene_reduction how)
 /* Which way a level is passed. */
 typedef enum scene_direction { SCENE_RISING, SCENE_FALLING, SCENE_EITHER } scene_direction;
 #define SCENE_DIRECTION_CHOICES "rising|falling|either"
+/* The last two are curves, too. */
 #define SCENE_TAKE_CHOICES                                                                         \
-    "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean|rms"
+    "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean|rms|spectrum|psd"
+
+/* A curve of a motion over time, or over frequency: of its stations x[0 .. N], which are evenly
+ * spaced by d and of which x[N] begins the next period. X[k] = sum w[n] x[n] exp(-2 pi i k n/N) at
+ * k/(N d). */
+typedef enum scene_transform {
+    SCENE_HISTORY,
+    SCENE_SPECTRUM, /* amplitudes 2 |X|/sum w, half of that at 0 and (2 d)^-1 */
+    SCENE_PSD       /* power density of one side 2 d |X|^2/sum w^2 [by Hz], half likewise */
+} scene_transform;
+/* The weights w: 1, or sin^2(pi n/N). */
+typedef enum scene_taper { SCENE_TAPER_NONE, SCENE_TAPER_HANN } scene_taper;
+#define SCENE_TAPER_CHOICES "none|hann"
 
 /* Feature of a motion from which a value is taken. */
 typedef struct scene_passing {
@@ -339,11 +352,20 @@ typedef struct scene_passing {
     scene_direction direction;
     int order;          /* among the crossings of that direction, from 0 */
     double from, until; /* [s] window; until 0: to the end */
+    scene_taper taper;  /* of a spectrum */
 } scene_passing;
+
+/* Of a rate: by time once, twice, three times. */
+typedef enum scene_rate_of { SCENE_SPEED, SCENE_SPEEDING, SCENE_JERK } scene_rate_of;
+#define SCENE_RATE_CHOICES "velocity|acceleration|jerk"
 
 typedef struct scene_component {
     int node, component; /* SCENE_UX .. SCENE_RZ */
 } scene_component;
+typedef struct scene_rated {
+    scene_component at;
+    scene_rate_of rate;
+} scene_rated;
 
 /* Resultants of the stresses of what lies towards the end q of a member on what lies towards p, in
  * the principal axes of the turned section, moments about its centroid. The parts of the torque add
@@ -478,8 +500,9 @@ typedef struct scene_point {
 typedef struct scene_extract {
     scene_quantity_kind kind;
     union {
-        scene_component component; /* coordinate, reaction, rate */
-        scene_entry entry;         /* of compliance and stiffness */
+        scene_component component; /* coordinate, reaction; where a rate is */
+        scene_rated rated;
+        scene_entry entry; /* of compliance and stiffness */
         scene_critical_load load;
         scene_mode mode;
         scene_point point;
@@ -542,6 +565,7 @@ typedef struct scene_quantity {
     int analysis;
     scene_extract what;
     scene_reduction reduction; /* of the stations of a path */
+    scene_transform transform; /* of a curve */
     double at;                 /* path parameter or control coordinate, of SCENE_AT */
     scene_passing passing;     /* of a motion */
     scene_abscissa x;          /* of a curve */
@@ -568,6 +592,10 @@ int scene_abscissa_of(const scene *s, const scene_quantity *q);
 void scene_set_at(scene_quantity *q, double at);
 /* Statistic over the whole time of a motion: SCENE_MAX_TIME to SCENE_RMS, SCENE_MAX, SCENE_MIN. */
 void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
+/* Stations of a spectrum, the last one with them: *count of them from *first. REFUSED: they are not
+ * evenly spaced. */
+status scene_spectrum_stations(const scene *, const scene_quantity *, int *first, int *count,
+                               fault *);
 /* Is it read between the stations of a motion? */
 int scene_is_passed(const scene_quantity *q, scene_analysis_kind);
 
@@ -1233,6 +1261,8 @@ typedef struct quantity_state {
     void (*frame)(const struct quantity_state *, int node, double place[3], double R[9]);
     /* of a motion in time: velocity [m/s], or angular velocity in the node's own axes [rad/s] */
     double (*rate)(const struct quantity_state *, int node, int component);
+    /* its derivative: acceleration [m/s^2], or angular one in the node's own axes [rad/s^2] */
+    double (*acceleration)(const struct quantity_state *, int node, int component);
     double (*driver)(const struct quantity_state *, int driver);
 } quantity_state;
 

@@ -361,6 +361,60 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
     return a->kind == SCENE_COMPLIANCE ? check_compliance(s, a, i, f) : STATUS_OK;
 }
 
+status scene_spectrum_stations(const scene *s, const scene_quantity *q, int *first, int *count,
+                               fault *f)
+{
+    const scene_path *path = scene_path_of(&s->analysis[q->analysis]);
+    const double *at = path->value, near = 1e-9 * fabs(at[path->stations - 1]);
+    int begin = 0, end = path->stations;
+    while (begin < end && at[begin] < q->passing.from - near)
+        begin++;
+    while (begin < end && q->passing.until > 0 && at[end - 1] > q->passing.until + near)
+        end--;
+    *first = begin;
+    *count = end - begin;
+    if (*count < 3)
+        return fault_set(
+            f, STATUS_REFUSED,
+            "quantity %s: a spectrum of %d stations in its window; give %s 3 at least, "
+            "evenly spaced, as stations: 0..1/1000",
+            q->name, *count, scene_called(s, SCENE_ANALYSES, q->analysis).text);
+    const double step = (at[end - 1] - at[begin]) / (*count - 1);
+    for (int i = begin; i < end; i++)
+        if (!(fabs(at[i] - (at[begin] + (i - begin) * step)) <= 1e-6 * step))
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: a spectrum is of evenly spaced stations, and %g s of %s "
+                             "is not at %g s; give a range, as stations: 0..1/1000, or a window "
+                             "('when') in which they are",
+                             q->name, at[i], scene_called(s, SCENE_ANALYSES, q->analysis).text,
+                             at[begin] + (i - begin) * step);
+    return STATUS_OK;
+}
+
+static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
+{
+    const scene_passing *p = &q->passing;
+    int first, count;
+    if (q->transform == SCENE_HISTORY)
+        return p->taper == SCENE_TAPER_NONE
+                   ? STATUS_OK
+                   : fault_set(f, STATUS_REFUSED,
+                               "quantity %s: a taper is of a spectrum; take: spectrum or psd, or "
+                               "remove it",
+                               q->name);
+    if (s->analysis[q->analysis].kind != SCENE_MOTION)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: spectra are those of a motion in time; name one, or take: "
+                         "curve",
+                         q->name);
+    if (!(p->from >= 0) || !isfinite(p->until) || (p->until != 0 && !(p->until > p->from)))
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: its window from %g to %g s is none; begin at 0 s or later, "
+                         "and end behind that",
+                         q->name, p->from, p->until);
+    return scene_spectrum_stations(s, q, &first, &count, f);
+}
+
 /* Only positions and rates are followed between the stations of a motion. */
 static status check_passing(const scene *s, const scene_quantity *q, fault *f)
 {
@@ -414,10 +468,12 @@ static status check_abscissa(const scene *s, const scene_quantity *q, fault *f)
         return STATUS_OK;
     const int over = scene_abscissa_of(s, q);
     const scene_quantity *x = over != SCENE_NONE ? &s->quantity[over] : NULL;
-    if (x == NULL || x == q || x->reduction != SCENE_CURVE)
+    if (x == NULL || x == q || x->reduction != SCENE_CURVE || q->transform != SCENE_HISTORY ||
+        x->transform != SCENE_HISTORY)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: its curve is over %s, which is no other quantity with take: "
-                         "curve; add take: curve there, or name one that has it",
+                         "curve, or a spectrum is one of them; add take: curve there, or name one "
+                         "that has it",
                          q->name, q->x.name);
     if (x->analysis < 0 || x->analysis >= s->analyses ||
         path_of_curve(s, q, &points) != path_of_curve(s, x, &others) || points != others)
@@ -440,6 +496,7 @@ status scene_validate_quantity(const scene *s, int i, fault *f)
                          "quantity %s: an analysis of this kind does not have it; name another one",
                          q->name);
     TRY(check_passing(s, q, f));
+    TRY(check_spectrum(s, q, f));
     TRY(check_abscissa(s, q, f));
     const quantity_type *type = quantity_type_of(q);
     return type->check != NULL ? type->check(s, q, f) : STATUS_OK;

@@ -304,6 +304,10 @@ void extract_quantity(const analysis_context *, const scene_quantity *, quantity
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                   quantity_result *);
 
+/* The spectrum that the quantity is, of count values a step apart [s] in its units. */
+void spectrum_take(const scene_quantity *, int count, double step, const double value[],
+                   quantity_result *);
+
 /* Is a station of the path[stations] of an analysis one that some quantity other than a curve is
  * taken at? */
 int extract_path_asks(const analysis_context *, int analysis, int stations, const double path[],

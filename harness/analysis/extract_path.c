@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "elements/math/scalar.h"
 #include "harness/model/model.h"
@@ -76,10 +77,17 @@ static const rotation_modes *modes_at(const analysis_outcome *o, int i)
     return modes != NULL ? &modes[i] : NULL;
 }
 
-/* NULL: not of a motion. */
-static const double *rate_at(const analysis_outcome *o, int i)
+/* Of nodes alone. */
+static double read_at(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
+                      int i)
 {
-    return o->kind == SCENE_MOTION ? outcome_motion_of(o)->instant[i].rate : NULL;
+    const outcome_instant *moving = moving_at(o, i);
+    const outcome_path *path = outcome_path_of(o);
+    if (reading_is_slope(q))
+        return outcome_motion_of(o)
+            ->slope[(size_t)(q - c->scene->quantity) * (size_t)path->stations + (size_t)i];
+    return reading_of(c->model, q, path->state[i], moving != NULL ? moving->rate : NULL,
+                      moving != NULL ? moving->acceleration : NULL);
 }
 
 static double followed(double value, quantity_result *r)
@@ -119,7 +127,7 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     case SCENE_CRITICAL_POINT:
         return NAN;
     default: /* of nodes alone */
-        return followed(reading_of(c->model, q, path->state[i], rate_at(o, i)), r);
+        return followed(read_at(c, q, o, i), r);
     }
 }
 
@@ -140,6 +148,28 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
         r->curve.value[i] = at_station(c, q, o, i, r);
     }
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
+}
+
+/* Over frequency, of the stations of a window. */
+static void take_spectrum(const analysis_context *c, const scene_quantity *q,
+                          const analysis_outcome *o, quantity_result *r)
+{
+    const outcome_path *p = outcome_path_of(o);
+    int first, count;
+    fault f = {""};
+    const status known = scene_spectrum_stations(c->scene, q, &first, &count, &f);
+    double *value = calloc((size_t)(count > 0 ? count : 0) + 1, sizeof *value);
+    if (known != STATUS_OK || value == NULL) {
+        quantity_no_value(r, known != STATUS_OK ? known : STATUS_FAULT,
+                          known != STATUS_OK ? f.text : "out of memory for a spectrum");
+        free(value);
+        return;
+    }
+    for (int i = 0; i < count; i++)
+        value[i] = at_station(c, q, o, first + i, r);
+    spectrum_take(q, count - 1, (p->value[first + count - 1] - p->value[first]) / (count - 1),
+                  value, r);
+    free(value);
 }
 
 /* Why a path ends before a station: the reason of the analysis that is followed. */
@@ -285,8 +315,13 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
             r->value = value;
         }
     }
+    if (q->transform != SCENE_HISTORY && complete) {
+        take_spectrum(c, q, o, r);
+        return;
+    }
     if (q->reduction == SCENE_CURVE) {
-        take_curve(c, q, o, r);
+        if (q->transform == SCENE_HISTORY)
+            take_curve(c, q, o, r);
         if (!complete)
             path_ends(c, q, o, r);
         return;

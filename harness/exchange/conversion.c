@@ -224,13 +224,14 @@ static void turn_reduction(scene_quantity *q, int *sign)
         q->passing.level = -q->passing.level;
         *sign = 1;
     }
-    if (q->reduction == SCENE_RMS)
+    if (q->reduction == SCENE_RMS || q->transform != SCENE_HISTORY)
         *sign = 1;
 }
 
 static int same_reduction(const scene_quantity *a, const scene_quantity *b)
 {
     return a->analysis == b->analysis && a->reduction == b->reduction && a->at == b->at &&
+           a->transform == b->transform && a->passing.taper == b->passing.taper &&
            a->passing.level == b->passing.level && a->passing.order == b->passing.order &&
            a->passing.direction == b->passing.direction && a->passing.from == b->passing.from &&
            a->passing.until == b->passing.until;

@@ -363,6 +363,8 @@ typedef struct outcome_motion {
     int steps;                /* with the initial state */
     outcome_step *step;       /* [steps] */
     outcome_passing *passing; /* [quantities of the scene] */
+    double *slope;            /* [quantities of the scene x stations] of those whose values are
+                                 slopes inside steps; NULL: there is none */
     outcome_path frames;      /* for pictures, evenly over the time */
     double origin;            /* [J] energy at t = 0 of the first motion of a chain */
     outcome_end end;

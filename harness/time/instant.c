@@ -92,7 +92,7 @@ typedef struct read_state {
     quantity_state as;
     const model *m;
     const model_state *state;
-    const double *rate;
+    const double *rate, *acceleration;
 } read_state;
 
 /* The interface is the first member of read_state. */
@@ -136,6 +136,17 @@ static double rate_of(const quantity_state *s, int node, int component)
     return body.v[component] + (moved_by == node ? 0 : carried[component]);
 }
 
+static double acceleration_of(const quantity_state *s, int node, int component)
+{
+    frame_rates at;
+    vertex_rates(of(s)->m, of(s)->state, node, of(s)->rate, of(s)->acceleration, &at);
+    if (component < SCENE_RX)
+        return at.a[component];
+    double own[3];
+    mat3_transpose_mul_vec(at.R, at.wd, own);
+    return own[component - SCENE_RX];
+}
+
 static double driver_of(const quantity_state *s, int driver)
 {
     return kinematics_driver_value(of(s)->m, of(s)->state, driver);
@@ -146,17 +157,24 @@ int reading_is_kinematic(const scene_quantity *q)
     return quantity_type_of(q)->read != NULL;
 }
 
-double reading_of(const model *m, const scene_quantity *q, const model_state *s,
-                  const double rate[])
+int reading_is_slope(const scene_quantity *q)
+{
+    return q->what.kind == SCENE_RATE && q->what.of.rated.rate == SCENE_JERK;
+}
+
+double reading_of(const model *m, const scene_quantity *q, const model_state *s, const double v[],
+                  const double a[])
 {
     const read_state state = {.as = {.component = component_of,
                                      .relative = relative_of,
                                      .frame = frame_of,
                                      .rate = rate_of,
+                                     .acceleration = acceleration_of,
                                      .driver = driver_of},
                               .m = m,
                               .state = s,
-                              .rate = rate};
+                              .rate = v,
+                              .acceleration = a};
     return quantity_type_of(q)->read(q, &state.as);
 }
 

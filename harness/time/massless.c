@@ -248,6 +248,56 @@ static void own_axes(const model *m, const model_state *s, massive *h)
     }
 }
 
+/* Does a motion dx[free] without inertia move it there: three translations or three turns? */
+static int is_moved(const model *m, const model_state *s, const scene_component *what,
+                    const double dx[])
+{
+    int index[6];
+    double T[36], most = 0;
+    const int n = kinematics_node_jacobian(m, s, what->node, 6, index, T),
+              first = what->component < SCENE_RX ? 0 : 3;
+    for (int i = first; i < first + 3; i++) {
+        double sum = 0, size = 0;
+        for (int k = 0; k < n; k++) {
+            const double part = index[k] < model_unknowns(m) ? T[i * n + k] : 0;
+            sum += part * dx[index[k] < model_unknowns(m) ? index[k] : 0];
+            size += fabs(part);
+        }
+        most = fmax(most, size > 0 ? fabs(sum) / size : 0);
+    }
+    return most > 1e-9;
+}
+
+status massless_readings(const model *m, const carried_masses *masses, const model_state *s,
+                         int analysis, fault *f)
+{
+    const scene *of = model_scene(m);
+    double *dx = NULL;
+    status outcome = STATUS_OK;
+    for (int i = 0; i < of->quantities && outcome == STATUS_OK; i++) {
+        const scene_quantity *q = &of->quantity[i];
+        if (q->analysis != analysis || q->what.kind != SCENE_RATE ||
+            q->what.of.rated.rate == SCENE_SPEED)
+            continue;
+        if (dx == NULL)
+            dx = calloc((size_t)model_unknowns(m) + 1, sizeof *dx);
+        for (int k = 0; k < model_unknowns(m) && dx != NULL; k++)
+            dx[k] = 1 + 0.01 * k; /* any motion of all */
+        outcome = dx != NULL ? massless_motion(m, masses, s, dx, f)
+                             : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        if (outcome == STATUS_OK && is_moved(m, s, scene_component_of(q), dx))
+            outcome =
+                fault_set(f, STATUS_REFUSED,
+                          "quantity %s: node %s has no inertia against that motion, so that "
+                          "its acceleration is not defined; name a node that has one, or give it a "
+                          "mass or an inertia, or "
+                          "its members a density, and do not omit rotary_inertia",
+                          q->name, scene_name(of, SCENE_NODES, scene_component_of(q)->node).text);
+    }
+    free(dx);
+    return outcome;
+}
+
 status massive_of(const model *m, const carried_masses *masses, const model_state *s, massive *h,
                   fault *f)
 {

@@ -220,6 +220,38 @@ void between_places(const step_between *b, double time, instant *at)
     at->ends_known = 0;
 }
 
+enum { SLOPE = 5 };
+
+/* Slope at x of the polynomial through values at 0.1, 0.3 .. 0.9. */
+static double slope_of(const double value[SLOPE], double x)
+{
+    double sum = 0;
+    for (int i = 0; i < SLOPE; i++) {
+        double whole = 0, scale = 1;
+        for (int k = 0; k < SLOPE; k++) {
+            double product = 1;
+            for (int l = 0; l < SLOPE; l++)
+                product *= l != i && l != k ? x - (0.1 + 0.2 * l) : 1;
+            whole += k != i ? product : 0;
+            scale *= k != i ? 0.2 * (i - k) : 1;
+        }
+        sum += value[i] * whole / scale;
+    }
+    return sum;
+}
+
+double between_reading(const step_between *b, const scene_quantity *q, double time, instant *at)
+{
+    const double begin = b->from->time, h = b->to->time - begin;
+    const int slope = reading_is_slope(q);
+    double value[SLOPE];
+    for (int i = 0; i < (slope ? SLOPE : 1); i++) {
+        between_places(b, slope ? begin + h * (0.1 + 0.2 * i) : time, at);
+        value[i] = reading_of(b->m, q, at->state, at->v, at->a);
+    }
+    return slope ? slope_of(value, (time - begin) / h) / h : value[0];
+}
+
 void between_at(const step_between *b, double time, instant *at)
 {
     between_places(b, time, at);
@@ -229,6 +261,29 @@ void between_at(const step_between *b, double time, instant *at)
 /* A station closer than this to the end of a step, relative to the step, counts as that end. */
 static const double same_instant = 1e-9;
 
+static int is_slope(const stations *s, int quantity)
+{
+    const scene_quantity *q = &s->c->scene->quantity[quantity];
+    return q->analysis == s->analysis && reading_is_slope(q);
+}
+
+/* At the stations of a step and at its end; the first step gives those at time 0, too. */
+static void take_slopes(stations *s, const instant *from, const instant *to)
+{
+    const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
+    const double near = same_instant * (to->time - from->time);
+    int first = s->out->path.reached;
+    while (first > 0 && s->sloped == 0 && path->value[first - 1] >= from->time - near)
+        first--;
+    s->sloped = 1;
+    between_take(&s->inside, s->scheme->degree, from, to);
+    for (int i = first; i < path->stations && path->value[i] <= to->time + near; i++)
+        for (int q = 0; q < s->c->scene->quantities; q++)
+            if (is_slope(s, q))
+                s->out->slope[(size_t)q * (size_t)path->stations + (size_t)i] =
+                    between_reading(&s->inside, &s->c->scene->quantity[q], path->value[i], &s->at);
+}
+
 status stations_alloc(stations *s, fault *f)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
@@ -236,7 +291,12 @@ status stations_alloc(stations *s, fault *f)
     TRY(instant_alloc(s->c->model, &s->at, f));
     TRY(outcome_stations(&s->out->path, path->stations, f));
     s->out->instant = calloc((size_t)path->stations + 1, sizeof *s->out->instant);
-    return s->out->instant != NULL
+    for (int i = 0; i < s->c->scene->quantities; i++)
+        s->slopes |= is_slope(s, i);
+    if (s->slopes)
+        s->out->slope =
+            calloc((size_t)s->c->scene->quantities * (size_t)path->stations, sizeof *s->out->slope);
+    return s->out->instant != NULL && (s->out->slope != NULL || !s->slopes)
                ? STATUS_OK
                : fault_set(f, STATUS_FAULT, "out of memory for the instants of a motion");
 }
@@ -303,6 +363,8 @@ status stations_inside(stations *s, const instant *from, const instant *to, faul
     const double end = to->time - same_instant * (to->time - from->time);
     double none[SCENE_BALANCES];
     int taken = 0;
+    if (s->slopes)
+        take_slopes(s, from, to);
     for (int i = 0; i < SCENE_BALANCES; i++)
         none[i] = NAN;
     while (next_of(s) < end) {

@@ -62,6 +62,9 @@ void between_free(step_between *);
 void between_take(step_between *, between_degree, const instant *from, const instant *to);
 /* Positions and rates at a time inside the step or near it [s]. */
 void between_places(const step_between *, double time, instant *at);
+/* A kinematic quantity at a time of the step; `at`: work space. A jerk is the slope of a polynomial
+ * of fourth degree through five accelerations of the step. */
+double between_reading(const step_between *, const scene_quantity *, double time, instant *at);
 /* The whole state. Strains, stresses and inner unknowns are interpolated linearly: use them for
  * pictures, not for forces. */
 void between_at(const step_between *, double time, instant *at);
@@ -224,8 +227,12 @@ status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fau
 
 /* Does the quantity depend on positions and rates only? */
 int reading_is_kinematic(const scene_quantity *);
-/* The extracted value without factor and offset; for kinematic kinds only. rate[free + driven] */
-double reading_of(const model *, const scene_quantity *, const model_state *, const double rate[]);
+/* The extracted value without factor and offset; for kinematic kinds only; of a jerk the
+ * acceleration. v, a[free + driven]: rates of a motion and their derivatives. */
+double reading_of(const model *, const scene_quantity *, const model_state *, const double v[],
+                  const double a[]);
+/* Is it the slope of a reading, which is known inside steps only? */
+int reading_is_slope(const scene_quantity *);
 
 /* Quantities of a state that require forces: reactions, resultants, stresses. */
 

@@ -639,6 +639,10 @@ status massless_forces(const model *, const carried_masses *, const model_state 
                        fault *);
 status massless_motion(const model *, const carried_masses *, const model_state *, double dx[],
                        fault *);
+/* REFUSED: an acceleration or a jerk of the analysis is read of a node that moves without inertia:
+ * the accelerations of what has none are not known (settle). */
+status massless_readings(const model *, const carried_masses *, const model_state *, int analysis,
+                         fault *);
 /* Removes the motion without inertia from a[free], given in the coordinates of forms_rates. */
 status massless_drop(const model *, const carried_masses *, const model_state *, double a[],
                      fault *);
@@ -967,6 +971,7 @@ typedef struct stations {
     const carried_masses *masses;
     motion_scheme *scheme;
     outcome_motion *out;
+    int slopes, sloped; /* is one read; has a step been */
     step_between inside;
     instant at;
 } stations;

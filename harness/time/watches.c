@@ -51,8 +51,7 @@ void watches_free(watches *s)
 /* Value as extracted, from the polynomial inside the step. */
 static double value_at(watches *s, const watched *one, double time)
 {
-    between_places(&s->inside, time, &s->at);
-    return reading_of(s->c->model, one->q, s->at.state, s->at.v);
+    return between_reading(&s->inside, one->q, time, &s->at);
 }
 
 /* Slope; exact if the quantity is a quartic of the polynomial. */
@@ -100,11 +99,11 @@ static status disagreement(watches *s, const watched *one, const instant *from, 
 {
     const double here = value_at(s, one, time);
     *out = 0;
-    if (time <= from->time || time >= s->inside.to->time)
+    if (reading_is_slope(one->q) || time <= from->time || time >= s->inside.to->time)
         return STATUS_OK;
     const status outcome = aside_step(s->c, s->scheme, from, time, &s->at, f);
     if (outcome == STATUS_OK)
-        *out = fabs(reading_of(s->c->model, one->q, s->at.state, s->at.v) - here);
+        *out = fabs(reading_of(s->c->model, one->q, s->at.state, s->at.v, s->at.a) - here);
     return outcome == STATUS_FAULT ? outcome : STATUS_OK;
 }
 

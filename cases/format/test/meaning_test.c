@@ -150,6 +150,9 @@ static void check_motion(void)
          SCENE_AT,
          "angular velocity of node_1 (1, 0, 0) about its own y axis, 0.5 s after the start of the "
          "motion"},
+        {{SCENE_RATE, {.rated = {{1, SCENE_UX}, SCENE_SPEEDING}}},
+         SCENE_RMS,
+         "acceleration of node_1 (1, 0, 0) along x, root mean square over time"},
         {scene_orientation_entry(1, 0, 2), SCENE_MAX,
          "entry xz of the rotation matrix of node_1 (1, 0, 0), largest value along the motion"},
         {{SCENE_RELATIVE, {.relative = {1, SCENE_UY, 0}}},

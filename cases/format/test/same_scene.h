@@ -121,9 +121,9 @@ static inline int same_quantity(const scene_quantity *a, const scene_quantity *b
     const char *one = a->prediction.source, *two = b->prediction.source;
     return entry_same(entry_quantity, a, b) && strcmp(a->name, b->name) == 0 &&
            strcmp(a->unit, b->unit) == 0 && a->reduction == b->reduction &&
-           strcmp(a->x.name, b->x.name) == 0 && strcmp(a->x.unit, b->x.unit) == 0 &&
-           same_numbers(4, x, y) && (one == NULL) == (two == NULL) &&
-           (one == NULL || strcmp(one, two) == 0);
+           a->transform == b->transform && strcmp(a->x.name, b->x.name) == 0 &&
+           strcmp(a->x.unit, b->x.unit) == 0 && same_numbers(4, x, y) &&
+           (one == NULL) == (two == NULL) && (one == NULL || strcmp(one, two) == 0);
 }
 
 /* What differs first, with its index; NULL: nothing. */
