@@ -135,6 +135,14 @@ const scene_motion *scene_motion_of(const scene_analysis *a)
     return &a->of.motion;
 }
 
+int scene_has_ratios(const scene_analysis *a)
+{
+    int any = a->damping.ratio > 0;
+    for (int i = 0; i < a->damping.ratios.stations; i++)
+        any |= a->damping.ratios.value[i] > 0;
+    return any;
+}
+
 int scene_spreads(const scene_analysis *a)
 {
     return a->kind == SCENE_MOTION && scene_motion_of(a)->mass == SCENE_CONSISTENT;

@@ -49,12 +49,26 @@ static const entry_field path[] = {
     {"spin", ENTRY_MAP, .below = spin, .summary = "the axes turn", .left_out = "they do not"},
     {.name = NULL}};
 
-static const entry_field proportional[] = {
-    {"mass", ENTRY_NUMBER, .unit = "1/s", .summary = "times the mass matrix", .usual = "0",
-     ENTRY_IN(scene_analysis, damping.mass), .most = INFINITY},
-    {"stiffness", ENTRY_NUMBER, .unit = "s",
-     .summary = "times the stiffness of members and springs, without that of stresses",
-     .usual = "0", ENTRY_IN(scene_analysis, damping.stiffness), .most = INFINITY},
+#define RAYLEIGH                                                                                   \
+    {"mass",          ENTRY_NUMBER,                                                                \
+     .unit = "1/s",   .summary = "times the mass matrix",                                          \
+     .usual = "0",    ENTRY_IN(scene_analysis, damping.mass),                                      \
+     .most = INFINITY},                                                                            \
+    {                                                                                              \
+        "stiffness", ENTRY_NUMBER, .unit = "s",                                                    \
+            .summary = "times the stiffness of members and springs, without that of stresses",     \
+            .usual = "0", ENTRY_IN(scene_analysis, damping.stiffness), .most = INFINITY            \
+    }
+
+static const entry_field proportional[] = {RAYLEIGH, {.name = NULL}};
+
+static const entry_field of_modes[] = {
+    RAYLEIGH,
+    {"ratio", ENTRY_NUMBER, .unit = "1", .summary = "damping ratio of every mode", .usual = "0",
+     ENTRY_IN(scene_analysis, damping.ratio), .most = INFINITY},
+    {"ratios", ENTRY_NUMBERS, .unit = "1",
+     .summary = "those of the first modes, lowest frequency first; of the others: ratio",
+     .left_out = "none", ENTRY_IN(scene_analysis, damping.ratios)},
     {.name = NULL}};
 
 #define PROPORTIONAL                                                                               \
@@ -166,12 +180,21 @@ static const entry_field in_time[] = {
      .left_out = "at rest, or as about has it"},
     {.name = NULL}};
 
-static const entry_field harmonic[] = {{"frequencies", ENTRY_NUMBERS, .needed = 1, .unit = "Hz",
-                                        .summary = "ascending",
-                                        ENTRY_IN(scene_analysis, of.harmonic)},
-                                       PROPORTIONAL,
-                                       ABOUT("static or linear analysis about whose last state"),
-                                       {.name = NULL}};
+static const entry_field harmonic[] = {
+    {"frequencies", ENTRY_NUMBERS, .needed = 1, .unit = "Hz", .summary = "ascending",
+     ENTRY_IN(scene_analysis, of.harmonic)},
+    {"solution", ENTRY_WORD, .words = "direct|modal",
+     .summary = "by factors at each frequency, or by the modes "
+                "without damping, with an error bound",
+     .usual = "direct", ENTRY_IN(scene_analysis, by_modes)},
+    {"modes", ENTRY_WHOLE, .summary = "how many, of the modal solution and of ratios; 0: all",
+     .usual = "0", ENTRY_IN(scene_analysis, modes), .most = 1000000},
+    {"damping", ENTRY_MAP, .below = of_modes,
+     .summary = "beside that of members and springs: Rayleigh "
+                "damping, and ratios of modes",
+     .left_out = "none"},
+    ABOUT("static or linear analysis about whose last state"),
+    {.name = NULL}};
 
 const entry_field entry_analysis[] = {
     {"linear", ENTRY_MAP, .needed = 1, .group = 1, .below = nothing, .summary = "loads at factor 1",

@@ -102,6 +102,8 @@ int entry_is_usual(const entry_field *k, const void *entry)
         return k->size == 0 || whole_of(k, entry) == 0;
     case ENTRY_WORD:
         return k->size != sizeof(int) || whole_of(k, entry) == entry_word(k, k->usual);
+    case ENTRY_NUMBERS:
+        return count == 0;
     default:
         for (int i = 0; i < count; i++)
             if (number[i] != 0)

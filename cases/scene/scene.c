@@ -24,9 +24,11 @@ void scene_free(scene *s)
         free(s->load[i].factor);
         function_free(&s->load[i].function);
     }
-    for (int i = 0; i < s->analyses; i++)
+    for (int i = 0; i < s->analyses; i++) {
         if (scene_path_of(&s->analysis[i]) != NULL)
             free(scene_path_of(&s->analysis[i])->value);
+        free(s->analysis[i].damping.ratios.value);
+    }
     free(s->section);
     free(s->computed);
     free(s->node);

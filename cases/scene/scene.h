@@ -137,10 +137,12 @@ typedef struct scene_motion {
     scene_mass mass;
 } scene_motion;
 
-/* Proportional damping of small vibrations: mass x M + stiffness x the stiffness of members and
- * springs, without that of stresses. */
+/* Damping of small vibrations: mass x M + stiffness x the stiffness of members and springs, without
+ * that of stresses; and ratios of the modes without damping. */
 typedef struct scene_proportional {
     double mass, stiffness; /* [1/s], [s] */
+    double ratio;           /* of the modes behind ... */
+    scene_path ratios;      /* ... the first ones, which have these */
 } scene_proportional;
 
 typedef struct scene_analysis {
@@ -155,6 +157,8 @@ typedef struct scene_analysis {
     } of;
     scene_proportional damping; /* of small vibrations, beside members' and dashpots */
     int damped;                 /* 1: modes are those with damping */
+    int by_modes;               /* 1: a harmonic analysis is solved by its modes */
+    int modes;                  /* how many it has, and has ratios of; 0: all */
     char name[SCENE_NAME];      /* "": none */
 } scene_analysis;
 
@@ -180,6 +184,8 @@ const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);
 const scene_motion *scene_motion_of(const scene_analysis *a);
+/* 1: modes of a harmonic analysis have damping ratios. */
+int scene_has_ratios(const scene_analysis *a);
 /* 1: a motion for which the scene requests consistent mass. */
 int scene_spreads(const scene_analysis *a);
 /* Is it a motion whose elements are to do that where they can? */

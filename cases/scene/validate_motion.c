@@ -326,6 +326,27 @@ static int is_asked(const scene *s, int analysis)
     return 0;
 }
 
+static status check_harmonic(const scene *s, const scene_analysis *a, int i, fault *f)
+{
+    const scene_path *ratios = &a->damping.ratios;
+    const scene_words who = scene_called(s, SCENE_ANALYSES, i);
+    for (int k = 0; k < ratios->stations; k++)
+        if (!(ratios->value[k] >= 0 && isfinite(ratios->value[k])))
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: a damping ratio of %g; give none below 0, such as 0.02", who.text,
+                             ratios->value[k]);
+    if (a->modes > 0 && ratios->stations > a->modes)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: %d ratios for %d modes; raise modes, or remove ratios", who.text,
+                         ratios->stations, a->modes);
+    if (a->modes > 0 && !a->by_modes && !scene_has_ratios(a))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: modes have no part in a direct solution without ratios of damping; "
+                         "add solution: modal, or remove modes",
+                         who.text);
+    return STATUS_OK;
+}
+
 status scene_validate_analysis(const scene *s, int i, fault *f)
 {
     const scene_analysis *a = &s->analysis[i];
@@ -351,6 +372,8 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
     if (a->kind == SCENE_HARMONIC && !(a->of.harmonic.value[0] >= 0))
         return fault_set(f, STATUS_REFUSED, "%s: a frequency of %g Hz; give none below 0",
                          scene_called(s, SCENE_ANALYSES, i).text, a->of.harmonic.value[0]);
+    if (a->kind == SCENE_HARMONIC)
+        TRY(check_harmonic(s, a, i, f));
     if (a->kind == SCENE_MODAL && !a->damped && (a->damping.mass > 0 || a->damping.stiffness > 0))
         return fault_set(f, STATUS_REFUSED,
                          "%s: its frequencies are those without damping, and damping is given; add "

@@ -363,7 +363,49 @@ status modal_analysis(analysis_context *, int analysis, analysis_outcome *, faul
 /* How many modes the quantities of an analysis ask for. */
 int modal_wanted(const analysis_context *, int analysis);
 
-/* Steady vibration by frequency. */
+/* Steady vibration by frequency: D(w) x = f with the dynamic stiffness D (harmonic.c). */
+
+typedef struct harmonic_modes harmonic_modes;
+
+typedef struct vibration {
+    analysis_context *c;
+    int analysis, free, all;
+    const model_state *state;
+    sparse K, M, C, B; /* on all coordinates */
+    int damped, inside;
+    sparse D; /* [2 (free + border)] real form */
+    int *source,
+        *first; /* entry of K behind each entry of the free block, by columns; [free + 1] */
+    int *row, *rows;
+    double complex *column; /* [free + border], as rows: of one column of D */
+    matrix_factor *factor;
+    double *x;                     /* [2 (free + border)] */
+    double complex *found, *left;  /* [quantities x all], [quantities x free] */
+    double complex *output, *dual; /* [all] */
+    double *room;                  /* [model_stresses + all] */
+    harmonic_modes *modes; /* NULL: the solution is direct, and no mode has a damping ratio */
+} vibration;
+
+/* Entry k of K, M, ... in D. */
+double complex harmonic_dynamic(const vibration *, double w, int k);
+
+/* Modes without damping, of the free coordinates, and the solution by them (harmonic_modes.c). */
+
+status harmonic_modes_find(vibration *, fault *);
+void harmonic_modes_free(harmonic_modes *);
+/* Modes that damping ratios damp: C + U U^T with U [count x free]. */
+int harmonic_modes_damped(const harmonic_modes *, const double **U);
+/* U^T of the displacements that a unit motion of the driven coordinate makes at rest, [count]. */
+void harmonic_modes_carried(const vibration *, int driven, double out[]);
+/* The static shapes of inputs and outputs, and the projected matrices. f: [count x free] forces. */
+status harmonic_modes_project(vibration *, int count, const double f[], fault *);
+/* Factors D at a frequency; SINGULAR as a direct solution. */
+status harmonic_modes_factor(vibration *, double w, fault *);
+/* x [free] for the forces there; x becomes the solution, f what it leaves of the forces. */
+void harmonic_modes_solve(vibration *, double complex f[], double complex x[]);
+/* Bound of |o^T (x - D^-1 f)|, from what the solutions for f and o leave; INFINITY: none. */
+double harmonic_modes_bound(vibration *, const double complex left_of_f[],
+                            const double complex left_of_o[]);
 
 status harmonic_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Modes with damping. */

@@ -137,16 +137,37 @@ static double at_station(const analysis_context *c, const scene_quantity *q,
     return quantity_scaled(q, extracted(c, q, o, i, r));
 }
 
+/* Error of a response at a station, at most; 0 of other quantities. */
+static double bound_at(const analysis_context *c, const scene_quantity *q,
+                       const analysis_outcome *o, int i)
+{
+    const size_t stations = (size_t)outcome_path_of(o)->stations;
+    return q->what.kind == SCENE_RESPONSE
+               ? fabs(q->factor) *
+                     o->left.harmonic.bound[(size_t)(q - c->scene->quantity) * stations + (size_t)i]
+               : 0;
+}
+
+/* By the value; a part that is zero by itself has none. */
+static double relative(double error, double value)
+{
+    return value != 0 ? error / fabs(value) : 0;
+}
+
 static void take_curve(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, quantity_result *r)
 {
     const outcome_path *p = outcome_path_of(o);
     if (!quantity_curve(r, p->reached))
         return;
+    double bound = 0, largest = 0;
     for (int i = 0; i < p->reached; i++) {
         r->curve.x[i] = quantity_abscissa(q, p->value[i]);
         r->curve.value[i] = at_station(c, q, o, i, r);
+        bound = fmax(bound, bound_at(c, q, o, i));
+        largest = fmax(largest, fabs(r->curve.value[i]));
     }
+    r->rounding = relative(bound, largest);
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
 }
 
@@ -331,5 +352,6 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
         return;
     }
     r->value = at_station(c, q, o, chosen, r);
+    r->rounding = relative(bound_at(c, q, o, chosen), r->value);
     r->x = quantity_abscissa(q, p->value[chosen]);
 }

@@ -16,22 +16,6 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
-typedef struct vibration {
-    analysis_context *c;
-    int analysis, free, all;
-    const model_state *state;
-    sparse K, M, C, B; /* on all coordinates */
-    int damped, inside;
-    sparse D; /* [2 free] real form */
-    int *source,
-        *first; /* entry of K behind each entry of the free block, by columns; [free + 1] */
-    int *row;
-    matrix_factor *factor;
-    double *x;             /* [2 free] */
-    double complex *found; /* [quantities x all] */
-    double *room;          /* [model_stresses + all] */
-} vibration;
-
 static status no_memory(fault *f)
 {
     return fault_set(f, STATUS_FAULT, "out of memory for a harmonic analysis");
@@ -137,6 +121,58 @@ static void unfold(vibration *v)
         }
 }
 
+/* Modes with a damping ratio, of a direct solution: as many unknowns y = i w U^T (x - r), so that
+ * D x + U y = f, r: of driven coordinates that move, at rest. */
+static int bordering(const vibration *v)
+{
+    const double *U;
+    return v->c->scene->analysis[v->analysis].by_modes ? 0 : harmonic_modes_damped(v->modes, &U);
+}
+
+/* The entries of column j of one half: rows, and their numbers at w where z is not NULL. */
+static int column_of(const vibration *v, int j, double w, int row[], double complex z[])
+{
+    const int n = v->free, more = bordering(v);
+    const double *U;
+    int count = 0;
+    harmonic_modes_damped(v->modes, &U);
+    for (int k = j < n ? v->first[j] : 0; j < n && k < v->first[j + 1]; k++) {
+        row[count] = v->row[k];
+        z[count++] = harmonic_dynamic(v, w, v->source[k]);
+    }
+    for (int i = 0; j < n && i < more; i++) {
+        row[count] = n + i;
+        z[count++] = I * w * U[(size_t)i * (size_t)n + (size_t)j];
+    }
+    for (int i = 0; j >= n && i < n; i++) {
+        row[count] = i;
+        z[count++] = U[(size_t)(j - n) * (size_t)n + (size_t)i];
+    }
+    if (j >= n) {
+        row[count] = j;
+        z[count++] = -1;
+    }
+    return count;
+}
+
+/* D at the frequency; its pattern where w is 0 too. */
+static void fill(vibration *v, double w)
+{
+    const int n = v->free + bordering(v);
+    int at = 0;
+    for (int j = 0; j < 2 * n; j++) {
+        const int imaginary = j >= n, count = column_of(v, j % n, w, v->rows, v->column);
+        v->D.column[j] = at;
+        for (int half = 0; half < 2; half++)
+            for (int k = 0; k < count; k++) {
+                const double complex z = v->column[k];
+                v->D.row[at] = half * n + v->rows[k];
+                v->D.value[at++] = half == imaginary ? creal(z) : half ? cimag(z) : -cimag(z);
+            }
+    }
+    v->D.column[2 * n] = at;
+}
+
 /* Counts, then begins of columns at first[column + 1], which end as those of the next ones. */
 static status make_pattern(vibration *v, fault *f)
 {
@@ -153,51 +189,44 @@ static status make_pattern(vibration *v, fault *f)
     }
     v->row = calloc((size_t)entries + 1, sizeof *v->row);
     v->source = calloc((size_t)entries + 1, sizeof *v->source);
-    v->D = (sparse){.n = 2 * n,
-                    .column = calloc(2 * (size_t)n + 1, sizeof(int)),
-                    .row = calloc(4 * (size_t)entries + 1, sizeof(int)),
-                    .value = calloc(4 * (size_t)entries + 1, sizeof(double))};
-    if (v->row == NULL || v->source == NULL || v->D.column == NULL || v->D.row == NULL ||
-        v->D.value == NULL)
+    if (v->row == NULL || v->source == NULL)
         return no_memory(f);
     unfold(v);
-    for (int j = 0, at = 0; j < 2 * n; j++) {
-        v->D.column[j] = at;
-        for (int half = 0; half < 2; half++)
-            for (int k = v->first[j % n]; k < v->first[j % n + 1]; k++)
-                v->D.row[at++] = half * n + v->row[k];
-        v->D.column[j + 1] = at;
-    }
     return STATUS_OK;
 }
 
-/* Entry k of D, as K has them. */
-static double complex dynamic(const vibration *v, double w, int k)
+/* The matrix of a direct solution. */
+static status make_matrix(vibration *v, fault *f)
 {
-    double complex D = v->K.value[k] - w * w * v->M.value[k];
-    if (v->inside) {
-        const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;
-        const double complex moves = w * (w - I * damping->mass);
-        D -= moves * moves / (1 + I * w * damping->stiffness) * v->B.value[k];
-    }
-    return v->damped ? D + I * w * v->C.value[k] : D;
+    const int more = bordering(v), n = v->free + more;
+    const size_t entries =
+        (size_t)v->first[v->free] + 2 * (size_t)more * (size_t)v->free + (size_t)more;
+    v->D = (sparse){.n = 2 * n,
+                    .column = calloc(2 * (size_t)n + 1, sizeof(int)),
+                    .row = calloc(4 * entries + 1, sizeof(int)),
+                    .value = calloc(4 * entries + 1, sizeof(double))};
+    v->rows = calloc((size_t)n + 1, sizeof *v->rows);
+    v->column = calloc((size_t)n + 1, sizeof *v->column);
+    if (v->D.column == NULL || v->D.row == NULL || v->D.value == NULL || v->rows == NULL ||
+        v->column == NULL)
+        return no_memory(f);
+    fill(v, 0);
+    return factor_alloc(&v->D, &v->factor, f);
+}
+
+static status factor_direct(vibration *v, double w, fault *f)
+{
+    fill(v, w);
+    v->c->run->counters.factorisations++;
+    return factor_numeric(v->factor, &v->D, f);
 }
 
 static status factor_at(vibration *v, double hertz, fault *f)
 {
-    const int n = v->free;
-    const double w = 2 * PI * hertz;
     fault why = {""};
-    for (int j = 0, at = 0; j < 2 * n; j++) {
-        const int imaginary = j >= n;
-        for (int half = 0; half < 2; half++)
-            for (int k = v->first[j % n]; k < v->first[j % n + 1]; k++) {
-                const double complex z = dynamic(v, w, v->source[k]);
-                v->D.value[at++] = half == imaginary ? creal(z) : half ? cimag(z) : -cimag(z);
-            }
-    }
-    v->c->run->counters.factorisations++;
-    const status outcome = factor_numeric(v->factor, &v->D, &why);
+    const status outcome = v->c->scene->analysis[v->analysis].by_modes
+                               ? harmonic_modes_factor(v, 2 * PI * hertz, &why)
+                               : factor_direct(v, 2 * PI * hertz, &why);
     if (outcome != STATUS_SINGULAR)
         return outcome == STATUS_OK ? outcome : fault_set(f, outcome, "%s", why.text);
     return fault_set(f, STATUS_SINGULAR,
@@ -226,7 +255,7 @@ static status input_of(const vibration *v, const scene_response *r, double w, do
                                      model_scene(m)->driver[r->driver].name);
         for (int k = v->K.column[c]; k < v->K.column[c + 1]; k++)
             if (v->K.row[k] < v->free)
-                x[v->K.row[k]] = -dynamic(v, w, k);
+                x[v->K.row[k]] = -harmonic_dynamic(v, w, k);
         x[c] = 1;
         return STATUS_OK;
     }
@@ -250,53 +279,103 @@ static int same_input(const scene_response *a, const scene_response *b)
             (a->forced == b->forced && a->forced_along == b->forced_along));
 }
 
+/* y[border] of the direct solution, U^T r of the driven coordinate of an input; 0: of a force. */
+static int carried_of(const vibration *v, const scene_response *r, double y[])
+{
+    if (r->driver == SCENE_NONE)
+        return 0;
+    harmonic_modes_carried(v, model_driver_coordinate(v->c->model, r->driver), y);
+    return 1;
+}
+
+/* x: forces, then the solution. */
+static void solve_direct(vibration *v, const scene_response *r, double w, double complex x[])
+{
+    const int n = v->free, more = bordering(v), N = n + more;
+    const int carried = more > 0 && carried_of(v, r, v->x + N + n);
+    for (int i = 0; i < n; i++) {
+        v->x[i] = creal(x[i]);
+        v->x[N + i] = cimag(x[i]);
+    }
+    for (int i = 0; i < more; i++) {
+        v->x[n + i] = 0;
+        v->x[N + n + i] = carried ? w * v->x[N + n + i] : 0;
+    }
+    factor_solve(v->factor, v->x);
+    v->c->run->counters.solutions++;
+    for (int i = 0; i < n; i++)
+        x[i] = v->x[i] + I * v->x[N + i];
+}
+
+/* x: forces, then the solution by modes; left[free]: what it leaves of the forces. */
+static void solve_by_modes(vibration *v, const scene_response *r, double w, double complex x[],
+                           double complex left[])
+{
+    const double *U;
+    const size_t n = (size_t)v->free;
+    const int more = harmonic_modes_damped(v->modes, &U);
+    memcpy(left, x, n * sizeof *left);
+    if (more > 0 && carried_of(v, r, v->x))
+        for (size_t i = 0; i < (size_t)more; i++)
+            for (size_t k = 0; k < n; k++)
+                left[k] += I * w * v->x[i] * U[i * n + k];
+    harmonic_modes_solve(v, left, x);
+}
+
 /* The solution for the input of a quantity, of an earlier one where that has the same. */
 static status solve_input(vibration *v, int quantity, double w, fault *f)
 {
     const scene *s = v->c->scene;
     const scene_response *r = &s->quantity[quantity].what.of.response;
-    double complex *x = v->found + (size_t)quantity * (size_t)v->all;
+    const size_t all = (size_t)v->all;
+    double complex *x = v->found + (size_t)quantity * all,
+                   *left = v->left + (size_t)quantity * (size_t)v->free;
     for (int i = 0; i < quantity; i++)
         if (scene_asks(&s->quantity[i], v->analysis, SCENE_RESPONSE) &&
             same_input(&s->quantity[i].what.of.response, r)) {
-            memcpy(x, v->found + (size_t)i * (size_t)v->all, (size_t)v->all * sizeof *x);
+            memcpy(x, v->found + (size_t)i * all, all * sizeof *x);
+            memcpy(left, v->left + (size_t)i * (size_t)v->free, (size_t)v->free * sizeof *left);
             return STATUS_OK;
         }
     TRY(input_of(v, r, w, x, f));
-    for (int i = 0; i < v->free; i++) {
-        v->x[i] = creal(x[i]);
-        v->x[v->free + i] = cimag(x[i]);
-    }
-    factor_solve(v->factor, v->x);
-    v->c->run->counters.solutions++;
-    for (int i = 0; i < v->free; i++)
-        x[i] = v->x[i] + I * v->x[v->free + i];
+    if (s->analysis[v->analysis].by_modes)
+        solve_by_modes(v, r, w, x, left);
+    else
+        solve_direct(v, r, w, x);
     return STATUS_OK;
 }
 
-static double complex motion_of(const vibration *v, int node, int component,
-                                const double complex x[])
+/* o[all] += times the small motion of the component of a node, of all coordinates. */
+static void add_motion(const vibration *v, int node, int component, double times,
+                       double complex o[])
 {
     int index[KINEMATICS_MOST];
     double T[6 * KINEMATICS_MOST];
-    double complex sum = 0;
     const int count =
         kinematics_node_jacobian(v->c->model, v->state, node, KINEMATICS_MOST, index, T);
     for (int k = 0; k < count; k++)
-        sum += T[component * count + k] * x[index[k]];
+        o[index[k]] += times * T[component * count + k];
+}
+
+/* What a quantity reads, of the displacements: o^T x. */
+static void output_of(const vibration *v, const scene_response *r, double complex o[])
+{
+    memset(o, 0, (size_t)v->all * sizeof *o);
+    add_motion(v, r->node, r->component, 1, o);
+    if (r->from != SCENE_NONE)
+        add_motion(v, r->from, r->component, -1, o);
+}
+
+static double complex dot(size_t n, const double complex a[], const double complex b[])
+{
+    double complex sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += a[i] * b[i];
     return sum;
 }
 
-static double part_of(const vibration *v, const scene_response *r, double w,
-                      const double complex x[])
+static double part_of(const scene_response *r, double complex z)
 {
-    double complex z = motion_of(v, r->node, r->component, x);
-    if (r->from != SCENE_NONE)
-        z -= motion_of(v, r->from, r->component, x);
-    if (r->of == SCENE_VELOCITY)
-        z *= I * w;
-    if (r->of == SCENE_ACCELERATION)
-        z *= -w * w;
     switch (r->part) {
     case SCENE_AMPLITUDE:
         return cabs(z);
@@ -310,6 +389,33 @@ static double part_of(const vibration *v, const scene_response *r, double w,
     return cimag(z);
 }
 
+/* A phase of z, which is off by `bound` at most, is off by so much. */
+static double bound_of(const scene_response *r, double complex z, double bound)
+{
+    if (r->part != SCENE_PHASE || bound == 0)
+        return bound;
+    return bound < cabs(z) ? asin(bound / cabs(z)) : PI;
+}
+
+static void read_quantity(vibration *v, int quantity, double w, double *value, double *bound)
+{
+    const scene *s = v->c->scene;
+    const scene_response *r = &s->quantity[quantity].what.of.response;
+    const size_t n = (size_t)v->free, all = (size_t)v->all;
+    output_of(v, r, v->output);
+    const double complex times = r->of == SCENE_VELOCITY       ? I * w
+                                 : r->of == SCENE_ACCELERATION ? -w * w
+                                                               : 1,
+                         z = times * dot(all, v->output, v->found + (size_t)quantity * all);
+    *value = part_of(r, z);
+    *bound = 0;
+    if (s->analysis[v->analysis].by_modes && s->analysis[v->analysis].modes > 0) {
+        harmonic_modes_solve(v, v->output, v->dual);
+        *bound = bound_of(
+            r, z, cabs(times) * harmonic_modes_bound(v, v->left + (size_t)quantity * n, v->output));
+    }
+}
+
 static status respond(vibration *v, outcome_harmonic *o, fault *f)
 {
     const scene *s = v->c->scene;
@@ -320,13 +426,63 @@ static status respond(vibration *v, outcome_harmonic *o, fault *f)
         TRY(factor_at(v, path->value[i], f));
         for (int k = 0; k < s->quantities; k++)
             if (scene_asks(&s->quantity[k], v->analysis, SCENE_RESPONSE)) {
+                const size_t at = (size_t)k * stations + (size_t)i;
                 TRY(solve_input(v, k, w, f));
-                o->response[(size_t)k * stations + (size_t)i] = part_of(
-                    v, &s->quantity[k].what.of.response, w, v->found + (size_t)k * (size_t)v->all);
+                read_quantity(v, k, w, &o->response[at], &o->bound[at]);
             }
         o->path.value[o->path.reached++] = path->value[i];
     }
     return STATUS_OK;
+}
+
+enum { SHAPES_OF_MOTION = 4, SHAPES_OF_QUANTITY = SHAPES_OF_MOTION + 1 };
+
+/* The forces that a quantity's input makes at any frequency, and its output as forces: out[n
+ * each]. Returns how many. */
+static int shapes_of(const vibration *v, const scene_response *r, double out[])
+{
+    const size_t n = (size_t)v->free;
+    const sparse *const by_motion[SHAPES_OF_MOTION] = {&v->K, &v->M, &v->C, &v->B};
+    int count = 0;
+    for (int i = 0; r->driver != SCENE_NONE && i < SHAPES_OF_MOTION; i++) {
+        const int c = model_driver_coordinate(v->c->model, r->driver);
+        for (int k = v->K.column[c]; k < v->K.column[c + 1]; k++)
+            if (v->K.row[k] < v->free)
+                out[(size_t)count * n + (size_t)v->K.row[k]] = by_motion[i]->value[k];
+        count++;
+    }
+    for (int output = r->driver != SCENE_NONE; output < 2; output++, count++) {
+        memset(v->output, 0, (size_t)v->all * sizeof *v->output);
+        if (output)
+            output_of(v, r, v->output);
+        else
+            add_motion(v, r->forced, r->forced_along, 1, v->output);
+        for (size_t k = 0; k < n; k++)
+            out[(size_t)count * n + k] = creal(v->output[k]);
+    }
+    return count;
+}
+
+static status find_modes_of(vibration *v, fault *f)
+{
+    const scene *s = v->c->scene;
+    const scene_analysis *a = &s->analysis[v->analysis];
+    if (!a->by_modes && !scene_has_ratios(a))
+        return STATUS_OK;
+    TRY(harmonic_modes_find(v, f));
+    if (!a->by_modes)
+        return STATUS_OK;
+    const size_t n = (size_t)v->free;
+    double *loads = calloc((size_t)s->quantities * SHAPES_OF_QUANTITY * n + 1, sizeof *loads);
+    if (loads == NULL)
+        return no_memory(f);
+    int count = 0;
+    for (int i = 0; i < s->quantities; i++)
+        if (scene_asks(&s->quantity[i], v->analysis, SCENE_RESPONSE))
+            count += shapes_of(v, &s->quantity[i].what.of.response, loads + (size_t)count * n);
+    const status outcome = harmonic_modes_project(v, count, loads, f);
+    free(loads);
+    return outcome;
 }
 
 static status solve(vibration *v, outcome_harmonic *o, fault *f)
@@ -340,15 +496,22 @@ static status solve(vibration *v, outcome_harmonic *o, fault *f)
     o->path.stations = (int)stations;
     o->path.value = calloc(stations + 1, sizeof *o->path.value);
     o->response = calloc((size_t)s->quantities * stations + 1, sizeof *o->response);
-    v->x = calloc(2 * (size_t)v->free + 1, sizeof *v->x);
+    o->bound = calloc((size_t)s->quantities * stations + 1, sizeof *o->bound);
+    v->x = calloc(4 * (size_t)v->free + 1, sizeof *v->x);
     v->found = calloc((size_t)s->quantities * (size_t)v->all + 1, sizeof *v->found);
+    v->left = calloc((size_t)s->quantities * (size_t)v->free + 1, sizeof *v->left);
+    v->output = calloc((size_t)v->all + 1, sizeof *v->output);
+    v->dual = calloc((size_t)v->all + 1, sizeof *v->dual);
     v->room = calloc((size_t)model_stresses(v->c->model) + (size_t)v->all + 1, sizeof *v->room);
-    if (o->path.value == NULL || o->response == NULL || v->x == NULL || v->found == NULL ||
+    if (o->path.value == NULL || o->response == NULL || o->bound == NULL || v->x == NULL ||
+        v->found == NULL || v->left == NULL || v->output == NULL || v->dual == NULL ||
         v->room == NULL)
         return no_memory(f);
     TRY(matrices(v, 1, f));
     TRY(make_pattern(v, f));
-    TRY(factor_alloc(&v->D, &v->factor, f));
+    TRY(find_modes_of(v, f));
+    if (!s->analysis[v->analysis].by_modes)
+        TRY(make_matrix(v, f));
     return respond(v, o, f);
 }
 
@@ -365,9 +528,15 @@ static void vibration_free(vibration *v)
     free(v->first);
     free(v->row);
     free(v->source);
+    free(v->rows);
+    free(v->column);
     free(v->x);
     free(v->found);
+    free(v->left);
+    free(v->output);
+    free(v->dual);
     free(v->room);
+    harmonic_modes_free(v->modes);
 }
 
 status harmonic_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)

@@ -373,6 +373,7 @@ typedef struct outcome_motion {
 typedef struct outcome_harmonic {
     outcome_path path; /* frequencies [Hz]; no states */
     double *response;  /* [quantities of the scene x stations] as extracted */
+    double *bound;     /* the same: error by omitted modes, at most */
 } outcome_harmonic;
 
 typedef struct outcome_continuation {
@@ -540,7 +541,9 @@ typedef struct quantity_result {
     double value;    /* NAN where it does not exist */
     double x;        /* abscissa where a maximum or minimum was found */
     double rounding; /* critical loads, frequencies: estimate of |error| by round-off; of a motion
-                        what reading it between its steps adds; relative to the value; else 0 */
+                        what reading it between its steps adds; of a response by modes the most that
+                        omitted ones add; relative to the value, of a curve to its largest; else 0
+                      */
     double change;   /* from the mesh that was solved before, by the value; of a curve, by its
                         largest; NAN: not known */
     curve curve;     /* of SCENE_CURVE, else 0 points */

@@ -178,6 +178,7 @@ void outcome_free(analysis_outcome *o)
         break;
     case SCENE_HARMONIC:
         free(o->left.harmonic.response);
+        free(o->left.harmonic.bound);
         free(o->left.harmonic.path.value);
         break;
     }

@@ -72,8 +72,8 @@ static const schema_field fields_of_quantity[] = {
     {"x_name", "", FIELD_TEXT, "what it is, of a curve", OF(QUANTITY, scene_quantity, x.name)},
     {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x.unit)},
     {"rounding", "1", FIELD_DOUBLE,
-     "estimate of its round-off, or of what reading a motion between its steps adds, by the value; "
-     "0: none was made",
+     "estimate of its round-off, or of what reading a motion between its steps adds, or the most "
+     "that omitted modes add, by the value, of a curve by its largest; 0: none was made",
      VALUE(rounding)},
     {"change", "1", FIELD_DOUBLE,
      "of a mesh that solve chose: change from the mesh before it, by the value; of a curve, by its "

@@ -73,7 +73,11 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
     if (passed && (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN))
         fprintf(to, ", at %.6g s", v->x);
     if (v->rounding > 1e-9)
-        fprintf(to, ", %s %.1e", passed ? "between steps" : "round-off", v->rounding);
+        fprintf(to, ", %s %.1e",
+                passed                           ? "between steps"
+                : q->what.kind == SCENE_RESPONSE ? "omitted modes at most"
+                                                 : "round-off",
+                v->rounding);
     fputc('\n', to);
 }
 
@@ -100,6 +104,15 @@ static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result
         paragraph_say(to, column, INDENT, "%s%s", is_told(r, i) ? "likewise" : v->reason,
                       v->curve.points > 0 ? "; the curve ends there" : "");
     }
+}
+
+/* What omitted modes may add to curves. */
+static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
+{
+    for (int i = 0; i < r->quantities; i++)
+        if (r->quantity[i].curve.points > 0 && r->quantity[i].rounding > 1e-9)
+            fprintf(to, "%-*s omitted modes at most %.1e of its largest\n", NAME,
+                    s->quantity[i].name, r->quantity[i].rounding);
 }
 
 void table_solution(FILE *to, const sweep *s, const truths *t)
@@ -136,6 +149,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     predictions(to, p, t);
     unfinished_curves(to, p, &c->solve);
     table_curves_values(to, &p->scene, &c->solve);
+    bounded_curves(to, &p->scene, &c->solve);
     table_path_matrices(to, &p->scene, &c->solve);
     table_motion(to, &p->scene, &c->solve);
     table_path_steps(to, &c->solve);

@@ -191,6 +191,123 @@ class DampedModesTest(ProgramTest):
             self.assertRegex(done.stdout + done.stderr, words)
 
 
+class ByModesTest(ProgramTest):
+    """Solutions by modes against direct ones of the same scene, and against closed forms."""
+
+    def solved(self, text, formulation="collocation", n=8):
+        """Curves, values and the stated errors."""
+        path = self.folder/"scene.yaml"
+        path.write_text(text, encoding="utf-8")
+        record = self.record("solve", "--scene", path, "-f", formulation, "-n", n)
+        curves = {}
+        for c in record.get("curves", []):
+            curves.setdefault(c["quantity"], c["curve_value"])
+        return ({**{q["quantity"]: [q["value"]] for q in record["quantities"]}, **curves},
+                max(q["rounding"] for q in record["quantities"]), record["quantities"])
+
+    def close(self, text, keys, formulation="collocation", most=1e-8, n=8, least=0.0):
+        direct, _, _ = self.solved(text(""), formulation, n)
+        modal, stated, all_ = self.solved(text(keys), formulation, n)
+        for name, values in direct.items():
+            size = max(map(abs, values)) or 1
+            self.assertEqual(len(values), len(modal[name]), [q["reason"] for q in all_])
+            error = max(abs(x - y) for x, y in zip(values, modal[name]))/size
+            self.assertLessEqual(error, stated + 1e-9, (keys, formulation, name))
+            self.assertLess(error, most, (keys, formulation, name))
+        self.assertGreaterEqual(stated, least)
+        return stated
+
+    @staticmethod
+    def scenes():
+        """Of a force, a base that shakes, about a stretched state, and of a free and a driven pinned beam."""
+        load = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
+        shake = "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}"
+        yield lambda k: BEAM % ("hold: all", "", "", k, FORCED)
+        yield lambda k: BEAM % ("hold: [ux, uz, rx, ry, rz], drive: {uy: shake}", shake, "", k, SHAKEN)
+        yield lambda k: BEAM % ("hold: all", load, "  before: {static: {stations: [1]}}", ", about: before" + k, FORCED)
+        yield lambda k: BEAM % ("hold: all", load, "  before: {linear: {}}", ", about: before" + k, FORCED)
+        yield lambda k: BEAM % ("hold: [uz, rx, ry]", "", "", k, FORCED)
+        yield lambda k: BEAM % ("hold: [ux, uz, rx, ry], drive: {uy: shake}", shake, "", k, SHAKEN)
+
+    def test_all_modes(self):
+        for text in self.scenes():
+            for damping in ("", ", damping: {mass: 7, stiffness: 1e-3}", ", damping: {ratio: 0.02}",
+                            ", damping: {mass: 1, ratios: [0.3, 0, 0.1], ratio: 0.01}"):
+                self.assertEqual(self.close(lambda k: text(damping + k), ", solution: modal"), 0)
+        for formulation in [f["formulation"] for f in self.record("list", "formulations")["formulations"]]:
+            for text in list(self.scenes())[:2]:
+                self.close(text, ", solution: modal", formulation, n=4)
+
+    def test_few_modes(self):
+        """Within what is stated, which is not much more than the error."""
+        for text in self.scenes():
+            for damping in ("", ", damping: {mass: 7, stiffness: 1e-3}"):
+                for modes, most in ((5, 1e-3), (8, 1e-5), (14, 1e-6)):
+                    self.assertLess(self.close(lambda k: text(damping + k), f", solution: modal, modes: {modes}", most=most,
+                                               least=1e-4*most if modes < 14 else 0), 10*most)
+        text = next(self.scenes())
+        for damping in (", modes: 5, damping: {ratio: 0.02}", ", modes: 5, damping: {ratios: [0.1], mass: 2}"):
+            self.close(lambda k: text(damping + k), ", solution: modal", most=1e-4, least=1e-9)
+
+    def test_too_few(self):
+        path = self.folder/"scene.yaml"
+        path.write_text(BEAM % ("hold: all", "", "", ", solution: modal, modes: 1", FORCED), encoding="utf-8")
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", 8)
+        self.assertRegex(done.stdout + done.stderr, "the first 1 modes bound no error")
+
+    def test_refused(self):
+        load = "loads: {push: {force: [0, 50, 0], on: tip, follower: yes}}"
+        path = self.folder/"scene.yaml"
+        for keys, words in ((", modes: 3", "modes have no part in a direct solution"),
+                            (", damping: {ratios: [-1]}", "a damping ratio of -1"),
+                            (", modes: 1, damping: {ratios: [0.1, 0.2]}", "2 ratios for 1 modes"),
+                            (", damping: {ratio: -1}", "at least 0")):
+            path.write_text(BEAM % ("hold: all", "", "", keys, FORCED), encoding="utf-8")
+            done = run("solve", "--scene", path, "-f", "collocation", "-n", 1)
+            self.assertRegex(done.stdout + done.stderr, words)
+        path.write_text(BEAM % ("hold: all", load, "  before: {static: {stations: [1]}}",
+                                ", about: before, solution: modal", FORCED), encoding="utf-8")
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", 2)
+        self.assertRegex(done.stdout + done.stderr, "need a symmetric stiffness")
+
+    def test_many_modes_wanted(self):
+        """More than there are, of a structure that is mostly without mass."""
+        text = MASSES.replace("analyses: {modes: {modal: {%s}}}",
+                              "analyses: {steady: {harmonic: {frequencies: [1, 3, 9]%s}}}")
+        each = "0..1"
+        scene = lambda c, damped: lambda k: text % (each, each, each, each, c, damped + k, "".join(
+            f"  {p}: {{response: {{analysis: steady, node: body_0, component: uy, force: top_0, along: uy, part: {p}, "
+            "take: curve}}\n" for p in PARTS))
+        for c in (0, 8):
+            for keys in (", solution: modal", ", solution: modal, modes: 1", ", solution: modal, modes: 2"):
+                if not keys.endswith("1"):
+                    self.close(scene(c, ""), keys)
+            self.close(scene(c, ", damping: {ratio: 0.3}"), ", solution: modal")
+
+    def test_one_mass(self):
+        """At 0, 1 and 2 times its resonance, where without damping there is no response."""
+        base = MASSES.replace("to: body_$i, ", "from: base, to: body_$i, ").replace(
+            "nodes:", "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}\nnodes:\n"
+            "  base: {at: [0, -1, 0], hold: [ux, uz, rx, ry, rz], drive: {uy: shake}}")
+        for text, source, exact in ((MASSES, "force: body_0, along: uy", lambda z, r: 1/(800*(1 - r*r + 2j*z*r))),
+                                    (base, "drive: shake", lambda z, r: (1 + 2j*z*r)/(1 - r*r + 2j*z*r))):
+            text = text.replace("analyses: {modes: {modal: {%s}}}",
+                                "analyses: {steady: {harmonic: {frequencies: [0, 20/(2*pi), 20/pi]%s}}}")
+            reading_ = "".join(f"  {p}: {{response: {{analysis: steady, node: body_0, component: uy, {source}, part: {p}, "
+                               "take: curve}}\n" for p in PARTS)
+            scene = lambda keys: text % ("0..0", "0..0", "0..0", "0..0", 0, keys, reading_)
+            for keys in (", solution: modal", "", ", modes: 1", ", solution: modal, modes: 1"):
+                got = self.solved(scene(keys + ", damping: {ratio: 0.02}"), n=1)[0]
+                found = [complex(x, y) for x, y in zip(got["real"], got["imaginary"])]
+                for r, value in enumerate(found):
+                    self.assertLess(abs(value/exact(0.02, r) - 1), 1e-9, (keys, source, found))
+            for keys in (", solution: modal", ""):
+                path = self.folder/"scene.yaml"
+                path.write_text(scene(keys), encoding="utf-8")
+                done = run("solve", "--scene", path, "-f", "collocation", "-n", 1)
+                self.assertIn("something vibrates by itself", done.stdout + done.stderr)
+
+
 class HarmonicTest(ProgramTest):
 
     def scene(self, text):
