@@ -63,9 +63,10 @@ static void tell(const sweep *s)
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
         const sweep_point *p = &s->point[one->point];
-        printf("%s%s%s: %s, %d values, %d %s%s%s\n", p->type->name, p->text[0] != '\0' ? "; " : "",
-               p->text, one->formulation.key, one->imported->rows, one->meshes,
-               one->meshes == 1 ? "mesh" : "meshes",
+        printf("%s%s%s: %s%s%s, %d values, %d %s%s%s\n", p->type->name,
+               p->text[0] != '\0' ? "; " : "", p->text, one->formulation.key,
+               one->imported->version[0] != '\0' ? ", version " : "", one->imported->version,
+               one->imported->rows, one->meshes, one->meshes == 1 ? "mesh" : "meshes",
                imported_same_model(one->imported) ? "" : "; another model: ",
                imported_same_model(one->imported) ? "" : one->imported->model);
     }

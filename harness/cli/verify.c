@@ -56,6 +56,18 @@ static void show(const verify_request *r, const sweep *s, const judgement *j, co
     table_run_end(stdout, look, sentence);
 }
 
+/* Is there a verdict of another program that affects the exit status? */
+static int imported_was_judged(const sweep *s, const judgement *j)
+{
+    for (int i = 0; i < j->verdicts; i++) {
+        const imported *from = s->series[j->verdict[i].series].imported;
+        if (from != NULL && from->gates && j->verdict[i].truth != NULL &&
+            j->verdict[i].kind != VERDICT_SKIP && j->verdict[i].kind != VERDICT_OTHER_MODEL)
+            return 1;
+    }
+    return 0;
+}
+
 /* Prints details that the exit status does not show, and returns that status. */
 static int tell(const verify_request *r, const sweep *s, const judgement *j, const spread_end *e)
 {
@@ -86,6 +98,11 @@ static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
 {
     import_left left;
     TRY(import_store_read(path, must_pass, s, &left, f));
+    if (left.series == left.all && must_pass)
+        return fault_set(f, STATUS_REFUSED,
+                         "--imported-must-pass: nothing of %.150s was run: it is of %s; select "
+                         "that with -k, or give its --scene",
+                         path, left.first);
     if (left.series == left.all)
         fprintf(stderr,
                 "beamwork: %s: nothing of it was run: it is of %s; select that with -k, or give "
@@ -152,6 +169,11 @@ static status run_and_judge(const verify_request *r, const scenes *own,
         TRY(verification_judge(request, whole, &v->truths, &v->sweep, &v->judgement, f));
     else
         TRY(verification_run(request, whole, &reader, &v->truths, &v->sweep, &v->judgement, f));
+    if (r->imported_must_pass && !imported_was_judged(&v->sweep, &v->judgement))
+        return fault_set(f, STATUS_REFUSED,
+                         "--imported-must-pass: no imported value was judged: none of its "
+                         "quantities has a reference value and is selected (-k), or its model is "
+                         "not 'beam'");
     if (r->former != NULL && v->sweep.unfinished == 0)
         TRY(regressions_find(&v->former, r->former, &v->sweep, &v->judgement, f));
     return overview_make(&v->sweep, &v->judgement, &v->overview, f);
@@ -216,6 +238,9 @@ static int answer(const command_line *l, void *request)
     scenes own;
     if (l->arguments > 0)
         return message_fail(STATUS_REFUSED, "verify takes no case; select with -k");
+    if (r->imported_must_pass && r->imported.count == 0)
+        return message_fail(STATUS_REFUSED,
+                            "--imported-must-pass: of what? Give --imported FILE.h5 too");
     if (r->verbose && r->shards.quiet)
         return message_fail(STATUS_REFUSED, "--verbose and --quiet: give one of them");
     int code = scenes_read(l, &r->scenes, &own);
@@ -257,8 +282,8 @@ static const verb_option own[] = {
     {"not-worse-than", 0, "FILE",
      "results of a former 'verify -o', or the short table of them that 'compare FILE -o' writes: "
      "fail where the error of any mesh is larger than there by more than 2 %, it has lost its "
-     "value, "
-     "or a limit has moved by more than 0.001 % that no exact value judges as closely",
+     "value, a limit has moved by more than 0.001 % that no exact value judges as closely, or a "
+     "program that --imported gave there is not in this run",
      IN(former), .traits = OPTION_INPUT | OPTION_VERDICT},
     {"exit-zero", 0, NULL, "exit status 0 for any verdicts; files have the outcome", IN(exit_zero),
      .traits = OPTION_ASIDE},

@@ -54,8 +54,9 @@ void import_block_free_set(import_set *);
 
 /* A header as it was said, with the lines it was said at; 0: not said. */
 typedef struct import_header {
-    char program[IMPORT_TEXT], of[IMPORT_TEXT], model[IMPORT_TEXT], convention[IMPORT_TEXT];
-    int program_line, of_line, model_line, convention_line;
+    char program[IMPORT_TEXT], of[IMPORT_TEXT], model[IMPORT_TEXT], convention[IMPORT_TEXT],
+        version[IMPORT_TEXT];
+    int program_line, of_line, model_line, convention_line, version_line;
     axes axes;
 } import_header;
 
@@ -83,7 +84,8 @@ status import_block_close(import_block *b, fault *f);
  * compared program:
  *
  *   # beamwork-import: 1
- *   # program: MBDyn 1.7.3, 3-node        # name in legends
+ *   # program: MBDyn, 3-node              # name in legends, the same in every version
+ *   # version: 1.7.3                      # of the program: stored with the values
  *   # case: sheet_cantilever; warping=0   # case or scene file next to this one; parameters
  *   # model: beam                         # or solid, plate, ...: then its error is of the model
  *   # convention: spatial                 # of moments, where a quantity depends on it
@@ -100,9 +102,8 @@ status import_file_read(const char *path, import_set *into, mistakes *m, fault *
 /* Columns without a header, by a map in YAML: which column of which rows is which quantity.
  *
  *   beamwork_map: 1
- *   program: MBDyn 1.7.3, 3-node           # as in the header of a CSV: case, model, convention too
- *   case: sheet_cantilever
- *   elements: 4                            # unknowns, seconds
+ *   program: MBDyn, 3-node                 # as in the header of a CSV: version, case, model,
+ * convention case: sheet_cantilever elements: 4                            # unknowns, seconds
  *   columns: {label: 1, x: 2, y: 3}        # names of columns, counted from 1
  *   values:
  *     u_x: {file: .mov, where: {label: 9}, column: x, minus: 0.1, times: 1, unit: m, rows: last}

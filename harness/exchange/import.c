@@ -135,7 +135,7 @@ static void name_series(import_block *b, const import_header *h, int line)
 {
     imported *to = b->found;
     if (h->program[0] == '\0')
-        mistakes_add(b->m, line, 1, "which program? Write '# program: NAME VERSION, ELEMENT'");
+        mistakes_add(b->m, line, 1, "which program? Write '# program: NAME, ELEMENT'");
     else if (strlen(h->program) >= FORMULATION_KEY || strchr(h->program, '/') != NULL)
         mistakes_add(b->m, h->program_line, 1, "program: at most %d bytes without '/'",
                      FORMULATION_KEY - 1);
@@ -146,6 +146,9 @@ static void name_series(import_block *b, const import_header *h, int line)
     if (strlen(h->model) >= IMPORTED_WORD || strlen(h->convention) >= IMPORTED_WORD)
         mistakes_add(b->m, h->model_line > 0 ? h->model_line : h->convention_line, 1,
                      "model and convention are words of at most %d bytes", IMPORTED_WORD - 1);
+    if (strlen(h->version) >= IMPORTED_WORD)
+        mistakes_add(b->m, h->version_line, 1, "version: at most %d bytes", IMPORTED_WORD - 1);
+    snprintf(to->version, sizeof to->version, "%.*s", IMPORTED_WORD - 1, h->version);
     snprintf(to->program, sizeof to->program, "%.*s", FORMULATION_KEY - 1, h->program);
     snprintf(to->file, sizeof to->file, "%s", b->path);
     snprintf(to->model, sizeof to->model, "%.*s", IMPORTED_WORD - 1,
@@ -374,7 +377,8 @@ static int take_row(const scene *s, series *one, const imported_row *row)
     if (s->quantity[index].reduction == SCENE_CURVE)
         return add_to_curve(&q->curve, row);
     q->value = row->value;
-    if (mesh == one->meshes - 1 && isfinite(row->uncertainty)) {
+    one->noise[index] = NAN; /* that of its finest mesh counts; rows ascend */
+    if (isfinite(row->uncertainty)) {
         const double size = fmax(fabs(row->value), s->quantity[index].near_zero);
         one->noise[index] = size > 0 ? row->uncertainty / size : NAN;
     }

@@ -46,8 +46,8 @@ static const char *name_at(const void *context, int i)
     return list[i];
 }
 
-static const char *const header_names[] = {"beamwork-import", "program", "case", "model",
-                                           "convention",      "axes",    NULL};
+static const char *const header_names[] = {"beamwork-import", "program",    "version", "case",
+                                           "model",           "convention", "axes",    NULL};
 
 static void take_text(char to[IMPORT_TEXT], int *line, const file_reader *r, const char *value)
 {
@@ -75,6 +75,8 @@ static void take_header(file_reader *r, const char *key, const char *value)
         r->versioned = 1;
     } else if (strcmp(key, "program") == 0)
         take_text(h->program, &h->program_line, r, value);
+    else if (strcmp(key, "version") == 0)
+        take_text(h->version, &h->version_line, r, value);
     else if (strcmp(key, "case") == 0)
         take_text(h->of, &h->of_line, r, value);
     else if (strcmp(key, "model") == 0)
@@ -107,7 +109,7 @@ static void read_header(file_reader *r, char *line)
     const char *near = choice_nearest(key, name_at, header_names);
     mistakes_add(r->m, r->line, 1, "unknown header '%.40s'%s%s%s", key,
                  near != NULL ? "; did you mean '"
-                              : "; they are program, case, model, convention, axes",
+                              : "; they are program, version, case, model, convention, axes",
                  near != NULL ? near : "", near != NULL ? "'?" : "");
 }
 

@@ -10,9 +10,9 @@
 
 enum { WORDS = 128, LAST = -1, ALL = 0 };
 
-static const char *const map_keys[] = {"beamwork_map", "program",  "case",     "model",
-                                       "convention",   "elements", "unknowns", "seconds",
-                                       "columns",      "values",   "axes",     NULL};
+static const char *const map_keys[] = {"beamwork_map", "program",  "case",     "model",   "version",
+                                       "convention",   "elements", "unknowns", "seconds", "columns",
+                                       "values",       "axes",     NULL};
 static const char *const value_keys[] = {"file",  "under", "where", "column",   "minus",
                                          "times", "unit",  "rows",  "abscissa", NULL};
 
@@ -198,7 +198,9 @@ static import_header header_of(const map_reader *r)
     snprintf(h.model, sizeof h.model, "%s", map_keys_text(r->m, r->root, "model", ""));
     snprintf(h.convention, sizeof h.convention, "%s",
              map_keys_text(r->m, r->root, "convention", ""));
+    snprintf(h.version, sizeof h.version, "%s", map_keys_text(r->m, r->root, "version", ""));
     h.program_line = line_of(r, "program");
+    h.version_line = line_of(r, "version");
     h.of_line = line_of(r, "case");
     h.model_line = line_of(r, "model");
     h.convention_line = line_of(r, "convention");

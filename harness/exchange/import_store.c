@@ -12,7 +12,8 @@ typedef struct point_row {
 
 typedef struct value_row {
     char point[16], formulation[FORMULATION_KEY], quantity[SCENE_NAME], file[IMPORTED_FILE],
-        model[IMPORTED_WORD], convention[IMPORTED_WORD], file_unit[IMPORTED_UNIT];
+        model[IMPORTED_WORD], convention[IMPORTED_WORD], version[IMPORTED_WORD],
+        file_unit[IMPORTED_UNIT];
     int elements, line, unknowns;
     double factor, seconds, x, value, uncertainty;
 } value_row;
@@ -26,7 +27,8 @@ static const table_column value_columns[] = {
     TEXT(value_row, file),      TEXT(value_row, model),       TEXT(value_row, convention),
     TEXT(value_row, file_unit), INT(value_row, elements),     INT(value_row, line),
     INT(value_row, unknowns),   DOUBLE(value_row, factor),    DOUBLE(value_row, seconds),
-    DOUBLE(value_row, x),       DOUBLE(value_row, value),     DOUBLE(value_row, uncertainty)};
+    DOUBLE(value_row, x),       DOUBLE(value_row, value),     DOUBLE(value_row, uncertainty),
+    TEXT(value_row, version) /* last: older files have none */};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
 /* The tables of one case. */
@@ -84,6 +86,7 @@ static imported *gather_rows(const value_row *first, int count)
     memcpy(out->file, first->file, sizeof out->file);
     memcpy(out->model, first->model, sizeof out->model);
     memcpy(out->convention, first->convention, sizeof out->convention);
+    memcpy(out->version, first->version, sizeof out->version);
     for (int i = 0; i < count; i++) {
         const value_row *from = &first[i];
         imported_row *to = &out->row[out->rows++];
@@ -160,6 +163,10 @@ static status read_case(store_reader *r, hid_t at, const char *of)
     t.point = rows;
     rows = NULL;
     t.values = table_reader_rows(at, "imports", COLUMNS(value_columns), sizeof *t.value, &rows);
+    if (t.values < 0)
+        t.values =
+            table_reader_rows(at, "imports", sizeof value_columns / sizeof *value_columns - 1,
+                              value_columns, sizeof *t.value, &rows);
     t.value = rows;
     const status outcome = t.points < 0 || t.values < 0 ? damaged(r, of) : take_case(r, of, &t);
     free(t.point);

@@ -41,6 +41,37 @@ static int selected(const char *select, const char *name)
     return select == NULL || select_matches(select, name) > 0;
 }
 
+/* One line for all meshes of a series of another program that is gone or new: what to do. */
+static void tell_foreign(const listing *l, int which, const char **last)
+{
+    const char *instead = results_part_instead(which == 0 ? l->after : l->before,
+                                               which == 0 ? l->before : l->after, l->name);
+    listing here = *l;
+    if (*last != NULL && strcmp(*last, l->name) == 0)
+        return;
+    *last = l->name;
+    here.elements = 0;
+    comparison_lines_heading(&here, which == 0 ? CHANGE_GONE : CHANGE_NEW);
+    if (which == 0 && instead != NULL)
+        fprintf(l->to,
+                ": is it '%.80s' now? Then write '# version:' in the file to import, and keep the "
+                "version out of '# program:'",
+                instead);
+    else if (which == 0)
+        fputs(": give it with --imported (an element of your own with --element), or accept the "
+              "new run",
+              l->to);
+    fputc('\n', l->to);
+}
+
+static int has_series(const stored_results *r, const char *name)
+{
+    for (int i = 0; i < r->seriess; i++)
+        if (strcmp(r->series[i].name, name) == 0)
+            return 1;
+    return 0;
+}
+
 /* Handles a series, or a mesh of it (elements > 0), that exists in one run only. which: 0: in the
  * old run. *last: the last series counted, in the order of their names. */
 static void tell_lone(const listing *l, int which, const char **last)
@@ -52,6 +83,10 @@ static void tell_lone(const listing *l, int which, const char **last)
         count = &l->out->outside[which];
     else if (results_part_is_fresh(&here->part, l->name))
         count = &l->out->fresh[which];
+    if (count == NULL && results_part_is_foreign(l->name) && !has_series(other, l->name)) {
+        tell_foreign(l, which, last);
+        return;
+    }
     if (count == NULL) {
         comparison_lines_lone(l, which == 0 ? CHANGE_GONE : CHANGE_NEW);
         return;

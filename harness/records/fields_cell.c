@@ -404,12 +404,18 @@ static void get_convention(const subject *s, field_value *out)
     schema_set_text(out, s->series->imported->convention);
 }
 
+static void get_version(const subject *s, field_value *out)
+{
+    schema_set_text(out, s->series->imported->version);
+}
+
 static const schema_field fields_of_import[] = {
     {"elements", "1", FIELD_INT, "elements, as the file says", AT(imported_row, elements)},
     {"file", "", FIELD_TEXT, "that it was read from", .get = get_file},
     {"line", "1", FIELD_INT, "of the file", AT(imported_row, line)},
     {"model", "", FIELD_TEXT, "beam, or another one", .get = import_get_model},
     {"convention", "", FIELD_TEXT, "of moments", .get = get_convention},
+    {"version", "", FIELD_TEXT, "of the program", .get = get_version},
     {"file_unit", "", FIELD_TEXT, "of the value in the file", AT(imported_row, unit)},
     {"factor", "1", FIELD_DOUBLE, "that the file's value was multiplied by",
      AT(imported_row, factor)},

@@ -151,6 +151,12 @@ status results_series_summarise(stored_results *r, fault *f);
 
 /* Is the text one of the lines? Returns 0 for lines NULL. */
 int results_part_has(const char *lines, const char *text);
+/* Is it of another program, or of an element that is not loaded? No selection names it: it is
+ * requested wherever its case is run. */
+int results_part_is_foreign(const char *series);
+/* Such a series that r has there and `other` has not: its name; NULL: none. */
+const char *results_part_instead(const stored_results *r, const stored_results *other,
+                                 const char *series);
 /* Was the quantity of a series (case/parameters/formulation) requested? */
 int results_part_selects(const results_part *p, const char *series, const char *quantity);
 /* Did only `other`, and not the selection of run r, request the series, with any quantity that the

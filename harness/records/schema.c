@@ -226,6 +226,26 @@ int results_part_is_fresh(const results_part *p, const char *series_name)
     return results_part_has(p->fresh, formulation_of(series_name));
 }
 
+int results_part_is_foreign(const char *series_name)
+{
+    return formulation_find(formulation_of(series_name)) == NULL;
+}
+
+const char *results_part_instead(const stored_results *r, const stored_results *other,
+                                 const char *series_name)
+{
+    const size_t point = (size_t)(formulation_of(series_name) - series_name);
+    for (int i = 0; i < r->seriess; i++) {
+        const char *name = r->series[i].name;
+        int both = strncmp(name, series_name, point) != 0 || !results_part_is_foreign(name);
+        for (int k = 0; k < other->seriess && !both; k++)
+            both = strcmp(other->series[k].name, name) == 0;
+        if (!both)
+            return formulation_of(name);
+    }
+    return NULL;
+}
+
 int results_part_selects(const results_part *p, const char *series_name, const char *quantity)
 {
     char text[NAME];
@@ -296,12 +316,25 @@ static int has_formulation(const stored_results *r, const char *key)
     return 0;
 }
 
+/* Has the run any series of the same case and parameters? */
+static int is_run(const stored_results *r, const char *series_name)
+{
+    const size_t point = (size_t)(formulation_of(series_name) - series_name);
+    for (int i = 0; i < r->seriess; i++)
+        if (strncmp(r->series[i].name, series_name, point) == 0 &&
+            strchr(r->series[i].name + point, '/') == NULL)
+            return 1;
+    return 0;
+}
+
 int results_part_wants(const stored_results *r, const stored_results *other,
                        const char *series_name)
 {
     const results_part *p = &r->part;
     const char *key = formulation_of(series_name);
     char of[NAME];
+    if (results_part_is_foreign(series_name))
+        return is_run(r, series_name);
     snprintf(of, sizeof of, "%.*s", (int)strcspn(series_name, "/"), series_name);
     if (p->cases != NULL && !results_part_has(p->cases, of))
         return 0;

@@ -145,6 +145,7 @@ typedef struct imported {
     /* "beam": the same model as the beams; else another model, whose difference is a model error */
     char model[IMPORTED_WORD];
     char convention[IMPORTED_WORD]; /* convention of moments; empty: not given */
+    char version[IMPORTED_WORD];    /* of the program; empty: not given */
     int gates;                      /* 1: its verdicts affect the exit status */
     int rows;
     imported_row *row;
@@ -460,6 +461,8 @@ int verdict_tells_defect(const rule *);
 /* Kind of analysis that determines the order of a quantity. */
 element_analysis verdict_analysis(const scene *, const scene_quantity *);
 /* Limit of a quantity of a series, without its `left_out` finest meshes. */
+/* Meshes up to the finest one that has the quantity: another program may give it on fewer. */
+int verdict_meshes(const series *, int quantity);
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
 /* Reference value by which a formulation is evaluated, for the same model and its theory of shear;
  * NULL: none. */

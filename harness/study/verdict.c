@@ -64,10 +64,19 @@ static status failure_of(const solve_result *r, const quantity_result *q)
     return r->status != STATUS_OK ? r->status : STATUS_NOT_CONVERGED;
 }
 
+int verdict_meshes(const series *s, int quantity)
+{
+    int count = s->meshes;
+    while (s->imported != NULL && count > 1 &&
+           s->cell[count - 1].solve.quantity[quantity].status != STATUS_OK)
+        count--;
+    return count;
+}
+
 static verdict_history history_of(const series *s, int quantity)
 {
     verdict_history h = {.failure = STATUS_NOT_CONVERGED, .reason = ""};
-    for (int i = 0; i < s->meshes; i++) {
+    for (int i = 0; i < verdict_meshes(s, quantity); i++) {
         const solve_result *r = &s->cell[i].solve;
         const quantity_result *q = quantity < r->quantities ? &r->quantity[quantity] : NULL;
         h.failure = failure_of(r, q);
@@ -99,7 +108,7 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     const verdict_history h = history_of(one, quantity);
     const element_order order =
         element_order_in(one->formulation.type, verdict_analysis(here, q), one->formulation.option);
-    const limit_sequence sequence = {.count = one->meshes - left_out,
+    const limit_sequence sequence = {.count = verdict_meshes(one, quantity) - left_out,
                                      .n = h.n,
                                      .value = h.value,
                                      .noise = one->noise != NULL ? one->noise[quantity] : NAN,
@@ -270,7 +279,7 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
             say_other_model(one, v);
         return;
     }
-    v->finest = one->cell[one->meshes - 1].solve.quantity[v->quantity].value;
+    v->finest = one->cell[verdict_meshes(one, v->quantity) - 1].solve.quantity[v->quantity].value;
     v->fit = verdict_limit(s, v->series, v->quantity, 0);
     if (v->model_truth != NULL)
         v->model_error = verdict_error(q, v->fit.limit, v->model_truth->value);

@@ -94,7 +94,7 @@ static void print_numbers(FILE *to, const series *one, const verdict *v)
     paragraph_say(to, 0, INDENT,
                   "limit %s +- %s, off by %s; truth %s +- %s (%s, %s); finest mesh, n = %d: %s",
                   limit, doubt, error, truth_text, known, v->truth->kind, v->truth->source,
-                  one->mesh[one->meshes - 1], finest);
+                  one->mesh[verdict_meshes(one, v->quantity) - 1], finest);
 }
 
 static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *v, int number)

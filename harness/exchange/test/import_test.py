@@ -156,10 +156,12 @@ class Import(ProgramTest):
         row, = self.stored("leaf_spring_guide")
         self.assertAlmostEqual(row["value"], 2850, delta=1e-9)
         done = run("verify", "--scene", str(leaf), "-f", "beamw", "--imported",
-                   self.folder / "theirs.h5", "--imported-must-pass")
+                   self.folder / "theirs.h5")
         line, = [x for x in done.stdout.splitlines() if x.startswith("    CalculiX")]
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("no truth; +8.59 % from another model", line)
+        self.refused(2, "its model is not 'beam'", "verify", "--scene", str(leaf), "-f", "beamw", "--imported",
+                     self.folder / "theirs.h5", "--imported-must-pass")
 
     def test_beside_informs_and_gates_where_asked(self):
         self.read(HEAD + COLUMNS + ROWS.replace("3.9", "4.9"))
@@ -176,6 +178,62 @@ class Import(ProgramTest):
         self.assertIn("theirs.h5: nothing of it was run: it is of sheet_cantilever/",
                       elsewhere.stderr)
         self.assertEqual(len(elsewhere.stderr.splitlines()), 1, elsewhere.stderr)
+
+    def beside(self, text, name, *options):
+        """A run with these imported values."""
+        self.read(text)
+        given = ["--imported", self.folder / "theirs.h5"] if text else []
+        return run("verify", "-k", "elastica and w_over_L and not shear", "-f", "collocation", *given, "-o",
+                   self.folder / name, *options)
+
+    def test_what_is_missing_is_gone(self):
+        """Another name, no import, a lost mesh: between two runs, against the short table, and in the run itself."""
+        values = ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))
+        text = "# beamwork-import: 1\n# program: {}\n# version: {}\n# case: elastica\nquantity, unit, elements, value\n"
+        rows = [f"w_over_L, 1, {n}, {value}\n" for n, value in values]
+        whole = text.format("mine", "4.2") + "".join(rows)
+        old, table = self.folder / "old.h5", self.folder / "old.csv"
+        self.assertEqual(self.beside(whole, "old.h5").returncode, 0)
+        self.answered("compare", old, "-o", table)
+        for name, new, code, words in (
+            ("version", text.format("mine", "4.3") + "".join(rows), 0, ""),
+            ("name", text.format("mine 4.3", "") + "".join(rows), 1, "is it 'mine 4.3' now? Then write '# version:'"),
+            ("mesh", text.format("mine", "4.2") + "".join(rows[:-1]), 1, "/mine n=32")):
+            done = self.beside(new, "new.h5", "--imported-must-pass", "--not-worse-than", table)
+            self.assertEqual(done.returncode, code, (name, done.stdout))
+            self.assertIn(words, " ".join(done.stdout.split()))
+            for former in (old, table):
+                done = run("compare", former, self.folder / "new.h5")
+                self.assertEqual(done.returncode, code, (name, done.stdout))
+                self.assertIn(words, done.stdout)
+                self.assertEqual(done.stdout.count("gone     "), code, done.stdout)
+        select = ("verify", "-k", "elastica and w_over_L and not shear", "-f", "collocation")
+        done = run(*select, "--not-worse-than", table, "-o", self.folder / "new.h5")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("/mine: gone: give it with --imported", " ".join(done.stdout.split()))
+        self.assertEqual(run("compare", old, self.folder / "new.h5").returncode, 1)
+        self.refused(2, "--imported-must-pass: of what?", *select, "--imported-must-pass")
+        self.refused(2, "nothing of", "verify", "-k", "roll_up/default", "-f", "collocation", "--imported",
+                     self.folder / "theirs.h5", "--imported-must-pass")
+        self.refused(2, "no imported value was judged", "verify", "-k", "elastica/default and u_over_L", "-f",
+                     "collocation", "--imported", self.folder / "theirs.h5", "--imported-must-pass")
+
+    def test_quantities_on_their_own_meshes(self):
+        """One that is given on fewer meshes is judged by these; its finest mesh is its own."""
+        self.read("# beamwork-import: 1\n# program: mine\n# case: elastica\nquantity, unit, elements, value\n" +
+                  "".join(f"w_over_L, 1, {n}, {v}\n" for n, v in ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))) +
+                  "".join(f"theta, rad, {n}, {0.46135195119 + 0.04 / n**2}\n" for n in (2, 4, 8, 16)))
+        done = run("verify", "-k", "elastica/default", "-f", "collocation", "--imported", self.folder / "theirs.h5",
+                   "--imported-must-pass", "-o", self.folder / "found.h5")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertRegex(done.stdout, r"theta(.*\n)*?.* mine .* pass")
+        self.answered("compare", self.folder / "found.h5", "-o", self.folder / "found.csv")
+        self.assertRegex((self.folder / "found.csv").read_text(), "mine.*theta=0.4613")
+        self.read("# beamwork-import: 1\n# program: mine\n# case: elastica\nquantity, unit, elements, value\n"
+                  "w_over_L, 1, 32, 0.3017276\ntheta, rad, 4, 0.4619\ntheta, rad, 8, 0.4615075\n")
+        done = run("verify", "-k", "elastica/default", "-f", "collocation", "--imported", self.folder / "theirs.h5",
+                   "--imported-must-pass")
+        self.assertIn("finest mesh, n = 8: 0.4615", " ".join(done.stdout.split()))
 
     def test_several_beside(self):
         """Each file once, each program once at a point; what a file has of other points is counted."""
@@ -305,7 +363,7 @@ class Import(ProgramTest):
              "did you mean 'column'"), (("column: x", "column: ex"),
                                         "is no column"), (("label: 9", "label: 7"), "no such row"),
             (("  u_x", "  u_xq"),
-             "map.yaml:12: sheet_cantilever has no quantity 'u_xq'; did you mean 'u_x'"),
+             "map.yaml:13: sheet_cantilever has no quantity 'u_xq'; did you mean 'u_x'"),
             (("unit: m,", "unit: kg,"), "cannot be converted"), (("elements: 4", "elements: four"),
                                                                  "is not a number")):
             path.write_text(good.replace(*change), encoding="utf-8")
