@@ -118,7 +118,7 @@ static const schema_field fields_of_series[] = {
      AT(series, missing)},
     {"not_modelled", "", FIELD_TEXT, "physics of the case that it leaves out",
      AT(series, without.words)},
-    {"model_change", "1", FIELD_DOUBLE, "bound of what that changes in any asked value",
+    {"model_change", "1", FIELD_DOUBLE, "bound of what that changes in any value of the scene",
      .get = get_model_change},
     {"other_model", "", FIELD_FLAG, "that is more than 1e-4, or not known: it is not judged",
      AT(series, without.other)},

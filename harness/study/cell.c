@@ -380,10 +380,10 @@ void omission_words(const omission *o, char text[OMISSION_TEXT])
     if (o->what == 0)
         return;
     if (o->exact)
-        snprintf(text, OMISSION_TEXT, "without %s: changes no asked value", o->words);
+        snprintf(text, OMISSION_TEXT, "without %s: changes no value", o->words);
     else if (!o->other)
-        snprintf(text, OMISSION_TEXT, "without %s: changes no asked value by more than %.1g",
-                 o->words, o->change);
+        snprintf(text, OMISSION_TEXT, "without %s: changes no value by more than %.1g", o->words,
+                 o->change);
     else if (isfinite(o->change))
         snprintf(text, OMISSION_TEXT,
                  "another model: %s not modelled (changes %s by about %.*f %%)", o->words,

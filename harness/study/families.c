@@ -395,12 +395,7 @@ static status narrow(sweep *s, const char *select, kept *k, fault *f)
     TRY(select_begin(select, &words, f));
     mark(s, select, &words, k);
     TRY(check_words(s, select, &words, f));
-    drop(s, k);
-    for (int i = 0; i < s->seriess; i++)
-        if (s->series[i].without.what != 0) {
-            plan_omissions(s, s->series[i].point);
-            break; /* the sweep has one point */
-        }
+    drop(s, k); /* omissions stay those of all quantities */
     return s->seriess > 0 ? STATUS_OK
                           : fault_set(f, STATUS_REFUSED,
                                       "-k '%.100s' holds for no quantity of %.60s; 'beamwork list "

@@ -164,7 +164,7 @@ typedef struct omission {
     char words[OMIT_WORDS]; /* the same in words, as stored in results */
     int other;              /* 1: another model */
     int exact;     /* 1: sections have no such physics, or the analyses do not depend on it */
-    double change; /* upper bound of the relative change of the requested values; NAN: unknown */
+    double change; /* upper bound of the relative change of values of the scene; NAN: unknown */
     char quantity[SCENE_NAME]; /* quantity with the largest change; empty: none */
     char why[FAULT_TEXT];      /* why the bound is unknown */
 } omission;
@@ -182,7 +182,7 @@ void omission_of(const scene *, const element_type *, omission *out);
 /* Largest relative change of a requested value due to the omission, on one mesh. NAN: some value is
  * missing, or no formulation has all physics of the scene. */
 double omission_on_mesh(const scene *, unsigned what, int elements);
-/* "without shear: changes no asked value by more than 2e-06", "another model: shear is not modelled
+/* "without shear: changes no value by more than 2e-06", "another model: shear is not modelled
  * (changes frequency_1 by about 16 %)". */
 enum { OMISSION_TEXT = OMIT_WORDS + SCENE_NAME + FAULT_TEXT + 80 };
 void omission_words(const omission *, char text[OMISSION_TEXT]);

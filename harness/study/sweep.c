@@ -326,8 +326,8 @@ static status plan_point(const sweep_request *request, const truths *t, sweep *s
     if (asked == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a selection");
     const status outcome = plan_series(request, t, s, index, words, asked, f);
+    plan_omissions(s, index); /* by all quantities: a verdict does not depend on what is selected */
     drop_quantities(&s->point[index].scene, asked);
-    plan_omissions(s, index);
     free(asked);
     return outcome;
 }

@@ -168,6 +168,41 @@ quantities:
 """
 
 
+class Selected(ProgramTest):
+    """A verdict is the same whatever else is selected."""
+    ONES = "c_column and length=4 and (sheet_second or beamw)", "unsymmetric_column/default", \
+        "angle_column/default", "deep_beam/default", "shear_column/default", "sheet_wagner/default"
+
+    def verdicts(self, selection):
+        path = self.folder / "verdicts.json"
+        run("verify", "-q", "-k", selection, "--json", path)
+        rows = json.loads(path.read_text())["verdicts"]
+        return {tuple(v[k] for k in ("case", "parameters", "formulation", "quantity")): (v["verdict"], v["as_expected"])
+                for v in rows}
+
+    def test_verdicts(self):
+        for some in self.ONES:
+            every = self.verdicts(some)
+            quantities = sorted({key[3] for key in every})
+            others = 0
+            for asked in (quantities[0], quantities[-1]), *((q, ) for q in quantities[:2]):
+                words = " or ".join(f"={q}" for q in asked)
+                part = {key: v for key, v in every.items() if key[3] in asked}
+                self.assertEqual(self.verdicts(f"({some}) and ({words})"), part, words)
+                others += sum(v[0] == "other model" for v in part.values())
+            self.assertTrue(every, some)
+            self.assertGreater(others, 0 if "column" in some else -1, some)
+
+    def test_alike_in_converge(self):
+        """Of the load of a mode that shear and Wagner moments leave alone, where they change frequencies."""
+        where = ("converge", "c_column", "--set", "length=4", "--set", "height=0.9", "--set", "width=0.3", "-f",
+                 "sheet_second", "-n", "2,4,8,16")
+        for more in ((), ("-k", "=buckling_load")):
+            series, = self.record(*where, *more)["series"]
+            found, = (q for q in series["quantities"] if q["quantity"] == "buckling_load")
+            self.assertEqual(found["verdict"], "other model")
+
+
 class Had(ProgramTest):
     def scene(self, text):
         path = self.folder / "own.yaml"
