@@ -1,6 +1,6 @@
-/* BEAMW as printed, misprints corrected.  Its modified modes do not see shear, so that they belong
- * to neither theory of shear in stability: it has one of its own and converges to neither
- * (reference/ERRATA.md). */
+/* BEAMW as printed, with misprints corrected. Its modified modes do not include shear, so that it
+ * follows neither theory of shear in stability; it has its own theory and converges to neither of
+ * their limits (reference/ERRATA.md). */
 #include "elements/beamw/variants.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)

@@ -1,7 +1,7 @@
-/* BEAMW repaired: the whole of D in the stiffness, strains that see uniform shear of any size
- * (elements/beamw/screw.h), and modified modes from the strains of the Simo-Reissner beam over
- * the full linear solution (elements/beamw/condensed.c); what bends, shears and warps inside the
- * element are internal modes, condensed in equilibrium (elements/beamw/condensed.c). */
+/* BEAMW repaired: stiffness with the whole of D, strains that represent uniform shear of any size
+ * (elements/beamw/screw.h), and modified modes from the strains of the Simo-Reissner beam over the
+ * full linear solution (elements/beamw/condensed.c). Bending, shear and warping inside the element
+ * are internal modes, condensed in equilibrium (elements/beamw/condensed.c). */
 #include "elements/beamw/screw.h"
 #include "elements/beamw/variants.h"
 

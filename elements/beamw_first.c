@@ -1,4 +1,4 @@
-/* BEAMW without its second-order terms: what they are worth is measured by leaving them out. */
+/* BEAMW without its second-order terms, to measure the effect of these terms. */
 #include "elements/beamw/variants.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)

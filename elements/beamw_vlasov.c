@@ -1,4 +1,4 @@
-/* BEAMW with Phi = 0 whatever the section's shear rigidities: Vlasov's theory. */
+/* BEAMW with Phi = 0 for any shear rigidities of the section: Vlasov's theory. */
 #include "elements/beamw/variants.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)

@@ -1,8 +1,7 @@
-/* The geometrically exact beam with warping solved inside the element, by Gauss collocation with
- * exact equilibrium of forces (elements/collocation/collocation.h).  What the stages need is
- * unknown of the element itself, so that the mixed Newton iteration of the structure solves for it
- * on the way.
- */
+/* The geometrically exact beam with warping solved inside the element by Gauss collocation, with
+ * exact equilibrium of forces (elements/collocation/collocation.h). The variables of the stages are
+ * inner unknowns of the element, which the mixed Newton iteration of the structure solves together
+ * with the others. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -19,7 +18,7 @@ struct element_data {
     exact_stages stages;
     exact_along along;
     field_mass mass;
-    int prestressed; /* 1: prestress is there */
+    int prestressed; /* 1: prestress exists */
     double prestress[OUTER][OUTER * OUTER];
 };
 
@@ -34,9 +33,9 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* Statics: under dead forces along members too; 4 at large rotations under other loads along them.
- * Frequencies: field/field.h.  Linear buckling: the inner unknowns are those of the element
- * without stress (elements/collocation/prestress.c). */
+/* Statics: also under dead forces along members; 4 at large rotations under other loads along them.
+ * Frequencies: field/field.h. Linear buckling: the inner unknowns are those of the stress-free
+ * element (elements/collocation/prestress.c). */
 static element_order order(element_analysis analysis, const double value[])
 {
     const int collocated = 2 * stage_count(value);
@@ -51,7 +50,7 @@ static int inner_count(const double value[])
     return 3 * stage_count(value);
 }
 
-/* Unknowns' correction, and what they follow the strains with. */
+/* Corrections of the unknowns, and their derivatives with respect to the strains. */
 static int memory_count(const double value[])
 {
     return inner_count(value) * (1 + OUTER);
@@ -153,9 +152,9 @@ static void geometric(const element_data *data, const double sigma[], double G[]
     }
 }
 
-/* Returns the force that changes of forces are relative to. A force that is stiffness times
- * elongation has its rounding error: where that exceeds 1e-9 of the bending's own unit, against
- * which iterations end, it must not keep them from ending. */
+/* Force to which changes of forces are relative. A force that is stiffness times elongation has a
+ * corresponding rounding error; if that exceeds 1e-9 of the unit of bending forces, it must not
+ * prevent convergence. */
 static double force_scale(const beam_constants *c)
 {
     const double told = 1e-9, stiffness = c->coupled ? c->C[0] : c->EA;
@@ -174,8 +173,7 @@ static double update(const element_data *data, const double de[], const double m
         inner[i] += change;
         if (i < 3)
             force =
-                fmax(force,
-                     fabs(inner[i])); /* they come first: forces are relative, rotations are not */
+                fmax(force, fabs(inner[i])); /* because forces are relative and rotations are not */
         largest = larger(largest, fabs(change) / (i < 3 ? force : 1));
     }
     return largest;

@@ -1,5 +1,5 @@
-/* Physics: features that an element can be asked for, that a type supports and a scene needs; their
- * words in files. */
+/* Physics: features that can be requested of an element, that a type supports and a scene requires;
+ * their names in files. */
 #ifndef BEAMWORK_FEATURE_H
 #define BEAMWORK_FEATURE_H
 
@@ -32,7 +32,7 @@ typedef struct feature_row {
     const char *summary; /* one line */
 } feature_row;
 
-/* For results and rules; "unknown" for what is no single bit. */
+/* Row for results and rules; "unknown" if `feature` is not a single bit. */
 static inline const feature_row *feature_row_of(unsigned bit)
 {
     static const feature_row row[] = {
@@ -58,7 +58,7 @@ static inline const feature_row *feature_row_of(unsigned bit)
     return one;
 }
 
-/* As files and results have it. */
+/* Name as used in files and results. */
 static inline const char *feature_name(unsigned bit)
 {
     return feature_row_of(bit)->name;
@@ -70,7 +70,7 @@ static inline const char *feature_summary(unsigned bit)
     return feature_row_of(bit)->summary;
 }
 
-/* The bit of a name; 0: there is none. */
+/* Bit of a name; 0: unknown name. */
 static inline unsigned feature_named(const char *name)
 {
     for (unsigned bit = 1; bit < FEATURE_END; bit <<= 1)
@@ -79,7 +79,8 @@ static inline unsigned feature_named(const char *name)
     return 0;
 }
 
-/* The names of all bits set into words[size], separated by commas; returns their characters. */
+/* Writes the names of all bits into words[size], separated by commas; returns the number of
+ * characters. */
 static inline int feature_words(unsigned features, char *words, int size)
 {
     int used = 0;

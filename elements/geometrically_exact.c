@@ -1,4 +1,4 @@
-/* The geometrically exact beam (Reissner, Simo) with warping, as general codes offer it: two or
+/* The geometrically exact beam (Reissner, Simo) with warping as in general-purpose codes: two or
  * three nodes, reduced integration, strains at the integration points. */
 #include <math.h>
 #include <string.h>
@@ -9,9 +9,10 @@
 
 enum { OPTION_NODES };
 
-/* Compliance of a plane across an element, which an axial force N takes for more than it is where N
- * times it is 1: the section's shear [1/N], which is the beam's, and the bending that is in the
- * place of shear, l^2/12EI or l^2/60EI (exact.h), which is the mesh's. */
+/* Transverse compliance of an element in a plane; an axial force N is too large for the element
+ * where N times it reaches 1. Contributions: the shear of the section [1/N], a property of the
+ * beam, and the bending in the place of shear, l^2/12EI or l^2/60EI (exact.h), a property of the
+ * mesh. */
 typedef struct across {
     double shear, bending;
 } across;

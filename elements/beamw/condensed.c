@@ -8,7 +8,7 @@
 /* Quadratic parts of the modified modes, as products of linear functionals of e. */
 
 typedef struct term {
-    int mode, i, j; /* ebar_mode += c e_i e_j, counted from 1 as in the paper */
+    int mode, i, j; /* ebar_mode += c e_i e_j, numbered from 1 as in the paper */
     double c;
 } term;
 
@@ -46,15 +46,15 @@ void beamw_modified_printed(const section *c, unsigned features, element_data *d
     beamw_variants_add_product(d->Q[0], -(c->ys * c->ys + c->zs * c->zs) / (10 * l3), e2, e2);
 }
 
-/* Which strains count.  Under a given stress the energy is right to third order when the strains of
- * second order are taken over the linear solution and weighted with its stresses, e1 = int gx, e2 =
- * l int kx, e3 = int [(l-s) ky - gz], e4 = int [s ky + gz], e5 = int [(l-s) kz + gy], e6 = int [s
- * kz - gy]. Strains are those of the Simo-Reissner beam at the centroid (gamma, kappa); e7 and e8
- * need nothing, since the amplitude at a node is the twist rate kx there less its warping shear,
- * whatever the frame.  Which closed form holds for uniform moment and axial load follows: gamma
- * turns with the section, so that stress resultants couple through the section's rotation
+/* Choice of strains. For a given stress the energy is correct to third order if the second-order
+ * strains are evaluated on the linear solution and weighted with its stresses, e1 = int gx, e2 = l
+ * int kx, e3 = int [(l-s) ky - gz], e4 = int [s ky + gz], e5 = int [(l-s) kz + gy], e6 = int [s kz
+ * - gy]. Strains are those of the Simo-Reissner beam at the centroid (gamma, kappa); e7 and e8 need
+ * nothing, since the amplitude at a node is the twist rate kx there less its warping shear,
+ * whatever the frame. This determines which closed form applies for uniform moment and axial load:
+ * gamma rotates with the section, so that stress resultants couple through the section's rotation
  * (Haringx); the slope w' of the fibre (Engesser, J) enters only when the squares of the shear
- * strains are added to gamma_x, as J's kinematics does (fibres_at below).  Proof and reduction to J
+ * strains are added to gamma_x, as J's kinematics does (fibres_at below). Proof and reduction to J
  * Eq. 66: reference/derive/second_order.py. */
 
 enum { N = BEAMW_MODIFIED_VARIABLES, Z = BEAMW_STRAINS };
@@ -83,7 +83,7 @@ static void fields_at(const section *c, double l, double x, const beamw_twist *t
     const beamw_twist_shapes shape = beamw_twist_at(t, x);
     const double mean[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     for (int k = 0; k < N; k++) {
-        const int own = k >= Z; /* one of z: bending (y, z) and warping parts of h */
+        const int own = k >= Z; /* for z: bending (y, z) and warping parts of h */
         const double bend[3] = {0, k == Z + 1 ? -6 : 0, k == Z ? 6 : 0},
                      tw = k == Z + 2 ? l * l : 0;
         const double A = own ? 0 : s->A[k],
@@ -101,9 +101,9 @@ static void fields_at(const section *c, double l, double x, const beamw_twist *t
     }
 }
 
-/* Parts of second order of the strains of the Simo-Reissner beam, r' = R (e_x + gamma), R =
- * exp(w~): with w the rotation, kappa = w' - 1/2 w x w',  gamma = u' - w x e_x + 1/2 w x (w x e_x)
- * - w x u'. */
+/* Second-order parts of the strains of the Simo-Reissner beam, r' = R (e_x + gamma), R = exp(w~):
+ * with w the rotation, kappa = w' - 1/2 w x w', gamma = u' - w x e_x + 1/2 w x (w x e_x) - w x u'.
+ */
 typedef struct point_strains {
     double gamma[3][N * N], kappa[3][N * N];
 } point_strains;
@@ -128,10 +128,10 @@ static void strains_at(const point_fields *f, point_strains *out)
     add_product(out->gamma[2], 1, f->rotation[1], f->extension);
 }
 
-/* Fibres elongate by gamma_x + z kappa_y - y kappa_z and half the square of how far they lean to
- * the section's normal: all of it after Engesser, (shear_y - z kx, shear_z + y kx); after Haringx
- * the part without shear, kx times the distance from the shear centre.  Its mean and first moments
- * count. */
+/* Fibres elongate by gamma_x + z kappa_y - y kappa_z plus half the square of their inclination to
+ * the section normal. For Engesser the whole inclination counts, (shear_y - z kx, shear_z + y kx);
+ * for Haringx the part without shear, kx times the distance from the shear centre. The mean and the
+ * first moments are used. */
 static void fibres_at(const section *c, unsigned features, const point_fields *f,
                       point_strains *out)
 {
@@ -177,8 +177,8 @@ void beamw_modified_consistent(const section *c, unsigned features, double l, co
             Q[5][i] += ds * (from_p * strain.kappa[2][i] - strain.gamma[1][i]);
         }
     }
-    /* The share of the helicoidal strains is in e already: -1/24 psi x (psi x U), what a straight
-     * chord is shorter than its arc. */
+    /* The helicoidal strains already contain one part in e: -1/24 psi x (psi x U), the difference
+     * between chord and arc. */
     const double psi[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     add_product(Q[0], -l / 24, psi[1], psi[1]);
     add_product(Q[0], -l / 24, psi[2], psi[2]);
@@ -214,7 +214,7 @@ typedef struct parts {
     double P[ALL][E], Q[ALL][N * N];
 } parts;
 
-/* Uniform torsion: no A, no warping part, rows and columns of z_w empty. */
+/* Uniform torsion: without A and the warping part; rows and columns of z_w are zero. */
 static void without_warping(beamw_condensed *out, parts *of)
 {
     for (int r = 0; r < ALL; r++) {
@@ -234,7 +234,7 @@ static void without_warping(beamw_condensed *out, parts *of)
     memset(out->hg + 2 * E, 0, E * sizeof(double));
 }
 
-/* Terms with as many variables of z as are requested. */
+/* Lists the terms with the requested number of variables of z. */
 static void list_terms(const parts *of, int inside, beamw_condensed *out)
 {
     static const short from[BEAMW_CONDENSED_ROWS] = {0, 1, 2, 3, EVEN, EVEN + 1};
@@ -287,7 +287,7 @@ void beamw_condensed_prepare(const section *c, double l, int shear, int warping,
             if (of.P[r][j] != 0)
                 for (int i = 0; i < N * N; i++)
                     of.Q[r][i] += of.P[r][j] * Q[j][i];
-    out->share = of.P[ALL - 1][1]; /* of the modes that are modified h_w has e2 alone, as u2 has */
+    out->share = of.P[ALL - 1][1]; /* for modified modes h_w contains only e2, as u2 does */
     if (!warping)
         without_warping(out, &of);
     list(&of, out);

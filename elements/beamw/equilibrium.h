@@ -10,21 +10,21 @@
 #include "elements/math/dense.h"
 #include "elements/shared/lanes.h"
 
-/* Internal modes (variants.h) and what they are a function of: (u, h) of y = (e, z), with D the
- * quadratic parts of its derivatives; of one element or of several in lanes. */
+/* Internal modes (variants.h) and the functions of them: (u, h) of y = (e, z), with D the quadratic
+ * parts of their derivatives; for one element or several in lanes. */
 
 enum {
     BEAMW_INTERNAL_Y = BEAMW_MODIFIED_VARIABLES,
-    BEAMW_INTERNAL_Z = BEAMW_STRAINS,   /* where z begins */
-    BEAMW_INTERNAL_U = 4,               /* u whose derivatives change */
+    BEAMW_INTERNAL_Z = BEAMW_STRAINS,   /* position of z */
+    BEAMW_INTERNAL_U = 4,               /* number of u whose derivatives change */
     BEAMW_INTERNAL_H = BEAMW_INTERNAL_U /* row of h_y in D */
 };
 
 typedef struct beamw_internal {
     real y[BEAMW_INTERNAL_Y], q[3];
-    real D[BEAMW_CONDENSED_ROWS * BEAMW_INTERNAL_Y + 1]; /* by rows; the last one counts nowhere */
+    real D[BEAMW_CONDENSED_ROWS * BEAMW_INTERNAL_Y + 1]; /* by rows; the last entry is not used */
     real u[BEAMW_CONDENSED_EVEN], h[3];
-    real reach[3]; /* sum of the absolute terms of h, linear in e */
+    real reach[3]; /* sum of the absolute terms of h that are linear in e */
 } beamw_internal;
 
 /* Row r of D at z. */
@@ -43,7 +43,7 @@ static inline void beamw_internal_along(const beamw_internal *s, const real dz[3
     }
 }
 
-/* Half of the quadratic parts into u and h. */
+/* Adds half of the quadratic parts to u and h. */
 static inline void beamw_internal_add_half(const beamw_condensed *d,
                                            const real quadratic[BEAMW_CONDENSED_ROWS],
                                            beamw_internal *s)
@@ -56,7 +56,7 @@ static inline void beamw_internal_add_half(const beamw_condensed *d,
     s->h[2] += d->share * (quadratic[1] / 2);
 }
 
-/* Terms of z alone, of what z has moved by. */
+/* Adds the terms of z alone, due to the change of z. */
 static inline void beamw_internal_add_own(const beamw_condensed *d, const real z[BEAMW_INTERNAL_Y],
                                           beamw_internal *s)
 {
@@ -85,7 +85,7 @@ static inline void beamw_internal_linear(const beamw_condensed *d, beamw_interna
     }
 }
 
-/* u, h and D of y; but for what z does to the columns of e. */
+/* u, h and D of y, without the effect of z on the columns of e. */
 static inline void beamw_internal_evaluate(const beamw_condensed *d, beamw_internal *s)
 {
     enum { Y = BEAMW_INTERNAL_Y, Z = BEAMW_INTERNAL_Z };
@@ -105,13 +105,13 @@ static inline void beamw_internal_evaluate(const beamw_condensed *d, beamw_inter
         for (int i = 1; i < Z; i++)
             quadratic[r] += s->D[Y * r + i] * s->y[i];
     }
-    beamw_internal_along(s, s->y + Z, quadratic); /* e meets z, and z meets e ... */
+    beamw_internal_along(s, s->y + Z, quadratic); /* products of e and z ... */
     beamw_internal_add_own(d, s->y, s);
-    beamw_internal_along(s, s->y + Z, quadratic); /* ... and itself */
+    beamw_internal_along(s, s->y + Z, quadratic); /* ... and of z with itself */
     beamw_internal_add_half(d, quadratic, s);
 }
 
-/* The same after z has moved by dz. */
+/* As beamw_internal_evaluate, after z has changed by dz. */
 static inline void beamw_internal_move(const beamw_condensed *d, const real dz[3],
                                        beamw_internal *s)
 {
@@ -129,14 +129,14 @@ static inline void beamw_internal_move(const beamw_condensed *d, const real dz[3
     beamw_internal_add_half(d, quadratic, s);
 }
 
-/* Effect of z on the columns of e, once z is known. */
+/* Adds the effect of z on the columns of e, once z is known. */
 static inline void beamw_internal_finish(const beamw_condensed *d, beamw_internal *s)
 {
     for (int t = d->mixed; t < d->own; t++)
         s->D[d->term[t].to] += d->term[t].c * s->y[d->term[t].j];
 }
 
-/* Quantities that the rows of D are dual to. */
+/* Weights conjugate to the rows of D. */
 static inline void beamw_internal_weights(const beamw_condensed *d, const beamw_internal *s,
                                           real w[BEAMW_CONDENSED_ROWS])
 {
@@ -147,13 +147,14 @@ static inline void beamw_internal_weights(const beamw_condensed *d, const beamw_
     w[BEAMW_INTERNAL_H + 1] = s->q[1];
 }
 
-/* The Hessian of (z, q), [Kzz, G^T; G, -f] (variants.h).  G = dh/dz - 1 is near -1 in whatever
- * state, and Kzz may have any sign, so that G goes first: dz = H (q + f dq), X dq = z - Kzz H q. */
+/* The Hessian of (z, q), [Kzz, G^T; G, -f] (variants.h). G = dh/dz - 1 is close to -1 in every
+ * state, while Kzz may have any sign. Therefore G is eliminated first: dz = H (q + f dq), X dq = z
+ * - Kzz H q. */
 
-/* The Hessian and, once it is factorised, H = G^-1, H f and X^-1, X = G^T + Kzz H f. */
+/* The Hessian and, after factorisation, H = G^-1, H f and X^-1, X = G^T + Kzz H f. */
 typedef struct beamw_hessian {
     real Kzz[9], G[9], H[9], Hf[9], inverse[9];
-    real_truth regular; /* neither G nor X is anywhere near a singular one; else by pivots */
+    real_truth regular; /* 1: G and X are far from singular; 0: use pivots */
 } beamw_hessian;
 
 /* dh/dz - 1 and Kzz. */
@@ -182,9 +183,9 @@ static inline void beamw_hessian_evaluate(const beamw_condensed *d, const beamw_
     }
 }
 
-/* inverse = A^-1 by cofactors, which the units of rows and columns do not matter to. Returns where
- * A has a determinant below -1/10: G and X are -1 without stress or flexibility, and grow with it.
- */
+/* inverse = A^-1 by cofactors, which do not depend on the units of rows and columns. Returns where
+ * the determinant of A is below -1/10: G and X are -1 without stress or flexibility, and change
+ * with it. */
 static inline real_truth beamw_hessian_invert(const real A[9], real inverse[9])
 {
     for (int i = 0; i < 3; i++) {
@@ -231,8 +232,8 @@ static inline void beamw_hessian_solve(const beamw_hessian *k, const real z[3], 
         dz[i] = Hq[i] + more[i];
 }
 
-/* The Hessian of one lane with pivots: solves for columns of right[6 x columns], in place.  Returns
- * 0, or 1: it is singular. */
+/* The Hessian of one lane with pivoting: solves for the columns of right[6 x columns] in place.
+ * Returns 0, or 1 when it is singular. */
 static inline int beamw_hessian_pivoted(const beamw_condensed *d, const beamw_hessian *k, int lane,
                                         int columns, double right[])
 {
@@ -256,8 +257,7 @@ static inline int beamw_hessian_pivoted(const beamw_condensed *d, const beamw_he
 
 enum { BEAMW_EQUILIBRIUM_MOST = 30 }; /* iterations */
 
-/* A step of Newton's method, dz and dq: what is to be subtracted; not a number where there is none.
- */
+/* A step of Newton's method: dz and dq are to be subtracted; NaN if there is none. */
 static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_internal *s,
                                           real dz[3], real dq[3])
 {
@@ -291,12 +291,13 @@ static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_
     }
 }
 
-/* Newton's method for z and q. Returns where it converged; what has converged stays. */
+/* Newton's method for z and q. Returns where it has converged; converged lanes do not change
+ * further. */
 static inline real_truth beamw_equilibrium_settle(const beamw_condensed *d, beamw_internal *s)
 {
     enum { Z = BEAMW_INTERNAL_Z };
     const double close_enough =
-        1e-7; /* relative to z: the remainder is of the order of its square */
+        1e-7; /* relative to z; the remaining error is of the order of its square */
     real_truth left = real_true(), good = real_true();
     for (int count = 0; count < BEAMW_EQUILIBRIUM_MOST && real_any(left); count++) {
         real change = real_of(0), size = real_of(0), dz[3], dq[3];
@@ -309,13 +310,13 @@ static inline real_truth beamw_equilibrium_settle(const beamw_condensed *d, beam
             s->q[i] -= real_choose(left, dq[i], real_of(0));
         }
         beamw_internal_move(d, dz, s);
-        good &= change <= DBL_MAX; /* of what has converged too: it is evaluated as before */
+        good &= change <= DBL_MAX; /* for converged lanes too, which are evaluated as before */
         left &= good & (change > close_enough * close_enough * size);
     }
     return good & (left == 0);
 }
 
-/* C_ee, half of it, and the mixed second derivatives of z and e, of q and e. */
+/* C_ee, half of it, and the mixed second derivatives with respect to z and e, q and e. */
 typedef struct beamw_equilibrium_outside {
     real B[BEAMW_INTERNAL_U][BEAMW_STRAINS], C[BEAMW_STRAINS * BEAMW_STRAINS];
     real z[3 * BEAMW_STRAINS], q[3 * BEAMW_STRAINS];
@@ -363,7 +364,7 @@ static inline void beamw_equilibrium_rows(const beamw_condensed *d, const beamw_
         o->z[d->term[t].entry] += d->term[t].c * w[d->term[t].row];
 }
 
-/* C of one lane whose Hessian is factorised with pivots. Returns 1; 0: it is singular. */
+/* C of one lane whose Hessian is factored with pivoting. Returns 1, or 0 when it is singular. */
 static inline int beamw_equilibrium_condense_pivoted(const beamw_condensed *d,
                                                      const beamw_internal *s,
                                                      const beamw_hessian *k, int lane, real C[])
@@ -458,7 +459,7 @@ static inline void beamw_equilibrium_forces(const beamw_condensed *d, const beam
         sigma[d->linear[t].i] += d->linear[t].c * dual[d->linear[t].row];
 }
 
-/* As element_type.stress; returns where there is an equilibrium. */
+/* As element_type.stress; returns where an equilibrium exists. */
 static inline real_truth beamw_equilibrium_stress(const beamw_condensed *d,
                                                   const real e[BEAMW_STRAINS], stress_real *out)
 {

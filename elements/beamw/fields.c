@@ -8,10 +8,10 @@
 #include "elements/math/scalar.h"
 
 /* The complementary energy of B odd about the middle, B = b sinh(lambda (x - 1/2))/sinh(lambda/2),
- * is 1/2 [(T - M)^2 l/(G It) + l (Q, M) f (Q, M) + M^2 l (1/(G It) + f_ww) excess],  M the mean of
- * M_w: bending, shear and warping in series, as with cubic functions, the warping with the
- * stiffness E Iw lambda^2/(l excess).  Of B even it is that of the ends, B a.  Nothing here
- * overflows or cancels for any lambda > 0. */
+ * is 1/2 [(T - M)^2 l/(G It) + l (Q, M) f (Q, M) + M^2 l (1/(G It) + f_ww) excess], M the mean of
+ * M_w: with bending, shear and warping in series as for cubic functions, and the warping stiffness
+ * E Iw lambda^2/(l excess). For even B it is that of the ends, B a. No expression here overflows or
+ * cancels for any lambda > 0. */
 
 enum { CUBIC_POINTS = 4, PANEL_POINTS = 16, LAYER_PANELS = 4 };
 /* Lambda times the width of a panel: e^-20 within 16 points. */
@@ -88,7 +88,7 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x)
     return s;
 }
 
-/* Where the panels of an element end; returns how many panels. */
+/* Panels of an element; returns their number. */
 static int panels_of(const beamw_twist *t, double edge[2 * LAYER_PANELS + 2])
 {
     int panels = 1;
@@ -98,7 +98,7 @@ static int panels_of(const beamw_twist *t, double edge[2 * LAYER_PANELS + 2])
             edge[i] = (double)i / panels;
         return panels;
     }
-    /* layers at the ends, nothing but polynomials between */
+    /* layers at the ends, polynomials between them */
     panels = 2 * LAYER_PANELS + 1;
     for (int i = 0; i <= LAYER_PANELS; i++) {
         edge[i] = i * panel_decay / t->lambda;
@@ -126,8 +126,8 @@ int beamw_twist_points(const beamw_twist *t, double from, double to,
 
 /* With h the antisymmetric part of the deformation and A = (e7 - e8)/2, the energy of the linear
  * fields of J section 3.2 is 1/2 [EA/l e1^2 + EIy/l^3 (e3+e4)^2 + EIz/l^3 (e5+e6)^2 + GIt/l^3 (e2^2
- * + A^2/3) + 4 EIw/l^5 A^2 + h^T K h], K the stiffness of bending and shear in series.  Written so,
- * nothing cancels: neither for Phi -> 0 nor for Phi -> inf. */
+ * + A^2/3) + 4 EIw/l^5 A^2 + h^T K h], where K is the stiffness of bending and shear in series. In
+ * this form there is no cancellation for Phi -> 0 or Phi -> inf. */
 
 enum { Y, Z, W };
 
@@ -146,7 +146,7 @@ static void antisymmetric_functionals(const section *c, double l, beamw_stiffnes
     f->A[7] = -0.5;
 }
 
-/* Part of h that is bending: hg = M h. */
+/* Bending part of h: hg = M h. */
 static void split(const section *c, double l, beamw_stiffness_shear kind, const double stiffness[3],
                   double M[9])
 {
@@ -170,7 +170,7 @@ static void split(const section *c, double l, beamw_stiffness_shear kind, const 
             A[3 * i + j] = (i == j) + c->F[3 * i + j] * stiffness[j] / (c->shear_modulus * l);
             M[3 * i + j] = i == j;
         }
-    dense_lu(3, A, pivot); /* never singular: F and Ka are positive semidefinite */
+    dense_lu(3, A, pivot); /* cannot be singular: F and Ka are positive semidefinite */
     dense_lu_solve(3, 3, A, pivot, M);
 }
 

@@ -7,10 +7,10 @@
 #include "elements/shared/status.h"
 
 /* How the rate of twist is distributed along an element: cubic functions (J Eq. 38), or hyperbolic
- * ones, the exact linear solution with Saint-Venant torsion.  With M_w = -B' constant but for
- * torsion, T = G It kx + M_w and kx - a = f (Q, M_w), B'' = (lambda/l)^2 B,  lambda^2 = l^2 G It/(E
- * Iw (1 + r)),  r = G It f_ww, l^2 kx = e2 + A odd(x) + tw even(x);  odd -> 1 - 2x, even -> 6x(1-x)
- * - 1 for lambda -> 0. */
+ * ones, the exact linear solution with Saint-Venant torsion. If M_w = -B' is constant except for
+ * torsion, T = G It kx + M_w and kx - a = f (Q, M_w), B'' = (lambda/l)^2 B, lambda^2 = l^2 G It/(E
+ * Iw (1 + r)), r = G It f_ww, l^2 kx = e2 + A odd(x) + tw even(x); odd -> 1 - 2x, even -> 6x(1-x) -
+ * 1 for lambda -> 0. */
 
 typedef enum beamw_twist_kind { BEAMW_TWIST_CUBIC, BEAMW_TWIST_HYPERBOLIC } beamw_twist_kind;
 
@@ -20,11 +20,12 @@ typedef struct beamw_twist {
     double lambda;   /* 0: cubic */
     double excess;   /* lambda/2 coth(lambda/2) - 1 */
     double soft;     /* 1 + r */
-    double
-        lag[2]; /* G It (f_yw, f_zw) [m]: kx above its mean takes so much from the shear strains */
+    double lag[2]; /* G It (f_yw, f_zw) [m]: the part of kx above its mean reduces the shear strains
+                      by this factor */
 } beamw_twist;
 
-/* shear: 0 where the section is rigid in shear.  Iw = 0 has cubic functions only: nothing warps. */
+/* shear: 0 if the section is rigid in shear. Iw = 0 has only cubic functions, because there is no
+ * warping. */
 beamw_twist beamw_twist_of(const section *c, double l, int shear, beamw_twist_kind kind);
 
 typedef struct beamw_twist_shapes {
@@ -36,8 +37,8 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x);
 
 enum { BEAMW_TWIST_MAX_POINTS = 144 };
 
-/* Points and weights on [from, to] in [0, 1] that integrate products of two of the shapes with
- * polynomials; returns how many. */
+/* Points and weights on [from, to] in [0, 1] that integrate products of two shapes with
+ * polynomials; returns their number. */
 int beamw_twist_points(const beamw_twist *t, double from, double to,
                        double x[BEAMW_TWIST_MAX_POINTS], double w[BEAMW_TWIST_MAX_POINTS]);
 
@@ -46,12 +47,12 @@ int beamw_twist_points(const beamw_twist *t, double from, double to,
 
 typedef enum beamw_stiffness_shear {
     BEAMW_STIFFNESS_RIGID,    /* Phi = 0: Vlasov */
-    BEAMW_STIFFNESS_DIAGONAL, /* J App. A, whose Phi see only the diagonal of D */
-    BEAMW_STIFFNESS_COUPLED   /* the whole of D: nodally exact for any positive definite D if It = 0
-                                 or with hyperbolic twist */
+    BEAMW_STIFFNESS_DIAGONAL, /* J App. A, where Phi depends only on the diagonal of D */
+    BEAMW_STIFFNESS_COUPLED /* uses the whole of D: nodally exact for any positive definite D if It
+                               = 0 or with hyperbolic twist */
 } beamw_stiffness_shear;
 
-/* Linear functionals of e that stiffness, modified modes and inertia are made of. */
+/* Linear functionals of e, used for stiffness, modified modes and inertia. */
 typedef struct beamw_stiffness_fields {
     double h[3][8]; /* [1/m, 1/m, 1/m^2] mean antisymmetric deformation (y, z, omega) = bending part
                        + shear strain */
@@ -65,34 +66,34 @@ typedef struct beamw_stiffness_fields {
 void beamw_stiffness_of(const section *c, double l0, beamw_stiffness_shear kind,
                         const beamw_twist *t, beamw_stiffness_fields *fields, double S[8 * 8]);
 
-/* Mass along a two-node element, on displacements that are the nodes' values between them and
+/* Mass along a two-node element, for displacements given by interpolated nodal values and
  * functionals of the deformation modes (beamw/inertia.c). */
 
 enum {
-    BEAMW_GAUSS = 8,      /* points of the consistent mass, at most */
-    BEAMW_FIELDS = 6,     /* and its functionals at each */
-    BEAMW_FIELD_MODES = 8 /* of J Eq. 7 */
+    BEAMW_GAUSS = 8,      /* largest number of points of the consistent mass */
+    BEAMW_FIELDS = 6,     /* number of its functionals at each point */
+    BEAMW_FIELD_MODES = 8 /* number of modes of J Eq. 7 */
 };
 
 /* Data of a kind of element. */
 typedef struct beamw_spread {
-    double l0;                                                  /* [m] */
-    lumped_mass lumped;                                         /* inertia of half the element */
-    int points;                                                 /* of the consistent mass */
-    double at[BEAMW_GAUSS], weight[BEAMW_GAUSS];                /* on [0, 1] */
+    double l0;                                   /* [m] */
+    lumped_mass lumped;                          /* inertia of half of the element */
+    int points;                                  /* number of points of the consistent mass */
+    double at[BEAMW_GAUSS], weight[BEAMW_GAUSS]; /* on [0, 1] */
     double field[BEAMW_GAUSS][BEAMW_FIELDS][BEAMW_FIELD_MODES]; /* functionals of e: inertia.c */
-    double share; /* of the consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
+    double share; /* fraction of consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
 } beamw_spread;
 
 status beamw_spread_inertia(const beamw_spread *, const node_state x[2],
                             const element_rotating_frame *, inertia_output *);
 
-/* Mass along a two-node element that moves in time: what its motion takes, with derivatives. The
- * masses lie on the displacements above, that of warping at the nodes; without rotary inertia
- * the twist is linear between these. A rigid motion of the nodes is one of all. */
+/* Mass along a two-node element in transient analysis: inertia forces, with derivatives. The masses
+ * follow the displacements above, that of warping is at the nodes; without rotary inertia the twist
+ * is linear between them. A rigid motion of the nodes is a rigid motion of all masses. */
 
-/* out += M, taken, C and K at its rate; of M the upper half counts. The second for processors with
- * AVX2, the same bits (elements/math/real.h). */
+/* out += M, taken, C and K at its rate; only the upper half of M is set. The second function is for
+ * processors with AVX2, with the same bits (elements/math/real.h). */
 typedef void beamw_in_time(const beamw_spread *, const node_state x[2], inertia_output *out);
 beamw_in_time beamw_in_time_plain, beamw_in_time_avx2;
 

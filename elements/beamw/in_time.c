@@ -1,8 +1,7 @@
 /* Masses at points of quadrature on vectors of the section, y = lin(r + R a) + sum m_k (nu_k . e)
- * (inertia.c), m_k the mean of the nodes' unit vectors:
- *   y'' = lin(r'') + sum over nodes A f + sum over k (2 m_k' (nu_k . e)' + m_k (nu_k . e)''),
- *   f = part R a + sum over k (nu_k . e)/2 n_k,   A = w'~ + w~ w~,   e'' = J x'' + x'.H x',
- * with f fixed to a node that turns with w. */
+ * (inertia.c), m_k the mean of the nodes' unit vectors: y'' = lin(r'') + sum over nodes A f + sum
+ * over k (2 m_k' (nu_k . e)' + m_k (nu_k . e)''), f = part R a + sum over k (nu_k . e)/2 n_k, A =
+ * w'~ + w~ w~, e'' = J x'' + x'.H x', where f is fixed to a node that rotates with w. */
 #include "elements/beamw/fields.h"
 
 #include <string.h>
@@ -11,13 +10,13 @@
 #include "elements/math/dense.h"
 
 enum { N = MODES_COORDINATES, MODES = BEAMW_FIELD_MODES, NODES = 2, AXES = 3 };
-enum { WIDE = 16, PARTS = 4 }; /* rows of N are filled up with zeros to whole vectors */
+enum { WIDE = 16, PARTS = 4 }; /* rows of N are padded with zeros to whole vectors */
 typedef double part __attribute__((vector_size(32)));
 typedef union row {
     part part[PARTS];
     double of[WIDE];
 } row;
-enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z }; /* as inertia.c has them */
+enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z }; /* in the order of inertia.c */
 
 static const int turns[NODES] = {MODES_TP, MODES_TQ}, places[NODES] = {MODES_RP, MODES_RQ};
 
@@ -26,15 +25,16 @@ typedef struct moving_line {
     const node_state *x;
     inertia_output *out;
     const double *w[NODES];   /* angular velocities */
-    double A[NODES][9];       /* of a vector fixed to a node: f'' = A f */
+    double A[NODES][9];       /* for a vector fixed to a node: f'' = A f */
     double n[NODES][AXES][3]; /* unit vectors */
     double m[AXES][3], m_rate[AXES][3];
-    double e[MODES], rate[MODES], second[MODES]; /* of the modes, with both derivatives */
+    double e[MODES], rate[MODES], second[MODES]; /* modes and both derivatives */
     double J[MODES * N], slope[MODES * N];
     row wide_J[MODES], wide_slope[MODES];
     row M[N], C[N], K[N];
-    double s[MODES];                /* stresses of the modes */
-    double mixed[NODES][3 * MODES]; /* of the turn of a node and a mode */
+    double s[MODES]; /* stresses of the modes */
+    double mixed[NODES]
+                [3 * MODES]; /* derivatives with respect to the rotation of a node and a mode */
 } moving_line;
 
 static void skew(double size, const double v[3], double A[9])
@@ -110,8 +110,8 @@ static void set_modes(moving_line *c)
 
 /* A mass at a point of quadrature. */
 typedef struct line_point {
-    double mass, part[NODES], shift; /* shift 1: a place, 0: a vector fixed to the section */
-    int axes, axis[AXES];            /* those m_k that it has functionals along */
+    double mass, part[NODES], shift; /* shift 1: a position, 0: a vector fixed to the section */
+    int axes, axis[AXES];            /* those m_k for which it has functionals */
     double nu[AXES][MODES], value[AXES], rate[AXES];
     double f[NODES][3]; /* fixed to the nodes */
     double F[3];        /* mass times acceleration */
@@ -142,7 +142,7 @@ static void set_point(const moving_line *c, int g, double mass, const double a[3
                       line_point *p)
 {
     const double *acceleration = place ? c->out->acceleration : NULL;
-    p->mass = 2 * c->d->weight[g] * mass; /* given of a half */
+    p->mass = 2 * c->d->weight[g] * mass; /* given for half of the element */
     p->part[0] = 1 - c->d->at[g];
     p->part[1] = c->d->at[g];
     p->shift = place;
@@ -192,7 +192,7 @@ static void add_taken(moving_line *c, const line_point *p)
     }
 }
 
-/* T: -v~ in the columns of a node's turns. */
+/* T: -v~ in the columns of a node's rotations. */
 static void add_turn(double size, const double v[3], int node, row T[3])
 {
     double A[9] = {0};
@@ -314,7 +314,7 @@ static void add_curvature(moving_line *c)
         c->out->K[i] += H[i];
 }
 
-/* The moment of inertia about n_X alone, of w . n_X that is linear between the nodes. */
+/* Moment of inertia about n_X alone, for a component w . n_X that is linear between the nodes. */
 static void add_twist(moving_line *c, double polar)
 {
     inertia_output *out = c->out;
@@ -363,7 +363,7 @@ static void add_mass(moving_line *c, double mass, const double a[3], int place)
     }
 }
 
-/* Rotary inertia, of unit vectors of the section or as its matrices have it. */
+/* Rotary inertia, from unit vectors of the section or from its matrices. */
 static void add_rotary(moving_line *c)
 {
     static const double unit[AXES][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

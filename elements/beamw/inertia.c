@@ -12,13 +12,13 @@
 enum { N = 14, RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
 enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */
 
-/* The element's state, and what the points gather for the second derivatives. */
+/* State of the element, and sums over the points for the second derivatives. */
 typedef struct beamw_inertia_state {
     double vector[2][3][3]; /* node, direction: unit vectors */
     double mean[3][3];      /* m_k */
     double e[8], J[8 * N];
-    double s[8];       /* F . m_k of the functionals: stresses of the strains */
-    double turn[6][8]; /* d(F . m_k)/dtheta of p and q, with them */
+    double s[8];       /* F . m_k of the functionals: stresses conjugate to the strains */
+    double turn[6][8]; /* derivatives d(F . m_k)/dtheta at p and q */
     const node_state *x;
     const element_rotating_frame *frame;
     inertia_output *out;
@@ -74,7 +74,7 @@ static void beamw_inertia_values_at(const beamw_inertia_state *c, const beamw_sp
     }
 }
 
-/* dy/dx but for what turns with the nodes. */
+/* dy/dx without the rotation of vectors fixed to the nodes. */
 static void beamw_inertia_gradient(const beamw_inertia_state *c, const beamw_inertia_values *at,
                                    const beamw_inertia_vector *y, double T[3 * N])
 {
@@ -94,7 +94,7 @@ static void beamw_inertia_gradient(const beamw_inertia_state *c, const beamw_ine
     }
 }
 
-/* Position in the frame; and the vectors fixed to the nodes, with their weights. */
+/* Position in the frame, and the vectors fixed to the nodes with their weights. */
 static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inertia_values *at,
                                 const beamw_inertia_vector *y, double r[3], double fixed[2][3])
 {
@@ -119,7 +119,7 @@ static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inerti
     }
 }
 
-/* Functionals of the strains that the consistent mass is made of: see inertia.c. */
+/* Functionals of the strains for the consistent mass: see inertia.c. */
 
 enum { BEAMW_CUBIC_POINTS = 4 };
 
@@ -128,7 +128,7 @@ static void functionals_at(const section *c, double l, const beamw_stiffness_fie
 {
     const double e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
     const double bend_y[8] = {0, 0, 1 - x, -x},
-                 bend_z[8] = {0, 0, 0, 0, 1 - x, -x}; /* slope of the chord less lin(theta) */
+                 bend_z[8] = {0, 0, 0, 0, 1 - x, -x}; /* slope of the chord minus lin(theta) */
     const double b = x * (1 - x), cubic = b * (1 - 2 * x), db = 1 - 2 * x, dcubic = 1 - 6 * b;
     for (int k = 0; k < 8; k++) {
         const double chi_x = (b * s->A[k] - cubic * s->tw[k]) / l;
@@ -158,32 +158,29 @@ void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_ki
         for (int g = 0; g < s->points; g++) {
             functionals_at(c, d->l0, fields, s->at[g], s->field[g]);
             if (!(features & FEATURE_WARPING))
-                for (int k = 0; k < BEAMW_FIELDS; k++) { /* uniform torsion: e7 and e8 follow e2 */
+                for (int k = 0; k < BEAMW_FIELDS; k++) { /* uniform torsion: e7 and e8 equal e2 */
                     s->field[g][k][1] += s->field[g][k][6] + s->field[g][k][7];
                     s->field[g][k][6] = s->field[g][k][7] = 0;
                 }
         }
 }
 
-/* Consistent mass.  The fields are those of J section 3.2 (shear functionals as in fields.h),
+/* Consistent mass. The fields are those of J section 3.2 (shear functionals as in fields.h),
  *
- *   x = s/l, c = x (1 - x),
- *   v_s = chord - [(e5+e6)/2 c + l hg_y c (1-2x)],
- *   w_s = chord + [(e3+e4)/2 c - l hg_z c (1-2x)],
- *   l phi = l phi_p + e2 x + A c - tw c (1-2x),
- *   v_c = v_s + zs phi,  w_c = w_s - ys phi,
- *   theta_z = v_s' - g_y,  theta_y = -(w_s' - g_z),  a = phi' - g_w,
+ * x = s/l, c = x (1 - x), v_s = chord - [(e5+e6)/2 c + l hg_y c (1-2x)], w_s = chord + [(e3+e4)/2 c
+ * - l hg_z c (1-2x)], l phi = l phi_p + e2 x + A c - tw c (1-2x), v_c = v_s + zs phi, w_c = w_s -
+ * ys phi, theta_z = v_s' - g_y, theta_y = -(w_s' - g_z), a = phi' - g_w,
  *
- * written as the nodes' values between p and q plus functionals of the strains: v_c = lin(v) +
- * nu_y . e and so on. In the deformed state the functionals are along the mean m_k of the nodes'
- * unit vectors (derived here),
+ * written as interpolated nodal values plus functionals of the strains: v_c = lin(v) + nu_y . e and
+ * so on. In the deformed state the functionals are along the mean m_k of the nodes' unit vectors
+ * (derived here),
  *
- *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),
- *   n_y = lin(n_y) + m_z (chi_x . e) - m_x (chi_z . e), ...
+ * r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e), n_y = lin(n_y) + m_z (chi_x . e) - m_x (chi_z . e),
+ * ...
  *
  * and the displacement of warping a m_x, which are linear in e and in vectors fixed to the nodes:
- * their first two derivatives are exact, and so is what derives from the kinetic energy. The error
- * of the centrifugal force in the fields' second order vanishes with the fourth power of l. */
+ * their first two derivatives are exact, and so are the quantities derived from the kinetic energy.
+ * The error of the centrifugal force due to second-order terms of the fields is of order l^4. */
 
 static const beamw_inertia_vector position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU_Z, 1}}},
                                   director[3] = {{0, 2, {{1, CHI_Z, 1}, {2, CHI_Y, -1}}},
@@ -226,7 +223,7 @@ static void add_interpolated(beamw_inertia_state *c, const beamw_inertia_values 
     gather_curvature(c, F, at, y);
 }
 
-/* A twist whose rate has a mass and which no rotating frame acts on. */
+/* A twist whose rate has a mass, without effect of a rotating frame. */
 static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *at, double mass)
 {
     double row[N];
@@ -240,7 +237,7 @@ static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *
             c->out->M[N * i + j] += mass * row[i] * row[j];
 }
 
-/* y += size times a vector of the field, whose T is that of y likewise. */
+/* y += size times a vector of the field; likewise its T. */
 static void add_part(const beamw_inertia_state *c, const beamw_inertia_values *at,
                      const beamw_inertia_vector *part, double size, moving_vector *y,
                      double T[3 * N], double fixed[2][3])
@@ -259,8 +256,8 @@ static void add_part(const beamw_inertia_state *c, const beamw_inertia_values *a
     }
 }
 
-/* Adds vectors of a section given by matrices: the position of its centre of mass, and directions
- * in it. */
+/* Adds the vectors of a section given by matrices: the position of its centre of mass, and
+ * directions in it. */
 static void add_vectors(beamw_inertia_state *c, const beamw_spread *d,
                         const beamw_inertia_values *at)
 {
@@ -309,8 +306,8 @@ static void add_point(beamw_inertia_state *c, const beamw_spread *d, int g)
         add_interpolated(c, &at, &warping, weight * d->lumped.warping);
 }
 
-/* N -= sum F . d2y/dx2: products of what turns with the gradients of the strains, and what the
- * strains' own second derivatives do. */
+/* N -= sum F . d2y/dx2: products of rotations with the gradients of the strains, and the second
+ * derivatives of the strains. */
 static void add_curvature(const beamw_spread *d, const beamw_inertia_state *c)
 {
     static const int row[6] = {TP, TP + 1, TP + 2, TQ, TQ + 1, TQ + 2};

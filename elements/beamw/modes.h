@@ -1,8 +1,8 @@
 /* Deformation modes of the two-node beam: eight generalized strains, all lengths, from the nodes'
- * positions and triads (J Eq. 7).  e1 elongation, e2 torsion, e3 e4 bending in x-z, e5 e6 bending
- * in x-y, e7 e8 = l0^2 a.  Their gradient (J Eq. 13, three rows of which are misprinted) and second
+ * positions and triads (J Eq. 7). e1 elongation, e2 torsion, e3 e4 bending in x-z, e5 e6 bending in
+ * x-y, e7 e8 = l0^2 a. Their gradient (J Eq. 13, three rows of which are misprinted) and second
  * derivatives in the exponential chart: n is the unit vector from p to q; every bending mode is l0
- * times n . v with v a vector fixed to a node.  Of one element or of several in lanes. */
+ * times n . v with v a vector fixed to a node. For one element or several in lanes. */
 #ifndef BEAMWORK_BEAMW_MODES_H
 #define BEAMWORK_BEAMW_MODES_H
 
@@ -36,7 +36,7 @@ static inline void beamw_modes_of(double l0, const node_real x[2], beamw_modes *
         m->n[i] = d[i] / m->l;
 }
 
-/* Gradient of c n . v, v fixed to the node whose rotation columns begin at `rotation`. */
+/* Gradient of c n . v, where v is fixed to the node whose rotation columns begin at `rotation`. */
 static inline void beamw_modes_bending_row(const beamw_modes *m, double c, const real v[3],
                                            int rotation, real row[MODES_COORDINATES])
 {
@@ -73,7 +73,7 @@ static inline void beamw_modes_gradient(double l0, const beamw_modes *m,
     J[6 * N + MODES_AP] = J[7 * N + MODES_AQ] = real_of(l0 * l0);
 }
 
-/* B += c [sym(u v^T) - (u . v) I]: second derivative of c u . v when one of them turns. */
+/* B += c [sym(u v^T) - (u . v) I]: second derivative of c u . v when one of them rotates. */
 static inline void beamw_modes_turning(real c, const real u[3], const real v[3], real B[9])
 {
     const real dot = c * vec3_dot(u, v), half = c / 2;
@@ -84,7 +84,7 @@ static inline void beamw_modes_turning(real c, const real u[3], const real v[3],
     }
 }
 
-/* B += c [(u . v) I - v u^T]: of the turns of u and of v. */
+/* B += c [(u . v) I - v u^T]: with respect to rotations of u and of v. */
 static inline void beamw_modes_crossing(real c, const real u[3], const real v[3], real B[9])
 {
     const real dot = c * vec3_dot(u, v);
@@ -95,9 +95,8 @@ static inline void beamw_modes_crossing(real c, const real u[3], const real v[3]
     }
 }
 
-/* Second derivatives of n . v along the chord (for q's position) and a turn of v: (v~ - n (n x
- * v)^T)/l
- */
+/* Second derivative of n . v with respect to the position of q and a rotation of v: (v~ - n (n x
+ * v)^T)/l */
 static inline void beamw_modes_mixed(const beamw_modes *m, const real v[3], real rt[9])
 {
     real across[3];
@@ -109,7 +108,7 @@ static inline void beamw_modes_mixed(const beamw_modes *m, const real v[3], real
             rt[3 * i + j] = (skew[3 * i + j] - m->n[i] * across[j]) / m->l;
 }
 
-/* Blocks of the second derivatives: of the chord, of the chord and a node's turn, of turns. */
+/* Blocks of the second derivatives: chord and chord, chord and rotation, rotations. */
 typedef struct beamw_modes_blocks {
     real rr[9], rp[9], rq[9], pp[9], qq[9], pq[9];
 } beamw_modes_blocks;
@@ -191,11 +190,11 @@ static inline void beamw_modes_evaluate(double l0, const node_real x[2], strain_
     }
 }
 
-/* Time derivatives of the gradients of the deformation modes as the nodes move. */
+/* Time derivatives of the gradients of the deformation modes. */
 
 /* slope[8 x 14] = H x' of each mode, H its second derivatives in the exponential chart, at rates
- * x'[14]: the rate of the gradient J less 1/2 w x J at the rotations of each node. Then the second
- * derivative of a mode in time without accelerations is slope . x'. */
+ * x'[14]: the rate of the gradient J minus 1/2 w x J at the rotations of each node. The second time
+ * derivative of a mode without accelerations is slope . x'. */
 void beamw_modes_slopes(double l0, const node_state x[2], const double J[8 * 14],
                         const double rate[14], double slope[8 * 14]);
 

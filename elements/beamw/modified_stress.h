@@ -1,5 +1,5 @@
-/* The stress function of modified modes, of one element or of several in lanes: with D = Q(e) and B
- * = 1 + D, sigma = B^T S ebar and dsigma/de = B^T S B + sum (S ebar)_i Q_i. */
+/* The stress function of modified modes, for one element or several in lanes: with D = Q(e) and B =
+ * 1 + D, sigma = B^T S ebar and dsigma/de = B^T S B + sum (S ebar)_i Q_i. */
 #ifndef BEAMWORK_BEAMW_MODIFIED_STRESS_H
 #define BEAMWORK_BEAMW_MODIFIED_STRESS_H
 
@@ -23,7 +23,7 @@ static inline void beamw_modified_stress_stiffness(const element_data *d, const 
                                                    const real conjugate[BEAMW_STRAINS], real C[])
 {
     enum { E = BEAMW_STRAINS };
-    real SB[E * E]; /* half of it is not read where D is zero */
+    real SB[E * E]; /* the rows with D = 0 are not used */
     for (int i = 0; i < E * E; i++)
         SB[i] = real_of(d->S[i]);
     for (int t = 0; t < d->springs; t++) {
@@ -72,7 +72,7 @@ static inline void beamw_modified_stress_evaluate(const element_data *d,
                                                   const real e[BEAMW_STRAINS], stress_real *out)
 {
     enum { E = BEAMW_STRAINS, M = BEAMW_MODIFIED };
-    real D[M * E + 1], modified[E], conjugate[E]; /* the last of D counts nowhere */
+    real D[M * E + 1], modified[E], conjugate[E]; /* the last entry of D is not used */
     beamw_modified_stress_strains(d, e, D, modified);
     for (int i = 0; i < E; i++)
         modified[i] -= d->free[i];

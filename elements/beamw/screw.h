@@ -1,9 +1,8 @@
-/* The screw displacement that takes node p and its triad to node q, of one element or of several in
- * lanes.  With R half way between the triads of the nodes, D the chord in its axes, psi the
- * rotation vector and a = psi/2, the translation along the way in axes that rotate with it is U =
- * V^-1 D,  V = int from -1/2 to 1/2 of exp(x psi~) dx,  V^-1 = mu + nu a a^T, mu = |a|/sin |a|,  nu
- * = (1
- * - mu)/|a|^2. */
+/* The screw displacement from node p and its triad to node q, for one element or several in lanes.
+ * With R the mean of the triads of the nodes, D the chord in its axes, psi the rotation vector and
+ * a = psi/2, the translation along the screw, in axes that rotate with it, is U = V^-1 D, V = int
+ * from -1/2 to 1/2 of exp(x psi~) dx, V^-1 = mu + nu a a^T, mu = |a|/sin |a|, nu = (1 - mu)/|a|^2.
+ */
 #ifndef BEAMWORK_BEAMW_SCREW_H
 #define BEAMWORK_BEAMW_SCREW_H
 
@@ -26,7 +25,7 @@ typedef struct screw {
     real f[SCREW_FACTORS];
 } screw;
 
-/* Beyond that |a|^2 the factors have closed forms, which cancel below. */
+/* Above this |a|^2 the factors use closed forms, which lose digits below it. */
 static const double beamw_screw_far = 0.25;
 void beamw_screw_far_factors(double square, double f[SCREW_FACTORS]);
 
@@ -63,7 +62,7 @@ static inline void beamw_screw_factors(real square, real f[SCREW_FACTORS])
     }
 }
 
-/* Quaternion of a rotation, w >= 0: from the trace where that is its largest part. */
+/* Quaternion of a rotation, w >= 0; computed from the trace when that is its largest part. */
 static inline void beamw_screw_quaternion(const real B[9], real q[4])
 {
     const real trace = B[0] + B[4] + B[8];
@@ -109,7 +108,7 @@ static inline void beamw_screw_half_way(const node_real x[2], screw *w)
     mat3_mul(x[0].R, half, w->R);
 }
 
-/* l0 [m]: length at rest; x[2]: states of the nodes. */
+/* l0 [m]: initial length; x[2]: states of the nodes. */
 static inline void beamw_screw_of(double l0, const node_real x[2], screw *w)
 {
     real d[3], moved[3];
@@ -141,10 +140,10 @@ static inline void beamw_screw_of(double l0, const node_real x[2], screw *w)
     }
 }
 
-/* First derivatives of a screw with respect to the nodes' coordinates.  Along a path of constant
- * spatial velocities and spins, in the axes of the middle: v of q against p, s the mean of the
- * nodes' spins and delta their difference.  The middle turns with w = s - tau/2 a x delta and
- * dpsi/dt = V^-1 delta,  dD/dt = v - w x D,  d(v, s, delta)/dt = -w x (v, s, delta). */
+/* First derivatives of a screw with respect to the nodes' coordinates. Along a path of constant
+ * spatial velocities and spins, in the mean axes: v is the velocity of q relative to p, s the mean
+ * of the nodes' spins and delta their difference. The mean axes rotate with w = s - tau/2 a x delta
+ * and dpsi/dt = V^-1 delta, dD/dt = v - w x D, d(v, s, delta)/dt = -w x (v, s, delta). */
 
 enum { SCREW_COORDINATES = 2 * NODE_COORDINATES };
 enum { SCREW_RP = 0, SCREW_TP = 3, SCREW_AP = 6, SCREW_RQ = 7, SCREW_TQ = 10, SCREW_AQ = 13 };
@@ -156,7 +155,7 @@ typedef struct screw_work {
     real difference[3];
 } screw_work;
 
-/* The rest of it from g and t. */
+/* Completes it from g and t. */
 static inline void beamw_screw_rates_complete(const screw *w, screw_work *k)
 {
     real side[3];
@@ -178,8 +177,8 @@ static inline void beamw_screw_rates_work(const screw *w, const real f[3], const
     beamw_screw_rates_complete(w, k);
 }
 
-/* Gradients in fixed axes: of U with respect to v, s and delta, by columns; that of psi with
- * respect to delta is that of U with respect to v. */
+/* Gradients in global axes: of U with respect to v, s and delta, by columns. The gradient of psi
+ * with respect to delta equals that of U with respect to v. */
 typedef struct screw_gradient {
     real v[9], s[9], delta[9];
 } screw_gradient;
@@ -219,11 +218,11 @@ static inline void beamw_screw_rates_row(const screw_gradient *g, int translatio
     row[SCREW_AP] = row[SCREW_AQ] = real_of(0);
 }
 
-/* Second derivatives of a screw with respect to the nodes' coordinates, in the exponential chart:
- * symmetric forms in (v, s, delta) above, in the axes of the middle first, then fixed.
- */
+/* Second derivatives of a screw with respect to the coordinates of the nodes, in the exponential
+ * chart: symmetric forms in (v, s, delta) above, first in the mean axes, then in global axes. */
 
-/* v meets v in nothing; in s as g turns. ss and dd are symmetric. */
+/* There is no product of v with v; the product of v with s is due to the rotation of g. ss and dd
+ * are symmetric. */
 typedef struct screw_form {
     real vd[9], ss[9], sd[9], dd[9];
 } screw_form;
@@ -255,7 +254,7 @@ static inline void beamw_screw_forms_translation(const screw *w, const real f[3]
         }
 }
 
-/* In v, w and delta; the blocks of w stand where those of s will. */
+/* In v, w and delta; the blocks of w are stored in place of those of s. */
 static inline void beamw_screw_forms_middle(const screw *w, const screw_work *k, const real f[3],
                                             screw_form *out)
 {
@@ -377,12 +376,12 @@ static inline void beamw_screw_forms_second(const screw *w, const real f[3], con
     beamw_screw_forms_nodal(w, &k, &second, H);
 }
 
-/* Helicoidal strains, those of a beam with uniform strains: the screw displacement that takes node
- * p and its triad to node q, with the rotation vector psi and the translation U along the way, in
- * rotating axes on it, e1 = U_x - l0,  e2 = l0 psi_x,  e3, e4 = l0 psi_y/2 -+ U_z,  e5, e6 = l0
- * psi_z/2 +- U_y,  e7, e8 = l0^2 a. They are J Eq. 7 to first order and the same for p and q
- * exchanged.  Uniform strains of any size are measured exactly, U = l0 (e_x + gamma), psi = l0
- * kappa; J's sines of angles to the chord are not when sections shear. */
+/* Helicoidal strains, those of a beam with uniform strains. For the screw displacement from node p
+ * and its triad to node q, with the rotation vector psi and the translation U in axes that rotate
+ * along the screw, e1 = U_x - l0, e2 = l0 psi_x, e3, e4 = l0 psi_y/2 -+ U_z, e5, e6 = l0 psi_z/2 +-
+ * U_y, e7, e8 = l0^2 a. They agree with J Eq. 7 to first order, and do not change when p and q are
+ * exchanged. Uniform strains of any size are represented exactly, U = l0 (e_x + gamma), psi = l0
+ * kappa; with shear this is not so for J's sines of angles to the chord. */
 
 /* e1 .. e6: sign U_translation + part psi_rotation l0. */
 static const struct {
@@ -392,7 +391,7 @@ static const struct {
                                {2, 1, 1, 0.5}, {1, 2, 1, 0.5}, {1, 2, -1, 0.5}};
 enum { BEAMW_HELICOIDAL_ALONG = 6 };
 
-/* As element_type.strain, of one element or of several in lanes; l0 [m]: its length at rest. */
+/* As element_type.strain, for one element or several in lanes; l0 [m]: initial length. */
 static inline void beamw_helicoidal_evaluate(double l0, const node_real x[2], strain_real *out)
 {
     enum { N = SCREW_COORDINATES };

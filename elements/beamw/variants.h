@@ -7,15 +7,15 @@
 #include "elements/element.h"
 #include "elements/shared/lanes.h"
 
-/* Quadratic parts of functions of the strains as lists of what is not zero. */
+/* Quadratic parts of functions of the strains, as lists of nonzero terms. */
 
 /* d2(row)/dy_i dy_j = c, i <= j. */
 typedef struct beamw_quadratic_term {
     double c;
     short row, i, j;
-    short to, mirrored; /* where c y_j and c y_i belong in the rows' derivatives, row-major; after
-                           them: nowhere, since i = j */
-    short entry;        /* of a matrix of second derivatives */
+    short to, mirrored; /* positions of c y_j and c y_i in the derivatives of the rows, row-major; a
+                           position after the end is not used, for i = j */
+    short entry;        /* position in a matrix of second derivatives */
 } beamw_quadratic_term;
 
 /* Term of row `row` of `rows`, with n variables. */
@@ -31,12 +31,12 @@ static inline beamw_quadratic_term beamw_quadratic_of(double c, int rows, int n,
                                   .entry = (short)entry};
 }
 
-/* The stress function that every BEAMW variant shares: energy 1/2 ebar^T S ebar of modified modes
- * ebar_i = e_i + 1/2 e^T Q_i e (J Eqs. 62-66).  A variant says only what S and Q are. */
+/* The stress function common to all BEAMW variants: energy 1/2 ebar^T S ebar of modified modes
+ * ebar_i = e_i + 1/2 e^T Q_i e (J Eqs. 62-66). A variant defines only S and Q. */
 
 enum {
     BEAMW_STRAINS = 8,
-    BEAMW_MODIFIED = 6, /* e7 and e8 are never modified */
+    BEAMW_MODIFIED = 6, /* e7 and e8 are not modified */
     BEAMW_QUADRATIC_TERMS = BEAMW_MODIFIED * BEAMW_STRAINS * (BEAMW_STRAINS + 1) / 2
 };
 
@@ -44,25 +44,25 @@ struct element_data {
     double l0;                                        /* [m] */
     double S[8 * 8];                                  /* [N/m] */
     double Q[BEAMW_MODIFIED][8 * 8];                  /* [1/m], symmetric */
-    int terms;                                        /* what is not zero in Q ... */
+    int terms;                                        /* number of nonzero terms in Q ... */
     beamw_quadratic_term term[BEAMW_QUADRATIC_TERMS]; /* ... entry: of [8 x 8], i <= j */
-    int springs;                                      /* and in S */
+    int springs;                                      /* number of nonzero terms in S */
     struct {
         double c;
         short i, j;
     } spring[BEAMW_STRAINS * BEAMW_STRAINS];
     beamw_spread spread;
-    double free[BEAMW_STRAINS]; /* modified strains without stress */
+    double free[BEAMW_STRAINS]; /* modified strains of the stress-free element */
 };
 
 /* Q += c (a b^T + b a^T): the quadratic c (a . e)(b . e). */
 void beamw_variants_add_product(double Q[8 * 8], double c, const double a[8], const double b[8]);
 
-/* Uniform torsion, where nothing warps: e7 and e8 follow e2.  A[n x n] <- T^T A T, and the same for
- * a whole variant. */
+/* Uniform torsion, without warping: e7 and e8 equal e2. A[n x n] <- T^T A T; the second function
+ * treats a whole variant. */
 void beamw_variants_merge_torsion(int n, double A[]);
 void beamw_variants_drop_warping(element_data *d);
-/* Once S and Q are known. */
+/* Call when S and Q are complete. */
 void beamw_variants_list(element_data *d);
 
 size_t beamw_variants_data_size(const element_request *);
@@ -78,7 +78,7 @@ void beamw_variants_stress_many(int count, const element_data *const data[],
                                 stress_output out[], status outcome[]);
 void beamw_variants_geometric(const element_data *d, const double sigma[], double G[]);
 
-/* Second-order modified modes: which Q_i a BEAMW variant has. */
+/* Second-order modified modes: the Q_i of a BEAMW variant. */
 
 /* J Eq. 66 as printed: for Phi = 0 and the shear centre at the centroid consistent, otherwise not.
  */
@@ -86,7 +86,7 @@ void beamw_modified_printed(const section *c, unsigned features, element_data *d
 
 enum {
     BEAMW_MODIFIED_VARIABLES = BEAMW_STRAINS + 3
-}; /* e, and z: the parts of h [3] that are bending (y, z) and warping */
+}; /* e, followed by z: the bending (y, z) and warping parts of h [3] */
 
 /* From the full shear interpolation: consistent with shear and eccentricity (reference/ERRATA.md),
  * either theory of shear in stability, with the monosymmetric Wagner moments where requested.  ebar
@@ -96,22 +96,22 @@ void beamw_modified_consistent(
     const beamw_stiffness_fields *fields,
     double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES]);
 
-/* The same with z = hg, as in the unstressed element: Q of e alone. */
+/* As above with z = hg, as in the unstressed element: Q for e alone. */
 void beamw_modified_reduce(
     const beamw_stiffness_fields *fields,
     double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES], element_data *d);
 
-/* A stress function of condensed internal modes, which follow the stress: bending, shear and
- * warping share the antisymmetric deformation h as equilibrium of the stressed element asks,
- * instead of as in the unstressed one.  With z the bending and warping part of h, energy =
- * stationary over z and q of  1/2 sum_r k_r u_r^2 + 1/2 z^T Ka z + q . (h - z) - 1/2 q^T F q/(G l),
- * where u = (e1, e2, e3 + e4, e5 + e6, (e7 - e8)/2) and h are those of ebar = e + 1/2 (e, z)^T Q
- * (e, z).  q is dual to h: F = 0 does no harm. */
+/* A stress function with condensed internal modes that depend on the stress: bending, shear and
+ * warping share the antisymmetric deformation h according to equilibrium of the stressed element,
+ * instead of the unstressed one. With z the bending and warping part of h, energy = stationary over
+ * z and q of 1/2 sum_r k_r u_r^2 + 1/2 z^T Ka z + q . (h - z) - 1/2 q^T F q/(G l), where u = (e1,
+ * e2, e3 + e4, e5 + e6, (e7 - e8)/2) and h are those of ebar = e + 1/2 (e, z)^T Q (e, z). q is
+ * conjugate to h, so that F = 0 is possible. */
 
 enum {
     BEAMW_CONDENSED_EVEN = 5,
     BEAMW_CONDENSED_ALL = BEAMW_CONDENSED_EVEN + 3,
-    BEAMW_CONDENSED_ROWS = 6, /* u1 .. u4, h_y, h_z: u5 is linear, h_w follows u2 */
+    BEAMW_CONDENSED_ROWS = 6, /* u1 .. u4, h_y, h_z; u5 is linear, and h_w depends on u2 */
     BEAMW_CONDENSED_TERMS =
         BEAMW_CONDENSED_ROWS * BEAMW_MODIFIED_VARIABLES * (BEAMW_MODIFIED_VARIABLES + 1) / 2
 };
@@ -123,33 +123,33 @@ typedef struct beamw_condensed_linear {
 } beamw_condensed_linear;
 
 typedef struct beamw_condensed {
-    double k[BEAMW_CONDENSED_EVEN];            /* [N/m] */
-    double Ka[3];                              /* [N m, N m, N m^3] */
-    double f[3 * 3];                           /* F/(G l) */
-    double hg[3 * BEAMW_STRAINS];              /* z = hg e without stress */
-    double share;                              /* of the quadratic part of u2 in h_w [1/m^2] */
+    double k[BEAMW_CONDENSED_EVEN]; /* [N/m] */
+    double Ka[3];                   /* [N m, N m, N m^3] */
+    double f[3 * 3];                /* F/(G l) */
+    double hg[3 * BEAMW_STRAINS];   /* z = hg e without stress */
+    double share;                   /* coefficient of the quadratic part of u2 in h_w [1/m^2] */
     double odd[BEAMW_STRAINS * BEAMW_STRAINS]; /* d2/de2 of 1/2 k5 u5^2 [N/m] */
-    int linears;                               /* (u, h), rows as in k and after them, of e */
+    int linears; /* linear terms of (u, h) in e; rows as in k, then those of h */
     beamw_condensed_linear linear[BEAMW_CONDENSED_ALL * BEAMW_STRAINS];
-    int mixed, own, terms; /* of e alone, for an entry of [8 x 8]; of e_i, z_j from `mixed`, of (j,
-                              i) in [3 x 8]; of z alone from `own`, of [3 x 3] */
+    int mixed, own, terms; /* terms of e alone: entries of [8 x 8]; from `mixed` on of e_i and z_j:
+                              (j, i) in [3 x 8]; from `own` on of z alone: [3 x 3] */
     beamw_quadratic_term term[BEAMW_CONDENSED_TERMS];
 } beamw_condensed;
 
-/* Q as of beamw_modified_consistent; warping 0: e7 = e8 = e2, nothing warps. */
+/* Q from beamw_modified_consistent; warping 0: e7 = e8 = e2, no warping. */
 void beamw_condensed_prepare(
     const section *c, double l0, int shear, int warping, const beamw_twist *t,
     const beamw_stiffness_fields *fields,
     double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES],
     beamw_condensed *out);
 
-/* As element_type.stress; NOT_CONVERGED where the internal modes have no equilibrium. */
+/* As element_type.stress; NOT_CONVERGED: no equilibrium of the internal modes was found. */
 status beamw_condensed_stress(const beamw_condensed *d, const double e[BEAMW_STRAINS],
                               stress_output *out);
 
 /* Inertia of the two-node beam: lumped at the nodes (J Eq. 73), consistent with the linear fields
- * of J section 3.2 in the element's deformed state, or the mean of both.  What a frame that turns
- * does to it derives from the same kinetic energy. */
+ * of J section 3.2 in the element's deformed state, or the mean of both. The effects of a rotating
+ * frame derive from the same kinetic energy. */
 
 typedef enum beamw_inertia_kind {
     BEAMW_INERTIA_LUMPED,
@@ -166,8 +166,9 @@ void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_ki
 status beamw_inertia_of(const element_data *d, const node_state x[],
                         const element_rotating_frame *frame, inertia_output *out);
 
-/* Strains and stresses of several BEAMW elements at once, the bits of one element at a time; of
- * each two, the second for processors with AVX2 (elements/math/real.h). Members of element_type. */
+/* Strains and stresses of several BEAMW elements at once, bit-for-bit as for single elements. The
+ * second function of each pair is for processors with AVX2 (elements/math/real.h). Members of
+ * element_type. */
 
 typedef void beamw_lanes_strains(int count, const element_data *const data[], const node_state x[],
                                  strain_output out[]);
@@ -177,21 +178,22 @@ typedef void beamw_lanes_stresses(int count, const element_data *const data[],
 beamw_lanes_strains beamw_lanes_modes_plain, beamw_lanes_modes_avx2;
 beamw_lanes_strains beamw_lanes_helicoidal_plain, beamw_lanes_helicoidal_avx2;
 beamw_lanes_stresses beamw_lanes_modified_plain, beamw_lanes_modified_avx2;
-/* Stresses of beamw_prepare_consistent, following or not. */
+/* Stresses of beamw_prepare_consistent, with internal modes that depend on the stress or not. */
 beamw_lanes_stresses beamw_lanes_consistent_plain, beamw_lanes_consistent_avx2;
 
-/* Common preparation of the BEAMW variants: a stiffness, modified modes and a mass are chosen. */
+/* Common preparation of the BEAMW variants: selects a stiffness, modified modes and a mass. */
 
 typedef enum beamw_prepare_modes {
     BEAMW_PREPARE_FIRST_ORDER, /* ebar = e */
     BEAMW_PREPARE_PRINTED      /* J Eq. 66 */
 } beamw_prepare_modes;
 
-/* Without FEATURE_SHEAR in the request the stiffness is shear-rigid, whatever `shear` says. */
+/* Without FEATURE_SHEAR in the request the stiffness is rigid in shear, for any `shear`. */
 status beamw_prepare_variant(const element_request *request, beamw_stiffness_shear shear,
                              beamw_prepare_modes modes, element_data *out, fault *f);
 
-/* beamw_modified_consistent; `variant` is first, so that a pointer to the whole is one to it. */
+/* For beamw_modified_consistent; `variant` is the first member, so that both have the same address.
+ */
 typedef struct beamw_consistent_data {
     element_data variant;
     int condensed;
@@ -206,16 +208,16 @@ static inline const beamw_consistent_data *beamw_prepare_whole(const element_dat
 status beamw_prepare_consistent(const element_request *request, beamw_consistent_data *out,
                                 fault *f);
 
-/* The option of beamw_prepare_variant, and those that beamw_prepare_consistent has beside it. */
+/* The option of beamw_prepare_variant, and the additional ones of beamw_prepare_consistent. */
 extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
 /* Common to all of them. */
 int beamw_prepare_mass_of_field(const double options[]);
 element_order beamw_prepare_order(element_analysis, const double options[]);
-/* element_type.judged of both. */
+/* element_type.judged for both. */
 extern const unsigned beamw_prepare_judged[];
 
-/* In an element_type: what those that beamw_prepare_variant prepares have; and what they offer
- * beside theories of shear. */
+/* For element_type: members common to types prepared by beamw_prepare_variant, and their features
+ * without theories of shear. */
 #define BEAMW_VARIANT_TYPE                                                                         \
     .family = "beamw", .abi = ELEMENT_ABI, .limits = LIMIT_QUARTER_TURN | LIMIT_EIGHTH_TWIST,      \
     .options = {beamw_prepare_mass}, .judged = beamw_prepare_judged,                               \

@@ -9,7 +9,7 @@
 
 enum { POINTS = ELEMENT_ALONG_POINTS, FINE = 20, X = 2 * NODE_COORDINATES, TURN = 3 };
 
-/* The points of the load, their weights, and what Lagrange's polynomials there are divided by. */
+/* Points of the load, weights, and denominators of Lagrange's polynomials. */
 typedef struct load_points {
     double x[POINTS], weight[POINTS], scale[POINTS];
 } load_points;
@@ -38,7 +38,7 @@ static void add_lagrange(const load_points *p, double x, double factor, double o
     }
 }
 
-/* int_x^1 less half of int_0^1 of them. */
+/* int_x^1 minus half of int_0^1 of them. */
 static void weights_at(const load_points *p, double x, double out[POINTS])
 {
     for (int j = 0; j < POINTS; j++)
@@ -47,7 +47,7 @@ static void weights_at(const load_points *p, double x, double out[POINTS])
         add_lagrange(p, x + (1 - x) * p->x[m], (1 - x) * p->weight[m], out);
 }
 
-/* R (e_x + g) of the undeformed line in the axes half way. */
+/* R (e_x + g) of the undeformed line in the mean axes. */
 static void undeformed_axis(const element_request *request, double x, double out[3])
 {
     const double strained[3] = {1 + request->strain[0], request->strain[1], request->strain[2]};
@@ -58,8 +58,7 @@ static void undeformed_axis(const element_request *request, double x, double out
     rotation_apply(q, strained, out);
 }
 
-/* Corrections for a curved line; on a straight one the stages integrate a load that is linear along
- * it exactly. */
+/* Corrections for a curved line; on a straight one the stages integrate a linear load exactly. */
 static void missed_of(const element_request *request, const exact_stages *s, const load_points *p,
                       double own[EXACT_STAGES_MAX][POINTS], exact_along *out)
 {
@@ -132,7 +131,7 @@ void exact_along_frame_of(const exact_stages *s, const exact_along *a, const nod
     }
 }
 
-/* moment += that of the potential M : G by the turn of G in its axes. */
+/* moment += moment of the potential M : G due to a rotation of G in its axes. */
 static void add_moment(const double M[9], const double G[9], double moment[3])
 {
     double A[9] = {0};
@@ -142,7 +141,7 @@ static void add_moment(const double M[9], const double G[9], double moment[3])
     moment[2] += A[3] - A[1];
 }
 
-/* dQ of the mean quaternion Q by the turn of node k about axis j: 1/4 e_j o q_k. */
+/* dQ of the mean quaternion Q due to a rotation of node k about axis j: 1/4 e_j o q_k. */
 static void mean_gradient(const exact_along_frame *at, int k, int j, double out[4])
 {
     double axis[4] = {0};
@@ -180,8 +179,8 @@ static void quadratic_of(const double M[9], double B[4][4])
     B[2][3] = B[3][2] = M[5] + M[7];
 }
 
-/* H = second derivative of M : G by the nodes' turns in the exponential chart: of the quotient
- * Q . B Q/Q . Q, with d2Q = -1/8 |theta|^2 q_k of each node. */
+/* H = second derivative of M : G with respect to rotations of the nodes in the exponential chart:
+ * of the quotient Q . B Q/Q . Q, with d2Q = -1/8 |theta|^2 q_k for each node. */
 static void second_of(const exact_along_frame *at, const double M[9], double H[X * X])
 {
     double B[4][4], Bu[4], value = 0, dQ[6][4], along[6], across[6], own[2] = {0};
@@ -191,7 +190,7 @@ static void second_of(const exact_along_frame *at, const double M[9], double H[X
         value += Bu[i] * at->u[i];
     }
     for (int i = 0; i < 4; i++)
-        Bu[i] -= value * at->u[i]; /* half the gradient, times the size of Q */
+        Bu[i] -= value * at->u[i]; /* half the gradient, times the magnitude of Q */
     for (int a = 0; a < 6; a++) {
         along[a] = across[a] = 0;
         mean_gradient(at, a / 3, a % 3, dQ[a]);
@@ -240,7 +239,7 @@ void exact_along_finish(const exact_stages *s, const exact_along *a, const exact
         second_of(at, M, out->H);
 }
 
-/* Eliminates the unknowns; 0, or a failing pivot. */
+/* Eliminates the unknowns; returns 0, or the number of a failing pivot. */
 static int eliminate(int stages, exact_collocated *w)
 {
     exact_blocks_eliminate(stages, stages + 4, stages + 1, w->A, w->V, w->d);
@@ -260,7 +259,7 @@ status exact_along_linear(const exact_stages *s, const exact_along *a, const nod
     exact_collocated_load load;
     memcpy(rest + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof(double));
     exact_along_frame_of(s, a, x, out->force, &at);
-    /* by the size of the force, and for stiffnesses by the turn */
+    /* for the size of the force, and for stiffnesses for the rotation */
     for (int pass = 0; pass < (out->H != NULL ? 2 : 1); pass++) {
         memset(&load, 0, sizeof load);
         for (int k = 0; k < s->stages; k++)
@@ -310,7 +309,7 @@ status exact_along_rate(const exact_stages *s, const exact_along *a, const node_
         e[i] = out->e[i] / l0;
     exact_along_frame_of(s, a, x, out->force, &at);
     exact_along_frame_of(s, a, x, out->rate, &more);
-    for (int pass = 0; pass < 2; pass++) { /* with two of the turns, and with the third */
+    for (int pass = 0; pass < 2; pass++) { /* with two of the rotations, then with the third */
         for (int k = 0; k < s->stages; k++) {
             memcpy(load.force[k], at.xi[k], sizeof load.force[k]);
             exact_along_column(at.xi[k], turned);

@@ -10,8 +10,8 @@
 
 enum { EXACT_VARIABLES_BLOCKS = EXACT_BLOCKS_MAX * (EXACT_BLOCKS_MAX + 1) / 2 };
 
-/* Place in the blocks of sums.h of variable i, or of 1, which follows the last, and of the three
- * parameters of a load, which follow 1: its block, and in it `component`. */
+/* Position, in the blocks of sums.h, of variable i. The constant 1 follows the last variable, and
+ * three parameters of a load follow it. Returns the block; `component` is the position in it. */
 static inline int exact_variables_block(int stages, int i, int *component)
 {
     const int outer = i - 3 * stages;
@@ -27,27 +27,29 @@ static inline int exact_variables_block(int stages, int i, int *component)
 /* The symmetric matrix A of the blocks [n x n], n variables. */
 void exact_variables_matrix(int stages, double A[][9], int n, double matrix[]);
 
-/* The elimination of the unknowns with exchange of rows, where that of sums.h would lose digits:
- * blocks of the strains, of 1 and what follows (columns together) in S, X [unknowns/3][9] of each
- * of their block columns; 0, or the failing pivot. */
+/* Eliminates the unknowns with row exchange, for cases where the elimination of sums.h would lose
+ * digits: blocks of the strains, of the constant 1 and the following ones (columns together) in S;
+ * X [unknowns/3][9] for each of their block columns. Returns 0, or the number of a failing pivot.
+ */
 int exact_variables_eliminate(int stages, int columns, double A[][9], double S[][9],
                               double X[][EXACT_STAGES_MAX][9]);
 
-/* Change of x and x' at point i that goes with a change of all variables. */
+/* Change of x and x' at point i due to a change of all variables. */
 void exact_variables_change(const exact_stages *s, int i, const double change[], double x[3],
                             double slope[3]);
 
-/* Stresses of collocation elements: the energy's derivatives at the unknowns' present values, and
- * the elimination of the unknowns.  In lanes (real.h). */
+/* Stresses of collocation elements: derivatives of the energy at the present values of the
+ * unknowns, with the unknowns eliminated. In lanes (real.h). */
 
-/* X of 2 X, v, (a_p, a_q, 1), and of the turn of loads along. */
+/* X for 2 X, v, (a_p, a_q, 1), and for the rotation of loads along the element. */
 typedef struct exact_collocated {
     real A[EXACT_VARIABLES_BLOCKS][9], V[EXACT_VARIABLES_BLOCKS][9], d[EXACT_STAGES_UNKNOWNS],
         X[4][EXACT_STAGES_MAX][9];
 } exact_collocated;
 
-/* Loads along the element (collocation.h): their contribution to F at the points, its derivative by
- * three parameters, and the derivative of the energy by it, which is filled. */
+/* Loads along the element (collocation.h): contribution to F at the points, its derivative with
+ * respect to three parameters, and, as output, the derivative of the energy with respect to the
+ * contribution. */
 typedef struct exact_collocated_load {
     real force[EXACT_STAGES_MAX][3], column[EXACT_STAGES_MAX][9], moved[EXACT_STAGES_MAX][3];
 } exact_collocated_load;
@@ -104,8 +106,8 @@ exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], con
     E[8] = twice;
 }
 
-/* One lane by the elimination with exchange of rows, columns: of strains, of 1 and what follows; 0,
- * or the failing pivot. */
+/* Elimination with row exchange for one lane, columns: of strains, of the constant 1 and the
+ * following ones. Returns 0, or the number of a failing pivot. */
 static inline int exact_collocated_exchange(int stages, int columns, int lane, exact_collocated *w)
 {
     const int outer = (columns + 2) / 3, blocks = exact_blocks_at(0, stages + outer);
@@ -129,8 +131,8 @@ static inline int exact_collocated_exchange(int stages, int columns, int lane, e
     return 0;
 }
 
-/* Entry of the strains i and j after elimination; 8: the constant 1, 9 to 11: the rotation of loads
- * along the element. */
+/* Entry for strains i and j after elimination; 8: the constant 1, 9 to 11: rotation of loads along
+ * the element. */
 static inline double exact_collocated_entry(int stages, exact_collocated *w, int i, int j, int lane)
 {
     int row, column;
@@ -165,7 +167,7 @@ static inline void exact_collocated_write(int stages, const exact_stages *s, exa
                          fabs(real_lane(&w->A[exact_blocks_at(i, stages + 2)][3 * r + 2], lane)));
     }
     if (out->memory != NULL)
-        for (int i = 0; i < stages; i++) { /* F, which comes first, is the last block */
+        for (int i = 0; i < stages; i++) { /* F is first, but in the last block */
             double *rows = &out->memory[(i < stages - 1 ? i + 1 : 0) * 3 * (OUTER + 1)];
             for (int r = 0; r < 3; r++)
                 for (int c = 0; c < 3; c++) {
@@ -245,7 +247,8 @@ static inline void exact_loaded_write(int stages, const exact_stages *s, const e
             out->second[3 * i + j] =
                 unit * exact_collocated_entry(stages, w, TURN + i, TURN + j, lane);
     }
-    for (int i = 0; i < stages && out->followed != NULL; i++) { /* F, the last block, comes first */
+    for (int i = 0; i < stages && out->followed != NULL;
+         i++) { /* F is first, but in the last block */
         double *rows = &out->followed[(i < stages - 1 ? i + 1 : 0) * 9];
         for (int j = 0; j < 9; j++)
             rows[j] = -real_lane(&w->X[3][i][j], lane);

@@ -8,19 +8,18 @@
 /* One element of a geometrically exact beam with warping, solved by Gauss collocation (derived
  * here).
  *
- * In the axes half way between its ends the element has the strains e of exact.h (two nodes): v,
- * the vector from p to q, and 2 X, 8 tan(angle/8) about the axis of the rotation from p to q; and
- * the end amplitudes a.  Orientation is given by a vector x (stage.h), a polynomial of degree
- * p through -X, p - 1 inner values and X.  The force F is constant.  The potential
+ * In the mean axes of its ends the element has the strains e of exact.h (two nodes): v, the vector
+ * from p to q, and 2 X, 8 tan(angle/8) about the axis of the rotation from p to q; and the end
+ * amplitudes a. Orientation is given by a vector x (stage.h), a polynomial of degree p through -X,
+ * p - 1 inner values and X. The force F is constant. The potential
  *
- *   P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z) + (ys N_z - zs N_y) k +
- * 1/2 rho^2 N_x k^2
- *                          + 1/2 EI_y kappa_y^2 + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] +
- * warping (exact.h), N = R^T F, k = kappa_x, over p Gauss points,
+ * P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z) + (ys N_z - zs N_y) k + 1/2
+ * rho^2 N_x k^2 + 1/2 EI_y kappa_y^2 + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] + warping
+ * (exact.h), N = R^T F, k = kappa_x, over p Gauss points,
  *
- * is stationary in F and in the inner x.  In a linear problem this is collocation of the moments'
- * equilibrium m' = F x r' at the Gauss points; N = R^T F is in equilibrium exactly.  The tangent is
- * symmetric, and the error of order 2 p.  All dimensionless (beam_constants.h). */
+ * is stationary in F and in the inner x. In a linear problem this is collocation of the moment
+ * equilibrium m' = F x r' at the Gauss points; N = R^T F is in equilibrium exactly. The tangent is
+ * symmetric, and the error is of order 2 p. All dimensionless (beam_constants.h). */
 
 enum {
     EXACT_STAGES_MAX = EXACT_WARPING_MAX_STAGES,
@@ -30,42 +29,43 @@ enum {
     EXACT_STAGES_ALL = EXACT_STAGES_UNKNOWNS + EXACT_STAGES_OUTER
 };
 
-/* Head of the element_data of collocation elements. Variables: x of the inner nodes, then 2 X, of
- * which each end node has half. */
+/* Head of the element_data of collocation elements. Variables: x of the inner nodes, then 2 X, half
+ * of which belongs to each end node. */
 typedef struct exact_stages {
     int stages, unknowns; /* unknowns: F (3), x of the inner nodes */
     beam_constants c;
     exact_strain_line line;
     double w[EXACT_STAGES_MAX], N[EXACT_STAGES_MAX][EXACT_STAGES_MAX],
-        dN[EXACT_STAGES_MAX][EXACT_STAGES_MAX]; /* x and x' at the points from the variables */
+        dN[EXACT_STAGES_MAX]
+          [EXACT_STAGES_MAX]; /* coefficients of x and x' at the points for the variables */
     double rest_x[EXACT_STAGES_NODES][3], rest_kappa[EXACT_STAGES_MAX][3], rest_v[3];
-    double rest_axis[EXACT_STAGES_MAX][3]; /* R (e_x + g) at the points, without stress */
-    int warps;                             /* 0: no warping energy */
+    double rest_axis[EXACT_STAGES_MAX]
+                    [3]; /* R (e_x + g) at the points of the stress-free element */
+    int warps;           /* 0: no warping energy */
     double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX];
 } exact_stages;
 
 status exact_stages_prepare(const element_request *request, int count, exact_stages *out, fault *f);
 
 /* A dead force per length q(x) inside the equilibrium of a collocation element (derived here).
- * Between its nodes the force is F + g(x), with F that of the middle,
- *   g(x) = l0 (int_x^1 q - 1/2 int_0^1 q),
- * which takes the place of F in N above, while halves of int q stay at the nodes: the
- * whole is the potential with - int q . r.  F is in the axes G half way between the ends, and so is
- * the contribution of g, xi = G^T g: a turn psi of G in its own axes changes it by xi x psi. The
- * potential depends on G through xi alone, and is linear in it except for the effect of the points.
- */
+ * Between its nodes the force is F + g(x), where F is the force in the middle and g(x) = l0
+ * (int_x^1 q - 1/2 int_0^1 q). F + g replaces F in N above, and half of int q acts on each node;
+ * together this is the potential with - int q . r. F is given in the mean axes G of the ends, and
+ * so is xi = G^T g: a rotation psi of G in its own axes changes it by xi x psi. The potential
+ * depends on G only through xi, and is linear in it except for the effect of the points. */
 
-/* Data of a kind of element; q at the points of element.h. */
+/* Data of a kind of element; q is given at the points of element.h. */
 typedef struct exact_along {
     double at[EXACT_STAGES_MAX][ELEMENT_ALONG_POINTS]; /* g at the stages [m] */
-    double missed[ELEMENT_ALONG_POINTS][3]; /* of the work on the undeformed line, what the stages'
-                                               quadrature misses: turns with G [m^2] */
-    double half[ELEMENT_ALONG_POINTS];      /* of int q [m] */
+    double missed[ELEMENT_ALONG_POINTS]
+                 [3]; /* correction of the work on the undeformed line, which the quadrature of the
+                         stages misses; rotates with G [m^2] */
+    double half[ELEMENT_ALONG_POINTS]; /* of int q [m] */
 } exact_along;
 
 /* The frame G of an element's state, and g. */
 typedef struct exact_along_frame {
-    double q[2][4], u[4], size;                     /* of the nodes; their mean, and its length */
+    double q[2][4], u[4], size; /* quaternions of the nodes; their mean, and its length */
     double G[9], g[EXACT_STAGES_MAX][3], missed[9]; /* [N]; [N m], columns in axes of G */
     double xi[EXACT_STAGES_MAX][3];                 /* dimensionless */
 } exact_along_frame;
@@ -74,13 +74,13 @@ void exact_along_prepare(const element_request *, const exact_stages *, exact_al
 void exact_along_frame_of(const exact_stages *, const exact_along *, const node_state x[],
                           const double force[], exact_along_frame *);
 /* Computes the terms that need the evaluated stages: ends, rotation, H, and the part of the
- * undeformed line in moment. moved[stages][3]: derivative of the energy by xi. */
+ * undeformed line in `moment`. moved[stages][3]: derivative of the energy with respect to xi. */
 void exact_along_finish(const exact_stages *, const exact_along *, const exact_along_frame *,
                         double moved[][3], along_output *);
-/* Linear in the force, of the undeformed element. */
+/* For the undeformed element, linear in the force. */
 status exact_along_linear(const exact_stages *, const exact_along *, const node_state x[],
                           along_output *);
-/* Derivatives by the size of along_output.rate. */
+/* Derivatives with respect to the size of along_output.rate. */
 status exact_along_rate(const exact_stages *, const exact_along *, const node_state x[],
                         along_output *);
 
@@ -92,31 +92,31 @@ static inline void exact_along_column(const double xi[3], double column[9])
         column[i] = skew[i];
 }
 
-/* Stiffness that a prestress gives to the undeformed collocation element. */
+/* Geometric stiffness of the undeformed collocation element due to a prestress. */
 
-/* Q[i]: derivative of the condensed stiffness [8 x 8] with respect to stress i of the undeformed
- * geometry, in which it is linear; dimensionless. */
+/* Q[i]: derivative of the condensed stiffness [8 x 8] with respect to stress i in the undeformed
+ * geometry, where it is linear; dimensionless. */
 void exact_prestress_derivatives(
     const exact_stages *s, double Q[EXACT_STAGES_OUTER][EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);
 
-/* The same in the direction of loads along the element between fixed nodes, which add along[stages]
- * to F at the points: Q [strains x strains]. */
+/* As above in the direction of loads along the element with fixed nodes, which add along[stages] to
+ * F at the points: Q [strains x strains]. */
 void exact_prestress_load(const exact_stages *s, double along[][3],
                           double Q[EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);
 
-/* Stresses of one element by collocation; of each two, the second for processors with AVX2, the
- * same bits (elements/math/real.h). */
+/* Stresses of one element by collocation. The second function of each pair is for processors with
+ * AVX2, with the same bits (elements/math/real.h). */
 
 typedef status exact_alone_stresses(const exact_stages *, const double e[], const double inner[],
                                     stress_output *);
-/* As element_type.along, of one. */
+/* As element_type.along, for one element. */
 typedef status exact_alone_loads(const exact_stages *, const exact_along *, const node_state x[],
                                  along_output *);
 
 exact_alone_stresses exact_alone_stress_plain, exact_alone_stress_avx2;
 exact_alone_loads exact_alone_along_plain, exact_alone_along_avx2;
 
-/* Strains and stresses of several elements by collocation at once, as
+/* Strains and stresses of several collocation elements at once, as in
  * elements/geometrically_exact/exact.h. */
 
 typedef void exact_lanes_loads(const exact_stages *, const exact_along *, int count,

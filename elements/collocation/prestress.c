@@ -1,10 +1,10 @@
-/* The linear state under sigma gives force, moments and warping torques at the points.  With them,
- * but in the undeformed geometry, the Hessian of the potential is a quadratic polynomial of the
- * prestress; its linear part is the geometric stiffness (the square belongs to strains of the
- * prestressed state, which linear buckling leaves out).  The inner unknowns follow the strains as
- * they do without stress: the error of a critical load is of fourth order in the length of an
- * element, and of second where shear is flexible (c_column: 0.052, 0.0033, 0.00021 % rigid in
- * shear, 1.26, 0.31, 0.078 % with n = 4, 8, 16). */
+/* The linear state under sigma gives force, moments and warping torques at the points. With these
+ * and the undeformed geometry, the Hessian of the potential is a quadratic polynomial of the
+ * prestress. Its linear part is the geometric stiffness; the quadratic part belongs to strains of
+ * the prestressed state, which linear buckling neglects. The inner unknowns depend on the strains
+ * as without stress: the error of a critical load is of fourth order in the length of an element,
+ * and of second where shear is flexible (c_column: 0.052, 0.0033, 0.00021 % rigid in shear, 1.26,
+ * 0.31, 0.078 % with n = 4, 8, 16). */
 #include "elements/collocation/collocation.h"
 
 #include <string.h>
@@ -14,8 +14,8 @@
 
 enum { OUTER = EXACT_STAGES_OUTER };
 
-/* Linear response to each stress by itself: change [n x 8] of all variables, and how the unknowns
- * follow the strains, Z [unknowns x 8]. */
+/* Linear response to each stress alone: change [n x 8] of all variables, and derivatives Z
+ * [unknowns x 8] of the unknowns. */
 static void linear_states(const exact_stages *s, double change[], double Z[])
 {
     const int m = s->unknowns, n = m + OUTER;
@@ -43,8 +43,8 @@ static void linear_states(const exact_stages *s, double change[], double Z[])
     dense_lu_solve(n, OUTER, hessian, pivot, change);
 }
 
-/* At point i of the undeformed element: M times the change of (kappa, N) that goes with that of the
- * variables, but of N the change itself, for the terms it makes stiff in torsion; and that of the
+/* At point i of the undeformed element: M times the change of (kappa, N) due to that of the
+ * variables (for N the change itself, for terms that it stiffens in torsion), and the change of the
  * argument of the warping energy. */
 static double moments(const exact_stages *s, int i, const exact_stage *p,
                       const exact_stage_material *M, const double change[], const double force[3],
@@ -64,8 +64,8 @@ static double moments(const exact_stages *s, int i, const exact_stage *p,
     return kappa[0] - s->c.F[6] * N[1] - s->c.F[7] * N[2];
 }
 
-/* Hessian at rest with stresses `factor` times those of the linear state. along[stages][3]: what
- * loads add to F at the points, or NULL. */
+/* Hessian of the undeformed element with stresses `factor` times those of the linear state.
+ * along[stages][3]: contribution of loads to F at the points, or NULL. */
 static void stressed_hessian(const exact_stages *s, const double change[], double along[][3],
                              double factor, double hessian[])
 {

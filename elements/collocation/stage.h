@@ -1,7 +1,7 @@
 /* Rotations by Wiener-Milenkovic parameters x = 4 tan(angle/4) about the axis (Rodrigues' modified
- * vectors): regular up to a full turn, and rational. R^T y and the curvature kappa of a line on
- * which x varies with slope x' are of one kind, w . R^T y = B(w, y; x),  w . kappa = B(w, x'; x),
- *   B(w, y; x) = s w . y - p x . (y x w) + q [(x . w)(x . y) - t w . y],  s, p, q functions of t =
+ * vectors): regular up to a full turn, and rational. R^T y, and the curvature kappa of a line on
+ * which x varies with slope x', have the same form, w . R^T y = B(w, y; x), w . kappa = B(w, x';
+ * x), B(w, y; x) = s w . y - p x . (y x w) + q [(x . w)(x . y) - t w . y], s, p, q functions of t =
  * |x|^2. */
 #ifndef BEAMWORK_COLLOCATION_STAGE_H
 #define BEAMWORK_COLLOCATION_STAGE_H
@@ -85,7 +85,7 @@ static inline void exact_milenkovic_add_hessian(const exact_milenkovic_form *f, 
     const real level = 2 * (f->s[1] * wy - f->p[1] * once + f->q[1] * twice - q * wy);
     const real bent = 4 * (f->s[2] * wy - f->p[2] * once + f->q[2] * twice);
     const real turn = f->s[1] - f->q[1] * t - q, along = f->q[1] * xw;
-    for (int i = 0; i < 3; i++) { /* slope: what meets 2 x, the gradient of t */
+    for (int i = 0; i < 3; i++) { /* slope: conjugate to 2 x, the gradient of t */
         slope[i] = 2 * (f->q[1] * (w[i] * xy + y[i] * xw - 2 * x[i] * wy) - f->p[1] * yw[i]) +
                    (0.5 * bent) * x[i];
         across[i] = 2 * (turn * w[i] - f->p[1] * wx[i] + along * x[i]);
@@ -115,7 +115,7 @@ enum {
 }; /* positions of x, x' and F */
 
 typedef struct exact_stage {
-    real x[3], slope[3], kappa[3], N[3]; /* kappa: less that of the undeformed state */
+    real x[3], slope[3], kappa[3], N[3]; /* kappa: minus that of the undeformed state */
     exact_milenkovic_form orientation, curvature;
 } exact_stage;
 
@@ -142,13 +142,13 @@ static inline void exact_stage_of(const real force[3], const double rest_kappa[3
         p->kappa[j] -= rest_kappa[j];
 }
 
-/* The argument of the warping energy: kappa_x less the warping shear that Q_y and Q_z make. */
+/* The argument of the warping energy: kappa_x minus the warping shear due to Q_y and Q_z. */
 static inline real exact_stage_twist(const beam_constants *c, const exact_stage *p)
 {
     return p->kappa[0] - c->F[6] * p->N[1] - c->F[7] * p->N[2];
 }
 
-/* Sections by their matrices: extremum over gamma of the energy less N . (e_x + gamma). */
+/* Sections given by matrices: extremum over gamma of the energy minus N . (e_x + gamma). */
 static inline void exact_stage_coupled(const beam_constants *c, const real kappa[3],
                                        const real N[3], exact_stage_material *m)
 {
@@ -213,7 +213,7 @@ static inline void exact_stage_energy(const beam_constants *c, const real kappa[
     m->NN[8] = real_of(-c->F[4]);
 }
 
-/* out = kk A; of sections without matrices only the first row and the diagonal of kk are there. */
+/* out = kk A; for sections without matrices only the first row and the diagonal of kk are set. */
 static inline void exact_stage_bend(const exact_stage_material *m, int coupled, const real A[9],
                                     real out[9])
 {
@@ -228,7 +228,7 @@ static inline void exact_stage_bend(const exact_stage_material *m, int coupled, 
     }
 }
 
-/* out = NN A, likewise: axial force and shear forces are apart. */
+/* out = NN A, likewise: axial and shear forces are uncoupled. */
 static inline void exact_stage_stretch(const exact_stage_material *m, int coupled, const real A[9],
                                        real out[9])
 {

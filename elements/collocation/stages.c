@@ -22,8 +22,8 @@ static void weights(int count, const double at[], double x, double N[], double d
     dN[count - 1] = (slope[count] - slope[0]) / 2;
 }
 
-/* v -= what initial strains add to it, int R g in the axes half way: strains are counted from the
- * arc without them. */
+/* v -= contribution of initial strains, int R g in the mean axes: strains are measured from the arc
+ * without them. */
 static void less_initial_strain(const element_request *request, double v[3])
 {
     double rotation[3], back[3], added[3], q[4], R[9], middle[3];
@@ -39,7 +39,7 @@ static void less_initial_strain(const element_request *request, double v[3])
         v[i] -= middle[i];
 }
 
-/* Curvatures at the points and the vector between the ends of the element without stress. */
+/* Curvatures at the points, and the vector between the ends, of the stress-free element. */
 static void rest_of_points(const element_request *request, exact_stages *out)
 {
     const double strained[3] = {1 + request->strain[0], request->strain[1], request->strain[2]},
@@ -76,8 +76,8 @@ status exact_stages_prepare(const element_request *request, int count, exact_sta
     quadrature_points(count, point, out->w);
     const double angle = vec3_norm(request->curvature) * request->length;
     for (int k = 0; k <= count; k++) {
-        at[k] = (1 - cos(PI * k / count)) /
-                2; /* any distinct points would do: Chebyshev's keep the numbers of a size */
+        at[k] = (1 - cos(PI * k / count)) / 2; /* any distinct points are possible; Chebyshev points
+                                                  keep the numbers of similar size */
         const double length = angle > 0 ? 4 * tan(angle * (at[k] - 0.5) / 4) / angle : 0;
         for (int i = 0; i < 3; i++)
             out->rest_x[k][i] = request->curvature[i] * request->length * length;

@@ -1,7 +1,7 @@
 /* Symmetric matrices in blocks of 3 x 3, of which those on and above the diagonal are stored, and
- * the elimination of their first rows: K = L D L^T without exchange of rows.  In lanes (real.h).
- * Exact enough where those rows are positive definite except for a negative definite end, whatever
- * their condition; exact_blocks_definite tests it. */
+ * the elimination of their first rows: K = L D L^T without exchange of rows. In lanes (real.h). The
+ * elimination is accurate if those rows are positive definite except for a negative definite end,
+ * for any condition number; exact_blocks_definite tests this. */
 #ifndef BEAMWORK_COLLOCATION_SUMS_H
 #define BEAMWORK_COLLOCATION_SUMS_H
 
@@ -11,7 +11,7 @@
 
 enum { EXACT_BLOCKS_MAX = 12 };
 
-/* Place of block (i, j), i <= j. */
+/* Position of block (i, j), i <= j. */
 static inline int exact_blocks_at(int i, int j)
 {
     return j * (j + 1) / 2 + i;
@@ -34,8 +34,8 @@ static inline void exact_blocks_pivot(real a[9], real d[3], real inverse[3])
 }
 
 /* Eliminates `rows` block rows of a matrix of n, A [n (n + 1)/2][9]. In the result V the eliminated
- * rows have L^T and D^-1 L^-1 A, the others the remainder (Schur complement) of A. Block column
- * `late` is zero above row rows - 1 (n: there is none). D: d [3 rows]. */
+ * rows contain L^T and D^-1 L^-1 A, the others the Schur complement of A. Block column `late` is
+ * zero above row rows - 1 (n: none). D: d [3 rows]. */
 static inline __attribute__((always_inline)) void
 exact_blocks_eliminate(int rows, int n, int late, real A[][9], real V[][9], real d[])
 {
@@ -68,7 +68,7 @@ exact_blocks_eliminate(int rows, int n, int late, real A[][9], real V[][9], real
     }
 }
 
-/* X [rows][9]: K^-1 times block column j of A, of the rows eliminated; `late` as above. */
+/* X [rows][9]: K^-1 times block column j of A, for the eliminated rows; `late` as above. */
 static inline __attribute__((always_inline)) void exact_blocks_solve(int rows, int late, int j,
                                                                      real V[][9], real X[][9])
 {
@@ -91,8 +91,8 @@ static inline __attribute__((always_inline)) void exact_blocks_solve(int rows, i
     }
 }
 
-/* Were the pivots d of one lane positive, and the last three negative? One that is lost in
- * round-off is neither. */
+/* Were the pivots d of one lane positive, and the last three negative? A pivot lost in round-off
+ * counts as neither. */
 static inline int exact_blocks_definite(int rows, real A[][9], const real d[], int lane)
 {
     const double lost = 1e-9;
@@ -107,11 +107,11 @@ static inline int exact_blocks_definite(int rows, real A[][9], const real d[], i
     return 1;
 }
 
-/* Sums over the Gauss points of a collocation element: the Hessian of its energy, bordered by
- * the gradient, in blocks of 3 x 3.  In lanes (real.h).
+/* Sums over the Gauss points of a collocation element: the Hessian of its energy, bordered by the
+ * gradient, in blocks of 3 x 3. In lanes (real.h).
  *
- * Blocks: x of the inner nodes (stages - 1), F, then the strains 2 X, v, and last (a_p, a_q, 1):
- * the column of 1 has the gradient, its last entry twice the energy. */
+ * Blocks: x of the inner nodes (stages - 1), F, then the strains 2 X, v, and last (a_p, a_q, 1).
+ * The column of 1 contains the gradient, and its last entry twice the energy. */
 
 /* x, x' of all points; at: x of the inner nodes, then 2 X. */
 static inline void exact_sums_geometry(int stages, const exact_stages *s, real at[][3],
@@ -131,8 +131,8 @@ static inline void exact_sums_geometry(int stages, const exact_stages *s, real a
     }
 }
 
-/* Gradient Sz of the warping energy with respect to its arguments, the points' twist and both
- * amplitudes a, and twice the energy. */
+/* Gradient Sz of the warping energy with respect to its arguments (twist at the points, both
+ * amplitudes a), and twice the energy. */
 static inline real exact_sums_warping(int stages, const exact_stages *s, const exact_stage p[],
                                       const real a[2], real Sz[])
 {
@@ -152,7 +152,7 @@ static inline real exact_sums_warping(int stages, const exact_stages *s, const e
 }
 
 /* The warping energy S couples the points: t += z S z for x, x' of point i with x of variable l, as
- * the two products that go with its weights there. */
+ * the two products for its weights there. */
 static inline void exact_sums_couple(int stages, const exact_stages *s, exact_stage_terms t[],
                                      real through[][EXACT_STAGES_MAX][3])
 {
@@ -277,8 +277,8 @@ static inline void exact_sums_force(int stages, const exact_stages *s, const exa
         Fv[4 * j] = real_of(1);
 }
 
-/* Block column of three parameters on which F depends at the points: column[] are the derivatives
- * of the points' F [3 x 3]. */
+/* Block column of three parameters on which F depends at the points: column[] contains the
+ * derivatives of F at the points [3 x 3]. */
 static inline void exact_sums_load(int stages, const exact_stages *s, const exact_stage_terms t[],
                                    real column[][9], real A[][9])
 {
@@ -333,8 +333,9 @@ static inline void exact_sums_load(int stages, const exact_stages *s, const exac
     real_zero(9, A[exact_blocks_at(v, load)]);
 }
 
-/* All blocks; of the strains' own, what the points and the warping energy make: those of v, and the
- * column of 1 of v and the amplitudes, stay zero. t is changed. */
+/* All blocks. In the blocks of the strains only the contributions of the points and the warping
+ * energy are set: those of v, and the column of 1 for v and the amplitudes, stay zero. t is
+ * changed. */
 static inline void exact_sums_gather(int stages, const exact_stages *s, exact_stage_terms t[],
                                      real A[][9])
 {
@@ -358,7 +359,7 @@ static inline void exact_sums_gather(int stages, const exact_stages *s, exact_st
         for (int i = 0; i < 2; i++)
             for (int j = 0; j < 2; j++)
                 E[3 * i + j] = real_of(s->S[(stages + i) * (stages + 2) + stages + j]);
-    else if (s->c.warping) /* amplitudes, if there are any, that nothing depends on */
+    else if (s->c.warping) /* amplitudes without effect */
         for (int i = 0; i < 2; i++)
             E[4 * i] = real_of(s->c.GJ);
 }

@@ -1,26 +1,26 @@
-/* A thin beam after the absolute nodal coordinate formulation, by its energy alone; its forces and
- * stiffness are left to differences.
+/* A thin beam of the absolute nodal coordinate formulation, given by its energy; forces and
+ * stiffness are computed by differences.
  *
- * Of that formulation: the line r(x), a cubic by positions and slopes r' of two nodes (Gerstmayr
- * and Shabana, Nonlinear Dyn. 45 (2006)); its energy, by the stretch |r'| - 1 and, per undeformed
- * length, the curvature |t x t'|, t = r'/|r'| (Gerstmayr and Irschik, J. Sound Vib. 318 (2008)).
+ * As in that formulation: the line r(x), a cubic with positions and slopes r' of two nodes
+ * (Gerstmayr and Shabana, Nonlinear Dyn. 45 (2006)); its energy, from the stretch |r'| - 1 and the
+ * curvature per undeformed length, |t x t'|, t = r'/|r'| (Gerstmayr and Irschik, J. Sound Vib. 318
+ * (2008)).
  *
- * Not of it: nodes here have rotations, not slopes. A slope has the direction of the node's x axis,
- * which neighbours share, and a length of the element's own, such that the energy of the stretch is
- * least. Twist, which slopes do not have, is the angle between the triads of both nodes carried to
- * t by the smallest rotation (Meier, Popp and Wall, Comput. Methods Appl. Mech. Engrg. 278 (2014)).
- * The mass is that of the displacement field: no constant mass matrix of slopes.
+ * Different: nodes have rotations instead of slopes. A slope has the direction of the node's x
+ * axis, common to neighbouring elements, and a length that each element chooses to minimise the
+ * energy of the stretch. Twist, which slopes cannot represent, is the angle between the triads of
+ * both nodes after the smallest rotation to t (Meier, Popp and Wall, Comput. Methods Appl. Mech.
+ * Engrg. 278 (2014)). The mass is that of the displacement field: no constant mass matrix of
+ * slopes.
  *
- *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK ancf.c -lm -o ancf.so
- *   beamwork verify --element ./ancf.so -f ancf */
+ * cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK ancf.c -lm -o ancf.so beamwork verify --element
+ * ./ancf.so -f ancf */
 #include <math.h>
 #include <string.h>
 
 #include "elements/element.h"
 
-enum {
-    POINTS = 3
-}; /* of Gauss: as many stretches as lengths that can follow, two slopes, a chord */
+enum { POINTS = 3 }; /* Gauss points: one for each possible stretch; two slopes, a chord */
 static const double abscissa[POINTS] = {0.11270166537925831, 0.5, 0.88729833462074169};
 static const double weight[POINTS] = {5. / 18, 8. / 18, 5. / 18};
 
@@ -54,7 +54,7 @@ static void cross(const double a[3], const double b[3], double c[3])
         c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* An axis of a node's triad, row major. */
+/* An axis of a node's triad, stored row-major. */
 static void axis(const double R[9], int i, double a[3])
 {
     for (int k = 0; k < 3; k++)
@@ -76,7 +76,8 @@ static void derivatives(const line *c, double s, double first[3], double second[
     }
 }
 
-/* Newton's correction of the slopes' lengths towards the least energy of the stretch; its size. */
+/* Newton's correction of the lengths of the slopes that minimises the energy of the stretch;
+ * returns its size. */
 static double correct(line *c)
 {
     double g[2] = {0}, H[2][2] = {{0}};
@@ -103,8 +104,8 @@ static double correct(line *c)
     return fabs(change[0]) + fabs(change[1]);
 }
 
-/* y: the y axis of triad R carried to t by the smallest rotation; returns how fast it turns about t
- * where that changes by dt. */
+/* y: the y axis of triad R after the smallest rotation to t; returns its rate of rotation about t
+ * when t changes by dt. */
 static double carried(const double R[9], const double t[3], const double dt[3], double y[3])
 {
     double x[3], about[3];
@@ -132,7 +133,7 @@ static double density(const element_data *d, const node_state x[], const line *c
     cross(t, y[0], other);
     const double angle = atan2(dot(other, y[1]), dot(y[0], y[1]));
     const double twist = (1 - s) * turns[0] + s * turns[1] + angle / d->length;
-    for (int i = 0; i < 3; i++) /* the section's axes: turned by their part of the angle */
+    for (int i = 0; i < 3; i++) /* axes of the section, rotated by their fraction of the angle */
         section_y[i] = cos(s * angle) * y[0][i] + sin(s * angle) * other[i];
     cross(t, section_y, section_z);
     cross(t, dt, curvature);

@@ -1,11 +1,11 @@
 /* A corotational beam of two nodes by its forces and stiffness, as a user element of a finite
- * element program computes them: the linear beam in axes that follow the element.
- *   axes: x along the chord, y in the plane of it and of the mean of the nodes' y axes (Battini and
- *     Pacoste, Comput. Methods Appl. Mech. Engrg. 191 (2002)); rotations of the nodes in them: the
- *     sines, t = axis sin(angle) (Crisfield, ibid. 81 (1990)); stiffness: all of the derivative,
- *     its parts named after Felippa and Haugen, ibid. 194 (2005)
- *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK corotational.c -lm -o corotational.so
- *   beamwork verify --element ./corotational.so -f corotational */
+ * element program computes them: the linear beam in axes that follow the element. axes: x along the
+ * chord, y in the plane of it and of the mean of the nodes' y axes (Battini and Pacoste, Comput.
+ * Methods Appl. Mech. Engrg. 191 (2002)); rotations of the nodes in them: the sines, t = axis
+ * sin(angle) (Crisfield, ibid. 81 (1990)); stiffness: the complete derivative, its parts named
+ * after Felippa and Haugen, ibid. 194 (2005) cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK
+ * corotational.c -lm -o corotational.so beamwork verify --element ./corotational.so -f corotational
+ */
 #include <math.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ enum { N = 12, NODES = 2 * NODE_COORDINATES }; /* (u, phi) of both nodes; as ele
 
 struct element_data {
     double length, axial; /* [m], E A / l [N/m] */
-    double k[36];         /* moments on both nodes by their rotations [N m] */
+    double k[36];         /* moments on both nodes due to their rotations [N m] */
 };
 
 static size_t data_size(const element_request *request)
@@ -33,7 +33,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     memset(out, 0, sizeof *out);
     out->length = l;
     out->axial = c->young * c->A / l;
-    for (int i = 0; i < 3; i++) { /* torsion; Timoshenko's beam, phi = 0: Bernoulli's */
+    for (int i = 0; i < 3; i++) { /* torsion; Timoshenko beam, phi = 0: Bernoulli beam */
         const double phi = shear * EI[i] * c->F[i == 1 ? 4 : 0] / (c->shear_modulus * l * l);
         const double near = i == 0 ? 1 : (4 + phi) / (1 + phi);
         const double far = i == 0 ? -1 : (2 - phi) / (1 + phi);
@@ -74,7 +74,8 @@ static status force(const element_data *d, const node_state x[], force_output *o
         E[i] = x[1].r[i] - x[0].r[i];
         y[i] = (x[0].R[3 * i + 1] + x[1].R[3 * i + 1]) / 2;
         square += E[i] * E[i];
-        change += du * (2 * E[i] - du); /* of the square: elongation without cancellation */
+        change +=
+            du * (2 * E[i] - du); /* change of the square: the elongation without cancellation */
     }
     cross(E, y, E + 6);
     const double ln = sqrt(square), n = d->axial * change / (ln + d->length);
@@ -100,8 +101,8 @@ static status force(const element_data *d, const node_state x[], force_output *o
     for (int i = 0; i < 6; i++)
         energy += M[i] * t[i] / 2;
 
-    /* d ln = r d; the axes turn by omega = W d, about x as the mean y axis (q1, q2, 0) does, and
-     * the nodes in them by P d = phi - omega. */
+    /* d ln = r d; the axes rotate by omega = W d, about x as the mean y axis (q1, q2, 0) does, and
+     * relative to them the nodes rotate by P d = phi - omega. */
     const double q1 = (S[0][1] + S[1][1]) / 2, q2 = (S[0][4] + S[1][4]) / 2, s = q1 / q2;
     double r[N] = {-1, 0, 0, 0, 0, 0, 1}, W[3 * N] = {0}, P[6 * N], D[6 * N] = {0};
     for (int k = 0; k < 2; k++) {
@@ -127,7 +128,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
         spin(-0.5, Mk, B);
         add(3, 3, 3, 1, S[k], B, H);
         add(3, N, 3, 0, H, Pk, HP);
-        add(N, N, 3, 1, Pk, HP, K); /* geometric by moments */
+        add(N, N, 3, 1, Pk, HP, K); /* geometric, moments */
         add(3, N, 3, 0, A, Pk, D + 3 * k * N);
         spin(-1, q, B);
         add(3, N, 3, 0, B, Pk, dq[k]);
@@ -140,9 +141,9 @@ static status force(const element_data *d, const node_state x[], force_output *o
     for (int b = 0; b < N; b += 3) {
         double B[9];
         spin(-1, F + b, B);
-        add(3, N, 3, 0, B, W, K + b * N); /* geometric by rotation: forces turn with the axes */
+        add(3, N, 3, 0, B, W, K + b * N); /* geometric, rotation: forces rotate with the axes */
     }
-    for (int i = 0; i < 2 * N; i++) { /* material; geometric by projection: W changes */
+    for (int i = 0; i < 2 * N; i++) { /* material; geometric, projection: W changes */
         const int k = i / N, j = i % N;
         const double d1 = (dq[0][j] + dq[1][j]) / 2, d2 = (dq[0][N + j] + dq[1][N + j]) / 2;
         double *row = K + 6 * k * N + j;
@@ -153,7 +154,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
         row[4 * N] += torque * (dq[k][j] - S[k][1] * d2 / q2) / (2 * q2);
     }
 
-    double T[N * NODES] = {0}, KT[N * NODES] = {0}; /* to the global axes; warping is idle */
+    double T[N * NODES] = {0}, KT[N * NODES] = {0}; /* to global axes; warping is inactive */
     for (int i = 0; i < 36; i++)
         T[i / 3 * NODES + i / 9 * 3 + i / 18 + i % 3] = E[i % 9];
     if (out->energy != NULL)

@@ -1,8 +1,7 @@
-/* A shear-deformable beam of two nodes in one file: strains uniform along the element [m],
- *   d = Rm^T (rq - rp) - (l, 0, 0), Rm half way from Rp to Rq, and l log(Rp^T Rq).
- * Their derivatives are left to differences.
- *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK timoshenko.c -o timoshenko.so
- *   beamwork converge tapered_cantilever --element ./timoshenko.so -f all */
+/* A shear-deformable beam of two nodes in one file: strains uniform along the element [m], d = Rm^T
+ * (rq - rp) - (l, 0, 0), Rm half way from Rp to Rq, and l log(Rp^T Rq). Their derivatives are
+ * computed by differences. cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK timoshenko.c -o timoshenko.so
+ * beamwork converge tapered_cantilever --element ./timoshenko.so -f all */
 #include <math.h>
 #include <string.h>
 
@@ -26,7 +25,8 @@ static status prepare(const element_request *request, element_data *out, fault *
     const section *c = request->section;
     const double l = request->length;
     (void)f;
-    /* Forces across: shear where it is requested, and bending that a uniform curvature lacks. */
+    /* Transverse forces: shear if requested, and the bending that a uniform curvature cannot
+     * represent. */
     out->length = l;
     const double shear = request->features & FEATURE_SHEAR ? l / c->shear_modulus : 0;
     const double Fy = shear * c->F[0] + l * l * l / (12 * c->young * c->Iz);
@@ -72,7 +72,8 @@ static void strain(const element_data *d, const node_state x[], strain_output *o
     between(x[0].R, x[1].R, psi);
     transposed(x[0].R, chord, p);
     transposed(x[1].R, chord, q);
-    /* Across psi their mean is that of the middle, shortened by c; along it all are the same. */
+    /* Normal to psi the mean of both is that of the middle, shortened by the factor c; along psi
+     * all are equal. */
     const double square = psi[0] * psi[0] + psi[1] * psi[1] + psi[2] * psi[2];
     const double c = cos(sqrt(square) / 2), k = square > 0 ? (1 - 1 / c) / square : 0;
     const double along = psi[0] * p[0] + psi[1] * p[1] + psi[2] * p[2];

@@ -53,7 +53,7 @@ static void functionals_at(const displacement_field *f, double x,
     const beamw_twist_shapes twist = beamw_twist_at(&f->twist, x);
     const double l = f->l0, b = x * (1 - x), cubic = b * (1 - 2 * x), db = 1 - 2 * x,
                  dcubic = 1 - 6 * b;
-    /* slope of the chord less lin(theta) */
+    /* slope of the chord minus lin(theta) */
     const double bend_y[FIELD_MODES] = {0, 0, 1 - x, -x},
                  bend_z[FIELD_MODES] = {0, 0, 0, 0, 1 - x, -x};
     for (int k = 0; k < FIELD_MODES; k++) {
@@ -119,7 +119,8 @@ int field_points(const displacement_field *f, double from, double to, double x[F
 }
 
 enum { PSI = FIELD_FUNCTIONALS }; /* warping amplitude, after the others */
-/* Exact for the square of a cubic; hyperbolic twist within 1e-9 up to ten lengths of its layer. */
+/* Exact for the square of a cubic; for hyperbolic twist within 1e-9 up to a length of ten boundary
+ * layers. */
 enum { CUBIC_POINTS = 4, HYPERBOLIC_POINTS = BEAMW_GAUSS };
 
 static void prepare_two(const element_request *request, beamw_spread *out)

@@ -1,9 +1,7 @@
-/* B of field.h.  Resultants about the centroid: with forces q, moments mu and bimoments b per
- * length
- *   N' = -q_x,  Qy' = -q_y,  Qz' = -q_z,  Mx' = -mu_x,  My' = Qz - mu_y,  Mz' = -Qy - mu_z,
- *   Mw = -W' - b,
- * and C that of EA, EIy, EIz, of the torque about the shear centre less Mw on GIt, of W on EIw and
- * of (Qy, Qz, Mw) on shear (J App. A). */
+/* B of field.h. Resultants about the centroid: with forces q, moments mu and bimoments b per length
+ * N' = -q_x, Qy' = -q_y, Qz' = -q_z, Mx' = -mu_x, My' = Qz - mu_y, Mz' = -Qy - mu_z, Mw = -W' - b,
+ * and C is the compliance due to EA, EIy, EIz, GIt (torque about the shear centre minus Mw), EIw
+ * (W) and shear (Qy, Qz, Mw) (J App. A). */
 #include <math.h>
 #include <string.h>
 
@@ -14,8 +12,8 @@
 
 enum { N = FIELD_INNER };
 enum { NX, QY, QZ, MX, MY, MZ, W, MW, RESULTANTS };
-enum { DEGREE = 6, ENDS = 6, MOST = ENDS + DEGREE + 1 + 2 }; /* resultants without load */
-enum { POINTS = 8 };                                         /* where nothing is hyperbolic */
+enum { DEGREE = 6, ENDS = 6, MOST = ENDS + DEGREE + 1 + 2 }; /* degree of resultants without load */
+enum { POINTS = 8 };                                         /* if nothing is hyperbolic */
 enum { LOADS = 7 };                                          /* q, mu, b */
 
 typedef struct inside {
@@ -91,7 +89,7 @@ static void free_at(const inside *i, double x, double s[RESULTANTS][MOST])
     }
 }
 
-/* Deformations [RESULTANTS x columns] of resultants, which lie `columns` apart. */
+/* Deformations [RESULTANTS x columns] due to resultants, stored `columns` apart. */
 static void deform(const inside *i, int columns, const double *s, double *out)
 {
     const section *c = i->c;
@@ -115,7 +113,7 @@ static void deform(const inside *i, int columns, const double *s, double *out)
     }
 }
 
-/* Returns whether one of the section's matrices has an entry off its diagonal. */
+/* Does one of the matrices of the section have an off-diagonal entry? */
 static int is_coupled(const section *c)
 {
     int coupled = 0;
@@ -177,7 +175,7 @@ static void gather(const inside *i, double x, double weight, double gram[MOST * 
     }
 }
 
-/* Unknowns of size 1: gram with ones on its diagonal. */
+/* Scales the unknowns such that the diagonal of gram is one. */
 static void scale(int count, double gram[], double mixed[])
 {
     double root[MOST];

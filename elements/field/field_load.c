@@ -1,6 +1,6 @@
-/* Virtual work of loads on the field, with derivatives: a vector y of the field is
- *   y = sum part_n v_n + sum m_k (functional . e),
- * linear in e and in vectors v fixed to the nodes, whose first two derivatives are exact. */
+/* Virtual work of loads on the field, with derivatives. A vector y of the field is y = sum part_n
+ * v_n + sum m_k (functional . e), linear in e and in vectors v fixed to the nodes, whose first two
+ * derivatives are exact. */
 #include <math.h>
 #include <string.h>
 
@@ -11,13 +11,13 @@
 
 enum {
     MOST = ELEMENT_MAX_COORDINATES,
-    TURN = 3, /* where rotations begin among a node's coordinates */
+    TURN = 3, /* position of the rotations among a node's coordinates */
     TERMS = 2
 };
 
 /* y = part of director (or of the positions of the nodes) and sum sign m_k functional. */
 typedef struct field_vector {
-    int director; /* NONE: a place */
+    int director; /* NONE: a position */
     struct {
         int k, functional;
         double sign;
@@ -30,14 +30,14 @@ static const field_vector place = {PLACE, {{1, FIELD_NU_Y, 1}, {2, FIELD_NU_Z, 1
                                          {1, {{0, FIELD_CHI_Z, -1}, {2, FIELD_CHI_X, 1}}},
                                          {2, {{0, FIELD_CHI_Y, 1}, {1, FIELD_CHI_X, -1}}}};
 
-/* An element's state, and what the points gather. */
+/* State of an element, and sums over the points. */
 typedef struct pulled {
     const displacement_field *f;
     int n;                                              /* coordinates */
     double vector[ELEMENT_MAX_NODES][3][3], mean[3][3]; /* unit vectors; m_k */
     double e[FIELD_MODES], J[FIELD_MODES * MOST];
-    double s[FIELD_MODES];                 /* what the loads do on e */
-    double turn[2][3][FIELD_MODES];        /* its derivative by the turns of p and q ... */
+    double s[FIELD_MODES];          /* generalised forces conjugate to e */
+    double turn[2][3][FIELD_MODES]; /* its derivative with respect to rotations of p and q ... */
     double moment_turn[2][3][FIELD_MODES]; /* ... and that of moments */
     double *forces, *K;
 } pulled;
@@ -85,7 +85,7 @@ static void gradient_of(const pulled *p, const field_rows *at, const field_vecto
     }
 }
 
-/* turn[node] += (n_k x F) functional/2: F . m_k changes with the turns of the nodes. */
+/* turn[node] += (n_k x F) functional/2: change of F . m_k due to rotations of the nodes. */
 static void add_mean_turn(const pulled *p, int k, double scale, const double F[3],
                           const double functional[FIELD_MODES], double turn[2][3][FIELD_MODES])
 {
@@ -98,7 +98,7 @@ static void add_mean_turn(const pulled *p, int k, double scale, const double F[3
     }
 }
 
-/* A force F in fixed axes on y. */
+/* Adds a force F in global axes at y. */
 static void add_force(pulled *p, const field_rows *at, const field_vector *y,
                       double fixed[ELEMENT_MAX_NODES][3], const double F[3])
 {
@@ -199,8 +199,8 @@ static void rotation_gradient_of(const pulled *p, const field_rows *at, double T
     }
 }
 
-/* A moment M in fixed axes: shares of the nodes, which have no potential, and what the functionals
- * turn the section. */
+/* Adds a moment M in global axes: shares of the nodes, which have no potential, and the rotation of
+ * the section due to the functionals. */
 static void add_moment(pulled *p, const field_rows *at, const double M[3])
 {
     static const int functional[3] = {FIELD_CHI_X, FIELD_CHI_Y, FIELD_CHI_Z};
@@ -225,7 +225,7 @@ static void add_moment(pulled *p, const field_rows *at, const double M[3])
     }
 }
 
-/* K -= T^T Q of what turns with the section. */
+/* K -= T^T Q for loads that rotate with the section. */
 static void subtract_following(pulled *p, const double T[3 * MOST], const double Q[3 * MOST])
 {
     for (int i = 0; i < p->n; i++)
@@ -234,7 +234,7 @@ static void subtract_following(pulled *p, const double T[3 * MOST], const double
                 p->K[i * p->n + j] -= T[k * p->n + i] * Q[k * p->n + j];
 }
 
-/* v in the axes of the section, at the point: out, and dv/dx. */
+/* v given in the axes of the section, at the point: out, and dv/dx. */
 static void follow(const pulled *p, const field_rows *at, unit axis[3], const double v[3],
                    double out[3], double Q[3 * MOST])
 {
@@ -289,7 +289,7 @@ static void add_one(pulled *p, const field_rows *at, const field_load *load)
             add_force_on_unit(p, at, &axis[k], load->arm[k], F);
 }
 
-/* Adds the terms that were gathered for e. */
+/* Adds the sums conjugate to e. */
 static void add_functionals(pulled *p, const node_state x[])
 {
     double H[2 * NODE_COORDINATES * 2 * NODE_COORDINATES];

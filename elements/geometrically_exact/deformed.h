@@ -1,18 +1,18 @@
-/* Geometry at one point of a line whose section turns: quaternions of the nodes are interpolated as
- * vectors of R^4, Q = sum N_k q_k, and normalised.  Turning all q_k turns Q with them, so that
- * strains in the section's axes are objective (derived here).  No function of an angle is needed,
- * and every derivative is rational in Q.
+/* Geometry at one point of a line with rotating sections: quaternions of the nodes are interpolated
+ * as vectors of R^4, Q = sum N_k q_k, and normalised. A common rotation of all q_k rotates Q, so
+ * that strains in the axes of the section are objective (derived here). No function of an angle is
+ * needed, and every derivative is rational in Q.
  *
- *   kappa = 2 Im(Q^-1 Q'),  v = R(Q)^T y.
+ * kappa = 2 Im(Q^-1 Q'), v = R(Q)^T y.
  *
  * In the axes of the section, A = u^-1 dQ/m and D = u^-1 dQ'/m, with (A0, A) their scalar and
- * vector parts: dkappa = 2 D - A0 kappa - 2 eta A - A x kappa,   dv = dy - 2 A x v, d2kappa = 2
- * (A0^2 - |A|^2) kappa + 8 eta A0 A + 4 A0 A x kappa - 4 (A0 D + D0 A + A x D), d2v = 4 A0 A x v +
- * 4 A x (A x v) - 4 A x dy, from the expansion of Q^-1 Q' and of the rotation 2 Im Q/Re Q.
+ * vector parts: dkappa = 2 D - A0 kappa - 2 eta A - A x kappa, dv = dy - 2 A x v, d2kappa = 2 (A0^2
+ * - |A|^2) kappa + 8 eta A0 A + 4 A0 A x kappa - 4 (A0 D + D0 A + A x D), d2v = 4 A0 A x v + 4 A x
+ * (A x v) - 4 A x dy, from the expansion of Q^-1 Q' and of the rotation 2 Im Q/Re Q.
  *
  * Turning node k by the spatial increment theta makes q_k -> exp(theta/2) q_k: first derivative 1/2
- * theta q_k, second -1/4 |theta|^2 q_k; A = N_k a_k theta, D = N'_k a_k theta.  The caller chooses
- * the unit of length.  In lanes (real.h). */
+ * theta q_k, second -1/4 |theta|^2 q_k; A = N_k a_k theta, D = N'_k a_k theta. The caller chooses
+ * the unit of length. In lanes (real.h). */
 #ifndef BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 #define BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 
@@ -26,8 +26,8 @@ typedef struct exact_point {
     real m, u[4];  /* Q = m u, |u| = 1 */
     real eta;      /* m'/m */
     real R[9];     /* axes of the section, columns */
-    real kappa[3]; /* twist rate and curvatures in the section's axes */
-    real v[3];     /* y in the section's axes */
+    real kappa[3]; /* twist rate and curvatures in the axes of the section */
+    real v[3];     /* y in the axes of the section */
 } exact_point;
 
 /* Effect of the rotation of one node at the point. */
@@ -35,7 +35,7 @@ typedef struct exact_point_turn {
     real c[4];             /* u^-1 q */
     real a[12];            /* [4 x 3] */
     real kappa[9], v[9];   /* derivatives of kappa and v with respect to theta, rows */
-    real twice[12], by[9]; /* exact_point_second: on the right of its products */
+    real twice[12], by[9]; /* exact_point_second: right factors of its products */
 } exact_point_turn;
 
 /* ab = a^-1 o b */
@@ -121,7 +121,7 @@ static inline void exact_point_first(const exact_point *p, const real q[4], doub
     exact_point_add_cross(p->v, turned, real_of(2 * N), t->v);
 }
 
-/* Second derivatives of n . kappa + f . v, as exact_point_add_second needs them of all nodes. */
+/* Second derivatives of n . kappa + f . v, as needed by exact_point_add_second for all nodes. */
 static inline void exact_point_second(const exact_point *p, const real n[3], const real f[3],
                                       exact_point_turn *t)
 {
@@ -171,7 +171,7 @@ static inline void exact_point_add_second(const real n[3], const double N[], con
                             left[9 + i] * W[9 + j];
 }
 
-/* Contribution of turning a node to its own second derivative along the diagonal: q'' = -1/4
+/* Contribution of the rotation of a node to its own second derivative on the diagonal: q'' = -1/4
  * |theta|^2 q. */
 static inline real exact_point_curved(const exact_point *p, const real n[3], const real f[3],
                                       double N, double dN, const exact_point_turn *t)
@@ -198,10 +198,11 @@ typedef struct exact_deformed_nodes {
 /* Values of all points. */
 typedef struct exact_deformed {
     real e[EXACT_STRAIN_MAX_POINTS][6];
-    /* J by its blocks: of v with r, l0 times those of v and of the measured kappa with theta */
+    /* blocks of J: of v with respect to r, and l0 times those of v and of the measured kappa with
+     * respect to theta */
     real axes[EXACT_STRAIN_MAX_POINTS][9], v[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES][9],
         kappa[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES][9];
-    /* H by its blocks: of theta with theta, k <= l, and of theta with r */
+    /* blocks of H: of theta with theta, k <= l, and of theta with r */
     real turns[EXACT_DEFORMED_PAIRS][9], moves[ELEMENT_MAX_NODES][ELEMENT_MAX_NODES][9];
 } exact_deformed;
 
@@ -220,8 +221,8 @@ static inline void exact_deformed_observe(int nodes, const exact_strain_line *li
     exact_point_at(nodes, s->q, line->N[g], line->dN[g], y, p);
 }
 
-/* v - v0; the part along x from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, so that a small elongation is no
- * difference of lengths. */
+/* v - v0; the part along x from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, which avoids cancellation for
+ * small elongations. */
 static inline void exact_deformed_stretch(const real v[3], const double v0[3], const real y[3],
                                           const real dy[3], real e[3])
 {
@@ -247,8 +248,8 @@ static inline void exact_deformed_second(int nodes, const exact_strain_line *lin
     real n[3], inner[9], bent[ELEMENT_MAX_NODES][9];
     for (int i = 0; i < 3; i++)
         n[i] = moment[i];
-    if (measured) { /* T^T n takes n's place, and the second derivative of the measure meets dkappa
-                       twice */
+    if (measured) { /* T^T n replaces n, and the second derivative of the measure is multiplied by
+                       dkappa on both sides */
         exact_measure_second(m, p->kappa, moment, inner);
         mat3_transpose_mul_vec(T, moment, n);
         for (int k = 0; k < nodes; k++)
@@ -331,7 +332,7 @@ exact_deformed_evaluate(int nodes, const exact_strain_line *line, exact_deformed
     }
 }
 
-/* The states of the nodes of one lane. */
+/* Copies the states of the nodes of one lane. */
 static inline void exact_deformed_read(int nodes, const exact_strain_line *line,
                                        const node_state x[], int lane, exact_deformed_nodes *s)
 {
@@ -342,7 +343,7 @@ static inline void exact_deformed_read(int nodes, const exact_strain_line *line,
         for (int i = 0; i < 4 && k > 0; i++)
             side += q[k - 1][i] * q[k][i];
         for (int i = 0; i < 4; i++) {
-            if (side < 0) /* neighbours are on the same side */
+            if (side < 0) /* all nodes use the same sign */
                 q[k][i] = -q[k][i];
             real_put(&s->q[k][i], lane, q[k][i]);
         }

@@ -8,16 +8,15 @@
 
 /* Polynomials on the unit interval: Lagrange's basis.  All dimensionless. */
 
-/* L[n], dL[n] (NULL: not needed): Lagrange polynomials on the points p[n] and their derivatives at
- * x. */
+/* L[n], dL[n] (may be NULL): Lagrange polynomials on the points p[n] and their derivatives at x. */
 void exact_line_lagrange(int n, const double p[], double x, double L[], double dL[]);
 
-/* How the rotation between two nodes is measured: a vector along its axis, whose length is a
- * function of the angle.  In lanes (real.h). */
+/* Measure of the rotation between two nodes: a vector along its axis, whose length is a function of
+ * the angle. In lanes (real.h). */
 
 typedef enum exact_measure_kind {
-    EXACT_MEASURE_QUARTER, /* 4 tan(angle/4): what the interpolation of two quaternions gives half
-                              way */
+    EXACT_MEASURE_QUARTER, /* 4 tan(angle/4): result of the interpolation of two quaternions in the
+                              middle */
     EXACT_MEASURE_ANGLE,   /* the angle itself */
     EXACT_MEASURE_EIGHTH   /* 8 tan(angle/8) */
 } exact_measure_kind;
@@ -26,7 +25,7 @@ typedef enum exact_measure_kind {
  * respect to t = y^2. */
 void exact_measure_angle(double t, double m[3]);
 
-/* The same of the kind wanted, of x of the first kind. */
+/* As above for the requested kind, with x of the first kind. */
 static inline void exact_measure_ratio(exact_measure_kind kind, const real x[3], real m[3])
 {
     const real t = vec3_dot(x, x) * (1.0 / 16);
@@ -70,9 +69,9 @@ static inline void exact_measure_second(const real m[3], const real x[3], const 
 }
 
 /* Strains of the Simo-Reissner beam at points of an element whose nodes' quaternions are
- * interpolated (deformed.h): e[6 g ..]     = l0 (gamma_x, gamma_y, gamma_z), gamma = R^T r' - e_x,
- * and l0^2 (kappa_x, kappa_y, kappa_z), at point g, e[6 points ..] = l0^2 a of every node, all in
- * [m], less their values in the undeformed (curved) state. */
+ * interpolated (deformed.h): e[6 g ..] = l0 (gamma_x, gamma_y, gamma_z), gamma = R^T r' - e_x, and
+ * l0^2 (kappa_x, kappa_y, kappa_z), at point g, e[6 points ..] = l0^2 a of every node, all in [m],
+ * minus their values in the undeformed (curved) state. */
 
 enum { EXACT_STRAIN_MAX_POINTS = 2 };
 
@@ -82,32 +81,30 @@ typedef struct exact_strain_line {
     exact_measure_kind rotation;
     double N[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES],
         dN[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES]; /* dN: per l0 */
-    double initial[EXACT_STRAIN_MAX_POINTS]
-                  [3]; /* what R^T r' is more than `rest` where the element is free of stress */
-    double rest[EXACT_STRAIN_MAX_POINTS][6]; /* R^T r' and l0 kappa undeformed, dimensionless */
+    double initial[EXACT_STRAIN_MAX_POINTS][3]; /* R^T r' minus `rest` in the stress-free element */
+    double rest[EXACT_STRAIN_MAX_POINTS][6];    /* R^T r' and l0 kappa undeformed, dimensionless */
 } exact_strain_line;
 
-/* Gauss points between evenly spaced nodes; initial curvature [1/m] and strain, constant: what the
- * nodes of the stress-free element show at the points is no strain, whatever the arc. */
+/* Gauss points between evenly spaced nodes; constant initial curvature [1/m] and strain. The values
+ * of the stress-free element at the points count as zero strain, for any arc. */
 void exact_strain_prepare(int nodes, int points, double l0, const double curvature[3],
                           const double strain[3], exact_measure_kind rotation,
                           exact_strain_line *line);
 
-/* Energy of these strains, each Gauss point standing for its part of the element (reduced
- * integration: nothing locks).  With ebar = e + 1/2 (e . Q_g e) r_g the energy is 1/2 ebar . S
+/* Energy of these strains; each Gauss point represents its part of the element (reduced
+ * integration, without locking). With ebar = e + 1/2 (e . Q_g e) r_g the energy is 1/2 ebar . S
  * ebar, plus the Wagner torque's quartic.
  *
- * Fields that do not depend on the nodes are eliminated once:
- *   - bubbles of the warping amplitude, one per point: a = sum L_k a_k + sum c_j beta_j.  The twist
- * rate is what the points measure plus what of a they do not see, kappa_x(s) = P kappa + a - P a
- * with P the interpolation through the points, so that without warping shear kappa_x = a holds
- * everywhere and nothing is penalised;
- *   - of the bending moment what is above the polynomial through the points: with two nodes its
- * linear part (MacNeal's residual bending flexibility: the linear element is exact for end loads,
- * also when it is rigid in shear); with three nodes the quadratic part (derived here), and only for
- * sections that are rigid in shear, which would leave no shear flexibility at all.  It measures Q
- * against the slope of M in section axes, which differ by kappa x M: with three nodes and no shear
- *     flexibility the order is four in a plane and two in space. */
+ * Fields that do not depend on the nodes are eliminated in advance: - bubbles of the warping
+ * amplitude, one per point: a = sum L_k a_k + sum c_j beta_j. The twist rate is the interpolation
+ * of the point values plus the part of a that they do not represent, kappa_x(s) = P kappa + a - P a
+ * with P the interpolation through the points, so that without warping shear kappa_x = a
+ * everywhere, without a penalty; - the part of the bending moment beyond the polynomial through the
+ * points: with two nodes its linear part (MacNeal's residual bending flexibility: the linear
+ * element is exact for end loads, also when it is rigid in shear); with three nodes the quadratic
+ * part (derived here), and only for sections that are rigid in shear, which would otherwise have no
+ * shear flexibility. It compares Q with the slope of M in section axes, which differ by kappa x M:
+ * with three nodes and no shear flexibility the order is four in a plane and two in space. */
 
 enum {
     EXACT_STIFFNESS_MAX_STRAINS = 6 * EXACT_STRAIN_MAX_POINTS + ELEMENT_MAX_NODES,
@@ -119,15 +116,14 @@ typedef struct exact_stiffness {
     double l0;
     int modified;                                                        /* 0: ebar = e */
     double S[EXACT_STIFFNESS_MAX_STRAINS * EXACT_STIFFNESS_MAX_STRAINS]; /* [N/m] */
-    /* The strains that the twist rate depends on: there are few. */
+    /* Strains on which the twist rate depends; they are few. */
     int twisting, place[EXACT_STIFFNESS_MAX_STRAINS], order[EXACT_STIFFNESS_MAX_STRAINS]; /* -1 */
     double Q[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS]
-            [EXACT_STIFFNESS_MAX_STRAINS];    /* [1/m], among them: mean of kappa_x^2 about a
-                                                 point */
-    double r[3];                              /* on gamma_x, kappa_y, kappa_z of the point */
+            [EXACT_STIFFNESS_MAX_STRAINS]; /* [1/m], for these: mean of kappa_x^2 about a point */
+    double r[3];                           /* on gamma_x, kappa_y, kappa_z of the point */
     double torque[EXACT_STIFFNESS_MAX_FIELD]; /* weight of kappa_x^4 [N/m^3] */
     double twist[EXACT_STIFFNESS_MAX_FIELD]
-                [EXACT_STIFFNESS_MAX_STRAINS]; /* among them: l0^2 kappa_x = twist . e */
+                [EXACT_STIFFNESS_MAX_STRAINS]; /* for these: l0^2 kappa_x = twist . e */
     double Sr[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS];
     double coupling[EXACT_STRAIN_MAX_POINTS][EXACT_STRAIN_MAX_POINTS]; /* r_g . S r_h */
 } exact_stiffness;
@@ -141,12 +137,12 @@ typedef struct exact_gauss {
 status exact_stiffness_prepare(const element_request *request, int nodes, exact_stiffness *out,
                                fault *f);
 status exact_stiffness_stress(const exact_stiffness *k, const double e[], stress_output *out);
-/* Derivative of C at e = 0 with respect to the strains that make the prestress sigma, its geometric
- * part. */
+/* Geometric part of the derivative of C at e = 0 with respect to the strains that cause the
+ * prestress sigma. */
 void exact_stiffness_geometric(const exact_stiffness *k, const double sigma[], double G[]);
 
-/* Variables of the energy of an element with strains at Gauss points, and the elimination of the
- * fields that the nodes do not show (reasons above).  Dimensionless (beam_constants.h). */
+/* Variables of the energy of an element with strains at Gauss points, and the elimination of fields
+ * that do not depend on the nodes (reasons above). Dimensionless (beam_constants.h). */
 
 enum {
     EXACT_FIELDS_MAX_BUBBLES = EXACT_STRAIN_MAX_POINTS, /* of the warping amplitude */
@@ -172,45 +168,46 @@ typedef struct exact_fields {
 
 void exact_fields_prepare(const beam_constants *c, int nodes, exact_fields *f);
 
-/* Bubbles and stresses as they follow from the strains: X[all - strains][strains]; 0, or the
- * failing pivot. */
+/* Bubbles and stresses as functions of the strains: X[all - strains][strains]. Returns 0, or the
+ * number of a failing pivot. */
 int exact_fields_eliminate(const exact_fields *f, double X[]);
 
-/* Sections by their matrices (elements/section/section.h) in the elements of this folder: energy
- * 1/2 (gamma, kappa) . C (gamma, kappa) per length and no other terms. */
+/* Sections given by matrices (elements/section/section.h) in the elements of this folder: energy
+ * 1/2 (gamma, kappa) . C (gamma, kappa) per length, without other terms. */
 
-/* S [strains x strains] [N/m] of Gauss points that each stand for their part.  At one point the
+/* S [strains x strains] [N/m] for Gauss points that each represent their part. With one point the
  * moment is linear along the element with the slope M' = -e_x x N, which adds the flexibility int
- * M' . (C^-1) M' to that of the forces: end loads are carried exactly.  Amplitudes of
- * warping have no stiffness. */
+ * M' . (C^-1) M' to that of the forces, so that end loads are represented exactly. Warping
+ * amplitudes have no stiffness. */
 status exact_coupled_stiffness(const beam_constants *c, int points, int strains, double length,
                                double S[], fault *f);
 
-/* Energy of non-uniform torsion along an element whose twist rate is known at Gauss points.  The
- * warping amplitude a(x) is any function with the given values at the ends; with P the projection
- * on the polynomials that the points stand for, the twist rate is P kappa + a - P a, and without
- * warping shear P kappa = P a.  Given kappa at the points the best a is a polynomial plus the two
- * boundary layers exp(-lambda x), exp(-lambda (1 - x)), lambda^2 = GJ/EIw, so that long elements
- * need no mesh for their ends (derived here).  Everything is linear and eliminated once.
- * Dimensionless (beam_constants.h). */
+/* Energy of non-uniform torsion along an element with given twist rates at Gauss points. The
+ * warping amplitude a(x) may be any function with the given values at the ends. With P the
+ * projection on the polynomials represented by the points, the twist rate is P kappa + a - P a, and
+ * without warping shear P kappa = P a. Given kappa at the points the best a is a polynomial plus
+ * the two boundary layers exp(-lambda x), exp(-lambda (1 - x)), lambda^2 = GJ/EIw, so that long
+ * elements need no refinement at their ends (derived here). All of this is linear and eliminated in
+ * advance. Dimensionless (beam_constants.h). */
 
 enum { EXACT_WARPING_MAX_STAGES = 8, EXACT_WARPING_MAX = EXACT_WARPING_MAX_STAGES + 2 };
 
-/* Energy 1/2 z . S z beyond GJ kappa^2/2 at the points, with z = (twist rate less the shear that
- * Q_y and Q_z make, at the stages; amplitude at p, at q).  x, w [stages]: Gauss points and weights.
- */
+/* Energy 1/2 z . S z in addition to GJ kappa^2/2 at the points, with z = (twist rate minus the
+ * shear due to Q_y and Q_z, at the stages; amplitude at p, at q). x, w [stages]: Gauss points and
+ * weights. */
 void exact_warping_energy(const beam_constants *c, int stages, const double x[], const double w[],
                           double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX]);
 
-/* Strains of one exact element; of two, the second for processors with AVX2, the same bits
+/* Strains of one exact element; the second function is for processors with AVX2, with the same bits
  * (elements/math/real.h). */
 
 typedef void exact_alone_strains(const exact_strain_line *, const node_state x[], strain_output *);
 
 exact_alone_strains exact_alone_strain_plain, exact_alone_strain_avx2;
 
-/* Strains and stresses of several exact elements at once, the bits of one element at a time; of
- * each two, the second for processors with AVX2 (elements/math/real.h). Members of element_type. */
+/* Strains and stresses of several exact elements at once, bit-for-bit as for single elements. The
+ * second function of each pair is for processors with AVX2 (elements/math/real.h). Members of
+ * element_type. */
 
 typedef void exact_lanes_strains(int count, const element_data *const data[], const node_state x[],
                                  strain_output out[]);

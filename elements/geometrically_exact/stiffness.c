@@ -107,8 +107,8 @@ static void twist_fields(exact_fields *f)
             }
 }
 
-/* -1/2 w/(k EI) (Q -+ M')^2: what the part of the moment above the points' polynomial makes
- * flexible, M' its slope. */
+/* -1/2 w/(k EI) (Q -+ M')^2: flexibility due to the part of the moment beyond the polynomial of the
+ * points, with its slope M' */
 static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, double flexibility)
 {
     double row[EXACT_FIELDS_MAX_ALL] = {0}; /* on Q, M of the points */
@@ -122,7 +122,7 @@ static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, 
             f->energy[i * f->all + j] -= f->w[g] * flexibility * row[i] * row[j];
 }
 
-/* Stress times strain less half of stress times flexibility, at one point; shears are those of the
+/* Stress times strain minus half of stress times flexibility, at one point; shear forces act at the
  * shear centre. */
 static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
 {
@@ -138,7 +138,7 @@ static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
             if (f->warping_bubbles > 0 || (i < 2 && j < 2))
                 f->energy[(Q + i) * f->all + Q + j] -= w * c->F[3 * i + j];
     if (f->warping_bubbles == 0)
-        f->energy[(Q + 2) * (f->all + 1)] = -1; /* no bimoment, hence no warping torque */
+        f->energy[(Q + 2) * (f->all + 1)] = -1; /* no bimoment, therefore no warping torque */
     else
         add_product(f, w, Q + 2, e + 3);
     if (f->warping_bubbles > 0)
@@ -219,7 +219,7 @@ static void condense(const beam_constants *c, const exact_fields *f, const doubl
         out->torque[i] = f->weight[i] * c->torque * unit / (out->l0 * out->l0);
 }
 
-/* The twist rate at the points of the field by the strains that it depends on. */
+/* Twist rate at the points of the field as a function of the strains. */
 static void condense_twist(const exact_fields *f, const double X[], exact_stiffness *out)
 {
     const int m = f->strains;

@@ -7,13 +7,14 @@
 #include "elements/geometrically_exact/exact.h"
 #include "elements/math/real.h"
 
-/* Per lane: stresses, energy, and what C is more than S in rows of the strains that twist. */
+/* Per lane: stresses, energy, and the difference C - S in the rows of strains that affect the
+ * twist. */
 typedef struct exact_stressed {
     real stress[EXACT_STIFFNESS_MAX_STRAINS], energy;
     real more[EXACT_STIFFNESS_MAX_STRAINS][EXACT_STIFFNESS_MAX_STRAINS];
 } exact_stressed;
 
-/* Place of r_i of point g among the strains. */
+/* Position of r_i of point g among the strains. */
 static inline int exact_stressed_entry(int g, int i)
 {
     return 6 * g + (i == 0 ? 0 : 3 + i);
@@ -47,7 +48,7 @@ static inline void exact_stressed_torque(const exact_stiffness *k, const real tw
     }
 }
 
-/* t_g = Q_g e and e . t_g/2, which lengthens and bends: e becomes ebar. */
+/* t_g = Q_g e and e . t_g/2, which change elongation and bending: e becomes ebar. */
 static inline void exact_stressed_lengthen(const exact_stiffness *k, const real twisting[],
                                            real t[][EXACT_STIFFNESS_MAX_STRAINS], real e[])
 {
@@ -64,8 +65,8 @@ static inline void exact_stressed_lengthen(const exact_stiffness *k, const real 
     }
 }
 
-/* C = S + S r_g t_g^T + t_g (S r_g)^T + t_g (r_g . S r_h) t_h^T + tau_g Q_g: rows of the strains
- * that twist, for columns of these up to the diagonal. */
+/* C = S + S r_g t_g^T + t_g (S r_g)^T + t_g (r_g . S r_h) t_h^T + tau_g Q_g: rows of strains that
+ * affect the twist, for columns of these up to the diagonal. */
 static inline void exact_stressed_tangent(const exact_stiffness *k,
                                           real t[][EXACT_STIFFNESS_MAX_STRAINS], const real tau[],
                                           exact_stressed *out)

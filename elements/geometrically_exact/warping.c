@@ -8,7 +8,7 @@
 
 enum {
     STAGES = EXACT_WARPING_MAX_STAGES,
-    POLYNOMIALS = 20, /* resolve layers up to lambda = SHORT to rounding: their energy errs by the
+    POLYNOMIALS = 20, /* resolve layers up to lambda = SHORT to rounding, because the energy has the
                          square of the amplitude's error */
     BUBBLES = POLYNOMIALS,
     FUNCTIONS = BUBBLES + 2, /* 1 - x and x come first */
@@ -17,14 +17,14 @@ enum {
     POINTS = INTERVALS * ORDER
 };
 static const double lambda_short =
-    20; /* beyond it the layers are functions of their own, and few polynomials are needed */
+    20; /* above it separate functions represent the layers, and few polynomials are needed */
 
 typedef struct basis {
     int bubbles, layers;
     double lambda;
 } basis;
 
-/* Functions and slopes at x, by its distances from both ends: exact near either. */
+/* Functions and slopes at x, given its distances from both ends: accurate near both. */
 static void functions_at(const basis *b, double x, double rest, double value[], double slope[])
 {
     value[0] = rest;
@@ -72,8 +72,8 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
         }
 }
 
-/* Mean[stages][functions]: P of every function at the stages; K: 2 x energy of their slopes and of
- * what P does not see. */
+/* Mean[stages][functions]: P of every function at the stages; K: twice the energy of slopes and of
+ * the parts outside the range of P. */
 static void integrate(const beam_constants *c, const basis *b, int stages, const double x[],
                       const double w[], double mean[STAGES * FUNCTIONS],
                       double K[FUNCTIONS * FUNCTIONS])
@@ -131,7 +131,7 @@ void exact_warping_energy(const beam_constants *c, int stages, const double x[],
         for (int j = 0; j < 2; j++)
             X[row * m + stages + j] = mean[k * n + j];
     }
-    dense_lu(size, A, pivot); /* never singular: K is positive definite on the bubbles, which
+    dense_lu(size, A, pivot); /* cannot be singular: K is positive definite on the bubbles, which
                                  outnumber the stages */
     dense_lu_solve(size, m, A, pivot, X);
     /* The gradient with respect to z: w T at the stages, and K a - P^T w T at the ends. */

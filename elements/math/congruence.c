@@ -4,9 +4,9 @@
 
 #include "elements/math/real.h"
 
-/* Rows are filled up with zeros to whole vectors, two rows are summed at once: what is read of a
- * factor serves both. */
-#ifdef REAL_AVX2 /* numbers of a vector of the processor: wider ones are slow */
+/* Rows are padded with zeros to whole vectors, and two rows are summed together, so that each
+ * loaded factor is used for both. */
+#ifdef REAL_AVX2 /* numbers in a vector of the processor; wider ones are slow */
 enum { WIDTH = 4 };
 #else
 enum { WIDTH = 2 };
@@ -59,7 +59,7 @@ static inline __attribute__((always_inline)) void add_rows(int rows, int count, 
         one_row(count, blocks, c + i * next, stride, B, out + i * blocks);
 }
 
-/* A[rows x n] into rows of whole vectors, and back. */
+/* Copies A[rows x n] to rows of whole vectors, and back. */
 static inline __attribute__((always_inline)) void widen(int rows, int n, int blocks,
                                                         const double *A, part *out)
 {

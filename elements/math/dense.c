@@ -1,4 +1,4 @@
-/* Small dense algebra: plain loops in the order that runs along rows. */
+/* Small dense algebra: plain loops along rows. */
 #include "elements/math/dense.h"
 
 #include <float.h>
@@ -9,8 +9,8 @@
 
 enum { WIDEST = 14 };
 
-/* out += sum_l times c[l stride] row l of rows, row length n, in this order; sums of a width that
- * is known where this is inlined stay in registers. skip: rows whose factor is zero. */
+/* out += sum_l of c[l stride] times row l of rows, with row length n, in this order. If the width
+ * is a compile-time constant, sums stay in registers. skip: rows with factor zero. */
 static inline __attribute__((always_inline)) void add_block(int count, int width, double times,
                                                             int skip, const double *restrict c,
                                                             int stride, const double *restrict rows,
@@ -30,8 +30,8 @@ static inline __attribute__((always_inline)) void add_block(int count, int width
         out[j] = sum[j];
 }
 
-/* Width of the next block where `left` columns remain: the largest compiled width that fits. Those
- * are the widths that elements have. */
+/* Width of the next block when `left` columns remain: the largest compiled width that fits; the
+ * compiled widths are those of the elements. */
 static inline __attribute__((always_inline)) int width_of(int left)
 {
     static const int widths[] = {14, 8, 7, 3};
@@ -96,7 +96,7 @@ double dense_quadratic(int n, const double A[], const double x[])
     return sum;
 }
 
-/* Rows of a length that is known where this is inlined. */
+/* Row length that is a compile-time constant. */
 static inline __attribute__((always_inline)) void mul_rows(int m, int n, const double *A,
                                                            const double *x, double *y)
 {

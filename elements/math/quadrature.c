@@ -5,7 +5,8 @@
 #include <math.h>
 #include <pthread.h>
 
-/* GSL has these to full precision; others it computes. They are read-only once they are there. */
+/* GSL stores some tables with full precision and computes others. They are read-only after
+ * creation. */
 static gsl_integration_glfixed_table *tables[QUADRATURE_MAX_POINTS + 1];
 static pthread_once_t prepared = PTHREAD_ONCE_INIT;
 
@@ -28,6 +29,6 @@ void quadrature_points(int n, double x[], double w[])
     for (int i = 0; i < n; i++)
         if (tables[n] != NULL)
             gsl_integration_glfixed_point(0, 1, (size_t)i, &x[i], &w[i], tables[n]);
-        else /* out of memory: no number rather than a wrong one */
+        else /* out of memory: NaN instead of a wrong number */
             x[i] = w[i] = NAN;
 }

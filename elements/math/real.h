@@ -1,10 +1,10 @@
-/* A number of several elements at once, one in each lane: with LANES defined before this header, in
- * files that are compiled once for one element and once for several.  All operations are those of
- * each lane in the order of the source: the same bits in every number of lanes.  An address of
- * reals in lanes is no array of doubles: real_put and real_lane go in and out.
+/* A value for several elements at once, one in each lane. Define LANES before this header, in files
+ * that are compiled once for one element and once for several. Each lane performs the operations in
+ * the order of the source, so that results are bit-for-bit equal for every number of lanes. An
+ * array of reals in lanes is not an array of doubles: use real_put and real_lane for access.
  *
  * The Makefile compiles some files a second time for processors with AVX2, with REAL_AVX2 defined:
- * REAL_NAMED gives what they export its name, and who calls it takes REAL_CHOSEN. */
+ * REAL_NAMED makes the names of their functions, and callers use REAL_CHOSEN. */
 #ifndef BEAMWORK_REAL_H
 #define BEAMWORK_REAL_H
 
@@ -103,7 +103,7 @@ static inline void real_deny(real_truth *t, int lane)
 {
     (*t)[lane] = 0;
 }
-/* a where it holds, else b. */
+/* Selects a where the condition is true, else b. */
 static inline real real_choose(real_truth t, real a, real b)
 {
     return (real)((t & (real_truth)a) | (~t & (real_truth)b));
@@ -116,7 +116,7 @@ static inline real real_abs(real a)
     return real_choose(a < 0, -a, a);
 }
 
-/* Is any lane left in which it holds? */
+/* Is it true in any lane? */
 static inline int real_any(real_truth t)
 {
     int any = 0;
@@ -131,7 +131,7 @@ static inline void real_zero(int n, real a[])
         a[i] = real_of(0);
 }
 
-/* Functions of libm lane by lane: what one element gets. */
+/* Functions of libm, lane by lane, as for a single element. */
 static inline real real_atan2(real y, real x)
 {
     real angle = y;

@@ -1,5 +1,5 @@
-/* Small dense algebra of one element or of several in lanes, row-major: the sums of
- * elements/math/dense.h in their order. */
+/* Small dense algebra for one element or several in lanes, row-major: the sums of
+ * elements/math/dense.h in the same order. */
 #ifndef BEAMWORK_REAL_DENSE_H
 #define BEAMWORK_REAL_DENSE_H
 
@@ -9,8 +9,8 @@
 
 enum { REAL_WIDEST = 11 };
 
-/* out[width] += sum_l c[l stride] row l of rows, row length n, in this order; sums of a width that
- * is known where this is inlined stay in registers. */
+/* out[width] += sum_l c[l stride] row l of rows, with row length n, in this order. If the width is
+ * a compile-time constant, sums stay in registers. */
 static inline __attribute__((always_inline)) void
 real_add_row(int count, int width, const real *c, int stride, const real *rows, int n, real *out)
 {
@@ -27,7 +27,7 @@ real_add_row(int count, int width, const real *c, int stride, const real *rows, 
 }
 
 /* K(n x n) += J^T S J for columns and rows from `first` on, with J(m x n), S(m x m), in pieces of
- * `width`, which n - first is a multiple of; SJ(m x n) is overwritten there. */
+ * `width`, a divisor of n - first; SJ(m x n) is overwritten there. */
 static inline __attribute__((always_inline)) void real_add_congruence(int m, int n, int first,
                                                                       int width, const real *J,
                                                                       const real *S, real *SJ,

@@ -17,7 +17,7 @@ void rotation_identity(double q[4])
 void rotation_exp(const double phi[3], double q[4])
 {
     const double half = vec3_norm(phi) / 2;
-    /* sin(h)/(2 h): the series' next term, h^4/240, is below eps/8 for h < 1e-4 */
+    /* sin(h)/(2 h): the next term of the series, h^4/240, is below eps/8 for h < 1e-4 */
     const double s = half > 1e-4 ? sin(half) / (2 * half) : 0.5 - half * half / 12;
     q[0] = cos(half);
     for (int i = 0; i < 3; i++)
@@ -57,7 +57,7 @@ void rotation_matrix(const double q[4], double R[9])
 
 void rotation_from_matrix(const double R[9], double q[4])
 {
-    /* Shepperd: divide by the largest of the four components */
+    /* Shepperd's method: divide by the largest of the four components */
     const double trace = R[0] + R[4] + R[8];
     int largest = -1;
     double best = trace;

@@ -9,7 +9,7 @@
 
 void rotation_identity(double q[4]);
 void rotation_exp(const double phi[3], double q[4]); /* phi [rad] */
-void rotation_log(const double q[4], double phi[3]); /* |phi| <= pi, the shorter way */
+void rotation_log(const double q[4], double phi[3]); /* |phi| <= pi, the shorter rotation */
 /* ab = a o b; ab may alias */
 static inline void rotation_compose(const double a[4], const double b[4], double ab[4])
 {
@@ -32,28 +32,28 @@ void rotation_normalise(double q[4]);
 void rotation_matrix(const double q[4], double R[9]);
 void rotation_from_matrix(const double R[9], double q[4]);
 void rotation_apply(const double q[4], const double v[3], double Rv[3]); /* Rv may alias v */
-/* Spatial increment that turns `from` into `to`: log(to o conj(from)). */
+/* Spatial increment from `from` to `to`: log(to o conj(from)). */
 void rotation_between(const double from[4], const double to[4], double phi[3]);
-/* The triad whose x axis points along `x` and whose y axis is the part of `y` across it.
- * Returns 0, or -1 if x is zero or y is parallel to it. */
+/* The triad with its x axis along `x` and its y axis along the part of `y` normal to it. Returns 0,
+ * or -1 if x is zero or y is parallel to it. */
 int rotation_triad(const double x[3], const double y[3], double R[9]);
 
-/* An arc along which the triad turns steadily. */
+/* An arc along which the triad rotates at a constant rate. */
 
-/* rotation [rad]: of the whole arc, its constant torsion and curvature times its length.  In the
+/* rotation [rad]: of the whole arc: its constant torsion and curvature times its length. In the
  * axes at its start q = exp(x rotation~) and r = int_0^x exp(t rotation~) e dt, 0 <= x <= 1; e:
- * direction of the axis in the triad that turns with it, (1, 0, 0) but for initial strains. */
+ * direction of the axis in the rotating triad, (1, 0, 0) except for initial strains. */
 void arc_at(const double rotation[3], const double e[3], double x, double r[3], double q[4]);
-/* r of arc_at less that of no rotation, x e. */
+/* r of arc_at minus that without rotation, x e. */
 void arc_beyond(const double rotation[3], const double e[3], double x, double r[3]);
 
-/* From a point to the one that moves it rigidly.  Offset rho: dr = dr_b + theta x rho.  Second
- * derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho) I. */
+/* Rigid connection of a point to the body that moves it. Offset rho: dr = dr_b + theta x rho.
+ * Second derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho) I. */
 
-/* force[6: force, moment] of the point becomes that of the body. */
+/* Transforms force[6: force, moment] from the point to the body. */
 void offset_force(const double rho[3], double force[6]);
-/* K[n x n] of coordinates of which the point's begin at `at`: K <- A^T K A, and the second
- * derivatives of the potential's gradient `force` on the point; NULL: without these. */
+/* K[n x n] with the coordinates of the point at `at`: K <- A^T K A, plus the second derivatives for
+ * the potential's gradient `force` on the point (NULL: without these). */
 void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[]);
 
 #endif

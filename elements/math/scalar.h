@@ -1,4 +1,4 @@
-/* Pi, the larger of two numbers, and the one quadrature. */
+/* Pi, the larger of two numbers, and Gauss-Legendre quadrature. */
 #ifndef BEAMWORK_MATH_SCALAR_H
 #define BEAMWORK_MATH_SCALAR_H
 
@@ -6,18 +6,17 @@
 
 #define PI 3.14159265358979323846
 
-/* The larger of two numbers: NAN where one of them is, which fmax passes over. */
+/* The larger of two numbers; NAN if one of them is NAN, unlike fmax. */
 static inline double larger(double a, double b)
 {
     return a >= b || isnan(a) ? a : b;
 }
 
-/* Gauss-Legendre quadrature: the one rule, by GSL's tables, which the first call prepares once in a
- * process. */
+/* Gauss-Legendre quadrature with GSL's tables, which the first call in a process prepares. */
 
 enum { QUADRATURE_MAX_POINTS = 64 };
 
-/* 1 to 20, 32 or 64 points: those whose digits are all right. */
+/* Returns 1 for 1 to 20, 32 or 64 points, whose tables are accurate to all digits. */
 int quadrature_is_tabulated(int n);
 
 /* n points x[n] in ascending order and weights w[n] on [0, 1], exact for polynomials of degree 2n

@@ -1,4 +1,4 @@
-/* Vectors of 3 and matrices of 3 x 3, row-major, of one element or of several in lanes. */
+/* Vectors of 3 and matrices of 3 x 3, row-major, for one element or several in lanes. */
 #ifndef BEAMWORK_VEC3_H
 #define BEAMWORK_VEC3_H
 
@@ -21,8 +21,8 @@ static inline real vec3_norm(const real a[3])
     return real_hypot(real_hypot(a[0], a[1]), a[2]);
 }
 
-/* |d| - l0 for d = d0 + moved, |d0| = l0: (2 d - moved) . moved/(|d| + l0), no difference of nearly
- * equal lengths. */
+/* |d| - l0 for d = d0 + moved, |d0| = l0: (2 d - moved) . moved/(|d| + l0), which avoids
+ * cancellation. */
 static inline real vec3_elongation(const real d[3], const real moved[3], double l0)
 {
     const real sum[3] = {2 * d[0] - moved[0], 2 * d[1] - moved[1], 2 * d[2] - moved[2]};

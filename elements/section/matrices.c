@@ -9,8 +9,8 @@ enum { N = 6 };
 
 static const char *const stress[N] = {"N", "Qy", "Qz", "Mx", "My", "Mz"};
 
-/* A becomes symmetric; *asymmetry: the greater of it and what A was off, relative to its
- * diagonal. */
+/* Makes A symmetric; *asymmetry: increased to the asymmetry of A relative to its diagonal, if that
+ * is larger. */
 static status make_symmetric(double A[36], const char *name, double *asymmetry, fault *f)
 {
     double mean[36];
@@ -61,7 +61,7 @@ void section_matrices_centre(const section *c, double centre[3])
     centre[2] = m > 0 ? M[4] / m : 0;
 }
 
-/* No negative moment about any axis: all principal minors. */
+/* Is no moment negative about any axis? Checks all principal minors. */
 static int is_semidefinite(const double J[9])
 {
     const double small = 1e-9 * (J[0] + J[4] + J[8]);
@@ -80,7 +80,8 @@ static int is_semidefinite(const double J[9])
     return minors > 0 && determinant >= -small * pow(J[0] + J[4] + J[8], 2);
 }
 
-/* The nearest matrix of a slice; 0: it is further away than what was measured or printed is. */
+/* The nearest mass matrix of a slice; returns 0 when it differs by more than measured or printed
+ * values can. */
 static int make_slice(double M[36])
 {
     const double m = M[0] == M[7] && M[7] == M[14] ? M[0] : (M[0] + M[7] + M[14]) / 3,

@@ -1,4 +1,4 @@
-/* Section constants from walls, a rectangle or given numbers, checked before anyone uses them. */
+/* Section constants from walls, a rectangle or given numbers, checked before use. */
 #include "elements/section/section.h"
 
 #include <math.h>
@@ -60,8 +60,9 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
 static double rectangle_torsion(double a, double b)
 {
     const double h = fmax(a, b), t = fmin(a, b);
-    /* J = h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5]. Of n^-5 alone the sum
-     * is 31/32 zeta(5); tanh - 1 = -2/(exp(n pi h/t) + 1) is nothing from n = 13 on: h >= t */
+    /* J = h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5]. The sum of n^-5 is
+     * 31/32 zeta(5); tanh - 1 = -2/(exp(n pi h/t) + 1) is negligible from n = 13 on, since h >= t
+     */
     const double zeta5 = 1.03692775514336993;
     double sum = 0;
     for (int n = 11; n >= 1; n -= 2)
@@ -72,12 +73,12 @@ static double rectangle_torsion(double a, double b)
 
 /* int omega^2 dA [m^6] of Saint-Venant's warping function omega = y z + sum C_n sin(k_n y) sinh(k_n
  * z), whose stress-free sides give C_n = -4 (-1)^n/(a k_n^3 cosh(k_n b)), k_n = (2 n + 1) pi/2a,
- * over the half sides a <= b (own integration). (w h)^3/144 is that of a thin one; a square has
- * 1/52 of it, for which the three terms lose two digits. */
+ * over the half sides a <= b (own integration). For a thin rectangle it is (w h)^3/144; for a
+ * square 1/52 of that, where the three terms lose two digits. */
 static double rectangle_warping(double w, double h)
 {
     const double a = fmin(w, h) / 2, b = fmax(w, h) / 2;
-    /* sum 1/(k_n a)^6 = 1/15; of 3/(k_n a)^7 alone the sum is 3 (2/pi)^7 127/128 zeta(7) */
+    /* sum 1/(k_n a)^6 = 1/15; the sum of 3/(k_n a)^7 is 3 (2/pi)^7 127/128 zeta(7) */
     const double zeta7 = 1.00834927738192284;
     double sum = 3 * pow(2 / PI, 7) * 127 / 128 * zeta7;
     for (int n = 0; n < 7; n++) {
@@ -104,7 +105,7 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     out->It = rectangle_torsion(w, h);
     out->Iw = rectangle_warping(w, h);
     /* 1/8 (int r^4 dA - Ip^2/A), int r^4 dA = wide^5 thin/80 + 2 wide^3 thin^3/144 + wide thin^5/80
-     * (own integration); N Eq. 46 has the first term, of a thin one */
+     * (own integration); N Eq. 46 has only the first term, for a thin rectangle */
     out->wagner_torque = (pow(wide, 5) * thin + wide * pow(thin, 5)) / 1440;
     const int theory = s->shear_factor[0] > 0 || s->shear_factor[1] > 0;
     for (int i = 0; i < 2; i++)
@@ -116,8 +117,8 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     return STATUS_OK;
 }
 
-/* A circular ring, exact: its section stays plane in torsion (Iw = 0). Shear stresses of bending
- * are those of Saint-Venant without Poisson's effect: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m =
+/* A circular ring, exact: its section remains plane in torsion (Iw = 0). Shear stresses in bending
+ * follow Saint-Venant's theory without Poisson effect: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m =
  * inner/outer radius (Renton, Int. J. Solids Struct. 28, 1991; Cowper 1966 at nu = 0), 6/7 for a
  * bar and 1/2 for a thin tube. */
 static status tube(const section_spec *s, section *out, fault *f)
@@ -141,8 +142,7 @@ static status tube(const section_spec *s, section *out, fault *f)
     return STATUS_OK;
 }
 
-/* D = F^-1 where F has stiffness to invert; rows and columns of zeros (rigid in shear) stay zero in
- * both. */
+/* D = F^-1 on the nonzero rows of F; zero rows and columns (rigid in shear) remain zero in both. */
 static status invert_on_support(const double from[9], double to[9], const char *name, fault *f)
 {
     double scaled[9], scale[3];
@@ -259,7 +259,7 @@ static status check_constants(const section *c, fault *f)
     return STATUS_OK;
 }
 
-/* The constants of its shape, or those that were given. */
+/* Constants of the shape, or given constants. */
 static status constants_of(const section_spec *spec, section *out, fault *f)
 {
     switch (spec->kind) {
@@ -294,7 +294,7 @@ status section_compute(const section_spec *spec, section *out, fault *f)
     out->shear_modulus = spec->shear_modulus;
     out->density = spec->density;
     out->expansion = spec->expansion;
-    /* Whichever of D and F is there gives the other; both zero: rigid in shear. */
+    /* Computes D from F or F from D; both zero: rigid in shear. */
     TRY(out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f)
                                          : invert_on_support(out->F, out->D, "F", f));
     TRY(apply_given(spec, out, f));

@@ -1,8 +1,8 @@
-/* Cross-section constants: what a beam element needs to know of a section.
+/* Cross-section constants for beam elements.
  *
- * Axes: x along the line of centroids, y and z principal.  A section is given
- * by straight thin walls (open, or with closed cells), as a solid rectangle, as a round tube, by
- * its numbers, or by two matrices. */
+ * Axes: x along the line of centroids, y and z principal. A section is given by straight thin walls
+ * (open, or with closed cells), as a solid rectangle, as a round tube, by constants, or by two
+ * matrices. */
 #ifndef BEAMWORK_SECTION_SECTION_H
 #define BEAMWORK_SECTION_SECTION_H
 
@@ -18,26 +18,28 @@ typedef struct section {
     double A;             /* area [m^2] */
     double Iy, Iz;        /* int z^2 dA, int y^2 dA [m^4] */
     double It;            /* Saint-Venant torsion constant [m^4] */
-    double Iw;            /* warping constant about the shear centre [m^6]; 0: nothing warps */
+    double Iw;            /* warping constant about the shear centre [m^6]; 0: no warping */
     double ys, zs;        /* shear centre relative to the centroid [m] */
     double Ip;            /* polar moment Iy + Iz about the centroid [m^4] */
     double wagner_y;      /* int y (y^2 + z^2) dA [m^5] */
     double wagner_z;      /* int z (y^2 + z^2) dA [m^5] */
-    double wagner_torque; /* c of the energy E c kx^4 per length [m^6]: 1/8 int q^2 dA, q what y^2 +
-                             z^2 has beyond strains of shortening and bending, w^5 t / 1440 for a
-                             sheet (N Eq. 46) */
+    double wagner_torque; /* c of the energy E c kx^4 per length [m^6]: 1/8 int q^2 dA, where q is
+                             the part of y^2 + z^2 beyond shortening and bending strains; w^5 t /
+                             1440 for a sheet (N Eq. 46) */
     double D[9]; /* shear rigidities / G, order y, z, omega [m^2, m^2, m^4; m^3 off the diagonal]:
                     (Qy, Qz, Mw) = G D (gy, gz, gw) */
-    double F[9]; /* D^-1, kept because it exists when D would be infinite (F = 0: shear-rigid) */
+    double
+        F[9]; /* D^-1, stored because it exists when D would be infinite (F = 0: rigid in shear) */
     double axes_angle;              /* beta [rad]: principal y axis from the wall y axis */
     double centroid[2];             /* in wall coordinates [m] */
-    int matrices;                   /* 1: a section by its matrices */
-    double stiffness[36], mass[36]; /* of that; else zero */
-    double asymmetry; /* of them as they were given, relative to the diagonal: the mean is taken */
+    int matrices;                   /* 1: a section given by matrices */
+    double stiffness[36], mass[36]; /* for such a section, else zero */
+    double asymmetry; /* asymmetry of the given matrices relative to the diagonal; their symmetric
+                         part is used */
     int rectangle;    /* 1: a solid rectangle with the sizes below */
     double width, height; /* of the rectangle: `width` along z (the sheet's w), `height` along y
                              (its t) [m] */
-    double expansion;     /* strain of a free fibre by its temperature [1/K] */
+    double expansion;     /* strain of a free fibre per temperature change [1/K] */
 } section;
 
 typedef enum section_kind {
@@ -48,7 +50,7 @@ typedef enum section_kind {
     SECTION_MATRICES
 } section_kind;
 
-/* Constants of SECTION_CONSTANTS that are zero because a scene specifies so. */
+/* Constants of SECTION_CONSTANTS that the scene sets to zero. */
 typedef enum section_zero {
     SECTION_ZERO_SHEAR = 1 << 0,    /* D or F */
     SECTION_ZERO_WARPING = 1 << 1,  /* Iw */
@@ -71,24 +73,25 @@ typedef struct section_spec {
     unsigned zeros;                       /* SECTION_ZERO_... */
     double young, shear_modulus, density; /* [Pa, Pa, kg/m^3] */
     int points, walls;
-    int cells; /* that the walls close; a wall that closes another one is refused */
+    int cells; /* number of cells that the walls close; a wall that closes a further cell is refused
+                */
     double point[SECTION_MAX_POINTS][2]; /* (y, z) [m] */
     struct {
         int from, to;
         double thickness;
     } wall[SECTION_MAX_WALLS]; /* thickness [m] */
-    int thickness_terms; /* 1: add the t^3 terms of formulation notes section 2 (off for thin-walled
-                            work) */
-    double width, height;   /* rectangle: along z and along y [m] */
+    int thickness_terms;  /* 1: add the t^3 terms of formulation notes section 2 (0 for thin-walled
+                             theory) */
+    double width, height; /* rectangle: along z and along y [m] */
     double shear_factor[2]; /* rectangle: k for Qy and Qz; 0: 5/6 from the thickness terms; both 0:
-                               their warping shear too */
+                               also the shear due to warping */
     int sheet_warping; /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in
                           either case */
     double expansion;  /* [1/K] */
     double diameter, wall_thickness; /* tube: outer diameter; half of it: a solid bar [m] */
-    section constants; /* SECTION_CONSTANTS: taken as given; D or F must be given. SECTION_MATRICES:
+    section constants; /* SECTION_CONSTANTS: used as given; D or F is required. SECTION_MATRICES:
                           stiffness and mass; no material */
-    /* In place of what was computed; NAN: keep that. Ip that is not given stays Iy + Iz. */
+    /* Replace computed values; NAN: keep the computed value. An Ip that is not given is Iy + Iz. */
     struct {
 #define SECTION_MEMBER(name) double name;
         SECTION_GIVEN(SECTION_MEMBER)
@@ -96,64 +99,61 @@ typedef struct section_spec {
     } given;
 } section_spec;
 
-/* Fills every override with NAN and everything else with zero. */
+/* Sets every override to NAN and everything else to zero. */
 void section_spec_init(section_spec *spec);
 
 /* width along z, height along y [m]. */
 section_spec section_spec_rectangle(double young, double shear_modulus, double width,
                                     double height);
-/* The constants themselves are zero: the caller fills them. */
+/* The constants are zero; the caller sets them. */
 section_spec section_spec_constants(double young, double shear_modulus);
-/* walls + 1 points (y, z) [m] of an open section; ends[i]: the points of wall i, NULL: one wall
- * after the other. */
+/* walls + 1 points (y, z) [m] of an open section; ends[i]: the points of wall i; NULL: a chain of
+ * walls. */
 section_spec section_spec_walls(double young, double shear_modulus, int walls,
                                 const double point[][2], const int ends[][2],
                                 const double thickness[]);
 
-/* STATUS_REFUSED with the culprit (wall 2, the sum of ..., D's eigenvalue) for zero or negative
- * sizes, a cell too many, disconnected walls, a point used by no wall, D not positive definite, G
- * or E not positive, nan. */
+/* STATUS_REFUSED, naming the cause (wall 2, the sum of ..., D's eigenvalue): zero or negative
+ * sizes, too many cells, disconnected walls, unused points, D not positive definite, G or E not
+ * positive, NaN. */
 status section_compute(const section_spec *spec, section *out, fault *f);
 
-/* Sections by their matrices: with the strains of the Simo-Reissner beam along the member's line,
- *   (N, Qy, Qz, Mx, My, Mz) = C (gx, gy, gz, kx, ky, kz),
- * and with the velocity of the line and the angular velocity in the section's axes v = (vx, vy, vz,
- * wx, wy, wz) the kinetic energy 1/2 v . M v per length (Hodges, Nonlinear Composite Beam Theory,
- * 2006, chapters 4 and 5).  Row-major.
+/* Sections given by matrices. With the strains of the Simo-Reissner beam along the line of the
+ * member, (N, Qy, Qz, Mx, My, Mz) = C (gx, gy, gz, kx, ky, kz), and with the velocity of the line
+ * and the angular velocity in section axes v = (vx, vy, vz, wx, wy, wz) the kinetic energy 1/2 v .
+ * M v per length (Hodges, Nonlinear Composite Beam Theory, 2006, chapters 4 and 5). Row-major.
  *
- * What else a section has follows for the orders of size and for formulations that know constants
- * only: with E = G = 1 Pa, A = C_11, Iy = C_55, Iz = C_66, It = C_44, shear rigidities C_22 and
- * C_33; nothing warps, the centroid is on the line. */
+ * Other constants are derived for orders of magnitude and for formulations that use constants only:
+ * with E = G = 1 Pa, A = C_11, Iy = C_55, Iz = C_66, It = C_44, shear rigidities C_22 and C_33; no
+ * warping, and the centroid is on the line. */
 
-/* Largest asymmetry of matrices that were measured or printed, relative to the diagonal. */
+/* Largest asymmetry of measured or printed matrices, relative to the diagonal. */
 #define SECTION_MATRICES_SYMMETRIC 1e-6
 
-/* Fills a zeroed section.  REFUSED: C not symmetric or not positive definite; M not that of a
- * slice: mass m, centre (0, cy, cz), a moment of inertia about the centre that is not negative, M =
- * [m 1, -m c~; m c~, J]. What is symmetric, or a slice, within SECTION_MATRICES_SYMMETRIC becomes
- * so. */
+/* Fills a zeroed section. REFUSED: C not symmetric or not positive definite; M not that of a slice:
+ * mass m, centre (0, cy, cz), a moment of inertia about the centre that is not negative, M = [m 1,
+ * -m c~; m c~, J]. Deviations within SECTION_MATRICES_SYMMETRIC are corrected. */
 status section_matrices(const section_spec *spec, section *out, fault *f);
 
-/* Is there more in the matrices than constants have?  Anything off the diagonal of C; where inertia
- * matters, anything off that of M, and moments of inertia J other than those of a section of one
- * material, where they are requested, or other than Jxx. */
+/* Do the matrices contain more than constants can represent? Off-diagonal entries of C; where
+ * inertia matters, off-diagonal entries of M, and moments of inertia J other than those of a
+ * section of one material, if requested, or other than Jxx. */
 int section_matrices_couple(const section *c, int inertia, int rotary);
 
 /* Centre of mass [m]; (0, 0, 0) without mass. */
 void section_matrices_centre(const section *c, double centre[3]);
 
-/* Sections that change along a member: from one description to another of the same form, linearly
- * in its numbers.
+/* Tapered members: the section changes linearly in its numbers from one description to another of
+ * the same form.
  *
- * Every cross-section is that of a prismatic member with the section there, its centroid on the
- * member's line: the shear stresses due to the taper itself are omitted, as usual in beam
- * theory. */
+ * Every cross-section is that of a prismatic member with its centroid on the line of the member.
+ * Shear stresses due to the taper are neglected, as usual in beam theory. */
 
-/* May one description change into the other?  REFUSED: another form (rectangle, walls that are
- * connected in another way, D in one and F in the other ...), and, where the section warps, a shear
- * centre that moves, walls that do not stay in their planes, closed cells that are not the same:
- * the sectorial coordinate of a fibre would change along the member, which couples its warping with
- * torsion in a way that no prismatic piece has. ends: what the two come to. */
+/* Is a taper between the two descriptions possible? REFUSED: they have different forms (a
+ * rectangle, walls connected in another way, D for one and F for the other ...). For sections with
+ * warping also: the shear centre moves, walls leave their planes, or closed cells differ; the
+ * sectorial coordinate of a fibre would then change along the member and couple warping with
+ * torsion, which prismatic elements cannot represent. ends: constants of both. */
 status section_taper_check(const section_spec *p, const section_spec *q,
                            const section *const ends[2], fault *f);
 

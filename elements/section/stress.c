@@ -8,8 +8,8 @@
 
 enum { PER_QY, PER_QZ, PER_WARPING, PER_TWIST };
 
-/* Saint-Venant's torsion of a rectangle, thickness 1, w wide: shear stress at the middle of its
- * long sides per G kappa t. */
+/* Saint-Venant torsion of a rectangle of thickness 1 and width w: shear stress at the middle of its
+ * long sides, divided by G kappa t. */
 static double long_side(double w)
 {
     double sum = 0;
@@ -18,8 +18,8 @@ static double long_side(double w)
     return 1 - 8 / (PI * PI) * sum;
 }
 
-/* At the middle of its short sides: the alternating sum of tanh/n^2, without the tanh Catalan's
- * constant. */
+/* At the middle of its short sides: the alternating sum of tanh/n^2, which without tanh is
+ * Catalan's constant. */
 static double short_side(double w)
 {
     const double catalan = 0.915965594177219015;
@@ -83,7 +83,7 @@ static void wall_points(const wall_flow *of, int k, double x, stress_points *out
         p->z = l->z[far] + x * (l->z[near] - l->z[far]);
         p->omega = l->omega[far] + x * (l->omega[near] - l->omega[far]);
         const double arm = (p->y - l->pole[0]) * n.ty + (p->z - l->pole[1]) * n.tz;
-        for (int i = 0; i < 3; i++) { /* q = -Q S/I, from far to near */
+        for (int i = 0; i < 3; i++) { /* q = -Q S/I, from the far to the near end */
             const double stress =
                 inertia[i] > 0 ? -flow_moment(s, &l->tree, value, of->q, k, i, x) / (inertia[i] * t)
                                : 0;
@@ -161,7 +161,7 @@ static double measured(const stress *s, stress_measure what)
     return -s->along;
 }
 
-/* Elongation of a turned fibre beyond what the section takes as N, My and Mz. */
+/* Elongation of a rotated fibre beyond the strains that belong to N, My and Mz. */
 static double turned(const section *c, double y, double z, double twist)
 {
     const double u = y - c->ys, v = z - c->zs, mean = c->Ip / c->A + c->ys * c->ys + c->zs * c->zs,

@@ -1,12 +1,12 @@
 /* Stresses at points of a section from the resultants on it.
  *
- * In are: along the fibres N/A - Mz y/Iz + My z/Iy - B omega/Iw, and where the twist turns them,
- * with the Wagner torque, what a fibre at the distance rho from the shear centre gets more than the
- * section takes as a whole; across them Saint-Venant's torsion (rectangles by the exact series,
- * walls G t kappa at their surfaces, cells their Bredt flow, tubes G R kappa), the flow of Qy, Qz
- * and of the restrained warping in walls, and in rectangles the parabolas 3/2 Q/A and its like of
- * the warping. Not in are: concentrations at corners, fillets and ends, transverse shear of tubes,
- * and stresses across a wall. */
+ * Included are: along the fibres N/A - Mz y/Iz + My z/Iy - B omega/Iw, and with the Wagner torque
+ * the additional stress of a fibre at the distance rho from the shear centre due to twist, relative
+ * to the section as a whole; normal to the fibres Saint-Venant torsion (rectangles by the exact
+ * series, walls G t kappa at their surfaces, cells their Bredt flow, tubes G R kappa), the flow of
+ * Qy, Qz and of the restrained warping in walls, and in rectangles the parabolas 3/2 Q/A and
+ * similar ones for warping. Not included are: concentrations at corners, fillets and ends,
+ * transverse shear of tubes, and stresses across a wall. */
 #ifndef BEAMWORK_SECTION_STRESS_H
 #define BEAMWORK_SECTION_STRESS_H
 
@@ -14,7 +14,7 @@
 
 enum { STRESS_MAX_POINTS = 12 * SECTION_MAX_WALLS };
 
-/* A point: what each resultant makes there. */
+/* Stresses at a point per unit of each resultant. */
 typedef struct stress_point {
     double y, z;         /* from the centroid, principal axes [m] */
     double omega;        /* warping function, u_x = -omega a [m^2] */
@@ -24,17 +24,17 @@ typedef struct stress_point {
 
 typedef struct stress_points {
     const section *section;
-    int count;     /* of a tube none: its outermost fibres are where the bending moment says */
-    double radius; /* of a tube [m]; else 0 */
+    int count; /* 0 for a tube: its critical fibres depend on the direction of the bending moment */
+    double radius; /* of a tube [m], else 0 */
     stress_point point[STRESS_MAX_POINTS];
 } stress_points;
 
-/* On a section, principal axes, moments about the centroid. */
+/* Resultants on a section, principal axes, moments about the centroid. */
 typedef struct stress_resultants {
     double N, Qy, Qz, My, Mz, bimoment;
-    double warping; /* torque of the restrained warping M_w [N m] */
+    double warping; /* torque due to restrained warping M_w [N m] */
     double twist;   /* kappa_x [1/m] */
-    int turned;     /* 1: the twist turns the fibres (Wagner torque) */
+    int turned;     /* 1: the twist rotates the fibres (Wagner torque) */
 } stress_resultants;
 
 typedef enum stress_measure {
@@ -43,12 +43,12 @@ typedef enum stress_measure {
     STRESS_NORMAL_MIN
 } stress_measure;
 
-/* Corners, middles of sides and the centre of a rectangle; ends and middle of each wall and where
- * y, z or omega vanish in it (there the flow is largest), on both surfaces.  constants: what the
- * description came to, which stays there. REFUSED: given constants, which have no points. */
+/* Rectangle: corners, midpoints of sides, centre. Wall: ends, middle, and points where y, z or
+ * omega is zero (where the flow is largest), on both surfaces. constants: computed from the
+ * description. REFUSED: a section given by constants, which has no points. */
 status stress_points_of(const section_spec *, const section *constants, stress_points *, fault *);
 
-/* The largest von Mises stress, or the largest or least normal stress, of all points [Pa]. */
+/* The largest von Mises stress, or the largest or smallest normal stress, over all points [Pa]. */
 double stress_of(const stress_points *, const stress_resultants *, stress_measure);
 
 #endif

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Apart from rounding, relative. */
+/* Largest relative difference due to rounding. */
 static const double same = 1e-9;
 
 static int all_zero(const double v[9])
@@ -14,7 +14,7 @@ static int all_zero(const double v[9])
     return 1;
 }
 
-/* Numbers that are there (not NAN, not 0) in one of the two only. */
+/* Names a number that is given (not NAN, not 0) for only one of the two. */
 static const char *given_once(const section_spec *p, const section_spec *q)
 {
     const struct {
@@ -51,8 +51,8 @@ static status check_walls(const section_spec *p, const section_spec *q, fault *f
     return STATUS_OK;
 }
 
-/* Distances [m] of the ends of a wall from the plane that it has in the other section, both about
- * their shear centres. */
+/* Distances [m] of the ends of a wall from its plane in the other section, both relative to their
+ * shear centres. */
 static double out_of_plane(const section_spec *p, const section_spec *q,
                            const section *const ends[2], int w)
 {
@@ -140,7 +140,7 @@ status section_taper_check(const section_spec *p, const section_spec *q,
 static void blend(int count, double x, const double q[], double p[])
 {
     for (int i = 0; i < count; i++)
-        if (p[i] != q[i]) /* the same number stays that, and NAN */
+        if (p[i] != q[i]) /* equal numbers, and NaN, are kept exactly */
             p[i] += x * (q[i] - p[i]);
 }
 

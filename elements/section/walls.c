@@ -13,7 +13,7 @@ double tree_wall_length(const section_spec *s, int w)
     return hypot(q[0] - p[0], q[1] - p[1]);
 }
 
-/* Entries of `t` that reach a point; the walls that close cells are put after them. */
+/* Finds the entry of `t` that reaches each point; the walls that close cells come after these. */
 static status connect(const section_spec *s, section_tree *t, fault *f)
 {
     int reached[SECTION_MAX_POINTS] = {0}, used[SECTION_MAX_WALLS] = {0}, count = 0;
@@ -60,7 +60,7 @@ static status connect(const section_spec *s, section_tree *t, fault *f)
     return STATUS_OK;
 }
 
-/* Adds the way from a point to the root, times `sign`, to a cell. */
+/* Adds the path from a point to the root, times `sign`, to a cell. */
 static void walk_to_root(const section_spec *s, section_tree *t, int c, int point, int sign)
 {
     for (int k = s->walls - t->cells - 1; k >= 0; k--)
@@ -145,9 +145,9 @@ double flow_moment(const section_spec *s, const section_tree *t, const double *v
            h * length * (x * value[i][far] + x * x / 2 * (value[i][near] - value[i][far]));
 }
 
-/* The walls are taken from the free ends towards the root, so that the moments of everything beyond
- * are known.  Cells are cut where the walls that close them end; what flows across the cuts then
- * makes the warping one-valued. */
+/* Processes walls from the free ends towards the root, so that the moments of everything beyond are
+ * known. Cells are cut at the ends of the walls that close them; the flow across the cuts then
+ * makes the warping continuous. */
 void flow_first_moments(const section_spec *s, const section_tree *t, const double *value[3],
                         flow_moments q[])
 {
@@ -253,7 +253,7 @@ static status check_walls(const section_spec *s, fault *f)
     return STATUS_OK;
 }
 
-/* Twice the area that a wall sweeps about a pole, from `from` to `to` [m^2]. */
+/* Twice the area swept by a wall about a pole, from `from` to `to` [m^2]. */
 static double swept(const section_spec *s, int w, const double y[], const double z[], double yp,
                     double zp)
 {
@@ -261,8 +261,8 @@ static double swept(const section_spec *s, int w, const double y[], const double
     return (y[a] - yp) * (z[b] - z[a]) - (z[a] - zp) * (y[b] - y[a]);
 }
 
-/* Sectorial coordinate about a pole, zero mean: omega = int (y dz - z dy) - int psi/t ds, with the
- * flow psi of Saint-Venant's torsion per G and unit twist, which is constant around each cell and
+/* Sectorial coordinate about a pole, zero mean: omega = int (y dz - z dy) - int psi/t ds, where psi
+ * is the flow of Saint-Venant torsion per G and unit twist. It is constant around each cell, and
  * zero without cells. */
 static void sectorial(const section_spec *s, const section_tree *t, const double y[],
                       const double z[], double yp, double zp, double area, const double psi[],
@@ -284,8 +284,7 @@ static void sectorial(const section_spec *s, const section_tree *t, const double
         omega[p] -= mean;
 }
 
-/* Torsion of the cells: its flow per G and unit twist [m^2], and what it adds to It [m^4] (Bredt).
- */
+/* Torsion of the cells: flow per G and unit twist [m^2], and contribution to It [m^4] (Bredt). */
 static double cell_torsion(const section_spec *s, const section_tree *t, const double y[],
                            const double z[], double psi[])
 {
@@ -332,9 +331,10 @@ static void wagner_constants(const section_spec *s, const double y[], const doub
     }
 }
 
-/* 1/8 int q^2 dA, q what r^2 = y^2 + z^2 has beyond the strains of shortening and bending, which
- * are free: r^2 - Ip/A - wagner_y/Iz y - wagner_z/Iy z. The shear centre does not matter: turning
- * about another point adds such strains only. At n across a wall q + q_n n + n^2. */
+/* 1/8 int q^2 dA, where q is the part of r^2 = y^2 + z^2 that shortening and bending do not
+ * contain: r^2 - Ip/A - wagner_y/Iz y - wagner_z/Iy z. The position of the shear centre has no
+ * influence, because rotation about another point only adds such strains. At n across a wall q +
+ * q_n n + n^2. */
 static double wagner_torque(const section_spec *s, const double y[], const double z[],
                             const section *c)
 {
@@ -441,8 +441,7 @@ status section_walls(const section_spec *s, section *out, fault *f)
     walls_lines lines;
     TRY(walls_lines_of(s, &lines, out, f));
     const double *y = lines.y, *z = lines.z, *omega = lines.omega;
-    /* Walls that meet in one point do not warp along their mid-lines: the remaining Iw is
-     * rounding. */
+    /* walls that meet in one point do not warp along their mid-lines; Iw is then rounding */
     const int warps = out->Iw > 1e-24 * out->Ip * out->Ip / out->A;
     if (!warps)
         out->Iw = 0;

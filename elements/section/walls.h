@@ -1,40 +1,40 @@
-/* Sections of straight thin walls: how the walls are connected: a spanning tree of their mid-lines,
- * and the walls that close cells.
+/* Connection of straight thin walls: a spanning tree of their mid-lines, and the walls that close
+ * cells.
  *
- * A flow that is constant around each cell and zero elsewhere is what equilibrium leaves open;
- * compatibility of the warping, oint flow/t ds = given, decides it (Bredt 1896; Vlasov, Thin-walled
- * elastic beams, 1961, chapter 4). */
+ * Equilibrium leaves a flow undetermined that is constant around each cell and zero elsewhere;
+ * compatibility of the warping, oint flow/t ds = given, determines it (Bredt 1896; Vlasov,
+ * Thin-walled elastic beams, 1961, chapter 4). */
 #ifndef BEAMWORK_SECTION_WALLS_H
 #define BEAMWORK_SECTION_WALLS_H
 
 #include "elements/section/section.h"
 
-/* Root: point 0.  The first walls - cells entries are the tree, from the root outwards; each entry
- * after closes a cell. */
+/* Root: point 0. The first walls - cells entries form the tree, from the root outwards; each later
+ * entry closes a cell. */
 typedef struct section_tree {
     int wall[SECTION_MAX_WALLS]; /* wall of an entry */
     int near[SECTION_MAX_WALLS],
-        far[SECTION_MAX_WALLS]; /* its point nearer the root, and the other */
+        far[SECTION_MAX_WALLS]; /* its point closer to the root, and the other point */
     int cells;
-    /* [cell][wall]: 1 where the cell runs through the wall from `from` to `to`, -1 against it, 0
-     * not at all */
+    /* [cell][wall]: 1 when the cell contains the wall in the direction from `from` to `to`, -1 in
+     * the opposite direction, 0 not at all */
     signed char round[SECTION_MAX_WALLS][SECTION_MAX_WALLS];
 } section_tree;
 
-/* REFUSED: a wall that closes more cells than the section has, fewer cells, disconnected walls, an
- * unused point. */
+/* REFUSED: a wall that closes more cells than the section has, too few cells, disconnected walls,
+ * an unused point. */
 status tree_grow(const section_spec *s, section_tree *t, fault *f);
 
-/* flow[walls], from `from` to `to`: constant around each cell, with oint flow/t ds = oint d(jump)
- * where jump[walls] is what the wall contributes.  All zero in an open section. */
+/* flow[walls], from `from` to `to`: constant around each cell, with oint flow/t ds = oint d(jump),
+ * where jump[walls] is the contribution of a wall. Zero in an open section. */
 void tree_flow(const section_spec *s, const section_tree *t, const double jump[], double flow[]);
 
 double tree_wall_length(const section_spec *s, int w); /* [m] */
 
-/* Shear flow of a section of thin walls, by equilibrium from the free ends and, around cells, by
- * compatibility.
+/* Shear flow of a thin-walled section, from equilibrium starting at the free ends and, around
+ * cells, from compatibility.
  *
- * With normal stress that is linear in y, z and omega along the member, q = -sum over i of Q_i
+ * For normal stress that is linear in y, z and omega along the member, q = -sum over i of Q_i
  * S_i/I_i with the first moments S of y, z and omega (J Eq. 27), Q = (Qy, Qz, Mw), I = (Iz, Iy,
  * Iw). */
 
@@ -57,8 +57,8 @@ typedef struct flow_frame {
 
 flow_frame flow_frame_of(const section_spec *s, int w, const double y[], const double z[]);
 
-/* First moments of y, z and omega at the far point of a wall, with what the cells add [m^3, m^3,
- * m^4]. */
+/* First moments of y, z and omega at the far point of a wall, including contributions of cells
+ * [m^3, m^3, m^4]. */
 typedef struct flow_moments {
     double start[3];
 } flow_moments;
@@ -83,26 +83,25 @@ typedef struct walls_lines {
     section_tree tree;
     double y[SECTION_MAX_POINTS], z[SECTION_MAX_POINTS]; /* [m] */
     double omega[SECTION_MAX_POINTS]; /* about the shear centre, zero mean [m^2] */
-    double flow[SECTION_MAX_WALLS]; /* from `from` to `to`, of Saint-Venant's torsion per G and unit
-                                       twist: that of the cells [m^2] */
+    double flow[SECTION_MAX_WALLS]; /* from `from` to `to`, Saint-Venant torsion of the cells per G
+                                       and unit twist [m^2] */
     double pole[2];                 /* the shear centre [m] */
 } walls_lines;
 
 /* Angle of the principal y axis [rad], the smaller of the two; 0 where every axis is one. */
 double section_principal_angle(double Iyy, double Izz, double Iyz);
 
-/* A zeroed section's constants but for shear and the moments of higher order; REFUSED as
+/* Constants of a zeroed section, except shear and moments of higher order; REFUSED as
  * section_walls. */
 status walls_lines_of(const section_spec *spec, walls_lines *lines, section *out, fault *f);
 
-/* Adds geometry and the shear compliance F to a zeroed section; the material is not its concern.
- * REFUSED: closed cell, disconnected wall, unused point, sizes that are not positive, walls on one
- * line. */
+/* Adds geometry and the shear compliance F to a zeroed section; ignores the material. REFUSED:
+ * closed cell, disconnected wall, unused point, sizes that are not positive, walls on one line. */
 status section_walls(const section_spec *spec, section *out, fault *f);
 
-/* int omega r^2 dA relative to the square root of int omega^2 dA int r^4 dA: by it a bimoment turns
- * the section on, and a twist to one side is not that to the other; no element has it. 0 of
- * symmetric sections, and of those that are no walls. */
+/* int omega r^2 dA relative to the square root of int omega^2 dA int r^4 dA. It measures a coupling
+ * of bimoment and twist that distinguishes the directions of twist; no element includes it. 0 for
+ * symmetric sections, and for sections without walls. */
 double walls_one_sided(const section_spec *spec);
 
 #endif

@@ -1,13 +1,13 @@
-/* Words and numbers that a user writes. */
+/* Words and numbers in user input. */
 #ifndef BEAMWORK_SHARED_CHOICE_H
 #define BEAMWORK_SHARED_CHOICE_H
 
 #include "elements/shared/status.h"
 
-/* Numbers that a user writes. */
+/* Numbers in user input. */
 
-/* The number that `text` begins with; *end: after it. 0: there is none, or a double does not hold
- * it: it is infinite, or so small (below 2.2e-308) that it would become zero or lose digits. */
+/* Number at the beginning of `text`; *end: after it. Returns 0 when there is none, or when it is
+ * outside the range of a double: infinite, or below 2.2e-308, where digits would be lost. */
 int number_read(const char *text, const char **end, double *out);
 
 /* Words of a list "a|b|c", and the nearest one to a misspelt word. */
@@ -20,12 +20,13 @@ void choice_name(const char *choices, int index, char *text, int size);
 status choice_unknown(const char *what, const char *word,
                       const char *(*next)(const void *context, int i), fault *f);
 
-/* The candidate nearest to a misspelt word (edit distance), or NULL when none is near.
- * next(context, i): NULL ends. */
+/* The candidate nearest to a misspelt word (edit distance), or NULL when none is similar.
+ * next(context, i) returns NULL at the end. */
 const char *choice_nearest(const char *word, const char *(*next)(const void *context, int i),
                            const void *context);
 
-/* Letters to change, add or remove to make b of a; of a the first 63 count. */
+/* Number of letters to change, add or remove to turn a into b; only the first 63 letters of a
+ * count. */
 int choice_distance(const char *a, const char *b);
 
 #endif

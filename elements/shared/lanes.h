@@ -1,9 +1,10 @@
 /* Several elements of one kind at once, one in each lane (elements/math/real.h).
  *
- * A family writes its strains and stresses on node_real, strain_real and stress_real, in headers of
- * static functions. With LANES 1 these are the types of element.h: strain and stress of one element
- * include the headers so. A file lanes.c defines LANES as LANES_TOGETHER before it includes them,
- * and gives strain_many and stress_many by the functions below; the Makefile compiles it twice. */
+ * A family implements its strains and stresses with node_real, strain_real and stress_real, in
+ * headers of static functions. With LANES 1 these are the types of element.h, and the functions for
+ * a single element include the headers in this form. A file lanes.c defines LANES as LANES_TOGETHER
+ * before it includes them, and implements strain_many and stress_many by the functions below; the
+ * Makefile compiles it twice. */
 #ifndef BEAMWORK_SHARED_LANES_H
 #define BEAMWORK_SHARED_LANES_H
 
@@ -33,14 +34,14 @@ typedef struct stress_real {
     real *energy, *sigma, *C, *residual, *memory;
 } stress_real;
 
-/* Most inner unknowns and memory of a type with lanes. */
+/* Largest number of inner unknowns and size of memory of a type with lanes. */
 enum { LANES_INNER = 24, LANES_MEMORY = 600 };
 
 /* Sizes of a family. */
 typedef struct lanes_sizes {
     int nodes, strains, inner, memory;
-    int relative; /* 1: of two nodes, whose places enter by their difference only: J and H of the
-                     one are minus those of the other, to the bit */
+    int relative; /* 1: two nodes whose positions enter only by their difference, so that J and H of
+                     one are minus those of the other, bit for bit */
 } lanes_sizes;
 
 /* Returns the number of consecutive elements of one kind, at most LANES. */
@@ -74,14 +75,14 @@ typedef void lanes_strain(const element_data *, const node_real x[], strain_real
 typedef real_truth lanes_stress(const element_data *, const real e[], const real inner[],
                                 stress_real *);
 
-/* Output pointers of the lanes of a run: the arrays `of` its outputs; lanes without an element
- * write to `unused`. */
+/* Output pointers of the lanes of a run: the outputs are in the arrays `of`; lanes without an
+ * element write to `unused`. */
 #define LANES_TARGETS(to, run, of, unused)                                                         \
     double *to[LANES];                                                                             \
     for (int lane = 0; lane < LANES; lane++)                                                       \
         to[lane] = (run) ? (of) : (unused);
 
-/* The last element of a run is also in the lanes that are left. */
+/* Fills unused lanes with the last element of a run. */
 static inline int lanes_of(int lane, int run)
 {
     return lane < run ? lane : run - 1;
@@ -143,8 +144,8 @@ lanes_strain_run(lanes_sizes n, lanes_strain *strain, int run, const element_dat
     }
 }
 
-/* The same of stresses, with e[run] and inner[run].  What cannot be evaluated writes nothing and
- * ends as `failure`. */
+/* As above for stresses, with e[run] and inner[run]. Elements that cannot be evaluated write
+ * nothing and return `failure`. */
 static inline __attribute__((always_inline)) void
 lanes_stress_run(lanes_sizes n, lanes_stress *stress, status failure, int run,
                  const element_data *data, const double *const e[], const double *const inner[],
@@ -213,10 +214,10 @@ lanes_stress_many(lanes_sizes n, lanes_stress *stress, status failure, int count
     }
 }
 
-/* The mixed equations of several elements of one kind at once, from strains and stresses that stay
- * in their lanes; the sums of harness/newton in their order. */
+/* Mixed equations of several elements of one kind at once, from strains and stresses in lanes; the
+ * sums have the order of harness/newton. */
 
-/* All that is computed in lanes. */
+/* Values computed in lanes. */
 typedef struct lanes_equations {
     real J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
         SJ[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
@@ -228,7 +229,7 @@ typedef struct lanes_equations {
     real inner[LANES_INNER], memory[LANES_MEMORY];
 } lanes_equations;
 
-/* sigma of stress(e) += C (D(x) - e). */
+/* Adds C (D(x) - e) to the sigma of stress(e). */
 static inline __attribute__((always_inline)) void lanes_equations_mix(int strains,
                                                                       lanes_equations *q)
 {
@@ -251,9 +252,9 @@ lanes_equations_force(int strains, int columns, const real J[], const real s[], 
             out[j] += s[i] * J[i * columns + j];
 }
 
-/* K += J^T C J.  Of two nodes that count by their difference, the coordinates of the positions of
- * the first one have minus the entries of the second, but for the block of both: it is as symmetric
- * as H is. */
+/* K += J^T C J. For two nodes whose positions enter by their difference, the entries of the first
+ * node's position are minus those of the second, except in the block of both, so that K is as
+ * symmetric as H. */
 static inline __attribute__((always_inline)) void lanes_equations_stiffness(lanes_sizes n,
                                                                             lanes_equations *q)
 {

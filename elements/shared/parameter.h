@@ -1,30 +1,30 @@
-/* Parameters for the user: those of a case (--set NAME=VALUE) and options of a formulation
- * (-f name:NAME=VALUE) are entries of such tables, in the order of their values. */
+/* Parameters set by the user: those of a case (--set NAME=VALUE) and options of a formulation (-f
+ * name:NAME=VALUE) are entries of such tables, in the order of their values. */
 #ifndef BEAMWORK_PARAMETER_H
 #define BEAMWORK_PARAMETER_H
 
 /* An entry. */
 typedef struct parameter_type {
     const char *name;    /* NULL ends the table */
-    const char *unit;    /* SI; "1" for a number, "" for a choice */
-    double value;        /* default; of a choice: its index */
-    double min, max;     /* inclusive; of a choice: unused */
+    const char *unit;    /* SI; "1" for a plain number, "" for a choice */
+    double value;        /* default; for a choice its index */
+    double min, max;     /* inclusive; not used for a choice */
     const char *choices; /* "shear_flow|printed|misprinted", or NULL for a number */
     const char *summary; /* one line */
 } parameter_type;
 
-/* Tables one after the other, so that entries which several have in common stand once; NULL after
- * the last one where they are fewer. */
+/* Consecutive tables, so that common entries are defined once; NULL after the last if there are
+ * fewer. */
 enum { PARAMETER_PARTS = 5 };
 
-/* Entries of all parts. */
+/* Number of entries of all parts. */
 int parameter_count(const parameter_type *const part[PARAMETER_PARTS]);
-/* NULL: after the last one. */
+/* NULL after the last one. */
 const parameter_type *parameter_at(const parameter_type *const part[PARAMETER_PARTS], int i);
-/* -1: there is none of that name. */
+/* Returns -1 when there is no entry of that name. */
 int parameter_index(const parameter_type *const part[PARAMETER_PARTS], const char *name);
 void parameter_defaults(const parameter_type *const part[PARAMETER_PARTS], double value[]);
-/* How many choices there are; 0: it is a number. */
+/* Number of choices; 0: the parameter is a number. */
 int parameter_choices(const parameter_type *);
 
 #endif

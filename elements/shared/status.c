@@ -1,12 +1,12 @@
-/* Outcomes and their words. */
+/* Names of statuses, and error messages. */
 #include "elements/shared/status.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A line that is too long loses its middle (of a long path): culprit and remedy are at its ends.
- */
+/* Shortens a line that is too long (with a long path) in the middle, because cause and remedy are
+ * at its ends. */
 static void shorten(const char *line, size_t length, char text[FAULT_TEXT])
 {
     static const char gap[] = " ... ";
@@ -19,7 +19,7 @@ static void shorten(const char *line, size_t length, char text[FAULT_TEXT])
 status fault_set(fault *f, status s, const char *format, ...)
 {
     if (f != NULL) {
-        enum { LONGEST = 8192 }; /* two paths and their words */
+        enum { LONGEST = 8192 }; /* room for two paths and the text */
         char line[LONGEST];
         va_list arguments;
         va_start(arguments, format);

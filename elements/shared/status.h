@@ -1,21 +1,21 @@
-/* Outcome of everything that can fail at run time.
+/* Outcome of functions that can fail at run time.
  *
- * A function that can fail returns a status; one that refuses what the user
- * gave also fills a fault: one line that names the culprit and the remedy.
- * Mistakes of a programmer are asserted instead. */
+ * A function that can fail returns a status. One that refuses user input also fills a fault with
+ * one line that names the cause and the remedy. Programming errors are caught by assertions
+ * instead. */
 #ifndef BEAMWORK_STATUS_H
 #define BEAMWORK_STATUS_H
 
-/* How it ended. */
+/* Outcome of a call. */
 typedef enum status {
     STATUS_OK,
-    STATUS_NOT_CONVERGED, /* an iteration ended without meeting its criterion */
-    STATUS_SINGULAR,      /* a matrix that must be invertible is not */
-    STATUS_REFUSED,       /* the input makes no sense or is not offered */
-    STATUS_FAULT,         /* file, disk or memory: not the fault of the physics */
-    STATUS_TIME_LIMIT,    /* stopped by the clock */
-    STATUS_NO_VALUE /* all went well, and the requested value does not exist: no such mode, load or
-                       state */
+    STATUS_NOT_CONVERGED, /* an iteration did not converge */
+    STATUS_SINGULAR,      /* a matrix that must be invertible is singular */
+    STATUS_REFUSED,       /* invalid or unsupported input */
+    STATUS_FAULT,         /* error of a file, the disk or memory */
+    STATUS_TIME_LIMIT,    /* stopped by a time limit */
+    STATUS_NO_VALUE /* no error, but the requested value does not exist: no such mode, load or state
+                     */
 } status;
 
 enum { FAULT_TEXT = 320 };
@@ -25,15 +25,15 @@ typedef struct fault {
     char text[FAULT_TEXT]; /* one line, no newline, '\0'-terminated */
 } fault;
 
-/* Writes the line into f (f may be NULL) and returns s, so that
- * `return fault_set(f, STATUS_REFUSED, "...", ...)` reads as one thought. */
+/* Writes the line into f (may be NULL) and returns s, so that `return fault_set(f, STATUS_REFUSED,
+ * "...", ...)` is one statement. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
 status
 fault_set(fault *f, status s, const char *format, ...);
 
-/* Returns from the function when a call failed: for functions that own nothing to free. */
+/* Returns from the function when a call failed; for functions that have nothing to free. */
 #define TRY(call)                                                                                  \
     do {                                                                                           \
         const status try_ = (call);                                                                \
@@ -41,8 +41,8 @@ fault_set(fault *f, status s, const char *format, ...);
             return try_;                                                                           \
     } while (0)
 
-/* "ok", "not_converged", "singular", "refused", "fault", "time_limit", "no_value": the words of the
- * result file. */
+/* "ok", "not_converged", "singular", "refused", "fault", "time_limit", "no_value": the words used
+ * in result files. */
 const char *status_name(status s);
 
 #endif

@@ -1,10 +1,10 @@
 /* First and second derivatives of the local coordinates, with respect to eleven rates along a path
- * of constant velocity and constant spatial spin: in frame axes the relative velocity v of q
- * against p, the spins P and Q of the nodes, and the rates of the two warping amplitudes.
+ * of constant velocity and constant spatial spin: in frame axes the velocity v of q relative to p,
+ * the spins P and Q of the nodes, and the rates of the two warping amplitudes.
  *
- * With w_F the spin of the frame, a vector fixed in space has the rate a x w_F in frame axes.  The
- * chord gives w_F,y = -v_z/l and w_F,z = v_y/l; that p does not twist against the frame gives
- * w_F,x.  Only the entries that are not zero are kept: which these are is the same in all states.
+ * With w_F the spin of the frame, a vector fixed in space has the rate a x w_F in frame axes. The
+ * chord gives w_F,y = -v_z/l and w_F,z = v_y/l; the condition that p does not twist relative to the
+ * frame gives w_F,x. Only nonzero entries are stored; their positions are the same in all states.
  */
 #ifndef BEAMWORK_SHEET_DEFORMATION_H
 #define BEAMWORK_SHEET_DEFORMATION_H
@@ -23,7 +23,7 @@ enum {
     SHEET_RATES
 };
 
-/* Rates that turn q against the frame about x and z: v_y, P_x, P_z, Q_x, Q_z. */
+/* Rates that rotate q relative to the frame about x and z: v_y, P_x, P_z, Q_x, Q_z. */
 enum { SHEET_RATE_MIXED = 5 };
 static const int sheet_rates_mixed[SHEET_RATE_MIXED] = {
     SHEET_RATE_V + 1, SHEET_RATE_P, SHEET_RATE_P + 2, SHEET_RATE_Q, SHEET_RATE_Q + 2};
@@ -33,7 +33,7 @@ typedef struct sheet_rates {
     real inverse, lean;            /* 1/l and tan(yp)/l: parts of w_F */
     real across[SHEET_RATE_MIXED]; /* cos(yq) w_x - sin(yq) w_z, w = Q - w_F */
     real px[SHEET_RATE_MIXED], zq[SHEET_RATE_MIXED];
-    real yq[SHEET_RATE_MIXED]; /* beside v_z/l and Q_y */
+    real yq[SHEET_RATE_MIXED]; /* in addition to v_z/l and Q_y */
     real zp_v, zp_p;           /* over v_y and P_z; u is v_x, yp is P_y + v_z/l */
 } sheet_rates;
 
@@ -73,13 +73,13 @@ static inline void sheet_rates_chain(const sheet_rates *r, const real e[SHEET_LO
     a[SHEET_RATE_WQ] = e[SHEET_LOCAL_WQ];
 }
 
-/* The blocks of a form in v, P, Q that are used: those on the diagonal and below. */
+/* The blocks of a form in v, P, Q that are used: those on and below the diagonal. */
 static inline int sheet_rates_used(int i, int j)
 {
     return j / 3 <= i / 3;
 }
 
-/* H[11 x 11] = R^T Q R as far as it is used, Q[8 x 8] symmetric, without u. */
+/* H[11 x 11] = R^T Q R in the used blocks, Q[8 x 8] symmetric, without u. */
 static inline void sheet_rates_congruence(const sheet_rates *r, const real Q[],
                                           real H[SHEET_RATES * SHEET_RATES])
 {
@@ -123,8 +123,8 @@ static inline void sheet_rates_weights(const sheet_local_state *s,
         g[SHEET_RATE_Q + i] = relative[i];
 }
 
-/* A = sum of w_F,i and row i of g x a for a = v, P, Q: vectors turn with the frame, g . (a x w_F) =
- * w_F . (g x a); and lengths change: d(1/l)/dt = -v_x/l^2 in v_y/l and v_z/l. */
+/* A = sum of w_F,i and row i of g x a for a = v, P, Q: vectors rotate with the frame, g . (a x w_F)
+ * = w_F . (g x a), and lengths change: d(1/l)/dt = -v_x/l^2 in v_y/l and v_z/l. */
 static inline void sheet_rates_turn(const sheet_local_state *s, const sheet_rates *r,
                                     const real g[SHEET_RATE_TURNS],
                                     real A[SHEET_RATE_TURNS][SHEET_RATE_TURNS])
@@ -145,7 +145,7 @@ static inline void sheet_rates_turn(const sheet_local_state *s, const sheet_rate
     A[SHEET_RATE_V][SHEET_RATE_V + 2] = -(g[SHEET_RATE_V + 2] / s->l);
 }
 
-/* H[11 x 11] += sum_k t_k d2q_k/dt2 as a symmetric form in the rates, as far as it is used. */
+/* H[11 x 11] += sum_k t_k d2q_k/dt2 as a symmetric form in the rates, in the used blocks. */
 static inline void sheet_rates_add_second(const sheet_local_state *s, const sheet_rates *r,
                                           const real t[SHEET_LOCAL_COORDINATES],
                                           real H[SHEET_RATES * SHEET_RATES])
@@ -214,7 +214,8 @@ static inline void sheet_rates_nodal_form(const sheet_local_state *s,
                                           const real H[SHEET_RATES * SHEET_RATES],
                                           real K[SHEET_LOCAL_NODAL * SHEET_LOCAL_NODAL])
 {
-    static const int place[3] = {7, 3, 10}; /* of v, P, Q; v is minus the motion of p too */
+    static const int place[3] = {
+        7, 3, 10}; /* positions of v, P, Q; v also enters as minus the motion of p */
     for (int a = 0; a < 3; a++)
         for (int b = 0; b <= a; b++) {
             real block[9], half[9], turned[9];

@@ -71,18 +71,17 @@ status sheet_potential_third(const sheet_potential *p, const double x[N], const 
 }
 
 /* A_ij = int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw + My_i My_j/EIy + Mz_i Mz_j/EIz + Fx_i
- * Fx_j/EA + Fz_i Fz_j/kGA] ds, b_i  = int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)' + My_i
- * phi_x u_y'' + Mz_i u_y'' - (Mx_i + B_i') kx - My_i ky - Mz_i kz] ds
- *        + (u + int u_y'^2/2 for F~x, yp for M~yp, yq for M~yq),
- * P0   = int [B_0' phi_x' + B_0 phi_x'' - B_0'^2/2GJ - B_0^2/2EIw - B_0' kx] ds,
- * with Mx, Mz of N Eq. 49, B_0 = EIw k0' the bimoment of the ends' twist rates, k0(0) = Wp, k0(L) =
- * Wq, and kx, ky, kz the initial torsion and curvatures (N Eq. 52).  By parts, with the twist rates
- * of sheet.h, int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw] ds = (L/GJ) lambda^2 int Mx_i g_j
- * dx, int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)'] ds = L int Mx_i (phi_x' - k0) dx, P0 =
- * (EIw/2L) int (lambda^2 k0^2 + k0'^2) dx - kx EIw [k0']. My_i phi_x u_y'' cancels the same term of
- * Mz_i u_y''. */
+ * Fx_j/EA + Fz_i Fz_j/kGA] ds, b_i = int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)' + My_i
+ * phi_x u_y'' + Mz_i u_y'' - (Mx_i + B_i') kx - My_i ky - Mz_i kz] ds + (u + int u_y'^2/2 for F~x,
+ * yp for M~yp, yq for M~yq), P0 = int [B_0' phi_x' + B_0 phi_x'' - B_0'^2/2GJ - B_0^2/2EIw - B_0'
+ * kx] ds, with Mx, Mz of N Eq. 49, B_0 = EIw k0' the bimoment due to the twist rates of the ends,
+ * k0(0) = Wp, k0(L) = Wq, and kx, ky, kz the initial torsion and curvatures (N Eq. 52). By parts,
+ * with the twist rates of sheet.h, int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw] ds = (L/GJ)
+ * lambda^2 int Mx_i g_j dx, int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)'] ds = L int Mx_i
+ * (phi_x' - k0) dx, P0 = (EIw/2L) int (lambda^2 k0^2 + k0'^2) dx - kx EIw [k0']. My_i phi_x u_y''
+ * cancels the same term of Mz_i u_y''. */
 
-/* Variables that the stress fields are affine in, as indices of v. */
+/* Variables in which the stress fields are affine, as indices of v. */
 enum {
     ONE,
     PX = 1 + SHEET_LOCAL_PX,
@@ -108,7 +107,7 @@ static const double corrected_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE +
 static const double printed_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
     {1}, {-1, 6, -9, 4}, {0, 2, -6, 4}, {0, 2, -6, 4}, {0, 0, -3, 4}};
 
-/* Bending: fields of one point, weighted. */
+/* Bending: fields of one point, with its weight. */
 static void add_bending(const element_request *r, double x, double ds, const sheet_fields *f,
                         sums *out)
 {
@@ -168,8 +167,8 @@ static void add_torsion(const element_request *r,
     out->P0[ONE][WP] = out->P0[ONE][WQ] = -kx * EIw / L * (integral.same + integral.other);
 }
 
-/* Amplitudes that are kept although nothing warps settle at Wp = Wq = px/L: the energy of N Eq. 34
- * in W - px/L alone. */
+/* If amplitudes are kept although there is no warping, they take the values Wp = Wq = px/L; uses
+ * the energy of N Eq. 34 in W - px/L. */
 static void add_idle_amplitudes(const element_request *r, sums *out)
 {
     const double L = r->length, k = r->section->shear_modulus * r->section->It * L / 30;

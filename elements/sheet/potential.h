@@ -21,7 +21,7 @@ enum { SHEET_TERMS_A = 96, SHEET_TERMS_B = 64, SHEET_TERMS_P0 = 12 };
 
 typedef struct sheet_potential {
     int terms_A, terms_b, terms_P0;
-    /* Terms are ordered by degree in x; where the linear and the quadratic ones begin. */
+    /* Terms are ordered by degree in x; first of the linear and of the quadratic ones. */
     int linear_A, quadratic_A, linear_b, quadratic_b, linear_P0, quadratic_P0;
     sheet_potential_term A[SHEET_TERMS_A], b[SHEET_TERMS_B], P0[SHEET_TERMS_P0];
 } sheet_potential;
@@ -31,8 +31,8 @@ typedef struct sheet_potential {
 status sheet_coefficients_prepare(const element_request *request, int printed, sheet_potential *out,
                                   fault *f);
 
-/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not needed.  SINGULAR when A is not positive
- * definite there. */
+/* P[1], its gradient[8] and Hessian[8 x 8] at x; may be NULL. SINGULAR: A is not positive definite
+ * there. */
 status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                                 double *P, double *gradient, double *hessian);
 
@@ -41,14 +41,14 @@ status sheet_potential_third(const sheet_potential *p, const double x[SHEET_LOCA
                              const double dx[SHEET_LOCAL_COORDINATES],
                              double T[SHEET_LOCAL_COORDINATES * SHEET_LOCAL_COORDINATES]);
 
-/* The potential at its stationary stresses with two derivatives, of one element or of several in
- * lanes.  Written as products of v = (1, x), it is a sum over the few terms that are not zero;
- * these are the same in all states. */
+/* The potential at its stationary stresses with two derivatives, for one element or several in
+ * lanes. As products of v = (1, x) it is a sum over a few nonzero terms, which are the same in all
+ * states. */
 
 enum { SHEET_STATIONARY_V = 1 + SHEET_LOCAL_COORDINATES };
 
-/* Everything at one x: v = (1, x), Cholesky factor of A, s = A^-1 b, W_i,a = d(b_i - (A s)_i)/dv_a
- * at fixed s, whose index 0 is no variable and not used. */
+/* Values at one x: v = (1, x), Cholesky factor of A, s = A^-1 b, W_i,a = d(b_i - (A s)_i)/dv_a at
+ * fixed s; index 0 is not a variable and is not used. */
 typedef struct sheet_stationary {
     real v[SHEET_STATIONARY_V], L[SHEET_STRESSES * SHEET_STRESSES], b[SHEET_STRESSES],
         s[SHEET_STRESSES], W[SHEET_STRESSES][SHEET_STATIONARY_V];
@@ -114,8 +114,8 @@ static inline void sheet_stationary_add_half_work(const sheet_stationary *at,
 }
 
 /* Terms of P at fixed stresses: g += d(P0 + b.s - s^T A s/2)/dv, h += its second derivatives with
- * row <= column; W completed.  s.b,a - s^T A,a s/2 is half of s.W_a before and after A,a s is taken
- * from W.  Index 0 is no variable: its entries are not used. */
+ * row <= column; W completed. s.b,a - s^T A,a s/2 is the mean of s.W_a before and after A,a s is
+ * subtracted from W. Index 0 is not a variable; its entries are not used. */
 static inline void sheet_stationary_add_explicit(const sheet_potential *p, sheet_stationary *at,
                                                  real g[SHEET_STATIONARY_V], real h[])
 {
@@ -173,10 +173,9 @@ static inline real sheet_stationary_value(const sheet_potential *p, const sheet_
     return P;
 }
 
-/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not needed.  Returns where A is positive
- * definite; where it is nowhere, nothing is written.
- * P,k = P0,k + s.b,k - s^T A,k s/2,
- * P,kl = P0,kl + s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l s). */
+/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not needed. Returns where A is positive
+ * definite; if it is nowhere, nothing is written. P,k = P0,k + s.b,k - s^T A,k s/2, P,kl = P0,kl +
+ * s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l s). */
 static inline real_truth sheet_stationary_evaluate(const sheet_potential *p,
                                                    const real x[SHEET_LOCAL_COORDINATES], real *P,
                                                    real *gradient, real *hessian)
@@ -211,13 +210,13 @@ static inline real_truth sheet_stationary_evaluate(const sheet_potential *p,
 
 /* The stress function of the third-order elements in the generalized strains, of one element or of
  * several in lanes: N Eqs. 58-65, x = scale e + 1/2 e^T X e inverts the deformation function to
- * second order.  Of X only u and the angles about y have terms: u products of e5 and e6, the angles
+ * second order. Only u and the angles about y have terms in X: u products of e5 and e6, the angles
  * products of one of these and e2, e7 or e8. */
 
 enum { SHEET_INVERSE_CURVED = 3, SHEET_INVERSE_BENT = 2, SHEET_INVERSE_TWISTED = 3 };
 
-/* Local coordinates whose inverse is quadratic (N Eqs. 58, 60, 61), and the strains, from 0, in
- * their products. */
+/* Local coordinates with a quadratic inverse (N Eqs. 58, 60, 61), and the strains in their
+ * products, numbered from 0. */
 static const int sheet_inverse_curved[SHEET_INVERSE_CURVED] = {SHEET_LOCAL_U, SHEET_LOCAL_YP,
                                                                SHEET_LOCAL_YQ},
                  sheet_inverse_bent[SHEET_INVERSE_BENT] = {4, 5},
@@ -229,7 +228,7 @@ typedef struct sheet_inverse_data {
     double bending; /* L^2/EIz [1/N] */
     double scale[SHEET_STRAINS];
     double X[SHEET_INVERSE_CURVED][SHEET_STRAINS * SHEET_STRAINS];
-    /* Potential and stress of N Eq. 52 in the stress-free element; they are subtracted. */
+    /* Potential and stress of N Eq. 52 in the stress-free element, which are subtracted. */
     double rest_energy, rest_stress[SHEET_STRAINS]; /* [J], [N] */
 } sheet_inverse_data;
 
@@ -238,8 +237,7 @@ static inline const sheet_inverse_data *sheet_inverse_of(const element_data *d)
     return (const sheet_inverse_data *)(const void *)d;
 }
 
-/* The rows X e that dx/de has beside its diagonal, and 1/2 e^T X e; entries that are zero are not
- * written. */
+/* The rows X e of dx/de besides its diagonal, and 1/2 e^T X e; zero entries are not written. */
 static inline void sheet_inverse_row(const double X[SHEET_STRAINS * SHEET_STRAINS], int angle,
                                      const real e[SHEET_STRAINS], real row[SHEET_STRAINS])
 {
@@ -256,7 +254,7 @@ static inline void sheet_inverse_row(const double X[SHEET_STRAINS * SHEET_STRAIN
     }
 }
 
-/* x(e), of strains counted from the undeformed arc. */
+/* x(e) for strains measured from the undeformed arc. */
 static inline void sheet_inverse_point(const sheet_inverse_data *d, const real e[SHEET_STRAINS],
                                        real x[SHEET_STRAINS],
                                        real row[SHEET_INVERSE_CURVED][SHEET_STRAINS])
@@ -325,8 +323,7 @@ static inline void sheet_inverse_second(const sheet_inverse_data *d,
     }
 }
 
-/* As element_type.stress.  Returns where it can be evaluated; where it is nowhere, nothing is
- * written. */
+/* As element_type.stress. Returns where it can be evaluated; if nowhere, nothing is written. */
 static inline real_truth sheet_inverse_stress(const sheet_inverse_data *d,
                                               const real e[SHEET_STRAINS], stress_real *out)
 {
@@ -357,8 +354,8 @@ static inline real_truth sheet_inverse_stress(const sheet_inverse_data *d,
     return good;
 }
 
-/* The stress function of the second-order elements, linear but for the Wagner torque, of one
- * element or of several in lanes. */
+/* The stress function of the second-order elements, linear except for the Wagner torque, for one
+ * element or several in lanes. */
 
 /* As element_type.stress. */
 static inline void sheet_linear_stress(const sheet_base_data *d, const real e[SHEET_STRAINS],

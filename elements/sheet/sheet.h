@@ -12,12 +12,12 @@
 /* Local coordinates of a two-node beam that is simply supported in its own frame (N Eqs. 12, 40,
  * 42).
  *
- * The frame F = (n, j, k): n from p to q, j across n and the z axis of p, k = n x j.  In it the
- * nodes' triads are F^T R^p = Ry(yp) Rz(zp) and F^T R^q = Ry(yq) Rz(zq) Rx(px).
+ * The frame F = (n, j, k): n from p to q, j normal to n and to the z axis of p, k = n x j. In it
+ * the nodes' triads are F^T R^p = Ry(yp) Rz(zp) and F^T R^q = Ry(yq) Rz(zq) Rx(px).
  *
  * Derivatives are taken with respect to eleven rates along a path of constant velocity and constant
- * spatial spin: in frame axes the relative velocity v of q against p, the spins P and Q of the
- * nodes, and the rates of the two warping amplitudes. */
+ * spatial spin: in frame axes the velocity v of q relative to p, the spins P and Q of the nodes,
+ * and the rates of the two warping amplitudes. */
 
 /* u elongation [m]; angles [rad] of N, x twist, y and z bending; W warping amplitudes [rad/m] */
 enum {
@@ -40,8 +40,8 @@ typedef struct sheet_local_state {
     real tan_yp, sec_yp, cos_yq, sin_yq, tan_zq, sec_zq;
 } sheet_local_state;
 
-/* chord: initial distance of the nodes [m], from which the elongation is counted.  F^T R^p =
- * Ry(yp) Rz(zp), whose first row is n seen from p, and F^T R^q = Ry(yq) Rz(zq) Rx(px). */
+/* chord: initial distance of the nodes [m], from which the elongation is measured. F^T R^p = Ry(yp)
+ * Rz(zp), whose first row is n in the axes of p, and F^T R^q = Ry(yq) Rz(zq) Rx(px). */
 static inline void sheet_local_of(double chord, const node_real x[2], sheet_local_state *out)
 {
     const real *p = x[0].R, *q = x[1].R;
@@ -92,17 +92,17 @@ typedef struct sheet_fields {
     double phi_z[SHEET_LOCAL_COORDINATES], dphi_z[SHEET_LOCAL_COORDINATES];
 } sheet_fields;
 
-/* 1: phi_x is cubic (N Eq. 19); 0: where nothing warps or no amplitude is requested it is linear.
- */
+/* Returns 1 when phi_x is cubic (N Eq. 19); 0 when it is linear, because there is no warping or no
+ * amplitude is requested. */
 int sheet_fields_warp(const element_request *request);
 
 /* At s = x l0.  Phi_y, Phi_z: N Eq. 18.  warp: as sheet_fields_warp says. */
 sheet_fields sheet_fields_at(double l0, double x, double Phi_y, double Phi_z, int warp);
 
 /* Deformation functions of N's elements: eight generalized strains, quadratic in the local
- * coordinates, e_i = (Lambda q)_i + 1/2 q^T Q_i q (N Eq. 37), less those of the element free of
- * stress: its nodes along an arc of constant torsion and curvature, initial elongation and shear
- * included.  (The linear initial stresses of N Eq. 52 are not free of stress there:
+ * coordinates, e_i = (Lambda q)_i + 1/2 q^T Q_i q (N Eq. 37), minus those of the stress-free
+ * element, whose nodes are on an arc of constant torsion and curvature, with initial elongation and
+ * shear. (With the linear initial stresses of N Eq. 52 that element is not stress-free:
  * reference/ERRATA.md.) */
 
 enum {
@@ -112,24 +112,24 @@ enum {
 };
 
 typedef struct sheet_strains_table {
-    double chord;   /* of the undeformed arc [m] */
-    double torsion; /* initial: amplitudes of the nodes are twist rates beyond it [rad/m] */
-    double rest[SHEET_STRAINS]; /* of the element free of stress, which the strains are less [m] */
+    double chord; /* of the undeformed arc [m] */
+    double
+        torsion; /* initial torsion, from which the amplitudes of the nodes are measured [rad/m] */
+    double rest[SHEET_STRAINS]; /* strains of the stress-free element, which are subtracted [m] */
     double Lambda[SHEET_STRAINS * SHEET_LOCAL_COORDINATES]; /* [m per coordinate] */
-    int terms; /* Q_i jk and Q_i kj, j <= k, that are not zero; Q_7 = Q_8 = Q_2 are not listed */
+    int terms; /* nonzero Q_i jk and Q_i kj, j <= k; Q_7 = Q_8 = Q_2 are not listed */
     struct {
         double c;
         int i, j, k;
     } term[SHEET_STRAINS_TERMS];
 } sheet_strains_table;
 
-/* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, where
- * shear is omitted; the section's own: consistent with shear (derived here). Features: warping,
- * trapeze. */
+/* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, without
+ * shear; those of the section: consistent with shear (derived here). Features: warping, trapeze. */
 status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
                              sheet_strains_table *out, fault *f);
 
-/* Counts the strains from the element free of stress. */
+/* Measures the strains from the stress-free element. */
 void sheet_strains_set_rest(const element_request *request, sheet_strains_table *out);
 
 /* As element_type.strain. */
@@ -148,9 +148,9 @@ void sheet_elastic_stiffness(const section *c, double l0, double Phi_y, double P
 
 /* Nonuniform torsion of an element (N Eq. 51), in x = s/L with lambda = L sqrt(GJ/EIw).
  *
- * A torque t(x) beside which the twist rate vanishes at both ends twists by kappa = (lambda^2/GJ)
- * g, lambda^2 g - g'' = t, g(0) = g(1) = 0; its bimoment is L g' (N App. B, with M_x as given).
- * Twist rates Wp, Wq of the ends without torque are kappa = Wp h_p + Wq h_q, h_q = sinh(lambda
+ * With zero twist rate at both ends, a torque t(x) causes the twist rate kappa = (lambda^2/GJ) g,
+ * lambda^2 g - g'' = t, g(0) = g(1) = 0; its bimoment is L g' (N App. B, with M_x as given). Twist
+ * rates Wp, Wq of the ends without torque are kappa = Wp h_p + Wq h_q, h_q = sinh(lambda
  * x)/sinh(lambda), h_p(x) = h_q(1 - x).
  *
  * Integrated by parts, the Hellinger-Reissner potential of N Eq. 44 needs the bimoment only in the
@@ -162,14 +162,15 @@ enum { SHEET_TORSION_PX, SHEET_TORSION_WP, SHEET_TORSION_WQ, SHEET_TORSION_TWIST
 typedef struct sheet_torsion_integrals {
     double compliance[SHEET_TORSION_MODES]
                      [SHEET_TORSION_MODES]; /* lambda^2 int t_k g_l dx, symmetric */
-    /* int t_k (phi' - h) dx: twist rate per px/L, Wp, Wq in N Eq. 19 less that of the ends without
+    /* int t_k (phi' - h) dx: twist rate per px/L, Wp, Wq in N Eq. 19 minus that of the ends without
      * torque */
     double work[SHEET_TORSION_MODES][SHEET_TORSION_TWISTS];
-    double same, other; /* h_p against itself and against h_q in int (lambda^2 h h + h' h') dx */
+    double same,
+        other; /* products of h_p with itself and with h_q: int (lambda^2 h h + h' h') dx */
 } sheet_torsion_integrals;
 
-/* Torque modes t_k(x) = sum_i t[k][i] x^i, whole numbers.  lambda INFINITY: nothing warps, the
- * twist of phi_x is uniform. */
+/* Torque modes t_k(x) = sum_i t[k][i] x^i, integers. lambda INFINITY: no warping, the twist of
+ * phi_x is uniform. */
 void sheet_torsion_integrate(double lambda,
                              const double t[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1],
                              sheet_torsion_integrals *out);
@@ -185,11 +186,10 @@ typedef struct sheet_wagner_term {
     double rate[SHEET_WAGNER_POINTS][SHEET_WAGNER_STRAINS]; /* kx per e2, e7, e8 [1/m^2] */
 } sheet_wagner_term;
 
-/* Inactive without FEATURE_WAGNER_TORQUE; refuses initial torsion beside it. */
+/* Inactive without FEATURE_WAGNER_TORQUE; refuses a combination with initial torsion. */
 status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f);
 
-/* Adds to energy[1], sigma[8], C[8 x 8], of one element or of several in lanes; NULL: not needed.
- */
+/* Adds to energy[1], sigma[8], C[8 x 8] (each may be NULL), for one element or several in lanes. */
 static inline void sheet_wagner_add(const sheet_wagner_term *w, const real e[SHEET_STRAINS],
                                     real *energy, real *sigma, real *C)
 {
@@ -211,8 +211,9 @@ static inline void sheet_wagner_add(const sheet_wagner_term *w, const real e[SHE
     }
 }
 
-/* Strains and stresses of several sheet elements at once, the bits of one element at a time; of
- * each two, the second for processors with AVX2 (elements/math/real.h). Members of element_type. */
+/* Strains and stresses of several sheet elements at once, bit-for-bit as for single elements. The
+ * second function of each pair is for processors with AVX2 (elements/math/real.h). Members of
+ * element_type. */
 
 typedef void sheet_lanes_strains(int count, const element_data *const data[], const node_state x[],
                                  strain_output out[]);
@@ -235,7 +236,7 @@ sheet_lanes_equations sheet_lanes_third_equations_plain, sheet_lanes_third_equat
  * torque and mass. */
 
 typedef enum sheet_base_shear {
-    SHEET_BASE_PRINTED,   /* N Eq. 37: shear is omitted from the strains */
+    SHEET_BASE_PRINTED,   /* N Eq. 37: strains without shear */
     SHEET_BASE_CONSISTENT /* the same integrals of the whole linear solution (derived here) */
 } sheet_base_shear;
 
@@ -246,7 +247,7 @@ typedef struct sheet_base_data {
     sheet_wagner_term wagner;
 } sheet_base_data;
 
-/* Features and restrictions that are common to all of them. */
+/* Features and restrictions common to all of them. */
 enum {
     SHEET_BASE_OFFERS = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE |
                         FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA |
@@ -267,7 +268,8 @@ status sheet_base_inertia(const element_data *d, const node_state x[],
 int sheet_base_mass_of_field(const double options[]);
 element_order sheet_base_order(element_analysis, const double options[]);
 
-/* In an element_type: what every sheet element has; and those whose strains see no shear. */
+/* For element_type: members common to all sheet elements, and to those whose strains have no shear.
+ */
 #define SHEET_BASE_TYPE                                                                            \
     .family = "sheet", .abi = ELEMENT_ABI, .order = sheet_base_order, .strain = sheet_base_strain, \
     .inertia = sheet_base_inertia, .spreads = 1, .mass_of_field = sheet_base_mass_of_field,        \
@@ -301,7 +303,7 @@ void sheet_second_equations_many(int count, const element_data *const data[], co
  * are integrated once per section and length. */
 
 size_t sheet_third_data_size(const element_request *request);
-/* printed: 1 takes the sign of u_y as printed in N Eq. 49. */
+/* printed: 1 uses the sign of u_y as printed in N Eq. 49. */
 status sheet_third_prepare(const element_request *request, int printed, element_data *out,
                            fault *f);
 status sheet_third_stress(const element_data *d, const double e[], const double inner[],

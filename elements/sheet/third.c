@@ -18,7 +18,7 @@ size_t sheet_third_data_size(const element_request *request)
 static void partial_inverse(double L, int warp, sheet_inverse_data *d)
 {
     static const struct {
-        int row, i, j; /* strains counted from 1 */
+        int row, i, j; /* strains, numbered from 1 */
         double c;      /* times 1/L for u, 1/L^2 for the angles */
     } term[] = {{0, 5, 5, -2.0 / 30}, {0, 5, 6, -1.0 / 30}, {0, 6, 6, -2.0 / 30},
                 {1, 2, 5, 1.0 / 10},  {1, 2, 6, 2.0 / 10},  {1, 7, 5, 1.0 / 10},
@@ -56,7 +56,7 @@ void sheet_third_equations_many(int count, const element_data *const data[], con
     REAL_CHOSEN(sheet_lanes_third_equations)(count, data, x, e, inner, s, out, outcome);
 }
 
-/* Sets the remainder of N Eq. 52 in the undeformed arc: energy and stresses at e = 0. REFUSED: its
+/* Sets the remainder of N Eq. 52 in the undeformed arc: energy and stresses at e = 0. REFUSED: the
  * initial curvature is too large. */
 static status set_rest(const element_request *request, sheet_inverse_data *out, fault *f)
 {
@@ -103,8 +103,8 @@ double sheet_third_tension(const element_data *data, const double sigma[])
     return sigma[0] > 0 ? sqrt(sigma[0] * d->bending / most) : 0;
 }
 
-/* At e = 0 along the strain v whose stress is sigma: x' = (dx/de) v, (dx/de)' = X v, C' by the
- * product rule. */
+/* At e = 0, derivative along the strain v with stress sigma: x' = (dx/de) v, (dx/de)' = X v, C' by
+ * the product rule. */
 void sheet_third_geometric(const element_data *data, const double sigma[], double G[])
 {
     const sheet_inverse_data *d = sheet_inverse_of(data);

@@ -6,8 +6,8 @@
 
 enum { COEFFICIENTS = SHEET_TORSION_DEGREE + 1, POINTS = 16, LOADS = SHEET_TORSION_MODES + 2 };
 
-/* Below, the closed form would cancel like lambda^-4; above, the kernel has boundary layers that
- * few points miss. */
+/* Below this lambda the closed form would lose digits as lambda^-4; above it the kernel has
+ * boundary layers that quadrature would need many points for. */
 static const double closed_from = 6;
 
 /* phi_x' per px/L, Wp, Wq (N Eq. 19), and h_p, h_q for lambda -> 0. */
@@ -24,7 +24,7 @@ static double second(const double t[COEFFICIENTS], double x)
     return 2 * t[2] + 6 * t[3] * x;
 }
 
-/* int a b dx, rounded once: 420/(n + 1) is whole for every power n <= 6. */
+/* int a b dx with a single rounding: 420/(n + 1) is an integer for every power n <= 6. */
 static double integral_of_product(const double a[COEFFICIENTS], const double b[COEFFICIENTS])
 {
     double sum = 0;
@@ -36,7 +36,7 @@ static double integral_of_product(const double a[COEFFICIENTS], const double b[C
     return sum / 420;
 }
 
-/* int t h_q dx (end 1) or int t h_p dx (end 0): twice by parts with h'' = lambda^2 h. */
+/* int t h_q dx (end 1) or int t h_p dx (end 0): two integrations by parts with h'' = lambda^2 h. */
 static double end_integral(double lambda, const double t[COEFFICIENTS], int end)
 {
     const double decay = exp(-lambda), scale = -expm1(-2 * lambda),
@@ -47,7 +47,7 @@ static double end_integral(double lambda, const double t[COEFFICIENTS], int end)
     return (lambda * (near * coth - far * csch) - (end == 1 ? slope : -slope)) / l2;
 }
 
-/* lambda^2 g = t + t''/lambda^2 less its end values times h_p, h_q. */
+/* lambda^2 g = t + t''/lambda^2 minus its end values times h_p, h_q. */
 static void closed(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIENTS],
                    sheet_torsion_integrals *out)
 {
@@ -67,7 +67,8 @@ static void closed(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIEN
 }
 
 /* Green's function sinh(lambda y) sinh(lambda (1 - x))/(lambda sinh(lambda)), y < x, over the
- * triangle y = x z.  It also gives the ends: chord - h solves lambda^2 g - g'' = lambda^2 chord. */
+ * triangle y = x z. It also gives the end functions: chord - h solves lambda^2 g - g'' = lambda^2
+ * chord. */
 static void by_quadrature(double lambda, const double t[SHEET_TORSION_MODES][COEFFICIENTS],
                           const double point[POINTS], const double weight[POINTS],
                           sheet_torsion_integrals *out)

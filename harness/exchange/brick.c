@@ -9,8 +9,8 @@
 
 enum { BRICK_NODES = 20, DECK_LINE = 10 };
 
-/* Corners, then middles of the edges of the lower face, of the upper face and between them, in
- * half steps. */
+/* Corners, then mid-edge nodes of the lower face, of the upper face and between them, in half
+ * steps. */
 static const int places[BRICK_NODES][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2},
                                            {2, 0, 2}, {2, 2, 2}, {0, 2, 2}, {1, 0, 0}, {2, 1, 0},
                                            {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2}, {1, 2, 2},
@@ -66,19 +66,19 @@ int brick_next_element(const brick *b)
     return b->first_element + b->elements[BRICK_ALONG] * filled;
 }
 
-/* Place `at` of the lattice along the member, from 0 to 1. */
+/* Fraction of the member at lattice position `at`, from 0 to 1. */
 static double share(int at, int n)
 {
     return (face_graded(at / 2, n) + face_graded((at + 1) / 2, n)) / 2;
 }
 
-/* Place `at` of the lattice along an axis of the face [m]. */
+/* Coordinate of lattice position `at` along an axis of the face [m]. */
 static double across(const double corner[], int at)
 {
     return (corner[at / 2] + corner[(at + 1) / 2]) / 2;
 }
 
-/* Is there a brick at this place of the face? */
+/* Is there a brick at this position of the face? */
 static int is_filled(const face *s, int y, int z)
 {
     for (int i = (y - 1) / 2; i <= y / 2; i++)
@@ -88,7 +88,7 @@ static int is_filled(const face *s, int y, int z)
     return 0;
 }
 
-/* A place between corners in two directions has no node. */
+/* A position between corners in two directions has no node. */
 static int has_node(const brick *b, const int at[3])
 {
     return at[0] % 2 + at[1] % 2 + at[2] % 2 < 2 && is_filled(&b->face, at[BRICK_Y], at[BRICK_Z]);
@@ -110,7 +110,7 @@ static void write_node(const brick *b, const int at[3], FILE *to)
     fprintf(to, "%d,%.12e,%.12e,%.12e\n", number_of(b, at), p[0], p[1], p[2]);
 }
 
-/* Function that is called for every node of the lattice from `first` to `last` along the member. */
+/* Called for every node of the lattice from `first` to `last` along the member. */
 typedef void visit(const brick *, const int at[3], FILE *to);
 static void each_node(const brick *b, int first, int last, visit *what, FILE *to)
 {
@@ -162,7 +162,7 @@ void brick_write_elements(const brick *b, FILE *to)
 
 enum { SHEET_RATIO = 4, SHEET_ACROSS = 8, ACROSS = 2, MOST_LINES = 2 * SECTION_MAX_WALLS };
 
-/* Lengths of a section that are closer to each other, relative to its size, are one. */
+/* Coordinates of a section closer than this, relative to its size, are equal. */
 static const double same = 1e-9;
 
 /* A wall as a rectangle: its least and largest y and z in wall coordinates. */
@@ -195,7 +195,7 @@ static void fill_rectangle(const section_spec *spec, face *out)
         memset(out->filled[i], 1, (size_t)out->elements[1]);
 }
 
-/* The axis that the wall is along; -1: it is oblique. */
+/* Axis along which the wall runs; -1: it is oblique. */
 static int axis_of(const section_spec *spec, int wall)
 {
     const double *p = spec->point[spec->wall[wall].from], *q = spec->point[spec->wall[wall].to];
@@ -239,7 +239,7 @@ static int ascending(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* The sides of all strips along an axis, each once, ascending; their number. */
+/* Sides of all strips along an axis, without duplicates, ascending; returns their number. */
 static int lines_of(const strip strips[], int count, int axis, double line[MOST_LINES])
 {
     int lines = 0;
@@ -312,7 +312,7 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
     return STATUS_OK;
 }
 
-/* Does the description replace what its sizes come to? */
+/* Do given constants replace those computed from the sizes? */
 static int is_overridden(const section_spec *spec)
 {
     double given[sizeof spec->given / sizeof(double)];

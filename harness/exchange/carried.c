@@ -90,8 +90,8 @@ static int held_rotations(const scene_node *n)
     return held;
 }
 
-/* A rotation node has a rotation vector: increments about fixed axes are the same where nothing is
- * fixed, all is, or one axis is left. */
+/* A rotation node has a rotation vector. Increments about fixed axes are the same only if no
+ * rotation, all rotations, or all but one are fixed. */
 static status check_node(const scene *s, int node, fault *f)
 {
     const scene_node *n = &s->node[node];
@@ -183,7 +183,7 @@ status carried_check(const scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Refuses a quantity of the scene that a deck of solids cannot evaluate. */
+/* REFUSED: a deck of solids cannot evaluate the quantity. */
 
 static status refuse(const scene_quantity *q, const char *why, fault *f)
 {
@@ -205,7 +205,8 @@ static status check_component(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* CalculiX forgets a state after a linear step about it: one at the end of the path. */
+/* CalculiX loses the state after a linear step about it, so that this step must come last: about
+ * the end of the path. */
 static status check_last(const scene *s, const scene_quantity *q, fault *f)
 {
     const int about = s->analysis[q->analysis].follows;
@@ -229,7 +230,8 @@ static status check_last(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* About a loaded state a rotation vector's stiffness is that of no convention of moments. */
+/* About a loaded state the stiffness of a rotation vector corresponds to no convention of moments.
+ */
 static status check_entry(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_entry *e = scene_entry_of(q);

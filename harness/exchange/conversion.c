@@ -139,7 +139,7 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
 
 const axes axes_same = {{0, 1, 2}, {1, 1, 1}};
 
-/* "x=-z" into the entry of x; what follows, or NULL. */
+/* Reads "x=-z" into the entry of x; returns the rest of the text, or NULL. */
 static const char *read_one(const char *at, axes *out, int *seen)
 {
     at += strspn(at, " ");
@@ -173,7 +173,8 @@ static int determinant(const axes *a)
     return (even ? 1 : -1) * a->sign[0] * a->sign[1] * a->sign[2];
 }
 
-/* A component of theirs in our axes; rotations and moments change sign with a reflection too. */
+/* A component of the other program in beamwork's axes; rotations and moments also change sign in a
+ * reflection. */
 static int component_of(const axes *a, int theirs, int *sign)
 {
     const int turns = theirs >= SCENE_RX, axis = turns ? theirs - SCENE_RX : theirs - SCENE_UX;
@@ -186,8 +187,8 @@ static int *word_in(const entry_field *k, scene_quantity *q)
     return (int *)((char *)q + k->at);
 }
 
-/* Rotates the extracted component into beamwork's axes; components in axes of the section, or
- * without axes, stay. Returns 1 where it has axes. */
+/* Transforms the extracted component to beamwork's axes; components in axes of a section, or
+ * without axes, do not change. Returns 1 when it has axes. */
 static int turn_extract(const axes *a, scene_quantity *q, int *sign)
 {
     int turns = 0;
@@ -204,8 +205,8 @@ static int turn_extract(const axes *a, scene_quantity *q, int *sign)
     return turns;
 }
 
-/* The largest value of what turns its sign is the least one, a level that it rises through it falls
- * through; a time has no sign. */
+/* A change of sign turns a maximum into a minimum and a rising crossing into a falling one; a time
+ * has no sign. */
 static void turn_reduction(scene_quantity *q, int *sign)
 {
     static const scene_reduction other[SCENE_REDUCTIONS] = {[SCENE_MAX] = SCENE_MIN,

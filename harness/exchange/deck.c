@@ -18,7 +18,7 @@ status deck_check(const deck_request *r, fault *f)
     return carried_asked_check(r->scene, f);
 }
 
-/* Bricks of all members; bodies: the numbers after the last one. */
+/* Bricks of all members; numbers of bodies follow those of the bricks. */
 static status make_bricks(const deck_request *r, brick out[], body_numbers *bodies, fault *f)
 {
     int node = 1, element = 1;
@@ -40,8 +40,8 @@ static void write_deck_head(const deck_request *r, int elements, FILE *to)
             r->scene->name, r->of, elements);
 }
 
-/* Writes the convention of moments. About the undeformed structure, the only state in which decks
- * have moments, all conventions agree. */
+/* Writes the convention of moments. Decks have moments only about the undeformed structure, where
+ * all conventions agree. */
 static void write_convention(const scene *s, FILE *to)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -76,7 +76,8 @@ static void write_mesh(const scene *s, const brick bricks[], const body_numbers 
     body_write(bodies, s, bricks, to);
 }
 
-/* How far the area of each solid is from that of its beam: walls overlap where they meet. */
+/* Difference of the area of each solid from that of its beam, because walls overlap where they
+ * meet. */
 static status write_areas(const scene *s, const brick bricks[], FILE *to, fault *f)
 {
     for (int i = 0; i < s->members; i++) {
@@ -115,8 +116,8 @@ status deck_write(const deck_request *r, FILE *to, fault *f)
 
 enum { COMPONENTS = 6, TRANSLATIONS = 3 };
 
-/* Newton's iterations stop at 1e-7 of the mean force and of the largest displacement (CalculiX by
- * itself: 5e-3 and 1e-2). */
+/* Newton's iterations stop at 1e-7 of the mean force and of the largest displacement (defaults of
+ * CalculiX: 5e-3 and 1e-2). */
 #define CONTROLS "*CONTROLS,PARAMETERS=FIELD\n1e-7,1e-7\n"
 #define PRINTS   "*NODE PRINT,NSET=BODIES,FREQUENCY=1000\nU,RF\n*END STEP\n"
 
@@ -124,10 +125,10 @@ typedef struct answers_writer {
     const scene *s;
     const body_numbers *bodies;
     FILE *to;
-    int steps; /* written so far */
+    int steps; /* number of steps written so far */
 } answers_writer;
 
-/* Loads on the same coordinate are one card. */
+/* Loads on the same coordinate are combined to one card. */
 static void write_structure_loads(const answers_writer *w, double path)
 {
     fputs("*CLOAD,OP=NEW\n", w->to);
@@ -145,7 +146,7 @@ static void write_structure_loads(const answers_writer *w, double path)
         }
 }
 
-/* increments: first try for the step; 0: linear. */
+/* increments: first trial of the step; 0: linear. */
 static void write_state(answers_writer *w, double path, int increments)
 {
     if (increments > 0)
@@ -159,8 +160,8 @@ static void write_state(answers_writer *w, double path, int increments)
     w->steps++;
 }
 
-/* A unit load on a component of the compliance's node, about the undeformed structure or the state
- * before. */
+/* A unit load on a component of the compliance's node, about the undeformed structure or the
+ * previous state. */
 static void write_unit_load(answers_writer *w, const scene_analysis *a, int component)
 {
     const scene_compliance *c = scene_compliance_of(a);
@@ -172,7 +173,7 @@ static void write_unit_load(answers_writer *w, const scene_analysis *a, int comp
     w->steps++;
 }
 
-/* Where the answer to a quantity is printed, in the step written last. */
+/* Position of the printed value of a quantity, in the last step. */
 typedef struct printed {
     const char *what;
     int node, component, reciprocal;
@@ -319,7 +320,7 @@ static int mover(const scene_node *n, int component)
     return turn == axis ? n->angle[0] : SCENE_HELD;
 }
 
-/* path NULL: a small motion, in which they stay. */
+/* path NULL: a small motion, in which prescribed coordinates do not move. */
 static void write_boundary(const body_numbers *b, const scene *s, const double *path, int node,
                            unsigned released, FILE *to)
 {
@@ -346,7 +347,8 @@ void body_write_held(const body_numbers *b, const scene *s, int node, unsigned r
     write_boundary(b, s, NULL, node, released, to);
 }
 
-/* Sorted, each once; values that are not between path 0 and the last station are omitted. */
+/* Inserts a value in order, without duplicates; ignores values outside path 0 to the last station.
+ */
 static void insert(path_points *p, double value, double last)
 {
     int at = p->count;

@@ -12,7 +12,7 @@ static const scene *scene_of(const import_block *b)
     return b->point >= 0 ? &b->set->sweep.point[b->point].scene : NULL;
 }
 
-/* Where mistakes about a value are. */
+/* Line for error messages about a value. */
 static int line_of(const import_block *b, const imported_row *row)
 {
     return b->at > 0 ? b->at : row->line;
@@ -28,7 +28,7 @@ void import_block_free_set(import_set *set)
     set->scenes = 0;
 }
 
-/* The case of a scene file that stands beside the imported one; NULL after a mistake. */
+/* The case of a scene file next to the imported file; NULL after an error. */
 static const case_type *scene_case(import_block *b, const char *name, int line)
 {
     char path[IMPORT_TEXT + 4096];
@@ -62,7 +62,7 @@ static int ends_in(const char *name, const char *ending)
     return length > size && strcmp(name + length - size, ending) == 0;
 }
 
-/* The point of the sweep with these parameters, made where there is none; -1 after a mistake. */
+/* The point of the sweep with these parameters, created if necessary; -1 after an error. */
 static int point_of(import_block *b, const case_type *type, const double value[], int line)
 {
     sweep *s = &b->set->sweep;
@@ -109,7 +109,7 @@ static int find_point(import_block *b, const char *of, int line)
     return -1;
 }
 
-/* The moments of the compliances of a scene; -1: it has none. */
+/* Convention of moments of the compliances of a scene; -1: none. */
 static int moments_of(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -217,7 +217,7 @@ static void check_row(const import_block *b, const imported_row *row, const scen
                      q->name);
 }
 
-/* In our axes and units; 0 after a mistake. */
+/* Converts to beamwork's axes and units; returns 0 after an error. */
 static int convert(const import_block *b, const scene_quantity *q, imported_row *row)
 {
     int sign = 1;
@@ -239,7 +239,7 @@ static int convert(const import_block *b, const scene_quantity *q, imported_row 
     return 1;
 }
 
-/* In the order of their cells, so that what is given twice stands together. */
+/* Values are in the order of their cells, so that duplicates are adjacent. */
 static void check_again(const import_block *b)
 {
     const imported *all = b->found;
@@ -297,7 +297,7 @@ status import_block_close(import_block *b, fault *f)
     return outcome;
 }
 
-/* Nothing is known of another program's order. */
+/* The order of another program is unknown. */
 static element_order any_order(element_analysis analysis, const double options[])
 {
     (void)analysis;
@@ -420,7 +420,7 @@ static status fill(const scene *s, series *one, fault *f)
     return STATUS_OK;
 }
 
-/* Behind the last series of the point. */
+/* Position after the last series of the point. */
 static int place_of(const sweep *s, int point_index)
 {
     int place = s->seriess;

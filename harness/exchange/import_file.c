@@ -25,18 +25,18 @@ static const int needed[COLUMNS] = {[QUANTITY] = 1, [UNIT] = 1, [ELEMENTS] = 1, 
 
 enum { FIELDS = 32, MOST_ELEMENTS = 10000000 };
 
-/* Where the reading of a file is. */
+/* State of the reader of a file. */
 typedef struct file_reader {
     import_set *set;
     const char *path;
     mistakes *m;
     int line, rows;
-    int versioned;     /* 1: the first line said what the file is */
+    int versioned;     /* 1: the first line has identified the file */
     int placed;        /* 1: the columns are known */
-    int place[FIELDS]; /* of each field the column; -1: none */
+    int place[FIELDS]; /* column of each field; -1: none */
     int fields;
     import_header header;
-    int open; /* 1: the block takes rows */
+    int open; /* 1: the block accepts rows */
     import_block block;
 } file_reader;
 
@@ -90,7 +90,7 @@ static void take_header(file_reader *r, const char *key, const char *value)
             value);
 }
 
-/* "# key: value   # remark"; other lines that begin with # are remarks. */
+/* "# key: value # remark"; other lines that begin with # are comments. */
 static void read_header(file_reader *r, char *line)
 {
     char *key = line_trim(line + 1), *colon = strchr(key, ':');
@@ -150,7 +150,7 @@ static void read_columns(file_reader *r, char *const field[], int count)
     }
 }
 
-/* A number; an empty field is NAN where it may be empty. */
+/* A number; NAN for an empty field, if that is allowed. */
 static double number_of(const file_reader *r, const char *text, column c)
 {
     double value;

@@ -25,19 +25,18 @@ typedef struct map_reader {
     double seconds;
 } map_reader;
 
-/* One value that is wanted, and the row it was last seen in. */
+/* A requested value, and the last row that matched. */
 typedef struct wanted {
     const document_node *key, *of, *where;
     const char *file, *under;
-    int column, abscissa; /* counted from 0; abscissa -1: none */
-    int rows;             /* LAST, ALL, or which */
+    int column, abscissa; /* starting at 0; abscissa -1: none */
+    int rows;             /* LAST, ALL, or a row number */
     double minus, times;
     int seen;
     imported_row row;
 } wanted;
 
-/* A column by its number, or the name that `columns` gives it; counted from 0, -1 after a mistake.
- */
+/* Index of a column, given by number or by its name in `columns`; -1 after an error. */
 static int column_named(const map_reader *r, const document_node *at, const char *name)
 {
     const document_node *columns = document_find(r->root, "columns");
@@ -129,7 +128,7 @@ static void take_row(map_reader *r, wanted *w, const double number[], int count,
         import_block_add(&r->block, &w->row);
 }
 
-/* Numbers of a line; 0: it is something else. */
+/* Reads the numbers of a line; returns 0 for any other line. */
 static int numbers_of(char *line, double number[WORDS])
 {
     char *word[WORDS];
@@ -210,7 +209,7 @@ static import_header header_of(const map_reader *r)
     return h;
 }
 
-/* Where the values come from: the files, not the map. */
+/* Names the data files as the source, instead of the map. */
 static void name_files(imported *to, const char *const file[], int files)
 {
     size_t used = 0;
@@ -312,7 +311,7 @@ void map_keys_check(const document_node *map, const char *const known[], mistake
     }
 }
 
-/* The text of an entry; `otherwise` where there is none. */
+/* Text of an entry; `otherwise` if it is missing. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,
                           const char *otherwise)
 {

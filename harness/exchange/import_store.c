@@ -31,7 +31,7 @@ static const table_column value_columns[] = {
     TEXT(value_row, version) /* last: older files have none */};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
-/* The tables of one case. */
+/* Tables of one case. */
 typedef struct tables {
     int points, values;
     point_row *point;
@@ -55,7 +55,7 @@ static const char *parameters_of(const tables *t, const char *name)
     return NULL;
 }
 
-/* The point of the run that has series; -1: none. */
+/* Point of the run that has series; -1: none. */
 static int point_of(const sweep *s, const char *of, const char *parameters)
 {
     for (int i = 0; i < s->seriess; i++) {
@@ -66,7 +66,7 @@ static int point_of(const sweep *s, const char *of, const char *parameters)
     return -1;
 }
 
-/* 1: the point already has a compared program of that name. */
+/* Returns 1 when the point already has a compared program of that name. */
 static int is_there(const sweep *s, int place, const char *name)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -111,7 +111,7 @@ static status damaged(const store_reader *r, const char *where)
                      where);
 }
 
-/* One series: rows of a program at a point, which stand together. */
+/* Reads one series: consecutive rows of a program at a point. */
 static status take_series(store_reader *r, const char *of, const tables *t, const value_row *first,
                           int count)
 {

@@ -8,7 +8,7 @@
 #include "cases/format/format.h"
 #include "harness/experiments/experiments.h"
 
-/* At its defaults; the file and its name are taken. */
+/* A scene at its defaults; takes ownership of the file and its name. */
 static status new_scene(const case_type *type, scene_file *file, char *name, bw_scene **out,
                         fault *f)
 {
@@ -42,7 +42,7 @@ bw_status bw_scene_case(const char *name, bw_scene **out, char **why)
     return call_end(&c, find(name, out, &c.fault));
 }
 
-/* All of them, as JSON. */
+/* All errors as JSON. */
 static void tell(const mistakes *m, call *c)
 {
     document_text t;
@@ -51,7 +51,7 @@ static void tell(const mistakes *m, call *c)
         text_end(&t, mistakes_json(m, t.to, &f), &c->text, &f);
 }
 
-/* A text of that size; NULL: the file of that name. */
+/* Reads a text of that size; NULL: reads the file of that name. */
 static status read_file(const char *bytes, size_t size, const char *name, scene_file **out,
                         mistakes *m, fault *f)
 {
@@ -182,7 +182,7 @@ static status list_of(const char *name, char **json, fault *f)
     *json = NULL;
     TRY(list_subject_find(name, &what, f));
     TRY(text_begin(&t, f));
-    known_read(NULL, &ledger, NULL); /* it may be missing */
+    known_read(NULL, &ledger, NULL); /* the file may be missing */
     const status outcome = text_end(&t, list_write_list(t.to, &what, &ledger, f), json, f);
     truths_free(&ledger);
     return outcome;
@@ -254,7 +254,7 @@ status contestants_finished(const sweep *s, fault *f)
                                           s->unfinished);
 }
 
-/* Request and its answer; converge frees it. */
+/* Request and its results; converge frees it. */
 typedef struct study {
     const bw_scene *scene;
     double level;
@@ -331,7 +331,7 @@ bw_status bw_converge(const bw_scene *from, const char *formulations, const char
 
 enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };
 
-/* Request and its answer; verify frees it. */
+/* Request and its results; verify frees it. */
 typedef struct verify_trial {
     const bw_scene *scene;
     const char *results;
@@ -339,7 +339,7 @@ typedef struct verify_trial {
     const case_type *type[2];
     formulation formulation[CONTESTANTS_MOST];
     json_t *kept;
-    const char *former_path; /* of results that this run may not be worse than; NULL: none */
+    const char *former_path; /* previous results; this run must not be worse; NULL: none */
     stored_results former;
     truths truths;
     sweep sweep;

@@ -31,7 +31,7 @@ static status read_options(const char *json, solution_request *out, fault *f)
     return outcome;
 }
 
-/* The reference values of the result; there need not be any for a case. */
+/* Reads the reference values of the result; a case may have none. */
 static status know(bw_result *r, const double parameter[], fault *f)
 {
     const scene_file *file = source_file(r->from);
@@ -64,7 +64,7 @@ static double error_of(const subject *s)
                : NAN;
 }
 
-/* Errors as the record of a quantity has them. */
+/* Sets the errors from the records of the quantities. */
 static status compare(bw_result *r, fault *f)
 {
     const gathering g = {&r->sweep, NULL, r->truths};
@@ -83,7 +83,7 @@ static status compare(bw_result *r, fault *f)
     return bad ? fault_set(f, STATUS_FAULT, "out of memory for errors") : STATUS_OK;
 }
 
-/* *solved: how the solution ended, in f too. */
+/* *solved: status of the solution, with its message in f. */
 static status fill(bw_result *r, const bw_scene *from, const char *name, solution_request *what,
                    solution_choice *why, status *solved, fault *f)
 {
@@ -156,8 +156,8 @@ void bw_result_free(bw_result *r)
 _Static_assert((int)BW_FAULT == (int)STATUS_FAULT && (int)BW_NO_VALUE == (int)STATUS_NO_VALUE,
                "a bw_status is a status");
 
-/* GSL has one handler for all threads: the first call puts it off, the last one back. `nested`:
- * calls of this thread alone. */
+/* GSL has one error handler for all threads: the first call disables it, the last one restores it.
+ * nested: number of nested calls of this thread. */
 static _Thread_local int nested;
 static struct {
     pthread_mutex_t lock;
@@ -166,8 +166,8 @@ static struct {
     locale_t plain;
 } state = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-/* A process that is forked has none of the other threads: it must not wait for them, and calls that
- * they are inside do not count there. */
+/* A forked process has none of the other threads. It must not wait for them, and calls in progress
+ * on them do not count there. */
 static void before_fork(void)
 {
     known_hold();
@@ -227,7 +227,7 @@ void call_begin(call *c, char **why)
     fesetenv(FE_DFL_ENV);
 }
 
-/* Bytes of the UTF-8 character that begins here; 0: none does. */
+/* Number of bytes of the UTF-8 character that begins here; 0: invalid. */
 static int character(const unsigned char *at)
 {
     const int more = (at[0] >= 0xc2) + (at[0] >= 0xe0) + (at[0] >= 0xf0);
@@ -239,7 +239,7 @@ static int character(const unsigned char *at)
     return 1 + more;
 }
 
-/* One line of UTF-8, whatever names were given: what is not one becomes '?'. */
+/* One line of UTF-8 for any names; replaces invalid characters by '?'. */
 static char *line_of(const fault *f)
 {
     char *out = strdup(f->text);
@@ -270,8 +270,8 @@ static pthread_mutex_t hdf5 = PTHREAD_MUTEX_INITIALIZER;
 static struct {
     H5E_auto2_t print;
     void *context;
-} host;                      /* the host's handler of HDF5's errors */
-static char place[PATH_MAX]; /* "": where they usually are */
+} host;                      /* error handler of the host for HDF5 */
+static char place[PATH_MAX]; /* "": default location */
 
 void known_hold(void)
 {
@@ -283,7 +283,7 @@ void known_let_go(void)
     pthread_mutex_unlock(&hdf5);
 }
 
-/* HDF5 says nothing of its errors, until speak. */
+/* Disables the error messages of HDF5 until speak. */
 static void hush(void)
 {
     H5Eget_auto2(H5E_DEFAULT, &host.print, &host.context);
@@ -364,7 +364,7 @@ struct source {
     const case_type *type;
     scene_file *file;
     char *name;
-    int is_known; /* 1: it was read */
+    int is_known; /* 1: has been read */
     truths known;
 };
 
@@ -419,7 +419,7 @@ status source_known(source *s, const truths **out, fault *f)
     return outcome;
 }
 
-/* Functions without a scene. */
+/* Functions that need no scene. */
 
 const char *bw_version(void)
 {

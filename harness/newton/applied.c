@@ -1,4 +1,4 @@
-/* Loads on vertices: their directions and arms, and what they add to the stiffness. */
+/* Loads on vertices: their directions, arms and stiffness. */
 #include "harness/newton/newton.h"
 
 #include <string.h>
@@ -33,8 +33,8 @@ void applied_member_axes(const double triad[9], const section *of, double R[9])
     }
 }
 
-/* A load on one vertex. axes: those it is given in; NULL: fixed ones. beside: where it acts besides
- * `at`, in fixed axes. */
+/* A load on one vertex. axes: axes in which it is given; NULL: global ones. beside: offset of its
+ * point of application from `at`, in global axes. */
 static applied of_vertex(const model_state *s, int vertex, const scene_load *load, double scale,
                          const double axes[9], const double beside[3])
 {
@@ -71,7 +71,7 @@ static applied of_weight(const model *m, const model_state *s, const scene_load 
     return of_vertex(s, load->where, &force, scale, NULL, body->centre);
 }
 
-/* Per length, of an element: 1, or its mass for gravity. */
+/* Per length of an element: 1; for gravity its mass. */
 static double density_of(const model *m, const scene_load *load, const mesh_element *el)
 {
     const section *c = model_section(m, model_kind(m, el->kind)->section);
@@ -91,7 +91,7 @@ static void weight_centre(const model *m, const scene_load *load, const mesh_ele
     mat3_mul_vec(el->triad[node], at, centre);
 }
 
-/* Parts of an element shorter than this hold no load: rounding of where it begins. */
+/* A part of an element shorter than this carries no load; it results from rounding. */
 static const double least_part = 1e-12;
 
 int applied_inside(double x)
@@ -130,7 +130,7 @@ void applied_vector(const model *m, int element, const scene_load *load, double 
         vector[i] += along * (load->last[i] - load->vector[i]);
 }
 
-/* The share of node k at x. */
+/* Shape function of node k at x. */
 static double share_of(const model *m, int k, double x)
 {
     const double three[] = {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), -x * (1 - 2 * x)};
@@ -139,8 +139,8 @@ static double share_of(const model *m, int k, double x)
     return three[k];
 }
 
-/* Points of a load on a part of an element with their weights; exact for shares times what varies
- * linearly. */
+/* Points of a load on a part of an element, with weights; exact for a shape function times a linear
+ * load. */
 static int points_of(const scene_load *load, const double part[2], double x[2], double weight[2])
 {
     const double half = (part[1] - part[0]) / 2, middle = (part[0] + part[1]) / 2;
@@ -161,7 +161,7 @@ int applied_with_mass(const scene_load *load)
     return !load->lumped && !load->varies && load->range[0] == 0 && load->range[1] == 1;
 }
 
-/* Part of a load on node k of an element: the load's vector times the node's share. */
+/* Share of node k in the load on an element: the load vector times the shape function. */
 static void share_at(const model *m, const scene_load *load, int element, const double part[2],
                      int k, double vector[3])
 {
@@ -221,7 +221,7 @@ void applied_each(const model *m, const model_state *s, const scene_load *load, 
         applied_element(m, s, load, scale, i, take, context);
 }
 
-/* Where entries of the stiffness go. */
+/* Destination of the entries of the stiffness. */
 typedef struct entries {
     const model *m;
     const model_state *s;
@@ -229,8 +229,8 @@ typedef struct entries {
     void *to;
 } entries;
 
-/* How the generalised load of a force F at rho and a moment F + 3 that turn with the body changes
- * with its turn about b: that of b x F and b x F[3..5]. */
+/* Derivative of the generalised load of a follower force F and moment F + 3 at rho with respect to
+ * a rotation about b: that of b x F and b x F[3..5]. */
 static void add_following(const entries *all, const mesh_vertex *body, const double F[6],
                           const double rho[3], double b[3][3], int column)
 {
@@ -248,15 +248,15 @@ static void add_following(const entries *all, const mesh_vertex *body, const dou
 /* Effect of one coordinate on a load on a released end. */
 typedef struct load_motion {
     int coordinate;
-    int own;        /* 1: of the end, 0: of its body */
-    int chart;      /* 1: a turn about a fixed axis, in no order with the two others */
-    double axis[3]; /* of a turn */
-    double turn[3]; /* of the load's frame */
+    int own;        /* 1: coordinate of the end, 0: of its body */
+    int chart;      /* 1: rotation about a fixed axis, in no order with the two others */
+    double axis[3]; /* of a rotation */
+    double turn[3]; /* rotation of the load's frame */
     double shift[3];
 } load_motion;
 
-/* In the order of the frame: the body's place and turns, those of the end, its shifts. Returns
- * their number. */
+/* In the order of the frame: position and rotations of the body, rotations of the end, its shifts.
+ * Returns their number. */
 static int motions_at_release(const entries *all, const applied *what,
                               load_motion out[KINEMATICS_MOST])
 {
@@ -284,7 +284,7 @@ static int motions_at_release(const entries *all, const applied *what,
     return count;
 }
 
-/* Does the turn e come before l and move what l moves along? 1/2: both in no order. */
+/* Does rotation e come before l, so that it rotates the axis of l? 1/2: both in no order. */
 static double carries(const mesh_release *r, const load_motion *e, const load_motion *l)
 {
     if (r->turns == 3 && e->own != l->own)
@@ -300,7 +300,7 @@ static double triple(const double a[3], const double b[3], const double c[3])
     return vec3_dot(a, cross);
 }
 
-/* Derivative of the generalised load of coordinate i by coordinate j. */
+/* Derivative of the generalised load of coordinate i with respect to coordinate j. */
 static double release_entry(const mesh_release *r, const applied *what, const load_motion *i,
                             const load_motion *j)
 {
@@ -325,8 +325,8 @@ static void add_stiffness_at_release(const entries *all, const applied *what)
                 release_entry(release_of(all->m, what->vertex), what, &motion[i], &motion[j]));
 }
 
-/* Derivative of the generalised load of a force F at offset rho and a spatial moment on one
- * body's rotations. */
+/* Derivative of the generalised load of a force F at offset rho and of a spatial moment with
+ * respect to rotations of one body. */
 static void add_stiffness(void *context, const applied *what)
 {
     const entries *all = context;
@@ -359,8 +359,8 @@ static void add_stiffness(void *context, const applied *what)
             mat3_mul_vec(D, b[j], Db);
             vec3_cross(b[j], b[i], cross);
             double value = vec3_dot(b[i], Db);
-            if (body->angles >
-                0) /* conservative part symmetric, dead moment only through earlier axes */
+            if (body->angles > 0) /* symmetric for the conservative part; a spatial moment acts only
+                                     through earlier axes */
                 value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 +
                          (j < i ? vec3_dot(F + 3, cross) : 0);
             else

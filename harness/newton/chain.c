@@ -41,8 +41,8 @@ void chain_begin(chain *s)
         s->A[i * s->c + i] = 1;
 }
 
-/* Can 1 + F B have no eigenvalue below zero? Where F is positive those of F B are real, and none is
- * larger than the rows of it in units of F's diagonal. */
+/* Do all eigenvalues of 1 + F B remain positive? For positive F those of F B are real, and bounded
+ * by its row sums scaled with the diagonal of F. */
 static int small_product(int n, const double F[], const double W[])
 {
     for (int i = 0; i < n; i++) {
@@ -55,7 +55,7 @@ static int small_product(int n, const double F[], const double W[])
     return 1;
 }
 
-/* Eigenvalues that become negative when the stiffness B is added after the row. */
+/* Number of eigenvalues that become negative when the stiffness B is added after the row. */
 static int more_negative(int n, const double F[], const double B[], const double W[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT];
@@ -175,14 +175,13 @@ status chain_stiffness(const chain *s, double K[], fault *f)
     return STATUS_OK;
 }
 
-/* Loads to the ends of a chain, and motions of the ends to all that is inside.
+/* Transfers loads to the ends of a chain, and motions of the ends to its interior.
  *
- * Two sweeps find the forces between the links: with w the forces on the joint before a link and by
- * the link on it,
- *   x = Z a + Z F w,   w - B x = Z^T w - B Z a.
- * Motions follow from these link by link, for between neighbours they must differ by no more than
- * what deforms a link: differences of motions found one by one would cost as many digits as an
- * assembled stiffness. Sizes that are known where a sweep is inlined leave no loops inside it. */
+ * Two sweeps find the forces between the links: where w are the forces on the joint before a link
+ * and of the link on it, x = Z a + Z F w, w - B x = Z^T w - B Z a. The motions then follow link by
+ * link, so that neighbours differ exactly by the deformation of a link. Differences of
+ * independently computed motions would lose as many digits as an assembled stiffness. Sizes are
+ * compile-time constants where a sweep is inlined. */
 
 #define INLINED static inline __attribute__((always_inline))
 
@@ -218,7 +217,7 @@ INLINED void mul_packed(int n, const double S[], const double x[], double out[])
     }
 }
 
-/* The load on the joint before a link, as it adds to the forces w there; none on an end. */
+/* Adds the load on the joint before a link to the forces w there; none on an end. */
 INLINED void add_load_before(int c, int y, const double r[], int link, double w[])
 {
     if (link > 0)
@@ -226,7 +225,7 @@ INLINED void add_load_before(int c, int y, const double r[], int link, double w[
             w[i] += r[(size_t)link * (size_t)y - (size_t)(c - i)];
 }
 
-/* a of every joint from that of the first. */
+/* Computes a for every joint from that of the first. */
 INLINED void forward(chain *s, int c, int y, const double r[], const double first[])
 {
     const int in = y - c;
@@ -249,9 +248,9 @@ INLINED void forward(chain *s, int c, int y, const double r[], const double firs
     }
 }
 
-/* Forces between the links when g[joint] acts on the last joint, into s->a after its first;
- * begin[joint]: what the first joint exerts on the row. r NULL: nothing else acts, nor do joints
- * move without forces. */
+/* Forces between the links when g[joint] acts on the last joint, stored in s->a after its first
+ * entry; begin[joint]: force of the first joint on the row. r NULL: there are no other loads, and
+ * joints do not move without forces. */
 INLINED void backward(chain *s, int c, int y, const double r[], const double last[], double begin[])
 {
     const int in = y - c;
@@ -277,8 +276,8 @@ INLINED void backward(chain *s, int c, int y, const double r[], const double las
         begin[i] = -g[in + i];
 }
 
-/* Motions from that of the first joint and the forces: links deform as these say, to the last
- * digit. Into x[links x y], or where r is NULL on top of them; r may be x. */
+/* Motions from that of the first joint and the forces, whose deformations of links are exact to the
+ * last digit. Writes x[links x y]; r NULL: adds to x; r may be x. */
 INLINED void deform(const chain *s, int c, int y, const double r[], const double first[],
                     double x[])
 {
@@ -302,7 +301,7 @@ INLINED void deform(const chain *s, int c, int y, const double r[], const double
     }
 }
 
-/* Forces on the last joint that take it to x, from where no force leaves it. */
+/* Forces on the last joint that move it to x from its force-free position. */
 static void force_to(const chain *s, const double x[], const double from[], double g[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT], moved[CHAIN_JOINT];
@@ -314,7 +313,7 @@ static void force_to(const chain *s, const double x[], const double from[], doub
 
 static const double still[CHAIN_JOINT] = {0};
 
-/* Where the last joint is without forces after it. */
+/* Position of the last joint without forces after it. */
 static const double *last_of(const chain *s)
 {
     return s->a + (size_t)s->links * (size_t)s->c;
@@ -332,7 +331,7 @@ INLINED void reduce(chain *s, int c, int y, const double r[], double ends[])
     }
 }
 
-/* Distributes the rounding error between the last joint and its end over all links. */
+/* Distributes the rounding error at the last joint over all links. */
 INLINED void close_gap(chain *s, int c, int y, const double end[], double x[])
 {
     double gap[CHAIN_JOINT], last[CHAIN_JOINT], begin[CHAIN_JOINT];
@@ -353,7 +352,7 @@ INLINED void expand(chain *s, int c, int y, const double r[], const double ends[
     close_gap(s, c, y, ends + c, x);
 }
 
-/* Elements of two nodes, with and without warping. */
+/* For elements of two nodes, with and without warping. */
 void chain_reduce(chain *s, const double r[], double ends[])
 {
     if (s->c == 7 && s->y == 7)

@@ -5,8 +5,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/real.h"
 
-/* Fewer elements than these cost less one by one; without AVX2 any number does: there four lanes
- * are two vectors (measured on sheets and collocation). */
+/* Fewer elements than these are cheaper one by one; without AVX2 any number is, because four lanes
+ * are then two vectors (measured on sheets and collocation). */
 enum { together_from_avx2 = 2, together_from_plain = CHUNK_MOST + 1 };
 
 int chunk_size(const model *m)
@@ -41,7 +41,7 @@ static const double *inner_of(const model *m, const model_state *s, int element)
     return &s->inner[(size_t)element * (size_t)model_inner(m)];
 }
 
-/* Their functions of one element, or what was evaluated ahead. */
+/* Calls the type's functions for one element, or uses values from a batch. */
 static void strains_one_by_one(const equations *eq, const linear_memory *memory,
                                const model_state *s, int count, chunk_element element[],
                                double deformed[][ELEMENT_MAX_STRAINS])
@@ -75,7 +75,7 @@ static void stresses_one_by_one(const equations *eq, const linear_memory *memory
     }
 }
 
-/* Their functions of many elements. */
+/* Calls the type's functions for many elements. */
 static void strains_together(const model *m, const linear_memory *memory, const model_state *s,
                              int count, chunk_element element[],
                              double deformed[][ELEMENT_MAX_STRAINS])
@@ -121,7 +121,7 @@ static void stresses_together(const model *m, const linear_memory *memory, const
         element[own[k]].outcome = outcome[k];
 }
 
-/* Stresses of elements that take loads along them into their own equilibrium. */
+/* Stresses of elements with loads along them in their own equilibrium. */
 static void stresses_under_loads(const equations *eq, const linear_memory *memory,
                                  const model_state *s, double path, int count,
                                  chunk_element element[])
@@ -161,7 +161,7 @@ static void stresses_under_loads(const equations *eq, const linear_memory *memor
     }
 }
 
-/* Their equations, in one go. */
+/* Equations of several elements together. */
 static void equations_together(const model *m, const linear_memory *memory, const model_state *s,
                                int count, chunk_element element[])
 {
@@ -207,7 +207,7 @@ static void mix(const model *m, const linear_memory *memory, const model_state *
         w.sigma[i] += more[i];
 }
 
-/* The strains' rates, of those that the linearised equations have without a motion. */
+/* Adds the strain rates of motions, in which the linearised equations are damped. */
 static void damp(const equations *eq, const linear_memory *memory, const model_state *s, int index)
 {
     const model *m = eq->m;

@@ -5,8 +5,7 @@
 
 #include "elements/math/dense.h"
 
-/* Has what acts on the model no stiffness but at the ends of its members, and are the nodes between
- * them free? */
+/* Do loads have a stiffness only at the ends of members, and are all nodes between them free? */
 static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;
@@ -68,7 +67,7 @@ static status member_of(const model *m, int index, condensed_member *out, fault 
     return chain_alloc(out->links, out->joint, out->y, &out->chain, f);
 }
 
-/* Members and their loads: its own, or those of `of`. */
+/* Members and their loads: own arrays, or those of `of`. */
 static status find_members(condensation *s, const condensation *of, fault *f)
 {
     const model *m = s->m;
@@ -173,7 +172,7 @@ void condensation_free(condensation *s)
     free(s);
 }
 
-/* One element as a link; force[7 nodes]: internal, in the state. */
+/* One element as a link; force[7 nodes]: internal forces in the state. */
 static status link_element_of(const equations *eq, const model_state *s, const condensed_member *of,
                               int i, double path, chain_link *link, double force[], fault *f)
 {
@@ -196,7 +195,7 @@ static status link_element_of(const equations *eq, const model_state *s, const c
     return link_of(&el, link, f);
 }
 
-/* The chain of a member; force[14]: internal forces of its ends. */
+/* The chain of a member; force[14]: internal forces at its ends. */
 static status fill_chain(const equations *eq, const model_state *s, condensed_member *of,
                          double path, double force[], fault *f)
 {
@@ -215,7 +214,7 @@ static status fill_chain(const equations *eq, const model_state *s, condensed_me
     return STATUS_OK;
 }
 
-/* K of the member's ends, in coordinates of the model. */
+/* K of the ends of a member, in coordinates of the model. */
 static status member_matrix(condensation *s, condensed_member *of, double path, double K[],
                             fault *f)
 {
@@ -293,7 +292,7 @@ static void note(const mesh_element *el, int number[])
             number[el->index[k]] = 0;
 }
 
-/* Coordinates of ends, and those of them that are unknown. Returns how many. */
+/* Coordinates of ends, and which of them are unknowns. Returns the number of the former. */
 int condensation_number(condensation *s, int count, const int released[])
 {
     const model *m = s->m;
@@ -326,7 +325,7 @@ static void couple(const condensation *s, const mesh_element *el, int ends, char
                 coupled[s->number[el->index[k]] * ends + s->number[el->index[i]]] = 1;
 }
 
-/* The pattern of the coordinates list[count], in all coordinates or in those of the list. */
+/* Pattern of the coordinates list[count], as part of all coordinates or of the list. */
 static status pattern_of(const condensation *s, int count, const int list[], int ends,
                          const char coupled[], int own, sparse *out, fault *f)
 {
@@ -354,7 +353,7 @@ static status pattern_of(const condensation *s, int count, const int list[], int
     return STATUS_OK;
 }
 
-/* Where the entries of the unknowns are in K. */
+/* Positions in K of the entries of the unknowns. */
 static status find_sources(condensation *s, fault *f)
 {
     const sparse *a = &s->inside;

@@ -48,8 +48,8 @@ static void undeformed(const distributed_loads *of, double x, double R[9])
     mat3_mul(el->triad[0], by, R);
 }
 
-/* Load at x times `scale`, with the undeformed triad there: per length; of gravity on the mass
- * there. */
+/* Load at x times `scale`, with the undeformed triad there: per length, or for gravity on the mass.
+ */
 static void load_at(const distributed_loads *of, const scene_load *load, double scale, double x,
                     const double before[9], field_load *out)
 {
@@ -79,7 +79,7 @@ static void load_at(const distributed_loads *of, const scene_load *load, double 
 
 enum { MOST = FIELD_MOST_POINTS };
 
-/* Is a load along an element, which is `one` at a point of it, the same at all of them? */
+/* Is a load along an element, with value `one` at one of its points, constant? */
 static int same(const distributed_loads *of, const scene_load *load, const field_load *one)
 {
     return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&
@@ -136,7 +136,7 @@ int distributed_takes(const equations *eq, int element, const scene_load *load)
     return applied_part(m, element, load, part) && taken(eq, element, load, part);
 }
 
-/* force[] += one of them times `scale`. */
+/* force[] += one of the loads times `scale`. */
 static void gather(const equations *eq, int element, const scene_load *load, double scale,
                    double force[3 * ELEMENT_ALONG_POINTS])
 {
@@ -255,7 +255,7 @@ int distributed_stress(const equations *eq, const model_state *s, const node_sta
     return 1;
 }
 
-/* Derivative of the forces by the size of one load. */
+/* Derivative of the forces with respect to the size of one load. */
 static void add_rate(const equations *eq, const model_state *s, const node_state x[], int element,
                      const scene_load *load, double scale, double forces[])
 {
@@ -337,7 +337,7 @@ int distributed_add(const equations *eq, const model_state *s, const node_state 
     return distributed_add_own(eq, s, x, element, path, forces, K) || acting;
 }
 
-/* Its vectors, in fixed axes, of the section with the triad R. */
+/* Force and moment of a load, in global axes, on the section with triad R. */
 static void add_load(const distributed_loads *of, const scene_load *load, double x,
                      const double before[9], const double R[9], span_load *out)
 {
@@ -358,8 +358,8 @@ static void add_load(const distributed_loads *of, const scene_load *load, double
     }
 }
 
-/* The same of a section by its matrices: momentum p and h of the velocity v of the line and of
- * omega, -omega x p and -omega x h - v x p on the line. */
+/* As above for a section given by matrices: for momentum p and h, velocity v of the line and omega,
+ * the load on the line is -omega x p and -omega x h - v x p. */
 static void add_rotating_matrices(const section *c, const double omega[3], const double speed[3],
                                   const double R[9], span_load *out)
 {
@@ -378,7 +378,7 @@ static void add_rotating_matrices(const section *c, const double omega[3], const
     }
 }
 
-/* Centrifugal force on the mass at the centroid, and moment on the section's inertia. */
+/* Centrifugal force on the mass at the centroid, and moment on the inertia of the section. */
 static void add_rotating(const distributed_loads *of, const span_frame *at, span_load *out)
 {
     const model *m = of->m;

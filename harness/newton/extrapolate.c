@@ -5,12 +5,13 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* In large models fewer states are kept, with the same effect: iterations of sheet_cantilever,
+/* In large models fewer states are stored. The numbers of iterations of sheet_cantilever,
  * spherical_joint and hexapod are the same with eight as with twelve. */
 enum { MANY_ELEMENTS = 1000, OF_MANY = 8 };
-/* Most iterations of a first step that a linear extrapolation starts from. */
+/* Largest number of iterations in a first step from which a linear extrapolation starts. */
 enum { EASY_ITERATIONS = 4 };
-/* Largest error of a guess, relative to that of no guess, with which it saves iterations. */
+/* Largest error of an extrapolation, relative to no extrapolation, with which it saves iterations.
+ */
 static const double worthwhile = 0.3;
 
 /* The last k of the first `count` states. */
@@ -59,15 +60,15 @@ status predictor_add(const equations *eq, const model_state *s, int iterations, 
     return STATUS_OK;
 }
 
-/* From as many states as would have guessed the last one best; from one more where the error still
- * went down with their number. 0: better from none. */
+/* The number of states that would have extrapolated the last one best, plus one if the error still
+ * decreased with the number. 0: no extrapolation is best. */
 static int states_of_least_error(const predictor *t)
 {
     int best = 2;
     for (int k = 3; k < t->count && k <= t->most; k++)
         if (t->error[k] < t->error[best])
             best = k;
-    if (isinf(t->error[best])) /* nothing is known of guesses */
+    if (isinf(t->error[best])) /* no error is known yet */
         return t->iterations <= EASY_ITERATIONS ? 2 : 0;
     if (!(t->error[best] < worthwhile * t->error[1]))
         return 0;
@@ -81,10 +82,10 @@ void predictor_guess(const equations *eq, const predictor *t, double path, model
             return;
 }
 
-/* A first guess of the next state of a path: the polynomial through the last ones. */
+/* Initial guess of the next state of a path: the polynomial through the last ones. */
 
-/* Longest step to extrapolate over, relative to the last one; largest error of what is prescribed,
- * relative to the longest of its own steps. */
+/* Largest step for extrapolation relative to the last one; largest error of prescribed values
+ * relative to the largest of their steps. */
 static const double far = 1.5 * (1 + 1e-9), bent = 0.25;
 
 /* Weights of the states in the polynomial through them, at `path`. */
@@ -98,8 +99,7 @@ static void lagrange(int count, const model_state *const at[], double path, doub
     }
 }
 
-/* Is the next value of something prescribed, value[count], near what the extrapolation takes it
- * to? */
+/* Does the next value of a prescribed function, value[count], agree with its extrapolation? */
 static int continues(int count, const double weight[], const double value[])
 {
     const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
@@ -109,9 +109,9 @@ static int continues(int count, const double weight[], const double value[])
     return fabs(dense_dot(count, weight, value) - value[count]) <= bent * step + rounding;
 }
 
-/* Guesses from the last k = 2 ... most of states at[most], for one at `path`. */
+/* Extrapolations from the last k = 2 ... most of the states at[most], for the state at `path`. */
 typedef struct guesses {
-    int most, good[MODEL_EXTRAPOLATED + 1]; /* good[k]: there is one */
+    int most, good[MODEL_EXTRAPOLATED + 1]; /* good[k]: possible with k states */
     double weight[MODEL_EXTRAPOLATED + 1][MODEL_EXTRAPOLATED];
 } guesses;
 
@@ -121,7 +121,7 @@ static void keep_continuing(const double value[], guesses *g)
         g->good[k] = g->good[k] && continues(k, g->weight[k], value + g->most - k);
 }
 
-/* Drivers and loads at the states' paths and at the next one. */
+/* Rejects extrapolations that do not agree with drivers and loads at the next path parameter. */
 static void keep_smooth(const equations *eq, const model_state *const at[], double path, guesses *g)
 {
     const model *m = eq->m;
@@ -142,8 +142,8 @@ static void keep_smooth(const equations *eq, const model_state *const at[], doub
     }
 }
 
-/* Prescribed components of a spatial increment are those of their drivers: only so do they and the
- * frame stay together. */
+/* Sets the prescribed components of a spatial increment to those of their drivers, so that frame
+ * and driver agree. */
 static void prescribe(const model *m, const mesh_vertex *v, const model_state *last,
                       const model_state *out, double turn[3])
 {
@@ -158,7 +158,7 @@ static void prescribe(const model *m, const mesh_vertex *v, const model_state *l
     }
 }
 
-/* From the last orientation along the rotation vector that the others lie on. */
+/* Extrapolates from the last orientation along the rotation vector through the others. */
 static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[],
                                  const model_state *const at[], model_state *out)
 {
@@ -176,7 +176,7 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
     rotation_normalise(&out->q[4 * vertex]);
 }
 
-/* Has it an orientation of its own, that no angles give? */
+/* Does the vertex have an orientation that is not given by angles? */
 static int turns_by_itself(const model *m, int vertex)
 {
     const mesh_release *r = release_of(m, vertex);
@@ -185,7 +185,7 @@ static int turns_by_itself(const model *m, int vertex)
                : model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
-/* From `least` to `most` states. */
+/* For `least` to `most` states. */
 static void weigh(const equations *eq, int least, int most, const model_state *const at[],
                   double path, guesses *g)
 {
@@ -199,7 +199,7 @@ static void weigh(const equations *eq, int least, int most, const model_state *c
     keep_smooth(eq, at, path, g);
 }
 
-/* sum += weight x, one state after the other so that several coordinates go at once. */
+/* sum += weight x, one state after the other, for several coordinates at once. */
 static void add_weighted(double weight, size_t size, const double x[], double sum[])
 {
     for (size_t k = 0; k < size; k++)
@@ -208,8 +208,8 @@ static void add_weighted(double weight, size_t size, const double x[], double su
 
 enum { PART = 8 };
 
-/* Largest of |sum_i weight[i] x_i - x_count|, x_i = at[i]->block + from, in `size` numbers, and of
- * `largest`; few at a time, whose sums stay in registers. */
+/* Maximum of `largest` and |sum_i weight[i] x_i - x_count|, x_i = at[i]->block + from, over `size`
+ * numbers; in small groups whose sums stay in registers. */
 static inline __attribute__((always_inline)) double largest_of(int count, const double weight[],
                                                                const model_state *const at[],
                                                                ptrdiff_t from, size_t size,

@@ -1,7 +1,7 @@
-/* Strains that elements have without stress, beyond those of the undeformed state: of temperatures,
- * and of members that are drawn strained. D(x) of the nodes of a free element gives them for all
- * formulations alike, and strains of a state are counted from them; a type whose stresses depend on
- * its curvature by more than that says how itself (element_type.unstressed). */
+/* Stress-free strains of elements in addition to those of the undeformed state: due to
+ * temperatures, and initial strains of members. For all formulations they are D(x) of the nodes of
+ * a free element, and strains of a state are measured from them. A type whose stresses depend on
+ * its curvature beyond that provides element_type.unstressed. */
 #include "harness/newton/newton_impl.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-enum { POINTS = 6 }; /* along a part of an arc: exact to round-off up to a turn of 1 rad */
+enum { POINTS = 6 }; /* along a part of an arc: exact to round-off up to a rotation of 1 rad */
 
 /* Elongation, and curvatures about the principal axes y and z [1/m]. */
 enum { ELONGATION, ABOUT_Y, ABOUT_Z, AMOUNTS };
@@ -24,7 +24,7 @@ static int are_same(const double a[AMOUNTS], const double b[AMOUNTS])
     return a[ELONGATION] == b[ELONGATION] && a[ABOUT_Y] == b[ABOUT_Y] && a[ABOUT_Z] == b[ABOUT_Z];
 }
 
-/* Adds that of a temperature, of the part of the element that has it. */
+/* Adds the strain of a temperature on its part of the element. */
 static void add_amounts(const model *m, int element, const scene_load *load, double scale,
                         double out[AMOUNTS])
 {
@@ -44,7 +44,7 @@ static void add_amounts(const model *m, int element, const scene_load *load, dou
     out[ABOUT_Z] -= strain * (a * along[0] + b * along[1]);
 }
 
-/* Of all temperatures at `path`. */
+/* Sum of all temperatures at `path`. */
 static void heat_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const scene *s = model_scene(eq->m);
@@ -54,7 +54,7 @@ static void heat_at(const equations *eq, int element, double path, double out[AM
             add_amounts(eq->m, element, &s->load[i], applied_factor(eq, &s->load[i], path), out);
 }
 
-/* With those that its member has by itself. */
+/* Including the initial strains of the member. */
 static void amounts_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const double *own = model_kind_of(eq->m, element)->free;
@@ -63,7 +63,7 @@ static void amounts_at(const equations *eq, int element, double path, double out
         out[i] += own[i];
 }
 
-/* Their derivative by the path parameter, or by the time. */
+/* Derivative with respect to the path parameter, or to time. */
 static void rates_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const scene *s = model_scene(eq->m);
@@ -83,7 +83,7 @@ static void rates_at(const equations *eq, int element, double path, double out[A
 
 /* A free element in the axes of its first node. */
 typedef struct free_element {
-    double length, rotation[3], strained[3]; /* of its arc; R^T r' */
+    double length, rotation[3], strained[3]; /* length of its arc; R^T r' */
     node_state x[ELEMENT_MAX_NODES];
 } free_element;
 
@@ -117,7 +117,7 @@ static void place(const model *m, int element, const double amounts[AMOUNTS], fr
     }
 }
 
-/* How the node at x moves and turns with the amounts: out[6]. */
+/* Motion of the node at x due to the amounts: out[6]. */
 static void moved(const free_element *of, const double amounts[AMOUNTS], double x, double out[6])
 {
     const double turn[3] = {0, amounts[ABOUT_Y] * of->length, amounts[ABOUT_Z] * of->length},
@@ -185,9 +185,9 @@ void free_strain_subtract(const equations *eq, int element, double path, double 
         e[i] -= own[i] - rest[i];
 }
 
-/* Data of elements whose type alters them, as they were for the last amounts. */
+/* Element data modified by their type for the last amounts. */
 typedef struct run_free {
-    size_t size;     /* doubles of an element: amounts, data */
+    size_t size;     /* doubles per element: amounts, data */
     double *element; /* [elements x size] */
 } run_free;
 
@@ -293,7 +293,7 @@ int free_strain_by_load(const equations *eq, const model_state *s, int element,
     return 1;
 }
 
-/* Energy of an element in a state, of a type that alters its data, with other amounts. */
+/* Energy of an element in a state with other amounts, for a type that modifies its data. */
 static double energy_with(const equations *eq, const model_state *s, int element,
                           const double amounts[AMOUNTS], element_data *room)
 {
@@ -304,12 +304,12 @@ static double energy_with(const equations *eq, const model_state *s, int element
     model_type(m)->unstressed(model_kind_of(m, element)->data, amounts, of.x, room);
     (void)model_type(m)->stress(room, &s->e[(size_t)element * (size_t)model_strains(m)],
                                 &s->inner[(size_t)element * (size_t)model_inner(m)],
-                                &(stress_output){.energy = &energy}); /* as of its own amounts */
+                                &(stress_output){.energy = &energy}); /* with its present amounts */
     return energy;
 }
 
-/* Energy that an element gains in a state from its amounts `before` to those `after`, of a type
- * whose strains are counted from them; its stresses stay. */
+/* Energy gained by an element in a state when its amounts change from `before` to `after` at
+ * constant stresses, for a type whose strains are measured from them. */
 static double counted(const equations *eq, const model_state *s, int element,
                       const double before[AMOUNTS], const double after[AMOUNTS])
 {
@@ -343,7 +343,8 @@ static double gained(const equations *eq, const model_state *s, int element,
 
 double free_strain_power(const equations *eq, const model_state *s, double time)
 {
-    const double small = 1e-4; /* strain, of a difference that is exact for quadratic energies */
+    const double small =
+        1e-4; /* strain; step of a difference that is exact for quadratic energies */
     const model *m = eq->m;
     double power = 0;
     for (int i = 0; i < model_elements(m) && model_frees(m); i++) {

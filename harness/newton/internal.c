@@ -6,7 +6,7 @@
 #include "elements/math/dense.h"
 #include "elements/section/section.h"
 
-/* Loads along the member that a vertex of it takes are taken off. */
+/* Subtracts the loads along the member that are lumped at its vertices. */
 typedef struct share {
     int vertex;
     double *force; /* [6] */
@@ -27,7 +27,7 @@ static void take_off(void *context, const applied *what)
         of->force[3 + i] -= moment[i];
 }
 
-/* Does it act between the ends of an element? What acts at an end acts on the node there. */
+/* Does the load act inside the element? A load at its end acts on the node. */
 static int lies_along(const model *m, int element, const scene_load *load)
 {
     double part[2];
@@ -65,7 +65,7 @@ static void take_couple(const mesh_element *el, const node_state x[], double tak
 }
 
 /* ends[2][7]: external forces on the first (0) and last (1) node of an element without the loads
- * along it, in fixed axes; x: its nodes. */
+ * along it, in global axes; x: its nodes. */
 static void ends_of(const equations *eq, const internal_state *s, int i, node_state x[],
                     double ends[2][7])
 {
@@ -81,8 +81,7 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
     double taken[2][3] = {{0}};
     if (rotating_frame_lumps(eq))
         note_taken(m, force, 1, taken);
-    rotating_frame_add(eq, x, i, s->path, force, NULL,
-                       NULL); /* never fails in a state that is reached */
+    rotating_frame_add(eq, x, i, s->path, force, NULL, NULL); /* cannot fail in an accepted state */
     if (rotating_frame_lumps(eq))
         note_taken(m, force, -1, taken);
     for (int l = 0; l < model_scene(m)->loads; l++) {
@@ -117,8 +116,8 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
         s->moving->ends(s->moving->context, i, ends);
 }
 
-/* The element has a section of its own where it changes along the member, whose axes are not those
- * at the place: the angle between them [rad]. */
+/* Angle [rad] between the axes of the element's constant section and those of a tapered member at
+ * the position. */
 static double axes_turned(const model *m, int member, double place, const mesh_element *el)
 {
     const scene *s = model_scene(m);
@@ -128,12 +127,13 @@ static double axes_turned(const model *m, int member, double place, const mesh_e
     if (!scene_member_tapers(sm))
         return 0;
     section_taper_at(&s->section[sm->section], &s->section[sm->section_q], place, &spec);
-    const int known = section_compute(&spec, &c, NULL) == STATUS_OK; /* as those beside it are */
+    const int known =
+        section_compute(&spec, &c, NULL) == STATUS_OK; /* as for neighbouring elements */
     return known ? c.axes_angle - model_section(m, model_kind(m, el->kind)->section)->axes_angle
                  : 0;
 }
 
-/* To axes that are turned by an angle about x. */
+/* Rotates components to axes turned by an angle about x. */
 static void turn_components(double angle, double v[3])
 {
     const double c = cos(angle), d = sin(angle), y = v[1];
@@ -162,7 +162,7 @@ void internal_at_end(const equations *eq, const internal_state *s, int member, i
         out[c] *= -1;
 }
 
-/* The ends of an element as section_forces.h wants them. */
+/* The ends of an element in the form of section_forces.h. */
 static void take_ends(const equations *eq, const internal_state *s, int i, span_end end[2])
 {
     const model *m = eq->m;
@@ -189,11 +189,11 @@ static void take_ends(const equations *eq, const internal_state *s, int i, span_
 /* Loads along an element. */
 typedef struct internal_between {
     distributed_loads loads;
-    int acts, nodes; /* 0 nodes: nothing moves */
+    int acts, nodes; /* nodes 0: at rest */
     double density[ELEMENT_MAX_NODES][6];
 } internal_between;
 
-/* Shares of the nodes, evenly along the element, at x in [0, 1]. */
+/* Shape functions of the nodes at x in [0, 1]. */
 static void interpolate(int nodes, double x, double part[ELEMENT_MAX_NODES])
 {
     for (int k = 0; k < nodes; k++) {
@@ -272,11 +272,11 @@ status internal_at(const equations *eq, const internal_state *s, const internal_
     return STATUS_OK;
 }
 
-/* One element's fields and what is measured of them. */
+/* Fields of one element and the measured quantity. */
 typedef struct measured {
     const span_grid *g;
     const span_fields *fields;
-    int element; /* counted along the member */
+    int element; /* number along the member */
     internal_measure of;
     void *context;
 } measured;
@@ -288,7 +288,8 @@ static double measure_at(const measured *what, double x)
     return what->of(what->context, what->element, x, v);
 }
 
-/* Between a and b, where one point of the grid is larger than its neighbours: golden section. */
+/* Refines a maximum between a and b, where one grid point is larger than its neighbours, by
+ * golden-section search. */
 static double refined(const measured *what, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;
@@ -311,7 +312,7 @@ static double refined(const measured *what, double a, double b)
     return fmax(at_c, at_d);
 }
 
-/* *largest: the greater of it and what the element has. */
+/* Updates *largest by the maximum in the element. */
 static void take_largest(const measured *what, double *largest)
 {
     double value[SPAN_GRID_POINTS];
@@ -347,11 +348,11 @@ status internal_largest(const equations *eq, const internal_state *s, int member
     return STATUS_OK;
 }
 
-/* The points of one member; those of a place of it where its section changes. */
+/* Stress points of one member, or of a position of a tapered member. */
 typedef struct member_points {
     const model *m;
     int member, tapers;
-    int turned; /* the twist turns fibres */
+    int turned; /* 1: the twist rotates fibres */
     stress_measure what;
     section local;
     stress_points points;
@@ -372,7 +373,7 @@ static status prepare(const model *m, const internal_state *s, int member, stres
                             &out->points, f);
 }
 
-/* The section at a place of a member whose section changes. */
+/* The section at a position of a tapered member. */
 static status take_local(member_points *of, double place, fault *f)
 {
     const scene_member *sm = &model_scene(of->m)->member[of->member];
@@ -383,8 +384,8 @@ static status take_local(member_points *of, double place, fault *f)
     return stress_points_of(&spec, &of->local, &of->points, f);
 }
 
-/* The resultants, which are in the principal axes of the element's section, in those of the points;
- * the twist is that of the local stiffness. */
+/* Transforms the resultants from the principal axes of the element's section to those of the
+ * points; the twist follows from the local stiffness. */
 static stress_resultants local_resultants(const member_points *of, int element, const double v[])
 {
     const section *c = of->points.section,

@@ -1,5 +1,5 @@
-/* Linear analyses about the undeformed state, and quadratic forms taken from the strains: they cost
- * no digits on fine meshes. */
+/* Linear analyses about the undeformed state, and quadratic forms computed from the strains, which
+ * do not lose digits on fine meshes. */
 #include "harness/newton/newton_impl.h"
 
 #include <float.h>
@@ -71,7 +71,7 @@ double linear_initial(const model *m)
     return largest;
 }
 
-/* sigma += times those of the temperatures at `path` in elements whose nodes stay. */
+/* sigma += times the stresses of the temperatures at `path` in elements with fixed nodes. */
 static status add_free(const equations *eq, double path, double times, double sigma[], fault *f)
 {
     const model *m = eq->m;
@@ -177,7 +177,8 @@ status linear_geometric_stiffness(const equations *eq, const double sigma[], dou
     return STATUS_OK;
 }
 
-/* Sums of the absolute terms of J x and, of S times them, of the stresses of one element. */
+/* Sums of the absolute terms of J x of one element and, after multiplication with S, of its
+ * stresses. */
 static void linear_terms(const equations *eq, int i, const double x[], double strain[],
                          double stress[])
 {
@@ -200,8 +201,8 @@ static void linear_terms(const equations *eq, int i, const double x[], double st
     }
 }
 
-/* Strains are off by the rounding of their terms, S by that of its entries: errors of all elements
- * alike, so they add up. */
+/* Strains have the rounding errors of their terms, S those of its entries; these errors are alike
+ * in all elements and therefore add up. */
 double linear_strain_rounding(const equations *eq, const double x[])
 {
     const model *m = eq->m;
@@ -275,8 +276,8 @@ double linear_geometric_energy2(const equations *eq, const double sigma[], const
            linear_springs_geometric_energy2(m, sigma + model_elements(m) * model_strains(m), x);
 }
 
-/* The form is linear in the stresses: their error is rounding. It is the rounding of the terms that
- * the stresses are sums of, in any direction: as large as a stress `other` of all kinds at once. */
+/* The form is linear in the stresses, whose error is that of their terms: as large as the stress
+ * `other` of all kinds together, in any direction. */
 double linear_geometric_rounding(const equations *eq, const double load_x[], const double sigma[],
                                  const double x[])
 {
@@ -342,8 +343,8 @@ void linear_system_free(linear_system *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Right-hand side less K x of the prescribed coordinates and of x itself and less the forces of
- * initial strains, from element strains: its error does not grow with the mesh. */
+/* Right-hand side minus K x for the prescribed coordinates and x, and minus the forces of initial
+ * strains, computed from element strains, so that the error does not grow with the mesh. */
 static status residual_of(analysis_context *c, double path, const double load[], const double x[],
                           double sigma[], double r[], fault *f)
 {
@@ -358,8 +359,8 @@ static status residual_of(analysis_context *c, double path, const double load[],
 typedef struct system_workspace {
     double *load, *r, *weight, *shaken; /* [free + driven] */
     double *sigma;                      /* [elements x strains] */
-    double path, strained; /* largest strain without stress: held back, it leaves no displacement to
-                              compare with */
+    double path, strained; /* largest stress-free strain; if it is prevented, there is no
+                              displacement for comparison */
 } system_workspace;
 
 static status workspace_alloc(analysis_context *c, double path, system_workspace *w, fault *f)
@@ -386,7 +387,7 @@ static double part_of(const analysis_context *c, const system_workspace *w, cons
     return refinement_part(model_sizes(c->model).free, w->weight, change, x, w->strained);
 }
 
-/* x += K^-1 (load - K x); the size of what was added beside x. */
+/* x += K^-1 (load - K x); returns the size of the correction relative to x. */
 static status correct(analysis_context *c, linear_system *s, system_workspace *w, double x[],
                       double *correction, fault *f)
 {
@@ -399,8 +400,8 @@ static status correct(analysis_context *c, linear_system *s, system_workspace *w
     return STATUS_OK;
 }
 
-/* A correction may vanish by chance, of one element above all: how far x, shaken in its last digits
- * and corrected, ends from where it was. Not counted as work. */
+/* A correction may be zero by accident, especially with one element. Measures how far x, perturbed
+ * in its last digits and corrected, is from its old value. The work is not counted. */
 static status shake(analysis_context *c, linear_system *s, system_workspace *w, const double x[],
                     double *change, fault *f)
 {

@@ -1,6 +1,6 @@
-/* Mixed linearisation (N section 4): with J = de/dx and the independent e and sigma,
- *   de = D(x) - e + J dx,   sigma + dsigma = P'(e) + P''(e) de,
- * condensed element by element, so that stiff modes make no huge false stresses on the way. */
+/* Mixed linearisation (N section 4): with J = de/dx and the independent e and sigma, de = D(x) - e
+ * + J dx, sigma + dsigma = P'(e) + P''(e) de. The equations are condensed element by element, so
+ * that stiff modes cause no large spurious stresses during the iteration. */
 #include "harness/newton/newton_impl.h"
 
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/vec3.h"
 
-/* e, sigma of an element from D(x): displacement-only Newton. */
+/* Sets e and sigma of an element from D(x): displacement-only Newton. */
 static status compatible_element(const equations *eq, model_state *s, int i)
 {
     const model *m = eq->m;
@@ -58,8 +58,8 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
     return largest;
 }
 
-/* force and K (which has H) of an element that was evaluated, less centrifugal forces; present:
- * conjugate to the stresses of the state, which H belongs to. */
+/* force and K (which contains H) of an evaluated element, minus centrifugal forces; present:
+ * conjugate to the stresses of the state, to which H belongs. */
 static status add_material(const equations *eq, const linear_memory *memory, const model_state *s,
                            const chunk_element *of, int tangent, double path, double present[],
                            element_part *part)
@@ -102,8 +102,8 @@ static void subtract_loads(const equations *eq, const linear_memory *memory, chu
     }
 }
 
-/* Internal forces of an element that was evaluated, less centrifugal ones and loads along it, and,
- * where wanted, their tangent; both in model coordinates. */
+/* Internal forces of an evaluated element, minus centrifugal forces and loads along it, and
+ * optionally their tangent; both in model coordinates. */
 static status element_equations(const equations *eq, const linear_memory *memory,
                                 const model_state *s, chunk_element *of, int tangent, double path,
                                 element_part *part)
@@ -125,7 +125,7 @@ static status element_equations(const equations *eq, const linear_memory *memory
     return STATUS_OK;
 }
 
-/* force += K drive for the element's prescribed coordinates. */
+/* force += K drive for the prescribed coordinates of the element. */
 static void add_driven(const model *m, const mesh_element *el, const double drive[],
                        const double K[], double force[])
 {
@@ -164,14 +164,14 @@ typedef struct shared_loop {
     const model *m;
     const model_state *s;
     model_linearisation *lin;
-    const mesh_pattern *pattern; /* NULL: no K is wanted */
+    const mesh_pattern *pattern; /* NULL: K is not requested */
     int tangent, window;
     element_part *part; /* [slots of the team x window] */
     status outcome;
     fault *f;
 } shared_loop;
 
-/* The parts of elements [first, end), at most CHUNK_WINDOW, into part[0], ... */
+/* Evaluates elements [first, end), at most CHUNK_WINDOW, into part[0], ... */
 static void fill_window(const shared_loop *loop, int first, int end, element_part part[])
 {
     unsigned char done[CHUNK_WINDOW] = {0};
@@ -205,9 +205,8 @@ static void fill_piece(void *context, int piece, int slot)
                 loop->part + (size_t)slot * (size_t)loop->window);
 }
 
-/* Parts that are kept at a time, in eq->run->part; 0: one at a time, as there is no memory or no
- * need.
- */
+/* Number of elements whose parts are stored in eq->run->part; 0: one at a time, because memory is
+ * short or one is enough. */
 static int window_of(const equations *eq)
 {
     const model *m = eq->m;
@@ -220,7 +219,7 @@ static int window_of(const equations *eq)
     return eq->run->part != NULL ? wanted : 0;
 }
 
-/* The element's equations into those of the model, but for K. */
+/* Adds the equations of an element, without K, to those of the model. */
 static void add_part(const equations *eq, const mesh_element *el, element_part *part,
                      model_linearisation *lin)
 {
@@ -249,7 +248,7 @@ static void add_discrete(const equations *eq, const model_state *s, model_linear
     }
 }
 
-/* Adds up what a slot holds; 0: an element cannot be evaluated. */
+/* Adds the content of a slot; returns 0 when an element cannot be evaluated. */
 static int take_piece(void *context, int piece, int slot)
 {
     shared_loop *loop = context;
@@ -320,7 +319,7 @@ status linearise_state(const equations *eq, const linear_memory *memory, const m
     return outcome;
 }
 
-/* Forces of some of the elements: on a node, on coordinates. */
+/* Forces of selected elements on a node or on coordinates. */
 
 void linearise_node_force(const equations *eq, const model_state *s, const double sigma[], int node,
                           double F[6])
@@ -342,7 +341,7 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
             dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J,
                                     &stress[(size_t)i * (size_t)model_strains(m)], force);
             rotating_frame_add(eq, x, i, s->path, force, NULL,
-                               NULL); /* never fails in a state that has been reached */
+                               NULL); /* cannot fail in an accepted state */
             kinematics_offset(m, s, el->vertex[k], rho);
             vec3_cross(rho, force + NODE_COORDINATES * k, moment);
             for (int c = 0; c < 3; c++) {
@@ -358,7 +357,7 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
                                   node, F);
 }
 
-/* relative to the moments that are summed at a node; a smaller sum is rounding. */
+/* relative to the moments at a node; a smaller sum is rounding */
 static const double least_moment = 1e-12;
 
 double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],

@@ -7,7 +7,7 @@
 #include "elements/element.h"
 #include "elements/math/dense.h"
 
-/* Fewer elements than this are done before another thread is awake (measured on the joint and the
+/* Fewer elements than this are finished before another thread starts (measured on the joint and the
  * hexapod). */
 enum { ELEMENTS_OF_A_THREAD = 32 };
 
@@ -75,8 +75,8 @@ static int place(const link_element *el, int i)
     return NODE_COORDINATES * (i / el->joint) + i % el->joint;
 }
 
-/* The wanted columns of J: of the first node J_p[strains x joint], of the others J_y[strains x y];
- * H[wanted x wanted]. */
+/* Copies the used columns of J: J_p[strains x joint] of the first node, J_y[strains x y] of the
+ * others; H[used x used]. */
 static void take(const link_element *el, double J_p[], double J_y[], double H[])
 {
     const int c = el->joint, n = c * el->nodes, y = n - c, all = NODE_COORDINATES * el->nodes;
@@ -90,7 +90,7 @@ static void take(const link_element *el, double J_p[], double J_y[], double H[])
             H[i * n + j] = el->H[place(el, i) * all + place(el, j)];
 }
 
-/* T[wanted x joint]: all nodes move as one body with the first one; warping is not moved. */
+/* T[used x joint]: all nodes move with the first one as a rigid body; warping does not change. */
 static void carry_along(const link_element *el, double T[])
 {
     const int c = el->joint;
@@ -136,7 +136,7 @@ status link_of(const link_element *el, chain_link *out, fault *f)
     take(el, J_p, J_y, H);
     carry_along(el, T);
     TRY(flexibility(el, J_y, H, out, f));
-    /* E, and the forces that hold it there */
+    /* E, and the forces that it causes */
     dense_mul(s, y, c, J_y, T + c * c, E);
     for (int i = 0; i < s * c; i++)
         E[i] += J_p[i];
@@ -161,12 +161,13 @@ status link_of(const link_element *el, chain_link *out, fault *f)
 
 enum { N = 6 };
 
-/* Rigid parts that released ends join. */
+/* Rigid parts joined by released ends. */
 typedef struct linkage {
     const model *m;
-    int *part, *number; /* [vertices]: root; index of a root's part, NONE: it has no element */
+    int *part, *number; /* [vertices]: root; index of a root's part, NONE: no element */
     int count;
-    double *S; /* [6 count x 6 count]: squares of what joints, supports and springs prevent */
+    double *S; /* [6 count x 6 count]: sum of squares of the motions that joints, supports and
+                  springs prevent */
 } linkage;
 
 static void count_part(linkage *l, int mover)
@@ -187,7 +188,7 @@ static void add_block(linkage *l, int a, int b, double sign, const double C[N * 
                 sign * block[N * i + j];
 }
 
-/* Rows of one kind of motion, less their parts along the unit vectors that are at right angles. */
+/* Rows of one kind of motion, minus their components along orthogonal unit vectors. */
 static void leave_out(int count, const double along[3][3], double rows[3 * N])
 {
     for (int k = 0; k < count; k++)
@@ -235,8 +236,8 @@ static void add_holds(linkage *l, int node)
             sum[i];
 }
 
-/* Motion of a point that moves with a part, in the eigenvector of the least value: [6: m, rad]; its
- * size [m]. */
+/* Motion of a point of a part in the eigenvector of the smallest eigenvalue: [6: m, rad]; its size
+ * [m]. */
 static double motion_of(const linkage *l, int part, const double position[3], double motion[N])
 {
     double at[3], G[N * N], of_part[N];
@@ -249,7 +250,7 @@ static double motion_of(const linkage *l, int part, const double position[3], do
     return vec3_norm(motion) + model_length(l->m) * vec3_norm(motion + 3);
 }
 
-/* The node that moves most, or the member where all nodes stay. */
+/* Names the node that moves most, or a member if all nodes are at rest. */
 static void name_what_moves(const linkage *l, int *node, int *member, double motion[N])
 {
     const model *m = l->m;
@@ -271,14 +272,14 @@ static void name_what_moves(const linkage *l, int *node, int *member, double mot
         const double size =
             part != NONE ? motion_of(l, part, model_vertex(m, i)->position, moved) : 0;
         if (size > most) {
-            most = size * (1 + 1e-9); /* of equals the first */
+            most = size * (1 + 1e-9); /* the first of equal ones */
             *node = i;
             memcpy(motion, moved, sizeof moved);
         }
     }
 }
 
-/* S of all parts; 1: there is a motion that nothing prevents. */
+/* Assembles S of all parts; returns 1 when some motion is not prevented. */
 static int is_loose(linkage *l)
 {
     const int n = N * l->count;

@@ -7,12 +7,12 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Asymmetry of a moment's stiffness that is round-off, relative to the moment. */
+/* Largest asymmetry of the stiffness of a moment that counts as round-off, relative to the moment.
+ */
 static const double potential = 1e-12;
 
-/* Returns which loads along members are lumped at the ends of elements: weights where mass is
- * lumped there; all where a motion has to conserve energy, also in the states that such motions
- * start from. */
+/* Which loads along members are lumped at the ends of elements: weights if mass is lumped there;
+ * all if a motion must conserve energy, also in its initial states. */
 static int lumps_of(const model *m, int analysis)
 {
     const scene *s = model_scene(m);
@@ -142,7 +142,7 @@ void loads_add(const equations *eq, const model_state *s, double path, double ou
                       applied_factor(eq, &model_scene(m)->load[i], path), out);
 }
 
-/* C in the state, under the loads along the element. */
+/* C in the state under the loads along the element. */
 static status tangent_of(const equations *eq, const model_state *s, const node_state x[],
                          int element, double C[])
 {
@@ -175,7 +175,7 @@ void loads_add_temperature(const equations *eq, const model_state *s, const scen
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s, el, x);
         if (!free_strain_by_load(eq, s, i, load, scale, e) ||
-            tangent_of(eq, s, x, i, C) != STATUS_OK) /* of a state that was reached: never */
+            tangent_of(eq, s, x, i, C) != STATUS_OK) /* cannot fail in an accepted state */
             continue;
         dense_mul_vec(model_strains(m), model_strains(m), C, e, sigma);
         model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
@@ -235,7 +235,7 @@ void loads_subtract_stiffness(const equations *eq, const model_state *s, double 
     }
 }
 
-/* Entries of one load's stiffness at free coordinates: of one body, so few. */
+/* Entries of the stiffness of one load at free coordinates; few, since they belong to one body. */
 enum { MOST_ENTRIES = 64 };
 typedef struct entries_of_load {
     int free, count, row[MOST_ENTRIES], column[MOST_ENTRIES];
@@ -332,7 +332,7 @@ static void add_at_node(void *context, const applied *what)
         sum->F[k] += what->F[k] + (k >= 3 && away ? moment[k - 3] : 0);
 }
 
-/* Adds the loads along an element at one node. */
+/* Adds the contribution of the loads along an element at one node. */
 static void add_element_at_node(sum_at_node *sum, int element, double path)
 {
     const model *m = sum->m;

@@ -12,7 +12,7 @@ static void put(const model *m, int row, const row_label *label, row_label out[]
         out[row] = *label;
 }
 
-/* Names of a vertex' six coordinates. */
+/* Names of the six coordinates of a vertex. */
 static const char *component_of(const model *m, int vertex, int c)
 {
     static const char *const plain[] = {"ux", "uy", "uz", "rx", "ry", "rz"},
@@ -24,7 +24,7 @@ static const char *component_of(const model *m, int vertex, int c)
     return c >= SCENE_RX && model_vertex(m, vertex)->angles > 0 ? angle[c - SCENE_RX] : plain[c];
 }
 
-/* The coordinates of a vertex; label: where it is. */
+/* Labels the coordinates of a vertex; label: its position. */
 static void put_vertex(const model *m, int vertex, row_label label, row_label out[])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -69,13 +69,13 @@ void rows_label(const model *m, row_label out[])
         put_element(m, model_element(m, i), out);
 }
 
-/* Family of a mode by the share of its kinetic-like measure: translations along the member, across
- * it, and twist times the radius of gyration; half-waves by the sign changes of the leading
- * component along the first member. */
+/* Family of a mode: axial, along y, along z or twist, by the largest sum of squares of translations
+ * along the member, across it, and twist times the radius of gyration. The number of half-waves
+ * follows from sign changes of the leading component along the first member. */
 
 enum { AXIAL, ALONG_Y, ALONG_Z, TWIST, MEASURES };
 
-/* Components of vertex motion in the member's axes: x, y, z and twist times r. */
+/* Components of the motion of a vertex in the member's axes: x, y, z, and twist times r. */
 static void components(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     for (int k = 0; k < 3; k++)
@@ -83,8 +83,8 @@ static void components(const double R[9], double radius, const double u[7], doub
     out[TWIST] = radius * (R[0] * u[3] + R[3] * u[4] + R[6] * u[5]);
 }
 
-/* Where the vertices stay in place: turns of the section about z and y times r, and warping times
- * r^2. */
+/* If vertices do not move: rotations of the section about z and y times r, and warping times r^2.
+ */
 static void turns(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     out[AXIAL] = 0;
@@ -110,11 +110,11 @@ static int count_half_waves(int vertices, const double *value)
     return waves;
 }
 
-/* Components of a mode at the vertices of all members, one after the other. */
+/* Components of a mode at the vertices of all members. */
 typedef struct motion {
-    int points, first_member; /* points of all members, and of the first */
+    int points, first_member; /* number of points of all members, and of the first */
     double *part;             /* [points x MEASURES] */
-    double *turn;             /* the same of what the sections do in place */
+    double *turn;             /* the same for rotations and warping */
 } motion;
 
 static int points_of(const model *m, const scene *s)
@@ -125,7 +125,7 @@ static int points_of(const model *m, const scene *s)
     return points;
 }
 
-/* u[vertices x 7]: the mode at the vertices; index[vertices] is work space. */
+/* u[vertices x 7]: the mode at the vertices; index[vertices]: work space. */
 static void fill_motion(const model *m, const scene *s, const double *u, int *index, motion *out)
 {
     for (int member = 0; member < s->members; member++) {
@@ -186,7 +186,7 @@ static int largest_of(const double sum[MEASURES])
     return leading;
 }
 
-/* Motion of the vertices below this part of that of the sections in place, in squares, is
+/* Below this fraction, in squares, of rotations and warping, the translation of vertices is
  * round-off. */
 static const double in_place_part = 1e-16;
 
@@ -239,7 +239,7 @@ const char *modes_family_name(scene_family family)
     return "any";
 }
 
-enum { MOST = 8 }; /* modes of one cluster that are distinguished */
+enum { MOST = 8 }; /* largest number of modes in a cluster */
 
 static status motions_alloc(const model *m, const scene *s, int count, size_t n, const double *mode,
                             motion shape[], fault *f)
@@ -249,7 +249,7 @@ static status motions_alloc(const model *m, const scene *s, int count, size_t n,
     return STATUS_OK;
 }
 
-/* Products of the motions [count x count]: along z, and in all. */
+/* Inner products of the motions [count x count]: along z, and in total. */
 static void products(int count, const motion shape[], double along_z[], double all[])
 {
     memset(along_z, 0, (size_t)(count * count) * sizeof *along_z);
@@ -278,8 +278,8 @@ static void combine(int count, size_t n, const double C[], double *mode)
     }
 }
 
-/* mode <- combinations that make the part along z as small or as large as it can be beside the
- * whole; modes that look alike at the vertices stay as they are. */
+/* Replaces the modes by combinations for which the fraction of motion along z is as small or as
+ * large as possible; modes that look alike at the vertices do not change. */
 static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode,
                                fault *f)
 {
@@ -297,7 +297,7 @@ static status separate_cluster(const model *m, const scene *s, int count, size_t
     return STATUS_OK;
 }
 
-/* One after the last of the values that are equal to the first. */
+/* Index after the last value that equals the first. */
 static int cluster_end(int first, int count, const double value[])
 {
     const double equal = 1e-8; /* relative */
@@ -323,7 +323,7 @@ identity identity_begin(void)
     return (identity){{14695981039346656037ull, 0x9e3779b97f4a7c15ull}};
 }
 
-/* FNV-1a, and beside it a product of another kind. */
+/* FNV-1a hash, and a second hash with another multiplier. */
 void identity_add(identity *out, const void *bytes, size_t size)
 {
     const unsigned char *at = bytes;
@@ -339,7 +339,7 @@ static void add_number(identity *out, long number)
     identity_add(out, &number, sizeof number);
 }
 
-/* All of a type but its words, and what has done its work when the data are there. */
+/* Adds a type without its texts, and without the functions used only during preparation. */
 static void add_type(identity *out, const element_type *type)
 {
     element_type t;

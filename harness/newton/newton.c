@@ -1,5 +1,5 @@
-/* One Newton iteration: assemble, factor, solve, take the increments; condensed element by element
- * or, for comparison, dense. */
+/* One Newton iteration: assembles, factors, solves, and applies the increment; condensed element by
+ * element or, for comparison, dense. */
 #include "harness/newton/newton.h"
 
 #include <lapacke.h>
@@ -83,8 +83,8 @@ void newton_free(newton_run *n)
     kinematics_state_free(n->backup);
 }
 
-/* 1: what a driver moves of its condition's coordinates is more than the round-off of all that it
- * moves. */
+/* Returns 1 when the effect of a driver on its coordinate exceeds the round-off of all its effects.
+ */
 static int drives(const newton_run *n, int count, const model_condition condition[],
                   const double column[])
 {
@@ -99,8 +99,8 @@ static int drives(const newton_run *n, int count, const model_condition conditio
     return conditioned > round_off * round_off * all;
 }
 
-/* Unknown drivers: their increments, of which the columns are solved for, make the conditions hold;
- * dx of the free coordinates follows. */
+/* Computes the increments of unknown drivers, whose columns are known, from their conditions, then
+ * dx of the free coordinates. */
 static status meet_conditions(newton_run *n, int count, const model_condition condition[], fault *f)
 {
     double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];
@@ -126,7 +126,7 @@ static status meet_conditions(newton_run *n, int count, const model_condition co
     return STATUS_OK;
 }
 
-/* The tangent of the state and its factors. */
+/* Assembles the tangent of the state and factors it. */
 static status factor_tangent(newton_run *n, model_linearisation *lin, fault *f)
 {
     if (n->whole.value != NULL)
@@ -142,7 +142,7 @@ static status factor_tangent(newton_run *n, model_linearisation *lin, fault *f)
     return context_factor_condensed(n->c, n->condensed, f);
 }
 
-/* dx of the condensed system. */
+/* Solves the condensed system for dx. */
 static status solve_condensed(newton_run *n, model_linearisation *lin, fault *f)
 {
     phases *p = &n->c->run->phases;
@@ -157,7 +157,7 @@ static status solve_condensed(newton_run *n, model_linearisation *lin, fault *f)
     return met;
 }
 
-/* dx of the uncondensed system, by Gaussian elimination with partial pivoting (LAPACK). */
+/* Solves the uncondensed system for dx by Gaussian elimination with partial pivoting (LAPACK). */
 static status solve_dense(newton_run *n, model_linearisation *lin, fault *f)
 {
     const model *m = n->c->model;
@@ -178,7 +178,7 @@ static status solve_dense(newton_run *n, model_linearisation *lin, fault *f)
     parts.drive = NULL;
     parts.conditions = 0;
     TRY(linearise_state(&n->c->eq, &n->c->run->memory, n->state, &parts,
-                        f)); /* what advance_state needs */
+                        f)); /* data for advance_state */
     lin->incompatibility = parts.incompatibility;
     TRY(uncondensed_system(&n->c->eq, n->state, lin->path, n->dx, lin->conditions, lin->condition,
                            n->dense, n->unknown, n->residual, f));
@@ -267,7 +267,7 @@ int context_runs(const analysis_context *c, int analysis)
     return c->options->all_analyses || scene_reads(c->scene, analysis);
 }
 
-/* Path parameter of the state that a motion starts from; 1: it starts from none. */
+/* Path parameter of the static state from which a motion starts; 1: none. */
 static double held_path(const analysis_context *c, int analysis)
 {
     const int origin = scene_origin_of(c->scene, analysis);

@@ -22,8 +22,8 @@
 #include "harness/numerics/numerics.h"
 #include "harness/section_forces/section_forces.h"
 
-/* The equations of a model under a loading, and data that a run changes in addition to its states.
- * The model and the loading do not change. Nothing of it outlives a solution. */
+/* The equations of a model under a loading, and data of a run in addition to its states. The model
+ * and the loading do not change. The data do not outlive a solution. */
 
 /* Work done so far. */
 typedef struct counters {
@@ -33,16 +33,16 @@ typedef struct counters {
     long factor_entries;
     double factor_flops;
     double dense_operations; /* n^3 of every eigenvalue problem solved densely */
-    long negative_pivots;    /* most of a symmetric tangent at a state that was reached */
-    double condition; /* largest estimate of the solved systems (factor_condition), where it was
-                         requested; else 0 */
+    long negative_pivots;    /* largest number for a symmetric tangent at an accepted state */
+    double condition; /* largest estimate of the solved systems (factor_condition), if requested;
+                         else 0 */
 } counters;
 
-/* Derivatives of elements at rest: harness/newton/newton_impl.h. */
+/* Derivatives of elements in the undeformed state: harness/newton/newton_impl.h. */
 typedef struct run_undeformed {
-    int *of;         /* [elements] index of its values, or NONE; NULL: nothing is known */
+    int *of;         /* [elements] index of its values, or NONE; NULL: no values yet */
     int count, room; /* of values */
-    int last;        /* element that the last of them are of */
+    int last;        /* element to which the last values belong */
     double *value;   /* [room x (J, C, initial stresses)] */
 } run_undeformed;
 
@@ -57,26 +57,27 @@ enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
 
 /* Meaning of the path parameter, loads, and rotation of the axes of one analysis. */
 typedef struct loading {
-    int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
-    double held_path; /* path parameter of loads and drivers that are no function of time */
-    int unloaded;     /* neither loads nor drivers act */
+    int in_time; /* the path parameter is the time, and loads and drivers are functions of it */
+    double held_path; /* path parameter for loads and drivers that are not functions of time */
+    int unloaded;     /* no loads, and drivers at zero */
     int lumps;        /* LUMPS_* */
-    element_rotating_frame frame; /* its velocity times the path if that is followed */
+    element_rotating_frame
+        frame; /* for a path of rotation its velocity is multiplied by the path parameter */
     int rotates, rotation_follows_path;
 } loading;
 
-/* Stresses of a motion gain eta S0 e', eta of the member, and those of dashpots C e': see
+/* Stresses in a motion gain eta S0 e', with eta of the member, and those of dashpots C e': see
  * harness/time/time.h. */
 typedef struct run_damping {
-    double *stiffness;          /* [kinds x strains^2] S0 */
-    double *none;               /* [model_stresses] zero */
-    double *begin;              /* [model_stresses] strains of the state that rates are from */
-    double g;                   /* e' = known + g (e - from) */
+    double *stiffness; /* [kinds x strains^2] S0 */
+    double *none;      /* [model_stresses] zero */
+    double *begin;     /* [model_stresses] strains of the state from which rates are computed */
+    double g;          /* e' = known + g (e - from) */
     const double *known, *from; /* [model_stresses] */
-    spring_rates springs;       /* the same of the springs */
+    spring_rates springs;       /* the same for springs */
 } run_damping;
 
-/* NULL: nothing moves, or none is a dashpot. */
+/* NULL: at rest, or no dashpot. */
 static inline const spring_rates *damping_of_springs(const run_damping *d)
 {
     return d != NULL ? &d->springs : NULL;
@@ -87,17 +88,18 @@ struct run_free;
 struct element_part;
 
 typedef struct run_state {
-    assemble_patterns *patterns; /* of the matrices of the model, made when they are requested */
+    assemble_patterns *patterns; /* patterns of the matrices of the model, made on request */
     counters counters;
     phases phases;
-    thread_team *team;         /* of the loop over elements; NULL: one thread */
-    struct element_part *part; /* of a few elements, before they are added up in order; NULL: none
-                                  yet */
-    struct run_ahead *ahead; /* one block; NULL: nothing has been evaluated ahead: newton_impl.h */
+    thread_team *team; /* threads of the loop over elements; NULL: one thread */
+    struct element_part
+        *part; /* equations of a few elements, before they are added up in order; NULL: none yet */
+    struct run_ahead
+        *ahead; /* one memory block; NULL: no batch has been evaluated: newton_impl.h */
     run_undeformed undeformed;
-    struct run_free *free_strain; /* free_strain.c; NULL: no type alters its data */
-    run_damping *damping;         /* of a motion; NULL: none */
-    linear_memory memory;         /* of callers that linearise one state at a time */
+    struct run_free *free_strain; /* free_strain.c; NULL: no type changes its data */
+    run_damping *damping;         /* damping of a motion; NULL: none */
+    linear_memory memory;         /* for callers that linearise one state at a time */
 } run_state;
 
 typedef struct equations {
@@ -109,64 +111,67 @@ typedef struct equations {
 status linear_memory_alloc(const model *, linear_memory *, fault *);
 void linear_memory_free(linear_memory *);
 
-/* For a model, nothing done yet. threads share the loop over elements; 0, 1: one. Sums keep their
- * order: results do not depend on it. */
+/* Starts a run of a model. threads share the loop over elements; 0, 1: one. Sums keep their order,
+ * so that results do not depend on the number of threads. */
 status run_state_begin(run_state *, const model *, int threads, fault *);
 void run_state_end(run_state *);
-/* Rotation of the frame at that path parameter. */
+/* Rotation of the frame at a path parameter. */
 element_rotating_frame loading_frame(const loading *, double path);
 
 /* Update of a state by the solution of the linearised equations. */
 
 /* Largest stresses of all elements [N]. */
 typedef struct advance_stress {
-    double largest, change; /* after it; by it */
+    double largest, change; /* after the update; change due to it */
 } advance_stress;
 
-/* After linearise_state with that memory and K dx = residual: strains, stresses, inner unknowns of
- * every element and then the frames take their increments. dx[free + driven]. Returns the largest
- * correction, dimensionless: translations by the size of the scene, rotations in rad, warping by
- * the element length, inner unknowns as the element defines. stress: NULL: not needed. */
+/* Call after linearise_state with that memory and K dx = residual. Adds the increments to strains,
+ * stresses and inner unknowns of every element, then to the frames. dx[free + driven]. Returns the
+ * largest correction, dimensionless: translations relative to the size of the scene, rotations in
+ * rad, warping relative to the element length, inner unknowns as the element defines. stress: may
+ * be NULL. */
 double advance_state(const equations *, const linear_memory *, model_state *, const double dx[],
                      double path, advance_stress *);
-/* The state is in equilibrium: the next increments start from it with the tangent of the last
- * linearisation, and nothing that this had left open is closed again. */
+/* Marks the state as an equilibrium: later increments start from it with the last tangent, and gaps
+ * of the last linearisation are not closed again. */
 void advance_settle(const model *, const linear_memory *, const model_state *);
 
-/* Forces of a load on the vertices of a mesh, in a state. */
+/* Forces of a load on the vertices of a mesh, in a given state. */
 
 typedef struct applied {
     int vertex;
-    int follower;  /* 1: F turns with the vertex */
+    int follower;  /* 1: F rotates with the vertex */
     int offset;    /* 1: arm is not zero */
     double F[6];   /* force and spatial moment [N, N m] */
-    double arm[3]; /* from the vertex to where the force acts, with which it turns [m] */
+    double arm[3]; /* from the vertex to the point of application; it rotates with the vertex [m] */
 } applied;
 
-/* Factor of the load at `path`, or in time (loading_of). */
+/* Factor of the load at `path`, or at a time (loading_of). */
 double applied_factor(const equations *, const scene_load *load, double path);
-/* Along the whole of a member, where it goes to nodes with a motion's mass by the shares of that;
- * not by the load's own wish. */
+/* Is the load along the whole of a member distributed to nodes by the shares of the mass of a
+ * motion, instead of its own option? */
 int applied_with_mass(const scene_load *);
-/* The load times `scale`.  Along members it is lumped at the nodes of elements, by linear shares,
- * or quadratic ones with a middle node: of a uniform load 1/2, 1/2, or Simpson's weights. */
+/* The load times `scale`. Loads along members are lumped at the nodes of elements with linear shape
+ * functions, or quadratic ones with a middle node; for a uniform load 1/2, 1/2, or Simpson's
+ * weights. */
 void applied_each(const model *, const model_state *, const scene_load *, double scale,
                   void (*take)(void *context, const applied *), void *context);
-/* The same of a load along the member of this element, and of this element alone. */
+/* As applied_each, for a load along the member of this element, on this element only. */
 void applied_element(const model *, const model_state *, const scene_load *, double scale,
                      int element, void (*take)(void *context, const applied *), void *context);
-/* The part [from, to] of an element that a load along its member acts on; of a point load
- * both are its position, in the element after it. 0: the load acts elsewhere. */
+/* Range [from, to] of an element on which a load along its member acts; for a point load both are
+ * its position, in the following element. Returns 0 when the load acts elsewhere. */
 int applied_part(const model *, int element, const scene_load *, double part[2]);
-/* 1: x is inside the element, not at an end. */
+/* Returns 1 when x is inside the element, not at an end. */
 int applied_inside(double x);
-/* Vector of a load along the member at x in [0, 1] of an element, as the scene gives it. */
+/* Vector of a load along the member at x in [0, 1] of an element, as given in the scene. */
 void applied_vector(const model *, int element, const scene_load *, double x, double vector[3]);
-/* The undeformed member's axes, y as the scene gives it, from the triad of a place of it, whose y
- * and z are the principal ones of the section. */
+/* Axes of the undeformed member, with y as given in the scene, from a triad on it, whose y and z
+ * are the principal axes of the section. */
 void applied_member_axes(const double triad[9], const section *, double axes[9]);
 
-/* Adds the load times `scale` to K, entry by entry; some are zero, some at the same position. */
+/* Adds the load times `scale` to K, entry by entry; entries may be zero, and several may have the
+ * same position. */
 typedef void (*loads_entry)(void *context, int row, int column, double value);
 void applied_stiffness(const model *, const model_state *, const scene_load *, double scale,
                        loads_entry take, void *context);
@@ -176,120 +181,122 @@ void applied_stiffness(const model *, const model_state *, const scene_load *, d
 
 /* Convergence history along one path. All members except `stress` are dimensionless. */
 typedef struct arrival {
-    double criterion;          /* requested; 0: that of rounding */
-    double small;              /* largest of two corrections after another that ends a step */
-    double correction, before; /* the last one; the one before it in the same step, or INFINITY */
-    double stress;             /* largest one of the path so far [N] */
-    double stress_change;      /* by the last correction, relative to it */
-    double contraction;        /* last ratio of a correction to the square of the one before it;
-                                  NAN: none */
-    double remaining;          /* size of the next correction, predicted; NAN: not known */
+    double criterion;          /* requested value; 0: limit of rounding */
+    double small;              /* two successive corrections below this end a step */
+    double correction, before; /* last correction; previous one in the same step, or INFINITY */
+    double stress;             /* largest stress on the path so far [N] */
+    double stress_change;      /* relative change by the last correction */
+    double
+        contraction;  /* last ratio of a correction to the square of the previous one; NAN: none */
+    double remaining; /* predicted size of the next correction; NAN: unknown */
 } arrival;
 
-/* differences 1: derivatives are differences, whose noise keeps corrections from contracting: the
- * first small one is the last. elements: rounding of the positions of very many keeps corrections
- * from becoming smaller. */
+/* differences 1: derivatives are computed by differences, whose noise prevents quadratic
+ * convergence, so that the first small correction is the last. elements: with many elements
+ * rounding of the positions limits the size of corrections. */
 void arrival_start(double criterion, int differences, int elements, arrival *);
-/* A correction was made, with what it did to the stresses; `first` of its step. */
+/* Records a correction and the change of stresses; `first`: first one of its step. */
 void arrival_take(double correction, const advance_stress *, int first, arrival *);
-/* 1: another correction would change nothing. */
+/* Returns 1 when a further correction would change nothing. */
 int arrival_reached(const arrival *);
-/* 1: the state has moved so little since the last linearisation that its tangent is that of the
- * state, up to rounding. */
+/* Returns 1 when the state has moved so little since the last linearisation that the tangent is
+ * valid for the state, up to rounding. */
 int arrival_tangent_stands(const arrival *);
 
-/* Members condensed to their ends before the tangent is solved, and back.
+/* Condenses members to their ends before the tangent is solved, and expands the solution.
  *
- * Where members have many elements the assembled tangent loses digits with the fourth power of
- * their number, which flexibilities of members (newton_impl.h) do not; and the remaining system is
- * as small as with one element per member. */
+ * For members with many elements the assembled tangent loses digits with the fourth power of their
+ * number. Flexibilities of members (newton_impl.h) do not, and the remaining system is as small as
+ * with one element per member. */
 
 typedef struct condensation condensation;
 
-/* Least number of elements of a member: with fewer, the assembled tangent costs less and has enough
- * digits. */
+/* Least number of elements of a condensed member: with fewer, the assembled tangent costs less and
+ * is accurate enough. */
 enum { CONDENSATION_ELEMENTS = 1000 };
 
-/* *out NULL: members have fewer elements than `from`, or something acts between their ends that has
- * a stiffness, or frames turn. released[count]: prescribed coordinates that are unknown too. */
+/* *out NULL: members have fewer elements than `from`, or a load between their ends has a stiffness,
+ * or frames rotate. released[count]: prescribed coordinates that are also unknowns. */
 status condensation_alloc(const equations *, int from, int count, const int released[],
                           condensation **out, fault *);
-/* The members of `of`, which must outlive it, with other released coordinates: condensation_take.
- */
+/* With the members of `of`, which must outlive it, and other released coordinates: see
+ * condensation_take. */
 status condensation_alloc_like(const condensation *of, int count, const int released[],
                                condensation **out, fault *);
 void condensation_free(condensation *);
 
-/* The tangent of the last linearise_state with these arguments, in parts: members are condensed. */
+/* The tangent of the last linearise_state with the same arguments, with members condensed. */
 status condensation_at(condensation *, const model_state *, double path, fault *);
-/* The tangent that `of`, whose members these are, has in the state. */
+/* The tangent in the state of `of`, which owns the members. */
 void condensation_take(condensation *, const condensation *of, const model_state *);
-/* On all coordinates, to be altered before it is factored; entries between ends only. */
+/* Matrix on all coordinates of ends, to be changed before it is factored. */
 sparse *condensation_ends(condensation *);
-/* SINGULAR as factor_numeric, or where a member has a critical state of its own. */
+/* SINGULAR: see factor_numeric, or a member is in a critical state. */
 status condensation_factor(condensation *, fault *);
-/* x[free + driven] := K^-1 x on the unknowns; transposed: K^-T. */
+/* x[free + driven] := K^-1 x on the unknowns; transposed: K^-T x. */
 void condensation_solve(condensation *, int transposed, double x[]);
 factor_counts condensation_count(const condensation *);
-/* A factor that solves by it and owns it. */
+/* Makes a factor that solves with the condensation and owns it. */
 status condensation_as_factor(condensation *, matrix_factor **, fault *);
 
-/* Shape of a mode of vibration or buckling. */
+/* Shape of a vibration or buckling mode. */
 
 typedef struct mode_shape {
     scene_family family;
     int half_waves;
 } mode_shape;
 status modes_identify(const model *, const scene *, const double mode[], mode_shape *, fault *);
-int modes_in_family(const scene_mode *, const mode_shape *); /* 1: the quantity asks for it */
+int modes_in_family(const scene_mode *,
+                    const mode_shape *); /* Returns 1 when the mode belongs to the family that the
+                                            quantity requests. */
 const char *modes_family_name(scene_family);
-/* Modes of equal value[count], one after the other (each [n = free + driven]), may be mixed in any
- * way: they become those that move along the members' z axes and those that do not. */
+/* Separates modes of equal value[count], stored one after the other (each [n = free + driven]),
+ * which may be arbitrary mixtures: into those that move along the z axes of members and those that
+ * do not. */
 status modes_separate(const model *, const scene *, int count, const double value[], size_t n,
                       double *mode, fault *);
 
-/* Results of an analysis, for quantities and for analyses that follow it. */
+/* Results of an analysis, for quantities and for later analyses. */
 
-/* Critical loads of one sign, ascending in size, or frequencies [rad/s], ascending; with their
- * modes. */
+/* Critical loads of one sign, or frequencies [rad/s], ascending in size, with their modes. */
 typedef struct outcome_side {
     int count;
     double *value, *mode; /* [count] NAN: lost in round-off; [count x free] */
-    double *error;  /* [count] estimated relative error by iteration and round-off; NULL: there is
-                       none */
-    double *growth; /* [count] of damped modes [1/s], behind value; NULL: of others. Their error is
-                       that of growth + i value */
+    double *error; /* [count] estimated relative error due to iteration and round-off; NULL: none */
+    double *growth; /* [count] growth rates of damped modes [1/s]; NULL: undamped. error then refers
+                       to growth + i value */
     status status;  /* NOT_CONVERGED: ... */
-    char reason[FAULT_TEXT]; /* ... why there are no more, or some are lost */
+    char reason[FAULT_TEXT]; /* ... why there are no more, or why some are lost */
 } outcome_side;
 /* Small motions about one state of a stationary rotation. */
 typedef struct rotation_modes {
     int count;
     double *frequency, *growth; /* [count] [rad/s], [1/s] */
-    double *error; /* [count] estimated relative error of lambda = growth + i frequency by iteration
-                      and round-off */
+    double *error;     /* [count] estimated relative error of lambda = growth + i frequency due to
+                          iteration and round-off */
     mode_shape *shape; /* [count] */
-    int negative;      /* eigenvalues of the stiffness, and ... */
-    int unproven;      /* ... those of them that the modes do not account for */
+    int negative;      /* number of negative eigenvalues of the stiffness, and ... */
+    int unproven;      /* ... of those that the modes do not account for */
 } rotation_modes;
 void outcome_modes_free(rotation_modes *);
 
 enum { OUTCOME_MEANING = 128 };
-/* Buckling, modal; what was found stays where the analysis failed. */
+/* Results of buckling and modal analyses; values found before a failure remain. */
 typedef struct outcome_spectrum {
-    outcome_side positive, negative; /* frequencies are positive */
-    char meaning[OUTCOME_MEANING];   /* with or without the damping of members, or how stability is
-                                        lost; "": nothing is damped, and loads have a potential */
-    double growth;    /* [1/s] of modes about a state without potential, the largest; 0: stable */
-    double *strained; /* [free + driven] displacements by initial strains alone, about which modes
-                         of the structure without loads are; NULL: there are none */
+    outcome_side positive, negative; /* frequencies are in `positive` */
+    char meaning[OUTCOME_MEANING];   /* with or without the damping of members, or the kind of
+                                        instability; "": no damping, and loads have a potential */
+    double growth;    /* [1/s] largest growth rate about a state without potential; 0: stable */
+    double *strained; /* [free + driven] displacements due to initial strains alone, about which
+                         modes without loads are computed; NULL: none */
 } outcome_spectrum;
 
-/* Stations of a path: static, and the first member of the three below. */
+/* Stations of a path: results of a static analysis, and first member of the three structures below.
+ */
 typedef struct outcome_path {
-    int stations, reached; /* the first `reached` of them */
+    int stations, reached; /* number of stations; the first `reached` have been computed */
     double *value;         /* [stations] of the path parameter or the control coordinate */
-    model_state **state;   /* [stations]; NULL: of a compliance */
+    model_state **state;   /* [stations]; NULL: for a compliance */
 } outcome_path;
 
 /* Compliance C and stiffness K of a node at one station. */
@@ -300,99 +307,101 @@ typedef struct station_matrices {
 
 typedef struct outcome_compliance {
     outcome_path path;
-    /* of the six components at the node, at every station [stations x 36]; rows of fixed components
-     * are zero, columns that are not requested NaN; belongs to the result */
+    /* compliance for the six components of the node at every station [stations x 36]; rows of fixed
+     * components are zero, columns that are not requested NaN; owned by the result */
     const double *matrix;
-    station_matrices *taken; /* [stations] on the way along the path; NULL: none */
+    station_matrices *taken; /* [stations] computed during the solution of the path; NULL: none */
 } outcome_compliance;
 
 typedef struct outcome_rotation {
     outcome_path path;
-    rotation_modes *modes; /* [stations]; NULL where no quantity asks for them */
+    rotation_modes *modes; /* [stations]; NULL if no quantity requires them */
 } outcome_rotation;
 
-/* State of a motion at one instant, from scene_balance. */
+/* State of a motion at one instant; balance: from scene_balance. */
 typedef struct outcome_instant {
-    double *rate, *acceleration; /* [free + driven]: see harness/time/time_impl.h; one block */
+    double *rate,
+        *acceleration; /* [free + driven]: see harness/time/time_impl.h; one memory block */
     double balance[SCENE_BALANCES];
 } outcome_instant;
 
-/* Extreme or crossing of one quantity during a motion, not only at its stations. */
-enum { PASSING_LOST = 2 }; /* a turn has lost its direction (harness/model/model.h) */
+/* Extremum or crossing of one quantity during a motion, including times between stations. */
+enum { PASSING_LOST = 2 }; /* a rotation vector has lost its direction (harness/model/model.h) */
 typedef struct outcome_passing {
-    int known;    /* 1, 0: not, or PASSING_LOST */
-    double value; /* as extracted, or a time [s], or how often in a second */
-    double time;  /* [s] of a largest or least value */
-    double error; /* estimate of what reading it between the ends of steps adds to the value */
+    int known;    /* 1, 0: no value, or PASSING_LOST */
+    double value; /* as extracted, or a time [s], or crossings per second */
+    double time;  /* [s] of a maximum or minimum */
+    double error; /* estimated error due to interpolation between the ends of steps */
 } outcome_passing;
 
-/* End of an accepted step of a motion; the first one is the initial state. */
+/* End of an accepted step of a motion; the first record is the initial state. */
 typedef struct outcome_step {
-    double time, step;        /* [s] its end and length; 0 of the initial state */
-    double error;             /* estimate of what it adds to positions, in the measure of model.h;
-                                 0: not requested */
-    int iterations, rejected; /* rejected: longer ones that were tried before it */
+    double time, step; /* [s] end and size of the step; size 0 for the initial state */
+    double error; /* estimated error of positions due to the step, in the measure of model.h; 0: not
+                     requested */
+    int iterations, rejected; /* rejected: number of longer steps tried before */
     double balance[SCENE_BALANCES];
 } outcome_step;
 
-/* End of a motion: all that another one needs to continue it. */
+/* End of a motion, with all data needed to continue it. */
 typedef struct outcome_end {
-    int analysis;            /* of the scene */
-    double time, step;       /* [s] step: the next one */
-    double path;             /* of the state */
-    double work, dissipated; /* [J] since t = 0 */
-    double largest, origin;  /* [J] largest energy so far; that at t = 0 */
-    double turned;           /* [J] sum of the work of all steps, whatever their signs */
+    int analysis;                        /* index in the scene */
+    double time, step;                   /* [s] step: size of the next one */
+    double path;                         /* path parameter of the state */
+    double work, dissipated;             /* [J] since t = 0 */
+    double largest, origin;              /* [J] largest energy so far; that at t = 0 */
+    double turned;                       /* [J] sum of the absolute work of all steps */
     double scale, extent, rate, density; /* of time_impl.h */
-    double stress, contraction;          /* of Newton's convergence */
-    int quiet;                           /* steps since the last discontinuity of the loads */
+    double stress, contraction;          /* convergence history of Newton's method */
+    int quiet; /* number of steps since the last discontinuity of the loads */
     size_t states, coordinates, strains, released, between;
     double *value; /* [2 states + 3 coordinates + 2 strains + released + 5 between]; NULL: none. The
-                      state; the initial one; rates, their derivatives, and those that
+                      state; the initial state; rates, their derivatives, and the accelerations that
                       generalized-alpha averages; rates of damped strains and their derivatives;
-                      rates of released ends as conserving steps have them; turns of nodes against
+                      rates of released ends in conserving steps; rotations of nodes relative to
                       others (model.h) */
 } outcome_end;
-/* How many numbers `value` has. */
+/* Number of entries of `value`. */
 size_t outcome_end_values(const outcome_end *);
 void outcome_end_free(outcome_end *);
 
 typedef struct outcome_motion {
     outcome_path path;
     outcome_instant *instant; /* [stations] */
-    int steps;                /* with the initial state */
+    int steps;                /* number of records, including the initial state */
     outcome_step *step;       /* [steps] */
     outcome_passing *passing; /* [quantities of the scene] */
-    double *slope;            /* [quantities of the scene x stations] of those whose values are
-                                 slopes inside steps; NULL: there is none */
-    outcome_path frames;      /* for pictures, evenly over the time */
-    double origin;            /* [J] energy at t = 0 of the first motion of a chain */
+    double *slope;            /* [quantities of the scene x stations] of quantities that are
+                                 slopes inside steps; NULL: none */
+    outcome_path frames;      /* for pictures, at equal intervals */
+    double origin;            /* [J] energy at t = 0 of the first motion in a chain */
     outcome_end end;
 } outcome_motion;
 
 typedef struct outcome_harmonic {
-    outcome_path path; /* frequencies [Hz]; no states */
+    outcome_path path; /* path of frequencies [Hz]; without states */
     double *response;  /* [quantities of the scene x stations] as extracted */
     double *bound;     /* the same: error by omitted modes, at most */
 } outcome_harmonic;
 
 typedef struct outcome_continuation {
     outcome_path path;
-    int points;               /* of the path, the first without load */
+    int points;               /* number of points of the path, the first without load */
     double *factor, *control; /* [points] load factor and control value [m] */
-    int undecided;            /* 1: the number of critical points between these load factors is not
-                                 known: only the events before are */
+    int undecided; /* 1: the number of critical points between these load factors is unknown; only
+                      earlier events are listed */
     int decided_events;
     double undecided_from, undecided_to;
-    model_state **state; /* [points] of nodes; NULL unless a curve of coordinates is wanted */
+    model_state *
+        *state; /* [points] states of nodes; NULL unless a curve of coordinates is requested */
 } outcome_continuation;
 
 typedef struct analysis_outcome {
     scene_analysis_kind kind;
     status status;
     char reason[FAULT_TEXT];
-    union {        /* written by the analysis, read through the functions below */
-        double *x; /* linear: displacements of all coordinates */
+    union {        /* written by the analysis; use the functions below to read it */
+        double *x; /* linear analysis: displacements of all coordinates */
         outcome_spectrum spectrum;
         outcome_path path; /* static */
         outcome_compliance compliance;
@@ -411,24 +420,23 @@ const outcome_path *outcome_path_of(const analysis_outcome *);
 const outcome_compliance *outcome_compliance_of(const analysis_outcome *);
 const outcome_rotation *outcome_rotation_of(const analysis_outcome *);
 const outcome_motion *outcome_motion_of(const analysis_outcome *);
-/* Returns the outcome of a motion, to be filled. */
+/* Returns the outcome of a motion, to be filled in. */
 outcome_motion *outcome_motion_in(analysis_outcome *);
 const outcome_continuation *outcome_continuation_of(const analysis_outcome *);
-/* A static path, or that of a stationary rotation, to be filled. */
+/* Returns a static path, or that of a stationary rotation, to be filled in. */
 outcome_path *outcome_walk(analysis_outcome *);
 int outcome_has_path(const analysis_outcome *);
 int outcome_has_spectrum(const analysis_outcome *);
 void outcome_free(analysis_outcome *);
-/* The values and modes of a side; they are taken from `from`. */
+/* Moves the values and modes of a side from `from` to the outcome. */
 void outcome_take(eigen_side *from, outcome_side *to);
-/* Room for the states of that many stations. */
+/* Allocates the states of that many stations. */
 status outcome_stations(outcome_path *, int stations, fault *);
-/* A copy of the state becomes that of the next station; whole 0: of its nodes
- * (kinematics_nodes_alloc). */
+/* Copies the state to the next station; whole 0: only of its nodes (kinematics_nodes_alloc). */
 status outcome_keep(outcome_path *, const model *, const model_state *, int whole, double path,
                     fault *);
 
-/* Shapes of a structure in chosen states; kept where a solution requests them. */
+/* Shapes of a structure in selected states; stored if the options request them. */
 
 typedef enum shape_kind {
     SHAPE_UNDEFORMED,
@@ -441,14 +449,14 @@ typedef enum shape_kind {
 
 typedef struct shape_state {
     shape_kind kind;
-    int analysis; /* of the scene; -1: none */
+    int analysis; /* index in the scene; -1: none */
     double value; /* path parameter [1], load factor [1], frequency [Hz] or time [s] */
-    double scale; /* the displacements are this many times those of the eigenvector; 1 elsewhere */
+    double scale; /* factor by which the eigenvector is multiplied; 1 for other kinds */
 } shape_state;
 
 typedef struct shapes {
     int states, members, points, nodes; /* states 0: not requested */
-    int *first;                         /* [members + 1] point where each member begins */
+    int *first;                         /* [members + 1] index of the first point of each member */
     shape_state *state;                 /* [states] */
     centreline_point *point;            /* [states x points] */
     double *node;                       /* [states x nodes x 3] [m] */
@@ -456,44 +464,43 @@ typedef struct shapes {
 
 enum { SHAPES_ALL = 1 << 30, SHAPES_MODES = 6, SHAPES_FRAMES = 60, SHAPES_FEW = 5 };
 
-/* Empty arrays for that many of each; FAULT: out of memory. */
+/* Allocates empty arrays of these sizes; FAULT: out of memory. */
 status shapes_alloc(shapes *, fault *);
 void shapes_free(shapes *);
 const char *shapes_kind_name(shape_kind);
-/* Frames of a motion, evenly over its time, where at most that many states of a path are kept: as
- * many, and SHAPES_FRAMES where these are all or few. */
+/* Number of frames of a motion if at most `most` states of a path are stored: `most`, or
+ * SHAPES_FRAMES if that means all or only a few. */
 int shapes_frames(int most);
 
 /* Degrees of freedom of the rows of a model's matrices. */
 
 typedef struct row_label {
-    int node;   /* of the scene; SCENE_NONE: inside a member, or an end that keeps motions to itself
-                 */
-    int member; /* SCENE_NONE: of the node alone */
-    double along; /* from the member's beginning, relative to its length; NAN: of a node alone */
+    int node;     /* index in the scene; SCENE_NONE: inside a member, or a released end */
+    int member;   /* SCENE_NONE: the row belongs to the node alone */
+    double along; /* position on the member relative to its length; NAN: row of a node alone */
     double position[3];    /* undeformed [m] */
     const char *component; /* "ux", ..., "rz", "angle 1" of a sequence, "turn 1" and "shift 1" of a
                               released end, "warping" */
-    const char *unit;      /* of the coordinate: "m", "rad", "rad/m" */
+    const char *unit;      /* unit of the coordinate: "m", "rad", "rad/m" */
 } row_label;
 
-/* out[free]; a coordinate that several nodes share is the first one's. */
+/* out[free]; a coordinate shared by several nodes belongs to the first one. */
 void rows_label(const model *, row_label out[]);
 
-/* Matrices of small motions about the states of a solution, for other programs:
- *   M q'' + (C + G) q' + K q = B u
- * with q the free coordinates in the order of the rows, u the changes of the loads' factors. */
+/* Matrices of small motions about the states of a solution, for other programs: M q'' + (C + G) q'
+ * + K q = B u, with the free coordinates q in the order of the rows and the changes u of the load
+ * factors. */
 
 typedef struct state_matrices {
-    int analysis;        /* of the scene; SCENE_NONE: the undeformed structure at rest */
-    int station;         /* of its path, from zero; SCENE_NONE: it has none */
-    double path;         /* parameter of the loads and drivers */
-    int turns;           /* 1: the axes turn, and there is G */
-    triplets K, M, G, C; /* C: damping, where something is damped */
-    triplets inside;     /* of the undeformed structure: what its mass does inside of elements, for
-                            frequencies: q.K q = lambda q.M q + lambda^2 q.inside q */
-    triplets B;          /* [rows x loads] generalised force of each load at factor 1 */
-    int modes;           /* of a modal analysis: what it found, ascending; else 0 */
+    int analysis;             /* index in the scene; SCENE_NONE: the undeformed structure at rest */
+    int station;              /* station of its path, from zero; SCENE_NONE: it has no path */
+    double path;              /* path parameter of the loads and drivers */
+    int turns;                /* 1: the axes rotate, and G exists */
+    triplets K, M, G, C;      /* C: only if something is damped */
+    triplets inside;          /* of the undeformed structure: effect of the mass inside elements on
+                                 frequencies: q.K q = lambda q.M q + lambda^2 q.inside q */
+    triplets B;               /* [rows x loads] generalised force of each load at factor 1 */
+    int modes;                /* number of modes of a modal analysis, ascending; else 0 */
     double *frequency, *mode; /* [modes] [rad/s]; [modes x rows] */
 } state_matrices;
 
@@ -509,26 +516,29 @@ void system_matrices_free(system_matrices *);
 /* Options and results of a solution: quantities, steps, iterations, events, matrices, shapes. */
 
 typedef struct solve_options {
-    int threads; /* of the loop over elements; 0, 1: one */
+    int threads; /* threads of the loop over elements; 0, 1: one */
     newton_form newton;
-    double criterion;   /* relative size of the corrections; 0: default */
+    double criterion;   /* relative size of the last corrections; 0: default */
     int max_iterations; /* per step; 0: default */
-    int steps_between;  /* overrides the scene's; 0: the scene's */
-    int condition; /* 1: estimate the condition of the tangents (of a static path: at its stations)
+    int steps_between;  /* replaces the number in the scene; 0: as in the scene */
+    int condition; /* 1: estimate the condition of the tangents (on a static path: at its stations)
                     */
-    int condensed; /* elements of a member from which on it is condensed to its ends; 0: default */
+    int condensed; /* number of elements from which on a member is condensed to its ends; 0: default
+                    */
     int phases;    /* 1: read the clock between the parts of an iteration */
-    int sample;    /* > 0: only N iterations of each static path, to measure their time: there are
-                     no values */
-    int shapes;    /* most states of every path whose centre lines are kept; 0: no shapes */
-    int systems;   /* 1: the matrices of small motions about all states are kept */
-    int whole_steps; /* 1: a step in time that fails ends the motion, instead of being halved */
-    int keep_ends;   /* 1: the ends of motions are kept, for another run that resumes there */
+    int sample;    /* N > 0: only N iterations of each static path, to measure their time, without
+                      results */
+    int shapes;    /* largest number of path states with stored centre lines; 0: no shapes */
+    int systems;   /* 1: store the matrices of small motions about all states */
+    int whole_steps; /* 1: a time step that fails ends the motion; 0: it is halved */
+    int keep_ends;   /* 1: store the ends of motions, from which another run can continue */
     int restarts;
-    const outcome_end *restart; /* [restarts] ends in another run that motions resume from */
-    int all_analyses;           /* 1: those that no quantity reads run, too */
-    int looks;       /* 1: static paths are evaluated where pivots do not, and within their steps */
-    int values_only; /* 1: what only curves and matrices show at a station is not computed */
+    const outcome_end
+        *restart;     /* [restarts] ends of motions in another run, from which motions continue */
+    int all_analyses; /* 1: also run analyses that no quantity reads */
+    int looks; /* 1: check the stability of static paths where pivots do not decide it, and within
+                  their steps */
+    int values_only; /* 1: do not compute values needed only for curves and matrices */
 } solve_options;
 
 typedef struct curve {
@@ -551,44 +561,47 @@ typedef struct quantity_result {
     char meaning[OUTCOME_MEANING]; /* see outcome_spectrum */
 } quantity_result;
 
-/* All dimensionless.  Quadratic convergence: each correction is about the square of the one
- * before. */
+/* All values are dimensionless. With quadratic convergence each correction is about the square of
+ * the previous one. */
 typedef struct iteration_record {
-    double residual; /* sqrt(r . K^-1 r) of the unbalanced forces r before it, by that of the step's
-                        first; NAN: newton=dense */
-    double correction;      /* what the iteration changed: advance_state */
-    double incompatibility; /* max |D(x) - e|/l before it */
+    double residual;   /* sqrt(r . K^-1 r) of the unbalanced forces r before the iteration, relative
+                          to the first of the step; NAN: newton=dense */
+    double correction; /* size of the correction: advance_state */
+    double incompatibility; /* max |D(x) - e|/l before the iteration */
 } iteration_record;
 
-/* Stability of a state under small disturbances with fixed and prescribed coordinates unchanged. */
+/* Stability of a state under small disturbances, with fixed and prescribed coordinates unchanged.
+ */
 typedef enum step_stability {
-    STEP_OPEN, /* not decided by the signs of pivots: no symmetric tangent, or axes that turn */
-    STEP_NO_DIVERGENCE, /* no symmetric tangent and no mass: no eigenvalue has passed zero */
+    STEP_OPEN, /* the signs of pivots do not decide it: the tangent is not symmetric, or axes rotate
+                */
+    STEP_NO_DIVERGENCE, /* the tangent is not symmetric and there is no mass: no eigenvalue has
+                           crossed zero */
     STEP_STABLE,
     STEP_UNSTABLE,
-    STEP_GROWS, /* in rotating axes, or without a symmetric tangent: a small motion grows, by an
-                   odd number of negative eigenvalues (det K < 0) or by a mode that was found */
-    STEP_HELD,  /* in rotating axes: held by gyroscopic forces alone, no motion grows without
-                   damping; one that turns with the structure makes it grow */
+    STEP_GROWS, /* in rotating axes, or with a tangent that is not symmetric: a small motion grows,
+                   shown by an odd number of negative eigenvalues (det K < 0) or by a mode */
+    STEP_HELD,  /* in rotating axes: stable only by gyroscopic forces; without damping no motion
+                   grows, but damping that rotates with the structure makes one grow */
     STEP_STABILITIES
 } step_stability;
 const char *result_stability_name(step_stability);
 int result_is_unstable(step_stability);
 
 typedef struct step_record {
-    int analysis;             /* of the scene */
-    step_stability stability; /* where it ended */
+    int analysis;             /* index in the scene */
+    step_stability stability; /* stability at its end */
     double path, increment;
     int iterations, rejected,
-        negative_pivots;   /* rejected: tries of longer steps that failed before this one */
-    int by_eigenvalues;    /* 1: its tangent is not symmetric; its eigenvalues were followed: */
-    int passed;            /* that many have passed zero */
-    step_stability judged; /* by the frequencies of small motions; STEP_OPEN: not asked or known */
-    double residual, correction, incompatibility; /* of the last iteration */
-    double remaining; /* what the next one would have changed, as the contraction so far predicts;
-                         NAN: not known */
-    int first;        /* of its iterations in solve_result.iteration */
-    double energy;    /* r . K^-1 r of the first one [J] */
+        negative_pivots;   /* rejected: number of longer steps that failed before this one */
+    int by_eigenvalues;    /* 1: the tangent is not symmetric, and its eigenvalues were followed: */
+    int passed;            /* number of eigenvalues that have crossed zero */
+    step_stability judged; /* result from the frequencies of small motions; STEP_OPEN: not computed
+                              or unknown */
+    double residual, correction, incompatibility; /* values of the last iteration */
+    double remaining; /* predicted size of the next correction; NAN: unknown */
+    int first;        /* index of its first iteration in solve_result.iteration */
+    double energy;    /* r . K^-1 r of the first iteration [J] */
 } step_record;
 
 /* Compliance and stiffness [6 x 6] (ux uy uz thx thy thz by Fx Fy Fz Mx My Mz; SI) of a node at
@@ -597,33 +610,34 @@ typedef struct nodal_matrices {
     int node;
     scene_moments moments; /* convention */
     int stations;
-    double *path;                   /* [stations] */
-    double *compliance, *stiffness; /* [stations x 36]; fixed components: zero; not computed because
-                                       nothing asked: NAN */
+    double *path; /* [stations] */
+    double *compliance,
+        *stiffness; /* [stations x 36]; fixed components: zero; not requested: NAN */
 } nodal_matrices;
 /* Event on a continued path. */
 typedef enum event_kind {
     EVENT_LIMIT_POINT, /* the load has an extremum */
-    EVENT_BIFURCATION, /* other branches start here; this one is followed */
-    EVENT_BRANCH_JUMP, /* a step converged to another branch: it was noticed and not followed */
+    EVENT_BIFURCATION, /* other branches start here; the present one is followed */
+    EVENT_BRANCH_JUMP, /* a step converged to another branch, which was detected and rejected */
     EVENT_KINDS
 } event_kind;
 
 typedef struct path_event {
     event_kind kind;
     int analysis, negative_before,
-        negative_after;     /* negative pivots of the tangent stiffness; -1: not symmetric */
-    double factor, control; /* of the point; of a jump: where both branches have this value of the
+        negative_after; /* number of negative pivots of the tangent stiffness after the event; -1:
+                           not symmetric */
+    double factor, control; /* at the point; for a jump: where both branches have this value of the
                                control coordinate [m] */
-    double other_factor;    /* of a jump: on the branch that was not followed; else NAN */
-    double measure; /* of a point: |phi . f|/(|phi| |f|), null vector phi, load f; of a jump:
-                       distance of the branches */
+    double other_factor;    /* for a jump: on the rejected branch; else NAN */
+    double measure; /* for a point: |phi . f|/(|phi| |f|) with null vector phi and load f; for a
+                       jump: distance of the branches */
 } path_event;
 
 /* One row of a transient analysis: the initial state, or the end of a step. */
 typedef struct motion_record {
-    int analysis; /* of the scene */
-    double path;  /* parameter of the state that the motion starts from; NAN: it has none */
+    int analysis; /* index in the scene */
+    double path;  /* path parameter of the state from which the motion starts; NAN: none */
     outcome_step at;
 } motion_record;
 
@@ -631,91 +645,91 @@ typedef struct solve_result {
     status status;
     char reason[FAULT_TEXT];
     int quantities;
-    quantity_result *quantity; /* [scene quantities], same order */
+    quantity_result *quantity; /* [quantities of the scene], in the same order */
     int steps;
     step_record *step;
-    int iterations; /* of all the steps that were kept */
+    int iterations; /* total number in all accepted steps */
     iteration_record *iteration;
     int matrix_sets;
     nodal_matrices *matrices;
     int events;
     path_event *event;
     int motions;
-    motion_record *motion; /* [motions] one motion after the other */
+    motion_record *motion; /* [motions] records of one motion after the other */
     int ends;
-    outcome_end *end; /* [ends] of motions that no other motion of the scene continues */
-    double seconds_setup,
-        seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
-    counters counters; /* its work; of shapes and matrices none */
-    double phase[PHASES]; /* [s] of seconds_solve, when requested */
+    outcome_end *end; /* [ends] ends of motions that no other motion of the scene continues */
+    double seconds_setup, seconds_solve; /* time for scene, sections, quadrature, mesh, analysis of
+                                            the pattern; time for the rest */
+    counters counters;                   /* work, without that for shapes and matrices */
+    double phase[PHASES];                /* [s] parts of seconds_solve, if requested */
     shapes shapes;
     system_matrices systems;
 } solve_result;
 
 const char *result_event_name(event_kind); /* "limit point", ... */
-/* How many eigenvalues of the tangent pass zero there: one load each. */
+/* Number of eigenvalues of the tangent that cross zero there, for one load. */
 int result_event_multiplicity(const path_event *);
 void result_free(solve_result *);
 
 /* Context of an analysis. */
 
-/* Data that one analysis of a solution leaves for the next ones. */
+/* Data that one analysis of a solution leaves for later ones. */
 typedef struct context_work {
-    double setup;        /* [s] spent on patterns and symbolic factorisation */
-    int singular;        /* 1: the last factorisation failed */
-    matrix_factor *left; /* of the pattern of the free coordinates, no longer in use; NULL: none
-                          */
+    double setup; /* [s] spent on patterns and symbolic factorisation */
+    int singular; /* 1: the last factorisation failed */
+    matrix_factor
+        *left; /* factor for the pattern of the free coordinates, no longer in use; NULL: none */
 } context_work;
 
 typedef struct analysis_context {
     const scene *scene;
     const model *model;
-    run_state *run; /* of that model */
-    equations eq;   /* of that model, under the loading of the analysis: context_of */
+    run_state *run; /* run of that model */
+    equations eq;   /* equations of that model under the loading of the analysis: context_of */
     const solve_options *options;
-    solve_result *result;       /* step records go here */
-    analysis_outcome *outcomes; /* [analyses], those before the present one are complete */
+    solve_result *result;       /* receives the step records */
+    analysis_outcome *outcomes; /* [analyses]; those before the present one are complete */
     context_work *work;
 } analysis_context;
 
-/* Is the analysis requested, by what is read from it or by the options? */
+/* Must the analysis run, because quantities or other analyses read it, or the options request it?
+ */
 int context_runs(const analysis_context *, int analysis);
 /* Returns the context of an analysis, with its loading. In a motion, loads without a function of
- * time keep the value of the state that it starts from. */
+ * time keep the value of the initial state. */
 analysis_context context_of(const analysis_context *, int analysis);
-/* The same with no load acting and no driver moving: only initial strains of members remain. */
+/* As context_of, with no loads and drivers at zero: only initial strains of members remain. */
 analysis_context context_unloaded(const analysis_context *);
-/* Factors K numerically and records in the context whether the factors exist. */
+/* Factors K numerically, and records whether the factors exist. */
 status context_factor(analysis_context *, matrix_factor *, const sparse *K, fault *);
-/* Condenses members of many elements. *out NULL: there are none, or the condition of the tangent of
- * all coordinates was requested. See condensation_alloc. */
+/* Condenses members with many elements. *out NULL: there are none, or the condition of the tangent
+ * of all coordinates was requested. See condensation_alloc. */
 status context_condensation(const analysis_context *, int count, const int released[],
                             condensation **out, fault *);
-/* The same of a tangent whose members are condensed. */
+/* As context_factor, for a tangent with condensed members. */
 status context_factor_condensed(analysis_context *, condensation *, fault *);
-/* REFUSED where what was factored is not symmetric: `what` (critical loads) need that of the state.
- */
+/* REFUSED: the factored matrix is not symmetric, which `what` (critical loads) requires. */
 status context_symmetric(const matrix_factor *, const char *what, fault *f);
-/* A symmetric factor of the pattern of the free coordinates is not needed any more: it is kept
- * where a compliance may ask for one, so that order and pattern need not be found again. */
+/* Releases a symmetric factor for the pattern of the free coordinates. It is kept if a compliance
+ * may need one, to save the ordering and the pattern. */
 void context_leave_factor(analysis_context *, matrix_factor *);
-/* NULL: none was left. */
+/* NULL: none was kept. */
 matrix_factor *context_take_factor(analysis_context *);
-/* When it was requested: the condition of a matrix just factored, into the counters. */
+/* If requested, adds the condition of a matrix just factored to the counters. */
 void context_count_condition(const analysis_context *, matrix_factor *, const sparse *K);
-/* The work of a solution with a factor, into the counters; fresh 0: its numbers are those of a
- * solution before. *counted: factorisations of it that are there already, and then are all. */
+/* Adds the work of a solution with a factor to the counters; fresh 0: with earlier numeric factors.
+ * *counted: number of its factorisations that are already counted; updated. */
 void context_count_solution(const analysis_context *, const matrix_factor *, int fresh,
                             long *counted);
-/* The work of an eigenvalue problem, into the counters. */
+/* Adds the work of an eigenvalue problem to the counters. */
 void context_count_eigen(const analysis_context *, const eigen_result *);
 
-/* Tangent of the free coordinates, bordered by the released coordinates of a node whose motion is
- * prescribed. */
+/* Tangent of the free coordinates, bordered by released coordinates of a node with prescribed
+ * motion. */
 
 enum { TANGENT_COMPONENTS = 6, TANGENT_BORDER = 12 };
 
-/* Released coordinates: prescribed ones that are free now. */
+/* Released coordinates: prescribed ones that are treated as free. */
 typedef struct border {
     int count;
     int coordinate[TANGENT_BORDER];
@@ -725,26 +739,26 @@ typedef struct border {
 
 /* Index of a released coordinate, or -1. */
 int border_place(const border *, int coordinate);
-/* Released coordinates of the analysis' node; matrices are allocated without values. */
+/* Released coordinates of the node of the analysis; allocates matrices without values. */
 status border_alloc(const analysis_context *, const scene_compliance *, border *, fault *);
 void border_free(border *);
-/* From K of all coordinates. */
+/* Fills the border from K of all coordinates. */
 void border_fill(border *, int free_count, const sparse *K);
 
-/* Tangent of a structure in a deformed state about one node, where some of the node's prescribed
- * motion is released: its reaction has become a load. */
+/* Tangent of a deformed structure about one node, where some prescribed components of the node are
+ * released: their reaction acts as a load. */
 
 typedef struct node_tangent {
-    condensation *condensed; /* NULL: no member is condensed; else K is not assembled, and what is
-                                released is unknown with the rest */
-    sparse K;         /* of all coordinates when something is released, else of the free ones */
+    condensation *condensed; /* NULL: no member is condensed; else K is not assembled, and released
+                                coordinates are among the unknowns */
+    sparse K;         /* on all coordinates when something is released, else on the free ones */
     sparse inside;    /* free x free */
-    sparse geometric; /* like K, where solutions are refined: see stiffness_parts_geometric */
-    int refined;      /* 1: the condition asks for it */
-    /* of `inside`, as last estimated (0: never), and the ratio of its pivots then. */
+    sparse geometric; /* as K, if solutions are refined: see stiffness_parts_geometric */
+    int refined;      /* 1: the condition number requires refinement */
+    /* condition of `inside`, as last estimated (0: never), and ratio of its pivots at that time */
     double condition, apart;
-    matrix_factor *own;    /* NULL: not needed so far */
-    matrix_factor *factor; /* of `inside`: own, or that of the iteration that it was taken from */
+    matrix_factor *own;    /* own factor; NULL: not needed so far */
+    matrix_factor *factor; /* factor of `inside`: `own`, or that of the iteration */
     border border;
     int free, all;
     double *residual;
@@ -753,37 +767,36 @@ typedef struct node_tangent {
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
 } node_tangent;
 
-/* members: whose chains it shares, to be taken from an iteration; NULL: none. */
+/* members: condensation that shares its chains, to be taken from an iteration; NULL: none. */
 status tangent_alloc(analysis_context *c, const scene_compliance *a, const condensation *members,
                      node_tangent *t, fault *f);
 void tangent_free(node_tangent *t);
-/* reaction[6]: force and moment of the prescription on the node [N, N m]. */
+/* reaction[6]: force and moment on the node due to its prescribed motion [N, N m]. */
 status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
                   const double reaction[6], node_tangent *t, fault *f);
-/* The same from K [the pattern of all coordinates when something is released, else of the free
- * ones] of an iteration that ended at the state, and its factors. */
+/* As tangent_at, from K of an iteration that ended at the state [pattern of all coordinates when
+ * something is released, else of the free ones], and its factors. */
 status tangent_take(analysis_context *c, const scene_compliance *a, const model_state *s,
                     const double reaction[6], const sparse *K, const sparse *inside,
                     matrix_factor *, node_tangent *t, fault *f);
-/* The same from the condensed members of the iteration. */
+/* As tangent_at, from the condensed members of an iteration. */
 status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
                               const double reaction[6], const condensation *members,
                               node_tangent *t, fault *f);
-/* Takes out of the reaction's moment what acts along free turns: there is no prescription that
- * exerts it. */
+/* Removes the moment about free rotation axes from the reaction, since no support exerts it. */
 void tangent_prescribed(const node_tangent *t, double moment[3]);
-/* Motions that the node can make at all. */
+/* Components in which the node can move. */
 void tangent_movable(const model *m, const node_tangent *t, movable *out);
-/* C[6 x 6] of the node with the reaction's moment by the convention; columns outside `wanted`,
- * and rows and columns of what is not among the `components` that can move, stay zero. */
+/* C[6 x 6] of the node, with the reaction moment in the given convention. Columns outside `wanted`,
+ * and rows and columns of components that cannot move, are zero. */
 status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
                           unsigned components, double C[36], fault *f);
 
-/* Loads along members as they act between vertices: their work on the displacements within elements
- * (elements/field), or what an element makes of them in its own equilibrium, and what goes through
+/* Loads along members as they act between vertices: by their work on the displacements inside
+ * elements (elements/field), or by the element's own equilibrium; also loads that act through
  * sections. */
 
-/* Loads along one element, at a path parameter. */
+/* Loads along one element at a path parameter. */
 typedef struct distributed_loads {
     const equations *eq;
     const model *m;
@@ -791,57 +804,58 @@ typedef struct distributed_loads {
     double path;
 } distributed_loads;
 
-/* Does the load do its work within elements? Else halves of it go to their ends. */
+/* Does the load act by its work inside elements? Otherwise half of it is lumped at each end. */
 int distributed_spreads(const equations *, const scene_load *);
 
-/* Does the element take it into its own equilibrium (element_type.along)? Dead forces on the whole
- * of it, along its line, in scenes without a motion. */
+/* Does the element include the load in its own equilibrium (element_type.along)? Only dead forces
+ * on the whole element, along its line, without a motion. */
 int distributed_takes(const equations *, int element, const scene_load *);
-/* Sum of the loads that an element takes into its own equilibrium. */
+/* Sum of the loads that an element includes in its own equilibrium. */
 typedef struct distributed_taken {
     int acts;
     double force[3 * ELEMENT_ALONG_POINTS], mixed[3 * ELEMENT_MAX_STRAINS],
         H[ELEMENT_ALONG_COORDINATES * ELEMENT_ALONG_COORDINATES];
-    along_output out; /* into the arrays above; its stresses into those of a slot */
+    along_output out; /* fills the arrays above; its stresses go to those of a slot */
 } distributed_taken;
-/* Fills *out with the loads at `path`; out->acts 0: none. */
+/* Fills *out for the loads at `path`; out->acts 0: none. */
 void distributed_take(const equations *, int element, double path, distributed_taken *out);
-/* forces[14] += what J^T sigma has not got in it, K[14 x 14] -= its derivative, as `out` has it.
- * gap[strains]: D(x) - e. */
+/* forces[14] += part of the loads that J^T sigma does not contain, K[14 x 14] -= its derivative,
+ * from `out`. gap[strains]: D(x) - e. */
 void distributed_add_taken(const model *, const along_output *out, const double J[],
                            const double gap[], double forces[], double K[]);
 
-/* forces[7 nodes] += what a load along a member times `scale` does on an element, K[7 nodes x 7
- * nodes] -= its derivative (NULL: not needed); 0: nothing. Of one that the element takes: the
- * derivative of its forces by the load's size in the state, K untouched. */
+/* forces[7 nodes] += forces on an element of a load along a member, times `scale`; K[7 nodes x 7
+ * nodes] -= its derivative (may be NULL). Returns 0 when there is none. For a load in the element's
+ * own equilibrium: the derivative of its forces with respect to the load, and K does not change. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
-/* The same of all of them at `path`: of those that the element takes what J^T sigma has not got in
- * it, in a linear solution about `rest` all. `field`: without those that the element takes. */
+/* As distributed_add_one for all loads at `path`. For loads in the element's own equilibrium only
+ * the part that J^T sigma does not contain; in a linear solution about `rest` all. field 1: without
+ * those loads. */
 int distributed_add(const equations *, const model_state *, const node_state x[], int element,
                     double path, double forces[], double K[]);
-/* And of those that it takes alone. */
+/* As distributed_add, only for loads in the element's own equilibrium. */
 int distributed_add_own(const equations *, const model_state *, const node_state x[], int element,
                         double path, double forces[], double K[]);
-/* Stresses of a state under what acts at `path` (sigma, C of stress_output); 0: it takes nothing.
- */
+/* Stresses of a state under the loads at `path` (sigma, C of stress_output); returns 0 when the
+ * element has no loads in its own equilibrium. */
 int distributed_stress(const equations *, const model_state *, const node_state x[], int element,
                        double path, const stress_output *, status *outcome);
 int distributed_add_field(const equations *, const node_state x[], int element, double path,
                           double forces[], double K[]);
 
-/* Does anything act along it? */
+/* Does any load act along the element? */
 int distributed_acts(const distributed_loads *);
-/* A load that begins, ends or acts between its ends, or SCENE_NONE. */
+/* Index of a load that starts, ends or acts inside the element, or SCENE_NONE. */
 int distributed_jumps(const distributed_loads *);
-/* Load per initial length at x in [0, 1] of the element, on a section with this frame: loads of its
- * member and inertia of a rotating frame (with rotary inertia where that is active). context: a
+/* Load per initial length on the section with this frame at x in [0, 1] of the element: loads of
+ * its member and inertia of a rotating frame (with active rotary inertia). context: a
  * distributed_loads. */
 void distributed_at(void *context, double x, const span_frame *, span_load *out);
 
 /* Functions shared by the files of harness/newton. */
 
-/* One element's equations in model coordinates. */
+/* Equations of one element in the coordinates of the model. */
 typedef struct element_part {
     status outcome;
     fault why;
@@ -849,68 +863,69 @@ typedef struct element_part {
     double force[MODEL_MAX_COORDINATES], K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
 } element_part;
 
-/* rotating_frame.c: force -= centrifugal force, K += its stiffness (NULL: not needed), in element
- * coordinates; nothing where no frame turns. */
+/* rotating_frame.c: force -= centrifugal force, K += its stiffness (may be NULL), in element
+ * coordinates; does nothing without a rotating frame. */
 status rotating_frame_add(const equations *eq, const node_state x[], int element, double path,
                           double force[], double K[], fault *f);
 
-/* loads.c: out[free + driven] += all of them, or those on vertices alone, not along elements. */
+/* loads.c: out[free + driven] += all loads, or only those on vertices. */
 void loads_add(const equations *eq, const model_state *s, double path, double out[]);
 void loads_add_at_vertices(const equations *eq, const model_state *s, double path, double out[]);
 /* Stiffness of the loads on vertices, entry by entry. */
 void loads_stiffness_at_vertices(const equations *eq, const model_state *s, double path,
                                  loads_entry, void *context);
 void loads_subtract_at_vertices(const equations *eq, const model_state *s, double path, sparse *K);
-/* And all of them, on a pattern of model.h. */
+/* Stiffness of all loads, on a pattern of model.h. */
 void loads_subtract_stiffness(const equations *eq, const model_state *s, double path, sparse *K);
-/* REFUSED: a moment whose stiffness is not symmetric, which a symmetric matrix cannot hold. */
+/* REFUSED: a moment whose stiffness is not symmetric, so that a symmetric matrix cannot contain it.
+ */
 status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);
 
-/* linearise.c: the moment [N m] about its axis that a node held about one axis alone takes
- * from its support in a state (sigma: as internal_state has it); 0: rounding. */
+/* linearise.c: reaction moment [N m] about the axis of a node that is fixed about one axis only
+ * (sigma: as for internal_state); 0 if it is rounding. */
 double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
                              double path, int node, int axis);
-/* Elements and loads give the derivatives of work in the exponential chart of a node's turn. Where
- * a node is fixed about one axis, equilibrium is that of the moments about the two others, which
- * that moment R about the axis h makes differ: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic
+/* Elements and loads give the derivatives of work in the exponential chart of a node's rotation. At
+ * a node fixed about one axis h, equilibrium is that of the moments about the two others, and its
+ * derivatives differ by the reaction moment R: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic
  * order. */
 void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K);
-/* REFUSED: such a moment, which has no potential either. */
+/* REFUSED: there is such a moment, which has no potential. */
 status linearise_held_have_potential(const equations *eq, const double sigma[], double path,
                                      fault *f);
 
 /* Loads and drivers along a path. */
 
-/* Returns the loading of an analysis. In a motion the path parameter is the time, of which loads
- * and drivers are functions; others act in full. Axes rotate as those of the analysis, or of the
- * analysis whose states it is about. */
+/* Returns the loading of an analysis. In a motion the path parameter is the time, and loads and
+ * drivers are functions of it; those without such a function act in full. Axes rotate as those of
+ * the analysis, or of its base analysis. */
 loading loading_of(const model *, int analysis);
 /* Value of a known driver [m or rad]. */
 double loads_driver_value(const equations *, const scene_driver *d, double path);
-/* In time, also its first two derivatives; at the end of a piece: of the next one. What has no
- * function of time stays at its last value; of a load it is whole. */
+/* In a motion, also the first two derivatives; at the end of a piece those of the next one. A
+ * driver without a function of time keeps its last value, and a load its full value. */
 void loads_driver_rates(const equations *, const scene_driver *d, double path, double out[3]);
 /* out[free + driven] += the load times `scale` in a state. */
 void loads_add_one(const equations *, const model_state *, const scene_load *, double scale,
                    double out[]);
-/* out[free + driven] += forces by which a temperature, changed by `scale`, acts on nodes that are
- * kept where they are in a state. */
+/* out[free + driven] += forces of a temperature, changed by `scale`, on nodes that are held in
+ * place in a state. */
 void loads_add_temperature(const equations *, const model_state *, const scene_load *, double scale,
                            double out[]);
-/* Derivative of the loads by the path parameter in a state, out[free + driven]. */
+/* Derivative of the loads with respect to the path parameter in a state, out[free + driven]. */
 void loads_rate(const equations *, const model_state *, double path, double out[]);
-/* Loads of the undeformed state at `path`, f[free + driven]. */
+/* Loads on the undeformed state at `path`, f[free + driven]. */
 void loads_reference(const equations *, double path, double f[]);
-/* Is there a load, or a coordinate moved, at path 0? */
+/* Is there a load or a nonzero driver at path 0? */
 int loads_begin(const equations *);
 
-/* Increments of the prescribed coordinates (dx[free .. free+driven)) that take the state to `path`;
- * the rest of dx untouched. */
+/* Increments of the prescribed coordinates (dx[free .. free+driven)) from the state to `path`;
+ * other entries of dx do not change. */
 void loads_drive(const equations *, const model_state *, double path, double dx[]);
 
-/* An unknown driver: the prescribed coordinate `unknown` moves by what makes the free one
- * `coordinate` move by `increment`. The force on that coordinate stays free of reactions, the one
- * on the driver is whatever it takes. */
+/* An unknown driver: the prescribed coordinate `unknown` moves such that the free one `coordinate`
+ * moves by `increment`. The force on `coordinate` contains no reaction; the force on the driver
+ * results from the solution. */
 enum { MODEL_MAX_CONDITIONS = 4 };
 typedef struct model_condition {
     int unknown, coordinate;
@@ -919,34 +934,34 @@ typedef struct model_condition {
 int loads_conditions(const equations *, const model_state *, double path,
                      model_condition out[MODEL_MAX_CONDITIONS]);
 
-/* K of a node turned by a sequence of angles, when the moment M that the angles' prescription
- * exerts becomes a load that is conservative in the exponential chart: the angles' own second
- * derivatives no longer belong to it. */
+/* Changes K for a node rotated by a sequence of angles, when the moment M of the prescribed angles
+ * becomes a load that is conservative in the exponential chart: removes the second derivatives of
+ * the angles. */
 void loads_release_moment(const model *, const model_state *, int node, const double M[3],
                           sparse *K);
-/* Force and spatial moment of the loads at `path` on a node's frame: F[6] [N, N m]. */
+/* Force and spatial moment of the loads at `path` on the frame of a node: F[6] [N, N m]. */
 void loads_at_node(const equations *, const model_state *, double path, int node, double F[6]);
 
 /* Newton's equations of a state. */
 
-/* Internal less external force of every coordinate is what equilibrium makes zero on the free ones.
- * Mixed linearisation (simultaneous in coordinates, strains and stresses; N section 4), condensed
- * per element:
- *   K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i
- * The driven part of dx is known: its share is taken to the right-hand side here. */
+/* In equilibrium, internal minus external forces are zero on the free coordinates. Mixed
+ * linearisation (simultaneous in coordinates, strains and stresses; N section 4), condensed per
+ * element: K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)], K = J^T P'' J + sum sigma_i H_i The
+ * prescribed part of dx is known; its contribution is moved to the right-hand side here. */
 typedef struct model_linearisation {
     double path;
-    int displacement;    /* 1: displacement-only Newton: e and sigma are taken from D(x) first */
-    const double *drive; /* [free + driven] increments; only the driven part is read; NULL: none */
-    int conditions;      /* columns of K wanted for the unknowns of conditions ... */
+    int displacement; /* 1: displacement-only Newton: e and sigma are first set from D(x) */
+    const double
+        *drive;     /* [free + driven] increments; only the prescribed part is used; NULL: none */
+    int conditions; /* columns of K required for the unknowns of conditions ... */
     const model_condition *condition;
     double *column;   /* ... [conditions x (free + driven)] */
-    sparse *K;        /* on a pattern of assemble_pattern; NULL: not needed */
-    double *residual; /* [free + driven] right-hand side; of prescribed coordinates: less their
+    sparse *K;        /* on a pattern of assemble_pattern; may be NULL */
+    double *residual; /* [free + driven] right-hand side; for prescribed coordinates minus their
                          reaction */
     double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
-/* One element's part of a linear_memory between linearise_state and advance_state. */
+/* Data of one element in a linear_memory between linearise_state and advance_state. */
 typedef struct model_slot {
     double *J, *C, *sigma, *incompatibility, *along, /* SLOT_* */
         *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
@@ -964,105 +979,105 @@ static inline model_slot linearise_slot(const model *m, const linear_memory *mem
     return w;
 }
 
-/* Into the memory goes what advance_state takes up. */
+/* Fills the memory for advance_state. */
 status linearise_state(const equations *, const linear_memory *, const model_state *,
                        model_linearisation *, fault *);
-/* Forgets the independent strains and stresses: e = D(x), sigma = P'(e). */
+/* Replaces the independent strains and stresses by e = D(x), sigma = P'(e). */
 status linearise_make_compatible(const equations *, model_state *, fault *);
-/* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the
- * state: F[6] [N, N m]. sigma: as internal_state has it. */
+/* External force and spatial moment (loads and reactions) on the frame of a node in the state: F[6]
+ * [N, N m]. sigma: as for internal_state. */
 void linearise_node_force(const equations *, const model_state *, const double sigma[], int node,
                           double F[6]);
-/* out[free + driven] += forces that the stresses of these elements take, and all springs. */
+/* out[free + driven] += forces in equilibrium with the stresses of these elements, and of all
+ * springs. */
 void linearise_add_internal(const equations *, const model_state *, int elements,
                             const int element[], double out[]);
 
-/* A few elements evaluated in one go: of one kind where the type has lanes (element_type.lanes),
- * else one after the other. */
+/* Batches of a few elements that are evaluated together: of one kind if the type has lanes
+ * (element_type.lanes), otherwise one after the other. */
 
 enum {
-    CHUNK_MOST = 8,   /* elements in one go */
-    CHUNK_WINDOW = 32 /* elements among which those of one kind are searched for */
+    CHUNK_MOST = 8,   /* largest number of elements in a batch */
+    CHUNK_WINDOW = 32 /* number of elements among which those of one kind are searched */
 };
 
-/* Elements in one go; 1 where they are evaluated one after the other. */
+/* Number of elements in a batch; 1 if they are evaluated one after the other. */
 int chunk_size(const model *m);
-/* The next of [first, end) to be evaluated in one go, end - first <= CHUNK_WINDOW: index[];
- * returns their number, 0: none is left. done[end - first] is zero before the first call. */
+/* The next batch from [first, end), end - first <= CHUNK_WINDOW: index[]; returns its size, 0: none
+ * left. done[end - first] must be zero before the first call. */
 int chunk_next(const model *m, int first, int end, unsigned char done[], int index[CHUNK_MOST]);
 
-/* One element's evaluation. */
+/* Evaluation of one element. */
 typedef struct chunk_element {
-    int index;     /* of the element: given */
-    double *force; /* [7 nodes]: given */
-    double *K;     /* [7 nodes x 7 nodes] sum sigma_i H_i; NULL: not needed: given */
+    int index;     /* input: index of the element */
+    double *force; /* input: [7 nodes] */
+    double *K;     /* input: [7 nodes x 7 nodes] sum sigma_i H_i; may be NULL */
     node_state x[ELEMENT_MAX_NODES];
-    distributed_taken along; /* loads that are in its stresses */
+    distributed_taken along; /* loads included in its stresses */
     status outcome;
-    int complete; /* 1: force is J^T sigma of the slot, and K has J^T C J too ... */
-    double present[ELEMENT_MAX_COORDINATES]; /* ... and this is J^T sigma of the state */
+    int complete; /* 1: force is J^T sigma of the slot, and K also contains J^T C J ... */
+    double present[ELEMENT_MAX_COORDINATES]; /* ... and `present` is J^T sigma of the state */
 } chunk_element;
 
-/* Strains and stresses of count elements in the state, into their slots (linearise_slot), and what
- * chunk_element says. */
+/* Evaluates strains and stresses of `count` elements into their slots (linearise_slot), and the
+ * outputs of chunk_element. */
 void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,
                     double path, int count, chunk_element element[]);
 
 /* Stiffness of a moment m on a node that rotates, by convention. K: the stiffness of the
  * exponential chart R = exp(theta~) R0, in which the generalized moment of theta is constant.
  * Semitangential: K; the moment follows half of the rotation, m + theta x m/2, and has a potential
- * (Argyris et al. 1979). Spatial: K - m~/2 on the rotations; the moment is dead about fixed axes,
- * and the matrix is not symmetric. Symmetrised: the symmetric part of the spatial stiffness; K
- * itself where everything else has a potential. A tangent has one of the first two: the spatial one
- * at a node that is fixed about one axis alone, whose moment keeps its direction
- * (coordinates_held_turn), else the semitangential one. */
+ * (Argyris et al. 1979). Spatial: K - m~/2 on the rotations; the moment has fixed axes, and the
+ * matrix is not symmetric. Symmetrised: the symmetric part of the spatial stiffness; K itself if
+ * all other loads have a potential. A tangent uses one of the first two: the spatial one at a node
+ * that is fixed about one axis only, whose moment keeps its direction (coordinates_held_turn), else
+ * the semitangential one. */
 
-/* Does the convention change the stiffness of the tangent's?  Then one column of the compliance
- * depends on all the others. */
+/* Does the convention change the stiffness given by the tangent? If so, one column of the
+ * compliance depends on all others. */
 int convention_changes(scene_moments of_tangent, scene_moments convention, const double m[3]);
 
-/* C[6 x 6] of the tangent, complete in the components that can move, becomes that of the
- * convention, and K[6 x 6] is its inverse on the motions the node can make; where nothing changes C
- * keeps all its digits.  m[3]: moment on the node [N m]. Rows and columns of fixed components:
- * zero. SINGULAR: C has no inverse there, up to its round-off. */
+/* Converts C[6 x 6] of the tangent, complete in the components that can move, to the convention,
+ * and computes its inverse K[6 x 6] on the possible motions. If nothing changes, C keeps its full
+ * accuracy. m[3]: moment on the node [N m]. Rows and columns of fixed components are zero.
+ * SINGULAR: C is singular to working precision. */
 status convention_apply(scene_moments of_tangent, scene_moments convention, const movable *motions,
                         const double m[3], double C[36], double K[36], fault *f);
 
-/* Where the next state of a path is searched for. */
+/* Initial guess for the next state of a path. */
 
-/* First guess of the state at `path` from the last `count` ones (two: a line, three: a parabola,
- * ...), oldest first. 0: there is none, because what is prescribed bends, or the step is too long;
- * `out` is untouched then. */
+/* Extrapolates the state at `path` from the last `count` ones (two: a line, three: a parabola,
+ * ...), oldest first. Returns 0, without a change of `out`, when prescribed motions are nonlinear
+ * or the step is too long. */
 enum { MODEL_EXTRAPOLATED = 12 };
 int extrapolate_state(const equations *, int count, const model_state *const at[], double path,
                       model_state *out);
-/* error[k], k = 1 ... most: how far a guess of at[most] from the k states before it would have been
- * off: the largest error of a displacement or strain [m]; of one: had it been taken as it is.
- * INFINITY: there would have been none. */
+/* error[k], k = 1 ... most: error that an extrapolation from k states would have had for at[most]:
+ * largest error of a displacement or strain [m]; k = 1: with the last state unchanged. INFINITY: no
+ * extrapolation was possible. */
 void extrapolate_errors(const equations *, int most, const model_state *const at[], double error[]);
 
 /* Record of Newton's method: the iterations of every accepted load step. */
 
-/* One more iteration of the step that is being tried. energy = |r . K^-1 r| of its residual r [J];
- * NAN: not known. */
+/* Adds an iteration of the present trial step. energy = |r . K^-1 r| of its residual r [J]; NAN:
+ * unknown. */
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f);
 /* Removes the iterations of a rejected step. */
 void history_drop_step(solve_result *r, const step_record *step);
 
-/* Enters into the steps from `first` on their analysis, and whether the states at their ends are
- * stable. */
+/* Sets the analysis of the steps from `first` on, and the stability of their final states. */
 void history_judge_steps(solve_result *, const scene *, int analysis, int first);
-/* Enters the stability that the modes at a station show, where pivots do not decide it. */
+/* Sets the stability shown by the modes at a station, where pivots do not decide it. */
 void history_judge_station(solve_result *, int analysis, double path, step_stability);
-/* Where a step of the analysis ended at that path parameter; STEP_OPEN: nowhere. */
+/* Stability of the step that ended at that path parameter; STEP_OPEN: there is none. */
 step_stability history_stability_at(const solve_result *, int analysis, double path);
 status history_add_step(solve_result *, const step_record *, fault *);
 /* All steps of a motion. */
-/* path: parameter of the state that it starts from; NAN: it has none. */
+/* path: path parameter of the initial state; NAN: none. */
 status history_add_motion(solve_result *, int analysis, double path, const outcome_motion *,
                           fault *);
-/* Position in the record; history_go_back removes what was added later. */
+/* Position in the record; history_go_back removes later entries. */
 typedef struct history_mark {
     int steps, iterations, ends;
 } history_mark;
@@ -1070,45 +1085,45 @@ history_mark history_here(const solve_result *);
 void history_go_back(solve_result *, const history_mark *);
 status history_add_event(solve_result *, const path_event *, fault *);
 
-/* Which models have the same answers: formulations that differ in what a scene does not have are
- * the same one there. */
+/* Identifies models with equal results: formulations that differ only in physics that a scene does
+ * not have are equal there. */
 
-/* Identity of all data that were added, in that order. */
+/* Hash of all data that were added, in order. */
 typedef struct identity {
     uint64_t part[2];
 } identity;
 
 identity identity_begin(void);
 void identity_add(identity *, const void *bytes, size_t size);
-/* Adds the functions of a model's elements, their data and the eliminated coordinates: two models
- * of one scene with the same identity have bit-for-bit the same results. 0: not known, since a
- * formulation that runs outside may fail. */
+/* Adds the functions of a model's elements, their data and the eliminated coordinates. Two models
+ * of one scene with the same identity have bit-for-bit equal results. Returns 0 when the identity
+ * is unknown, because a formulation in another process may fail. */
 int identity_add_model(identity *, const model *);
 
 /* Resultants of the stresses on the sections of a member.
  *
- * At the ends of an element they are what its nodal forces J^T sigma leave when the loads along it
- * that its nodes take are taken off: in equilibrium with everything beyond, whatever a formulation
- * assumes inside.  Between them harness/section_forces/section_forces.h carries them on, the same
- * way for all formulations. */
+ * At the ends of an element they are its nodal forces J^T sigma minus the loads along it that are
+ * lumped at its nodes. They are in equilibrium with the rest of the structure, whatever a
+ * formulation assumes inside. Between the ends harness/section_forces/section_forces.h computes
+ * them in the same way for all formulations. */
 
 /* Which state. */
 typedef struct internal_state {
     const model_state *s;
-    const double *sigma; /* [elements x strains] stresses; NULL: those of the state */
-    const double *x; /* of a linear solution about s, which is undeformed: its displacements [free +
-                        driven]; NULL: s is in equilibrium */
-    double path;     /* parameter of the loads */
-    /* of a motion, else NULL */
+    const double *sigma; /* [elements x strains] stresses; NULL: stresses of the state */
+    const double *x;     /* displacements [free + driven] of a linear solution about the undeformed
+                            state s; NULL: s is in equilibrium */
+    double path;         /* path parameter of the loads */
+    /* for a motion, else NULL */
     const struct internal_inertia *moving;
 } internal_state;
 
-/* Forces of inertia of one element of a motion. */
+/* Inertia forces of one element in a motion. */
 typedef struct internal_inertia {
-    /* ends[2][7] += those of its lumped masses at its first and its last node */
+    /* ends[2][7] += inertia forces of its masses lumped at its first and its last node */
     void (*ends)(const void *context, int element, double ends[2][7]);
-    /* of a mass that lies evenly along it and moves as each node does, per initial length, in fixed
-     * axes: density[nodes][force, moment about the node's frame] */
+    /* inertia force per initial length, in global axes, of evenly distributed mass that moves as
+     * each node does: density[nodes][force, moment about the node's frame] */
     void (*along)(const void *context, int element, double density[ELEMENT_MAX_NODES][6]);
     const void *context;
 } internal_inertia;
@@ -1118,61 +1133,63 @@ typedef struct internal_inertia {
  * m], bimoment [N m^2] (conjugate to the rate of the warping amplitude). end: 0 from, 1 to. */
 void internal_at_end(const equations *, const internal_state *, int member, int end, double out[7]);
 
-/* A place of a member, 0 from .. 1 to of its initial length; before: on the side of `from` of what
- * jumps there. */
+/* A position on a member, 0 (from) .. 1 (to) of its initial length; before: on the side of `from`
+ * where a value jumps. */
 typedef struct internal_place {
     int member;
     double place;
     int before;
 } internal_place;
 
-/* The same at a place of a member, and what else section_forces.h has: out[SPAN_VALUES].
- * NOT_CONVERGED: as span_recover. Of a motion the mass lies evenly along an element again, with
- * accelerations that are interpolated between its nodes: of a linear acceleration the forces are
- * those of what lies beyond, so that values go through from element to element (order 2). Warping
- * inertia acts at nodes. */
+/* Resultants at a position of a member, and the other values of section_forces.h: out[SPAN_VALUES].
+ * NOT_CONVERGED: as span_recover. In a motion the mass is distributed evenly along an element, with
+ * accelerations interpolated between its nodes. For a linear acceleration the forces are in
+ * equilibrium with the rest of the structure, so that values are continuous between elements (order
+ * 2). Warping inertia acts at nodes. */
 status internal_at(const equations *, const internal_state *, const internal_place *, double out[],
                    fault *);
 
-/* Largest value of `of` over a member, that of the section at x in [0, 1] of an element, counted
- * along the member, from its resultants [SPAN_VALUES]. */
+/* Largest value of the function `of` over a member; `of` computes it for the section at x in [0, 1]
+ * of an element, numbered along the member, from its resultants [SPAN_VALUES]. */
 typedef double (*internal_measure)(void *context, int element, double x, const double resultants[]);
 status internal_largest(const equations *, const internal_state *, int member, internal_measure of,
                         void *context, double *out, fault *);
 
-/* Stresses in members: of the points of a section, from its resultants. */
+/* Stresses in members, at the points of a section, from its resultants. */
 
-/* At a place of a member, 0 from .. 1 to [Pa].  REFUSED: given constants, which have no points;
- * else as internal_at. */
+/* At a position of a member, 0 (from) .. 1 (to) [Pa]. REFUSED: a section given by constants, which
+ * has no points; else as internal_at. */
 status internal_stress_at(const equations *, const internal_state *, const internal_place *,
                           stress_measure, double *out, fault *);
 /* Largest stress over all sections of the member. */
 status internal_stress_largest(const equations *, const internal_state *, int member,
                                stress_measure, double *out, fault *);
 
-/* Strains that elements have without stress beyond those of the undeformed state: of temperatures,
- * which are loads, and of members that are drawn strained. Strains of a state are counted from
- * them, or stresses are those of data that know them: both are mechanical. */
+/* Stress-free strains of elements in addition to those of the undeformed state: due to
+ * temperatures, which are loads, and initial strains of members. Either the strains of a state are
+ * measured from them, or stresses are computed with element data that include them; in both cases
+ * the strains are mechanical. */
 
-/* e[strains] of positions of nodes, less them. */
+/* Subtracts them from e[strains], the strains of node positions. */
 void free_strain_subtract(const equations *, int element, double path, double e[]);
-/* Data for the stresses of an element: those of its kind, or as its type alters them, until the
+/* Data for the stresses of an element: those of its kind, or modified by its type; valid until the
  * next call for the element. */
 const element_data *free_strain_data(const equations *, int element, double path);
 /* Adds the elongation and the curvatures about principal axes. */
 void free_strain_amounts(const equations *, int element, double path, double strain[3],
                          double curvature[3]);
-/* To first order about the undeformed state, out[strains]: of temperatures at `path`; of members
- * by themselves. */
+/* To first order about the undeformed state, out[strains]: of temperatures at `path`; initial
+ * strains of members. */
 void free_strain_linear(const equations *, int element, double path, double out[]);
 void free_strain_own(const model *, int element, double out[]);
-/* Of temperatures the largest one, of curvatures times the length of the model. */
+/* Largest strain due to temperatures; curvatures are multiplied by the length of the model. */
 double free_strain_size(const equations *, double path);
-/* out[strains] in a state, by a temperature that changes by `scale`; 0: none. */
+/* out[strains]: change in a state due to a temperature changed by `scale`; returns 0 when there is
+ * none. */
 int free_strain_by_load(const equations *, const model_state *, int element, const scene_load *,
                         double scale, double out[]);
-/* What temperatures that change in time add to the energy: in an instant [W], and from a state to
- * the next [J]. */
+/* Energy supplied by temperatures that change in time: at an instant [W], and between two states
+ * [J]. */
 double free_strain_power(const equations *, const model_state *, double time);
 double free_strain_work(const equations *, const model_state *from, double begin,
                         const model_state *to, double end);
@@ -1183,34 +1200,35 @@ double free_strain_work(const equations *, const model_state *from, double begin
 status linear_stiffness(const equations *, sparse *K, fault *); /* J^T S J at e = 0 */
 status linear_stresses(const equations *, const double x[], double sigma[],
                        fault *); /* sigma = S J x, [model_stresses] */
-/* Largest strain of a member that would leave no stress; 0: there is none. */
+/* Largest initial strain of a member; 0: none. */
 double linear_initial(const model *);
-/* The same with what these strains and temperatures at `path` add: of the structure as it is, not
- * of a motion. */
+/* Stresses including those of initial strains, and of temperatures at `path`: for the whole
+ * structure, not for a motion. */
 status linear_whole_stresses(const equations *, const double x[], double path, double sigma[],
                              fault *);
-/* Of what grows from path 0 to `path`: x from there, temperatures too. */
+/* Stresses of the loads that increase from path 0 to `path`: x from these loads, temperatures
+ * included. */
 status linear_growing_stresses(const equations *, const double x[], double path, double sigma[],
                                fault *);
 void linear_forces(const equations *, const double sigma[],
                    double f[]); /* f[free + driven] = sum J^T sigma */
 status linear_geometric_stiffness(const equations *, const double sigma[], double path, sparse *G,
                                   fault *); /* sum sigma H + J^T G(sigma) J; offsets included */
-/* Quadratic forms from the element strains, free of the cancellation of x^T (K x): error eps n^2
+/* Quadratic forms from the element strains, without the cancellation of x^T (K x): error eps n^2
  * instead of eps n^4. */
 double linear_strain_energy2(const equations *, const double x[]); /* x^T K x = sum (Jx)^T S (Jx) */
 double linear_strain_rounding(const equations *,
-                              const double x[]); /* what rounding may change in it */
+                              const double x[]); /* bound of its rounding error */
 double linear_geometric_energy2(const equations *, const double sigma[], const double x[]);
-/* Size of what rounding changes in it, with sigma the stresses of the displacements load_x[free +
- * driven]. */
+/* Size of its rounding error, with the stresses sigma of the displacements load_x[free + driven].
+ */
 double linear_geometric_rounding(const equations *, const double load_x[], const double sigma[],
                                  const double x[]);
 
 /* Linear solutions about the undeformed state. */
 
-/* A linear solution about the undeformed state: x[free + driven] of K x = f, with the factors of K
- * kept for the caller. */
+/* A linear solution about the undeformed state: x[free + driven] with K x = f; the caller may use
+ * the factors of K again. */
 typedef struct linear_system {
     sparse K;
     matrix_factor *factor;
@@ -1220,113 +1238,115 @@ void linear_system_free(linear_system *);
 /* Loads and drivers at `path`. */
 status linear_system_solve(analysis_context *, linear_system *, double path, double x[], fault *);
 
-/* The last states of a path, oldest first: where the next one is searched for. */
+/* The last states of a path, oldest first, for extrapolation. */
 
 typedef struct predictor {
-    int count, iterations;                   /* of the last step */
-    int most;                                /* states that a guess is made from */
-    model_state *at[MODEL_EXTRAPOLATED + 1]; /* NULL: not needed so far */
-    /* [m] of a guess of the last state from k states before it; k = 1: that it stays as it was */
+    int count, iterations; /* iterations: in the last step */
+    int most;              /* largest number of states used for an extrapolation */
+    model_state *at[MODEL_EXTRAPOLATED + 1]; /* NULL: not allocated yet */
+    /* [m] error that an extrapolation of the last state from k states would have had; k = 1: from
+     * the last state unchanged */
     double error[MODEL_EXTRAPOLATED + 1];
 } predictor;
 
-status predictor_alloc(const model *, predictor *, fault *); /* holds the undeformed state */
+status predictor_alloc(const model *, predictor *, fault *); /* contains the undeformed state */
 void predictor_free(predictor *);
 status predictor_add(const equations *, const model_state *, int iterations, predictor *, fault *);
 void predictor_forget(predictor *);
-/* Moves s, the last state, to a guess of the one at `path`, or leaves it as it is. */
+/* Moves the last state s to an extrapolation for `path`, or leaves it unchanged. */
 void predictor_guess(const equations *, const predictor *, double path, model_state *s);
 
-/* Newton in coordinates, strains and stresses at once (N section 4): what every nonlinear analysis
- * iterates with. */
+/* Newton's method in coordinates, strains and stresses together (N section 4), used by every
+ * nonlinear analysis. */
 
 typedef struct newton_run {
     analysis_context *c;
     model_state *state, *backup;
-    predictor *predictor;    /* NULL: every step begins at the last state */
+    predictor *predictor;    /* NULL: every step starts from the last state */
     condensation *condensed; /* NULL: no member is condensed; else K is not assembled */
     sparse K;
-    sparse whole; /* with the prescribed coordinates; no values: not requested */
+    sparse whole; /* including the prescribed coordinates; no values: not requested */
     matrix_factor *factor;
     double *residual, *dx;   /* [free + driven] */
-    double *dense, *unknown; /* of the uncondensed system, allocated when it is requested */
+    double *dense, *unknown; /* for the uncondensed system, allocated on request */
     int *pivot;
     double *column; /* [conditions x (free + driven)], after dx */
     double
-        *weight;   /* [free + driven] of metric_of: what makes displacements and turns comparable */
-    double energy; /* |r . K^-1 r| of the last residual r [J]; NAN: not known */
-    double path;   /* that newton_to goes to */
+        *weight; /* [free + driven] weights of metric_of, which scale displacements and rotations */
+    double energy; /* |r . K^-1 r| of the last residual r [J]; NAN: unknown */
+    double path;   /* target of newton_to */
     arrival arrival;
     int max_iterations, free, all;
-    long counted; /* factorisations that are in the model's counters */
+    long counted; /* number of factorisations already in the model's counters */
 } newton_run;
 
-/* condense 1: members of many elements are condensed to their ends. */
+/* condense 1: condenses members with many elements. */
 status newton_alloc(analysis_context *, int condense, newton_run *, fault *);
 void newton_free(newton_run *);
-/* From here on K is known of the prescribed coordinates too. */
+/* From here on K also contains the prescribed coordinates. */
 status newton_keep_driven(newton_run *, fault *);
 
-/* One correction of an iteration. */
+/* One correction of a Newton iteration. */
 typedef struct newton_correction {
-    double at;     /* path parameter or, of motions, instant [s] that it goes to */
-    double size;   /* dimensionless, of what changed: advance_state */
-    double energy; /* |r . K^-1 r| of the residual r before it [J]; NAN: not known */
+    double at;     /* target path parameter or, in a motion, instant [s] */
+    double size;   /* dimensionless size of the change: advance_state */
+    double energy; /* |r . K^-1 r| of the residual r before it [J]; NAN: unknown */
     advance_stress stress;
 } newton_correction;
 
-/* K, its factors and dx = K^-1 residual in the present state for the loads and drivers at `path`;
- * drivers are in dx. */
+/* Computes K, its factors and dx = K^-1 residual in the present state for the loads and drivers at
+ * `path`; dx includes the drivers. */
 status newton_direction(newton_run *, double path, step_record *, fault *);
-/* The state takes dx, at that path parameter. */
+/* Updates the state by dx, at that path parameter. */
 void newton_advance(newton_run *, double path, newton_correction *);
-/* NOT_CONVERGED: the arc of an element at rest rises by more than the formulation can follow. */
+/* NOT_CONVERGED: the initial rise of an element's arc exceeds the range of the formulation. */
 status newton_judge_rest(const model *m, fault *f);
-/* Checks every state that an analysis accepts against the one before it. NOT_CONVERGED names an
- * element that is turned by more than its formulation can follow, a spring whose rotation vector
- * has lost its direction, or a prescribed coordinate that moves too far in one step. A node's
- * rotation vector that has lost its direction is NaN from there on. */
+/* Checks every accepted state against the previous one. NOT_CONVERGED names an element that rotates
+ * beyond the range of its formulation, a spring whose rotation vector has lost its direction, or a
+ * prescribed coordinate that moves too far in one step. The rotation vector of a node that has lost
+ * its direction is NaN from then on. */
 status newton_accept(const model *, const model_state *from, model_state *, fault *);
 
-/* Parts of Newton's iteration that depend on the analysis. */
+/* Parts of Newton's method that depend on the analysis. */
 typedef struct newton_use {
     void *of;
-    newton_run *on;  /* of a path: newton_accept checks its states, and a state far from its first
-                    correction, which may be another equilibrium, is not converged; NULL: of
-                    a motion */
+    newton_run *on;  /* for a path: newton_accept checks its states, and a state far from its first
+                        correction, possibly another equilibrium, does not count as converged; NULL:
+                        for a motion */
     int least, most; /* iterations */
-    /* The equations of the present state are solved, and the state takes the correction. */
+    /* Solves the equations of the present state and applies the correction. */
     status (*correct)(void *of, int iteration, newton_correction *, step_record *, fault *);
-    void (*prepare)(void *of, int iteration, double correction); /* another one; NULL: nothing */
-    status (*accept)(void *of, fault *); /* called when it has converged; NULL: always accepted */
+    void (*prepare)(void *of, int iteration,
+                    double correction);  /* called before another iteration; NULL: nothing */
+    status (*accept)(void *of, fault *); /* called after convergence; NULL: always accepted */
 } newton_use;
 
-/* Returns Newton's iteration for states on a path. */
+/* Newton's method for states on a path. */
 newton_use newton_on_path(newton_run *, void *of,
                           status (*correct)(void *of, int iteration, newton_correction *,
                                             step_record *, fault *));
-/* Returns Newton's iteration for steps in time. */
+/* Newton's method for time steps. */
 newton_use newton_in_time(const analysis_context *, void *of,
                           status (*correct)(void *of, int iteration, newton_correction *,
                                             step_record *, fault *),
                           void (*prepare)(void *of, int iteration, double correction));
 
-/* Newton's iteration of every nonlinear step, with one table of limits: converged, or NOT_CONVERGED
- * with the reason. Counters, records and the arrival take each correction. */
+/* Newton's method for every nonlinear step, with common limits. Returns OK, or NOT_CONVERGED with
+ * the reason. Counters, records and `arrival` receive each correction. */
 status newton_iterate(analysis_context *, const newton_use *, arrival *, step_record *, fault *);
 
-/* Newton to `path`: converged, or NOT_CONVERGED with the reason. */
+/* Newton's method to `path`: OK, or NOT_CONVERGED with the reason. */
 status newton_to(newton_run *, double path, step_record *, fault *);
 
 /* Quadratic forms of the undeformed structure and of the stresses of a linear solution, from the
- * element strains: assembling the matrices loses digits of soft motions, this does not. */
+ * element strains: unlike assembled matrices they do not lose digits of soft motions. */
 
 typedef struct quadratic_forms {
     const equations *eq;
     int free;
-    double *load_x;    /* [free + driven] displacements by the loads, zero: no prestress ... */
+    double *load_x;    /* [free + driven] displacements due to the loads, zero: no prestress ... */
     double *sigma;     /* ... and their stresses [elements x strains] */
-    sparse loads;      /* what the loads add to K */
+    sparse loads;      /* contribution of the loads to K */
     double *x, *force; /* [free + driven] prescribed coordinates of x: zero */
     double *stress, *product; /* [elements x strains], [free] */
 } quadratic_forms;
@@ -1334,12 +1354,12 @@ typedef struct quadratic_forms {
 status quadratic_forms_alloc(const equations *eq, const sparse *pattern, quadratic_forms *p,
                              fault *f);
 void quadratic_forms_free(quadratic_forms *p);
-/* The loads at `path` and their stresses, once load_x is known; whole: with those of initial
+/* Sets the loads at `path` and their stresses, after load_x; whole: including those of initial
  * strains. */
 status quadratic_forms_load(const equations *, quadratic_forms *p, double path, int whole,
                             fault *f);
 
-/* Return x^T K x and x^T G x of x[free], and bounds of what rounding may change in them. */
+/* Return x^T K x and x^T G x of x[free], and bounds of their rounding errors. */
 double quadratic_forms_stiffness(quadratic_forms *p, const double x[]);
 double quadratic_forms_geometric(quadratic_forms *p, const double x[]);
 double quadratic_forms_stiffness_rounding(quadratic_forms *p, const double x[]);
@@ -1347,31 +1367,32 @@ double quadratic_forms_geometric_rounding(quadratic_forms *p, const double x[]);
 /* y[free] = K x[free] */
 void quadratic_forms_product(quadratic_forms *p, const double x[], double y[]);
 
-/* A quantity that has been read from an outcome. */
+/* A quantity that has been extracted from an outcome. */
 
-/* STATUS_OK of an outcome that lacks the value becomes STATUS_NO_VALUE. */
+/* If the outcome is STATUS_OK but lacks the value, the status becomes STATUS_NO_VALUE. */
 void quantity_no_value(quantity_result *, status, const char *reason);
-/* In the units of the quantity: times its factor, plus its offset. */
+/* Value times the factor of the quantity, plus its offset. */
 double quantity_scaled(const scene_quantity *, double value);
 
-/* The same for the abscissa of its curve. */
+/* As quantity_scaled, for the abscissa of its curve. */
 double quantity_abscissa(const scene_quantity *, double x);
-/* Room for a curve of that many points; 0: there is none, which the result says. */
+/* Allocates a curve of that many points. Returns 0 when there is no memory, and stores that in the
+ * result. */
 int quantity_curve(quantity_result *, int points);
 
-/* When iterative refinement of a linear solution ends, and how many digits it has then.
+/* Stopping criterion of iterative refinement of a linear solution, and the resulting accuracy.
  *
- * Residuals come from element strains.  With factors off by part q of the solution (about eps times
- * the condition of K) every correction is q times the last one, until they settle where the
- * rounding of the forces keeps them (N.J. Higham, Accuracy and Stability of Numerical Algorithms
- * (2002), section 12.1): x is then the solution for loads rounded in their last digit, and the
- * correction is its error.  That level is a property of the problem, neither of the mesh nor of K:
- * a bar of length L pushed along an oblique axis has forces whose components are rounded; across
- * the bar eps P L^3/(3 EI) stands beside P L/(EA), eps (L/r)^2/3.  Square bars of side L/10 to
- * L/1e5, 1 to 256 elements, three oblique axes, every formulation: eps (L/side)^2 times 2.5 at most
- * where that is above what the mesh rounds (170 times for the geometrically exact element, whose
- * factors are the worst), whatever the condition, which goes from 1 to 2e16, and q from 0 to 0.08
- * (0.8 for that element). */
+ * Residuals come from element strains. If the factors have a relative error q (about eps times the
+ * condition of K), every correction is q times the previous one, until the rounding of the forces
+ * limits them (N.J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 12.1): x
+ * is then the solution for loads rounded in their last digit, and the correction is its error. This
+ * level depends on the problem, not on the mesh or on K. Example: a bar of length L is pushed along
+ * an oblique axis, so that the components of the force are rounded; the transverse displacement eps
+ * P L^3/(3 EI) is eps (L/r)^2/3 relative to P L/(EA). Square bars of side L/10 to L/1e5, 1 to 256
+ * elements, three oblique axes, every formulation: eps (L/side)^2 times 2.5 at most where that is
+ * above what the mesh rounds (170 times for the geometrically exact element, whose factors are the
+ * worst), whatever the condition, which goes from 1 to 2e16, and q from 0 to 0.08 (0.8 for that
+ * element). */
 
 typedef enum refinement_state {
     REFINEMENT_GOES_ON,
@@ -1379,73 +1400,74 @@ typedef enum refinement_state {
     REFINEMENT_LOST
 } refinement_state;
 
-/* Begins as {0}. */
+/* Initialise with {0}. */
 typedef struct solution_refinement {
-    int corrections; /* the first is the solution itself */
+    int corrections; /* number; the first is the solution itself */
     double last;     /* relative to the solution */
 } solution_refinement;
 
-/* Decides from the size of a correction, relative to the solution: at least two corrections after
- * the first, and more while they halve and digits are missing. */
+/* Decides from the size of a correction relative to the solution: at least two corrections after
+ * the first, and more while they halve and the accuracy is insufficient. */
 refinement_state refinement_next(solution_refinement *, double correction);
-/* Are the digits enough that a last correction, or another measure of the error, leaves? */
+/* Is the accuracy sufficient, given the last correction or another measure of the error? */
 refinement_state refinement_judge(solution_refinement *, double correction);
-/* SINGULAR, with the digits that are left of `what` and what helps. */
+/* SINGULAR, with the remaining accuracy of `what` and the remedy. */
 status refinement_refuse(const solution_refinement *, const char *what, fault *);
-/* |change|/|x| in a metric of n weights, |x| of at least `least`; 0: no change. */
+/* |change|/|x| in a metric of n weights, with |x| at least `least`; 0: no change. */
 double refinement_part(int n, const double weight[], const double change[], const double x[],
                        double least);
 
-/* A frame that turns steadily. */
+/* A frame that rotates at a constant rate. */
 
-/* Mass matrix on the pattern of M about a state (NULL: undeformed); G: gyroscopic matrix of a
- * rotating frame, of which a symmetric pattern stores the upper triangle, or NULL: not needed. */
+/* Mass matrix on the pattern of M about a state (NULL: undeformed). G: gyroscopic matrix of a
+ * rotating frame (a symmetric pattern stores its upper triangle), or NULL. */
 status rotating_frame_inertia(const equations *, const model_state *, double path, sparse *M,
                               sparse *G, fault *);
 
-/* 1: mass is at nodes, as the scene specifies or a motion that starts there has it. */
+/* Returns 1 when mass is lumped at nodes, as specified by the scene or by a motion that starts
+ * there. */
 int rotating_frame_lumps(const equations *);
 
-/* x^T B x of the undeformed structure, x[free + driven]: what the mass inside of elements adds to a
+/* x^T B x of the undeformed structure, x[free + driven]: effect of the mass inside elements on a
  * mode, k = lambda m + lambda^2 b (field/field.h). */
 double rotating_frame_inner(const model *, const double x[]);
-/* B itself, with the pattern of a symmetric K. 0: no element has it, and it is zero. */
+/* B on the pattern of a symmetric K. Returns 0 when no element has it, so that it is zero. */
 int rotating_frame_inner_matrix(const equations *, sparse *out);
 
 /* Stiffness of loads on offsets and of moments. */
 void rotating_frame_load_stiffness(const equations *, const model_state *, double path,
                                    sparse *out);
 
-/* Why a stiffness matrix cannot be factored. */
+/* Explains why a stiffness matrix cannot be factored. */
 
-/* SINGULAR with the motion where released ends make the undeformed structure a mechanism; else
- * `otherwise`, f as it is. */
+/* SINGULAR, with the motion, when released ends make the undeformed structure a mechanism; else
+ * `otherwise` with f unchanged. */
 status singular_mechanism(const analysis_context *c, status otherwise, fault *f);
 
-/* After the last factorisation failed: the fault with its cause.  A part that the supports leave
- * loose; digits lost in round-off, because of many elements or of stiffnesses far apart; else a
- * critical point.  Work done for it is not counted. */
+/* Call after the last factorisation failed: sets the fault with its cause: a part without supports;
+ * digits lost in round-off, due to many elements or very different stiffnesses; else a critical
+ * point. The work for this is not counted. */
 void singular_explain(analysis_context *c, fault *f);
 
-/* The tangent of a state in two parts. */
+/* The tangent of a state as a sum of two parts. */
 
-/* K x of the last linearisation in two parts. The stiff one goes through the element strains, y +=
- * sum J^T P'' (J x): as a sum of matrices it would lose all digits of the soft motions. x, y: [free
- * + driven]. The other is a matrix on the pattern of G: sum sigma_i H_i with the second derivatives
- * of offsets and sequences, less the loads' and the rotation's stiffness. */
+/* K x of the last linearisation in two parts. The stiff part is computed from the element strains,
+ * y += sum J^T P'' (J x); an assembled matrix would lose all digits of the soft motions. x, y:
+ * [free + driven]. The other part is a matrix on the pattern of G: sum sigma_i H_i with the second
+ * derivatives of offsets and sequences, minus the stiffness of loads and rotation. */
 void stiffness_parts_material_product(const model *, const linear_memory *, const model_state *,
                                       const double x[], double y[]);
-/* Bound of what rounding may change in x^T K x of the material part. */
+/* Bound of the rounding error of x^T K x of the material part. */
 double stiffness_parts_material_rounding(const model *, const linear_memory *, const model_state *,
                                          const double x[]);
 status stiffness_parts_geometric(const equations *, const linear_memory *, const model_state *,
                                  sparse *G, fault *);
 
-/* All unknowns at once. */
+/* All unknowns in one system. */
 
 /* The uncondensed dense system (column-major A[n x n], b[n] with n = uncondensed_size +
- * conditions), unknowns in the order free coordinates, strains, stresses, drivers of conditions;
- * load[free + driven] is work space. */
+ * conditions), with unknowns in the order free coordinates, strains, stresses, drivers of
+ * conditions; load[free + driven] is work space. */
 int uncondensed_size(const model *);
 status uncondensed_system(const equations *, const model_state *, double path, const double drive[],
                           int conditions, const model_condition condition[], double A[], double b[],

@@ -1,4 +1,4 @@
-/* The inside of newton/. */
+/* Internal declarations of newton/. */
 #ifndef BEAMWORK_NEWTON_IMPL_H
 #define BEAMWORK_NEWTON_IMPL_H
 
@@ -8,14 +8,14 @@
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
 
-/* Strains and stresses of all elements evaluated ahead of the loop that wants them, for types that
- * evaluate all elements at once (element_type.strain_many, stress_many, without lanes). For others,
- * and where there is no memory for it, nothing is done ahead and every element is evaluated in the
- * loop; those with lanes a few at a time, where they are taken up (chunk.c). */
+/* Strains and stresses of all elements are evaluated before the loop that uses them, for types that
+ * evaluate all elements in one call (element_type.strain_many, stress_many, without lanes). For
+ * other types, and when memory is short, every element is evaluated in the loop; those with lanes
+ * in small batches (chunk.c). */
 
-/* Strains and stresses evaluated for all elements at once. */
+/* Strains and stresses evaluated for all elements in one call. */
 typedef struct run_ahead {
-    int what, stresses; /* what of the strains, and whether the stresses, are valid */
+    int what, stresses; /* which strains, and whether the stresses, are valid */
     const element_data **data;
     const double **at, **inner;
     node_state *x;
@@ -25,20 +25,20 @@ typedef struct run_ahead {
     double *e, *sigma, *J, *H, *C, *memory;
 } run_ahead;
 
-enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* what of the strains */
+enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* values of `what` */
 
 /* Evaluates strains in batches at the nodes of s; sigma[elements x strains] for H. Valid until
  * ahead_end. */
 void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[]);
-/* At e[elements x strains], or NULL: at the strains evaluated ahead; sigma and C. */
+/* At e[elements x strains], or NULL: at the strains evaluated before; sigma and C. */
 void ahead_stresses(const equations *eq, const double e[], const double inner[]);
 void ahead_end(const equations *eq);
 
 void ahead_copy_strain(const equations *eq, int i, const strain_output *out);
 status ahead_copy_stress(const equations *eq, int i, const stress_output *out);
 
-/* Return the values of element i at x or e, for loops between ahead_strains or ahead_stresses and
- * ahead_end: those evaluated in batches, or those of the type's own functions. */
+/* Return the values of element i at x or e, in loops between ahead_strains or ahead_stresses and
+ * ahead_end: from the batch, or from the functions of the type. */
 static inline void ahead_strain(const equations *eq, int i, const node_state x[],
                                 strain_output *out)
 {
@@ -56,7 +56,7 @@ static inline status ahead_stress(const equations *eq, int i, const element_data
     return model_type(eq->m)->stress(data, e, inner, out);
 }
 
-/* Of a run: free_strain_data. */
+/* For a run: see free_strain_data. */
 status free_strain_begin(const model *, struct run_free **, fault *);
 void free_strain_end(struct run_free *);
 
@@ -68,79 +68,81 @@ typedef struct bordered {
     double S[TANGENT_BORDER * TANGENT_BORDER];
     int pivot[TANGENT_BORDER];
     double *solution;                 /* [TANGENT_COMPONENTS x all] for unit loads */
-    double *x, *load, *rest, *weight; /* [all] of one that is refined */
+    double *x, *load, *rest, *weight; /* [all] work space for refinement */
 } bordered;
 
-/* SINGULAR: not held when the prescribed motion is released. Freed by bordered_free in either
- * case. */
+/* SINGULAR: the structure is not supported when the prescribed motion is released. Call
+ * bordered_free in either case. */
 status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f);
 void bordered_free(bordered *s);
 /* In place; fixed and prescribed coordinates do not change. x: [columns x all] */
 void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[]);
 /* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
- * strains (refinement_judge). SINGULAR: round-off leaves too few digits. */
+ * strains (refinement_judge). SINGULAR: round-off leaves insufficient accuracy. */
 status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
 
-/* Links in a row, condensed to what their two ends do, and back.
+/* A chain of links, condensed to its two ends, and the expansion of solutions.
  *
- * A link joins joint p to joint q; y are the coordinates of q, and before them those inside. With
- * forces g that act on it it is
- *   y = A x_p + F g_y,   g_p = B x_p - A^T g_y:
- * A carries it along as if rigid, F is its flexibility with p clamped, B what carrying it along
- * costs (prestress, warping). Joined links are a link again (the star product of R. Redheffer, J.
- * Math. Phys. 41, 1962): with F of the row before joint m and B, A of the next link
- *   x_m = Z (a_m + F (r_m + A^T g_y)),   Z = (1 + F B)^-1,   F <- F_qq + A_q Z F A_q^T.
- * Flexibilities add without cancellation, so that rounding grows about as the number of links and
- * not as its fourth power, as it does where stiffnesses are assembled. */
+ * A link joins joint p to joint q; y are the coordinates inside, followed by those of q. For forces
+ * g on the link, y = A x_p + F g_y, g_p = B x_p - A^T g_y: where A is its rigid motion with p, F
+ * its flexibility with p clamped, and B the stiffness of that motion (prestress, warping). Joined
+ * links form a link (the star product of R. Redheffer, J. Math. Phys. 41, 1962): with F of the row
+ * before joint m and B, A of the next link x_m = Z (a_m + F (r_m + A^T g_y)), Z = (1 + F B)^-1, F
+ * <- F_qq + A_q Z F A_q^T. Flexibilities add without cancellation. Rounding therefore grows about
+ * in proportion to the number of links, and not to its fourth power as for assembled stiffnesses.
+ */
 
 enum { CHAIN_JOINT = 7, CHAIN_LINK = 2 * CHAIN_JOINT };
 
-/* Data of an element that joins a chain. */
+/* Data of an element that is added to a chain. */
 typedef struct chain_link {
     double A[CHAIN_LINK * CHAIN_JOINT];  /* [y x joint] */
     double F[CHAIN_LINK * CHAIN_LINK];   /* [y x y] symmetric */
     double B[CHAIN_JOINT * CHAIN_JOINT]; /* symmetric */
-    int negative;                        /* eigenvalues of F */
+    int negative;                        /* number of negative eigenvalues of F */
 } chain_link;
 
 typedef struct chain chain;
 
-/* joint: coordinates of each joint; y: those of a link but for its first joint. */
+/* joint: number of coordinates of each joint; y: number of coordinates of a link without its first
+ * joint. */
 status chain_alloc(int links, int joint, int y, chain **out, fault *);
 void chain_free(chain *);
 
 void chain_begin(chain *);
-/* The next link. SINGULAR: the chain up to here, clamped at its start, is at a critical state. */
+/* Adds the next link. SINGULAR: the chain so far, clamped at its start, is in a critical state. */
 status chain_add(chain *, const chain_link *, fault *);
-/* K[2 joint x 2 joint] of the ends when all links are there. SINGULAR: the chain, clamped at both
- * ends, is at a critical state. */
+/* K[2 joint x 2 joint] of the ends after all links have been added. SINGULAR: the chain, clamped at
+ * both ends, is in a critical state. */
 status chain_stiffness(const chain *, double K[], fault *);
-/* Number of negative eigenvalues of the coordinates inside, both ends clamped. */
+/* Number of negative eigenvalues of the inner coordinates, with both ends clamped. */
 int chain_negative(const chain *);
 
-/* Loads r[links x y] on all coordinates but those of the ends (the last joint is not read), in the
- * order of the links; ends[2 joint]: forces by which they act on the ends. */
+/* Loads r[links x y] on all coordinates except those of the ends (the last joint is not read), in
+ * the order of the links; ends[2 joint]: resulting forces on the ends. */
 void chain_reduce(chain *, const double r[], double ends[]);
-/* x[links x y] of these loads and of motions of the ends[2 joint]; the last joint is an end. x may
- * be r. */
+/* x[links x y] for these loads and for motions of the ends[2 joint]; the last joint is an end. x
+ * may be r. */
 void chain_expand(chain *, const double r[], const double ends[], double x[]);
 
-/* Members of a chain: chain.c builds it and solves with it. */
+/* Members of a chain: chain.c builds the chain and solves with it. */
 
-/* Size of a symmetric matrix stored by its rows up to the diagonal. */
+/* Size of a symmetric matrix whose rows are stored up to the diagonal. */
 static inline int chain_packed(int n)
 {
     return n * (n + 1) / 2;
 }
 
-/* Stored for each link: its A and F; Z joins it to the row before: Z, B Z and Z F. */
+/* For each link its A and F are stored, and for its junction with the previous row Z, B Z and Z F.
+ */
 struct chain {
-    int links, count; /* count: that are there */
-    int c, y, inside; /* coordinates of a joint; of a link; inside = y - c */
+    int links, count; /* count: number added so far */
+    int c, y, inside; /* number of coordinates of a joint; of a link; inside = y - c */
     int negative;
     double *kept;
-    double *a; /* [(links + 1) x c] of joints, without forces after them; then the forces on them */
-    double F[CHAIN_JOINT * CHAIN_JOINT]; /* of the row */
+    double *a; /* [(links + 1) x c] displacements of joints without later forces; then the forces on
+                  the joints */
+    double F[CHAIN_JOINT * CHAIN_JOINT]; /* of the row so far */
     double A[CHAIN_JOINT * CHAIN_JOINT], B[CHAIN_JOINT * CHAIN_JOINT];
 };
 
@@ -165,13 +167,15 @@ static inline kept_link chain_kept(const chain *s, int link, int c, int y)
     return k;
 }
 
-/* Members of a condensation. */
+/* Members of condensation. */
 
-/* More coordinates of ends than this are not condensed: their pattern is made densely. */
+/* Structures with more coordinates of ends are not condensed, because the pattern is built densely.
+ */
 enum { MOST_ENDS = 2000, MEMBER_COLUMNS = 2 * NODE_COORDINATES + 2 * SCENE_RELEASED };
 
 typedef struct condensed_member {
-    mesh_element ends; /* from the first node of the first element to the last of the last */
+    mesh_element
+        ends; /* element from the first node of the first element to the last node of the last */
     mesh_triad triad[2];
     int first, links, joint, y;
     chain *chain;
@@ -182,35 +186,35 @@ struct condensation {
     const model *m;
     const model_state *at;
     int members, all, unknowns;
-    int lent; /* 1: chains and r are another one's */
+    int lent; /* 1: another condensation owns chains and r */
     condensed_member *member;
-    int *number;   /* [all] of a coordinate of an end among those; NONE: of no end */
-    int *unknown;  /* [unknowns] coordinates of the system that is left */
-    sparse K;      /* of the ends, in all coordinates */
-    sparse inside; /* of the unknowns */
-    int *from;     /* [entries of inside] in K */
+    int *number;   /* [all] index of a coordinate among those of ends; NONE: not of an end */
+    int *unknown;  /* [unknowns] coordinates of the reduced system */
+    sparse K;      /* matrix of the ends, on all their coordinates */
+    sparse inside; /* matrix of the unknowns */
+    int *from;     /* [entries of inside] positions in K */
     matrix_factor *factor;
-    double *r;      /* of the longest member: loads, then motions, [links x y] */
+    double *r;      /* of the longest member: loads, then displacements, [links x y] */
     double *small;  /* [unknowns] */
     double *driven; /* [driven] */
     double *end;    /* [members x MEMBER_COLUMNS] forces of the ends */
-    int negative;   /* eigenvalues of what was condensed */
+    int negative;   /* number of negative eigenvalues of the condensed coordinates */
     long factorisations;
 };
 
-/* condensation.c: coordinates of ends and, among them, the unknown ones. Returns their
+/* condensation.c: numbers the coordinates of ends, and the unknown ones among them. Returns the
  * number of the former; s->unknown NULL: out of memory. */
 int condensation_number(condensation *s, int count, const int released[]);
-/* Patterns of both. */
+/* Patterns of both matrices. */
 status condensation_patterns(condensation *s, int ends, fault *f);
 
-/* Springs about the undeformed state, as linear_stresses has it for elements: sigma[6 x springs]
- * are the last of its stresses. */
+/* Springs about the undeformed state, as linear_stresses for elements: sigma[6 x springs] are the
+ * last of the stresses. */
 
 void linear_springs_stiffness(const model *, sparse *K); /* += */
 void linear_springs_stresses(const model *, const double x[], double sigma[]);
 void linear_springs_forces(const model *, const double sigma[], double f[]); /* += */
-/* F[6] += on the frame of a node. */
+/* F[6] += forces of springs on the frame of a node. */
 void linear_springs_node_force(const model *, const double sigma[], int node, double F[6]);
 void linear_springs_geometric_stiffness(const model *, const double sigma[], sparse *G); /* += */
 double linear_springs_energy2(const model *, const double x[]);
@@ -219,51 +223,50 @@ double linear_springs_geometric_energy2(const model *, const double sigma[], con
 
 /* An element as a link of a chain. */
 
-/* Tangent J^T C J + H of an element in coordinates of its nodes (element.h). */
+/* Tangent J^T C J + H of an element in the coordinates of its nodes (element.h). */
 typedef struct link_element {
-    int nodes, strains, joint; /* joint: the first coordinates of each node that are wanted */
+    int nodes, strains, joint; /* joint: number of leading coordinates of each node that are used */
     const double *J, *C, *H;   /* [strains x 7 nodes], [strains x strains], [7 nodes x 7 nodes] */
     const double *r;           /* [nodes x 3] positions of the nodes [m] */
 } link_element;
 
-/* Carrying the element along, R, strains it by E = J R, rounding but for warping; it follows by
- * R + d, d = -F (J_y^T C E + (H R)_y), and B = (E + J_y d)^T C (E + J_y d) + (R + d)^T H (R + d):
- * no entries of the size of K are subtracted from each other.
- * SINGULAR: clamped at its first node it is at a critical state. */
+/* The rigid motion R of the element causes strains E = J R, which are rounding errors except for
+ * warping; the element follows by R + d, d = -F (J_y^T C E + (H R)_y), and B = (E + J_y d)^T C (E +
+ * J_y d) + (R + d)^T H (R + d): no entries of the size of K are subtracted from each other.
+ * SINGULAR: the element, clamped at its first node, is in a critical state. */
 status link_of(const link_element *, chain_link *, fault *);
 
-/* Members as rigid parts of a linkage, where their ends are released. */
+/* Members as rigid parts of a linkage with joints at released ends. */
 
-/* 1: held as it is, the undeformed structure moves without deformation where ends of members are
- * released: the node that moves most, or -1 and a member between nodes that stay, and its motion
- * (displacement [m], turn [rad], of any size). Not searched for among more than 200 parts. */
+/* Returns 1 when the undeformed structure with its supports is a mechanism because of released
+ * ends: gives the node that moves most, or -1 and a member between nodes at rest, and its motion
+ * (displacement [m], rotation [rad], arbitrary scale). Not searched for more than 200 parts. */
 int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 /* Small symmetric matrices whose rows may have different units. */
 
 enum { SYMMETRIC_MOST = 14 };
 
-/* Negative eigenvalues of A[n x n], which is overwritten; -1: singular, a pivot is
- * a rounding error. LDL^T without pivoting,
- * which units of the rows do not change. */
+/* Number of negative eigenvalues of A[n x n], which is overwritten; -1: singular, a pivot is a
+ * rounding error. LDL^T without pivoting, which does not depend on the units of the rows. */
 int symmetric_negative(int n, double A[]);
-/* inverse[n x n]; returns the negative eigenvalues, or -1: singular. */
+/* inverse[n x n]; returns the number of negative eigenvalues, or -1: singular. */
 int symmetric_inverse(int n, const double A[], double inverse[]);
 
-/* Derivatives of elements in the undeformed state, which never changes: evaluated once and kept in
- * the model. */
+/* Derivatives of elements in the undeformed state, which never changes: evaluated once and stored.
+ */
 
-/* de/dx [strains x 7 nodes], dsigma/de [strains x strains] and, of a member with initial strains,
- * the stresses [strains] of an element whose nodes do not move, to first order (NULL: none); until
- * the next one is requested. */
+/* de/dx [strains x 7 nodes], dsigma/de [strains x strains] and, for a member with initial strains,
+ * the stresses [strains] of an element with fixed nodes, to first order (NULL: none). Valid until
+ * the next request. */
 typedef struct undeformed_element {
     const double *J, *C, *initial;
 } undeformed_element;
 
-/* In large models consecutive elements of one kind with the same orientation, up to the rounding of
+/* In large models consecutive elements of one kind with equal orientation, up to the rounding of
  * their positions, share one. FAULT: out of memory. */
 status undeformed_of(const equations *, int element, undeformed_element *, fault *);
-/* Evaluates missing elements together, where the formulation can, until ahead_end. */
+/* Evaluates missing elements together, if the formulation can; valid until ahead_end. */
 void undeformed_begin(const equations *);
 
 #endif

@@ -11,18 +11,19 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* Largest of two corrections after another (those of the geometrically exact element settle at
- * 3e-11 of 1000 elements, 6e-9 of 40 000) ... */
+/* Largest size of two successive corrections at convergence (those of the geometrically exact
+ * element reach 3e-11 with 1000 elements, 6e-9 with 40 000) ... */
 static const double small = 1e-8;
-static const double many_elements = 1e4; /* with more of them in proportion */
-/* ... or of one after which nothing is left that rounding would not hide ... */
+static const double many_elements =
+    1e4; /* number of elements above which it increases in proportion */
+/* ... or of one correction after which the rest is below rounding ... */
 static const double arrival_near = 1e-6, negligible = 1e-15;
-/* ... or of one whose square is nothing even where stresses are 1e10 times as sensitive. */
+/* ... or of one whose square is negligible even if stresses are 1e10 times as sensitive. */
 static const double rounding = 1e-12;
-/* Larger corrections need not contract as their squares. */
+/* Corrections larger than this need not converge quadratically. */
 static const double quadratic = 0.1;
-/* relative change of stresses below which a tangent is reused: compliances change by half of it at
- * most (measured on the mechanisms of cases/), which is less than the scatter of most of them. */
+/* relative change of stresses below which a tangent is reused. Compliances change by at most half
+ * of it (measured on the mechanisms of cases/), which is less than their scatter in most cases. */
 static const double same_tangent = 3e-11;
 
 void arrival_start(double criterion, int differences, int elements, arrival *a)
@@ -35,8 +36,8 @@ void arrival_start(double criterion, int differences, int elements, arrival *a)
                    .remaining = NAN};
 }
 
-/* Updates the history by a correction. Stresses are compared with the largest one of the path so
- * far, since they may pass through zero. */
+/* Updates the history by a correction. Changes of stresses are relative to the largest stress of
+ * the path so far, since stresses may pass through zero. */
 void arrival_take(double correction, const advance_stress *stress, int first, arrival *a)
 {
     a->before = first ? INFINITY : a->correction;
@@ -61,8 +62,8 @@ int arrival_tangent_stands(const arrival *a)
     return a->correction <= same_tangent && a->stress_change <= same_tangent;
 }
 
-/* Changes of stresses and internal unknowns by the rotation of an element's frame, where the
- * element takes loads along it. */
+/* Changes of stresses and inner unknowns due to the rotation of an element's frame, if the element
+ * includes loads along it. */
 static void follow_turn(const model *m, const double along[], const double local[], double sigma[],
                         double inner[])
 {
@@ -162,8 +163,8 @@ void advance_settle(const model *m, const linear_memory *memory, const model_sta
     }
 }
 
-/* Decide whether a step has converged, continues or fails, and whether the formulation is valid in
- * the state at its end. */
+/* Decides whether a step has converged, continues or fails, and whether the formulation is valid in
+ * the final state. */
 
 static status judge_twist(const model *m, const model_state *s, fault *f)
 {
@@ -182,7 +183,8 @@ static status judge_twist(const model *m, const model_state *s, fault *f)
         s->path);
 }
 
-/* The element's own turn [rad]: between neighbouring nodes, and for sines against the chord. */
+/* The rotation within the element [rad]: between neighbouring nodes; for formulations that use
+ * sines, relative to the chord. */
 static status judge_elements(const model *m, const model_state *s, fault *f)
 {
     const int quarter = (model_type(m)->limits & LIMIT_QUARTER_TURN) != 0;
@@ -199,7 +201,7 @@ static status judge_elements(const model *m, const model_state *s, fault *f)
                      quarter ? "quarter" : "half", model_type(m)->name, s->path);
 }
 
-/* Does this end of a member turn freely about all axes across it? */
+/* Is this end of a member free to rotate about both transverse axes? */
 static int swings(const model *m, const mesh_element *el, int node)
 {
     const mesh_release *r = release_of(m, el->vertex[node]);
@@ -211,7 +213,8 @@ static int swings(const model *m, const mesh_element *el, int node)
            (fabs(vec3_dot(r->turn[0], x)) < across && fabs(vec3_dot(r->turn[1], x)) < across);
 }
 
-/* Elements longer than the axial force in them allows; bars that nothing bends are never. */
+/* Elements must not be longer than their axial force allows; bars without bending are not limited.
+ */
 static status judge_tension(const model *m, const model_state *s, fault *f)
 {
     int worst = 0;
@@ -257,7 +260,7 @@ status newton_judge_rest(const model *m, fault *f)
                      model_type(m)->name, most, floor(count * sqrt(rise / most)) + 1);
 }
 
-/* Near a full turn, with a moment across the turn: that knows no bounds there. */
+/* Near a full rotation a moment normal to the rotation axis has an unbounded effect. */
 static int across(const mesh_discrete *d, const double turn[3])
 {
     const double near = 1e-3, size = vec3_norm(turn);
@@ -287,7 +290,7 @@ static status judge_springs(const model *m, const model_state *from, const model
     return STATUS_OK;
 }
 
-/* Largest change of what turns a node by prescribed angles [rad]. */
+/* Largest change of a node's orientation by prescribed angles [rad]. */
 static double driven_by(const model *m, const model_state *from, const model_state *s, int node)
 {
     const mesh_vertex *v = model_vertex(m, node);
@@ -329,12 +332,12 @@ status newton_accept(const model *m, const model_state *from, model_state *s, fa
 
 /* Sizes of the corrections of one step. */
 typedef struct watch {
-    double last, first, largest; /* the largest after the first */
-    int growing;                 /* that many after another */
+    double last, first, largest; /* `largest`: of those after the first */
+    int growing;                 /* number of successive growing corrections */
 } watch;
 
-/* Limits of all iterations: a correction of several radians or lengths leads nowhere, nor do those
- * that grow again and again. */
+/* Limits for all iterations: a correction of several radians or lengths does not lead to
+ * convergence, nor do corrections that grow repeatedly. */
 static const double wild = 4, wild_at_first = 16;
 enum { AT_FIRST = 3, GROWING = 4, MOST_IN_TIME = 20 };
 

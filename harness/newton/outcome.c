@@ -261,8 +261,8 @@ status history_add_step(solve_result *r, const step_record *record, fault *f)
     return memory_append(&r->step, &r->steps, record, sizeof *record, "step records", f);
 }
 
-/* Returns the stability of a state with an unsymmetric tangent. It is unstable where eigenvalues
- * have passed zero, with mass an odd number of them; everything else is decided by frequencies. */
+/* Stability of a state with an unsymmetric tangent. It is unstable if eigenvalues have crossed zero
+ * (with mass, an odd number of them); otherwise the frequencies decide. */
 static step_stability without_symmetry(const scene *s, const step_record *one)
 {
     const int massive = scene_has_mass(s);
@@ -285,10 +285,11 @@ void history_judge_steps(solve_result *r, const scene *s, int analysis, int firs
         if (one->negative_pivots == 0)
             one->stability = STEP_STABLE;
         else if (a->kind != SCENE_ROTATION && !scene_rotates(a))
-            one->stability = STEP_UNSTABLE; /* in turning axes gyroscopic forces may hold it, ... */
+            one->stability =
+                STEP_UNSTABLE; /* in rotating axes gyroscopic forces may stabilise it, ... */
         else if (one->negative_pivots % 2 != 0)
-            one->stability = STEP_GROWS; /* ... but not an odd number: det(s^2 M + s G + K) is
-                                            negative at s = 0 and positive far away */
+            one->stability = STEP_GROWS; /* ... except for an odd number: det(s^2 M + s G + K) is
+                                            negative at s = 0 and positive for large s */
     }
 }
 

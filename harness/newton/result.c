@@ -123,7 +123,7 @@ int shapes_frames(int most)
 
 enum { N = 6 };
 
-/* B = A^-1, both [n x n]; A is lost.  Not 0: it has none, beside its round-off. */
+/* B = A^-1, both [n x n]; destroys A. Returns nonzero when A is singular to working precision. */
 static int invert(int n, double A[], double B[])
 {
     int pivot[N];
@@ -136,7 +136,7 @@ static int invert(int n, double A[], double B[])
     return failed;
 }
 
-/* K -= times m~/2 on the turns. */
+/* K -= times m~/2 on the rotations. */
 static void subtract_half_skew(const movable *v, double times, const double of[3], double K[])
 {
     const double m[3] = {times * of[0], times * of[1], times * of[2]},
@@ -170,7 +170,7 @@ int convention_changes(scene_moments of_tangent, scene_moments convention, const
            (convention != of_tangent && vec3_norm(m) > 0);
 }
 
-/* How many times m~/2 is taken off. */
+/* Multiple of m~/2 that is subtracted. */
 static int times_of(scene_moments of_tangent, scene_moments convention)
 {
     return (convention != SCENE_MOMENTS_SEMITANGENTIAL) - (of_tangent == SCENE_MOMENTS_SPATIAL);
@@ -186,7 +186,7 @@ static void congruence(int m, int n, const double T[], const double A[], double 
             to[i * m + j] = dense_dot(n, half + i * n, T + j * n);
 }
 
-/* to = dual C dual^T: on the motions alone. */
+/* to = dual C dual^T: restricted to the possible motions. */
 static void gather(const movable *v, const double C[36], double to[])
 {
     const int n = v->count;
@@ -197,7 +197,7 @@ static void gather(const movable *v, const double C[36], double to[])
             to[i * n + j] = C[N * v->component[i] + v->component[j]];
 }
 
-/* Scatters a matrix of whole components; the sums leave no negative zero. */
+/* Expands a matrix to all components; the sums give no negative zero. */
 static void scatter(const movable *v, const double from[], double to[36])
 {
     const int n = v->count;

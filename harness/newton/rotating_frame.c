@@ -1,5 +1,5 @@
-/* A frame that turns steadily: what it does to elements, and the matrices of small motions in it (J
- * Eq. 76). */
+/* A frame that rotates at a constant rate: its effect on elements, and the matrices of small
+ * motions in it (J Eq. 76). */
 #include "harness/newton/newton.h"
 
 #include <string.h>
@@ -83,7 +83,7 @@ status rotating_frame_inertia(const equations *eq, const model_state *state, dou
     return STATUS_OK;
 }
 
-/* Components of a vector in fixed axes along the axes of an element between its ends. */
+/* Components of a vector in global axes along the axes of an element between its ends. */
 static void in_axes(const mesh_element *el, const double v[3], double out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -114,7 +114,7 @@ double rotating_frame_inner(const model *m, const double x[])
     return sum;
 }
 
-/* B in fixed axes. */
+/* B in global axes. */
 static void turn_inner(const mesh_element *el, const double B[], double out[])
 {
     double T[FIELD_INNER * FIELD_INNER] = {0}, half[FIELD_INNER * FIELD_INNER];
@@ -175,7 +175,8 @@ typedef struct uncondensed {
     const model_condition *condition;
 } uncondensed;
 
-/* Adds a coefficient of coordinate `column`: unknown, prescribed, or the unknown of a condition. */
+/* Adds a coefficient of coordinate `column`: an unknown, a prescribed coordinate, or the unknown of
+ * a condition. */
 static void put(const model *m, uncondensed *s, int row, int column, double value)
 {
     if (row < 0 || column < 0)
@@ -255,7 +256,7 @@ static status add_element(const equations *eq, const model_state *state, int i, 
     return STATUS_OK;
 }
 
-/* Stiffness of one load, being added. */
+/* Stiffness of one load while it is added. */
 typedef struct load_part {
     const model *m;
     uncondensed *s;

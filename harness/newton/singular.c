@@ -73,7 +73,7 @@ double quadratic_forms_geometric_rounding(quadratic_forms *p, const double x[])
     return linear_geometric_rounding(p->eq, p->load_x, p->sigma, all_of(p, x));
 }
 
-/* The undeformed elements have been evaluated when K was assembled: they do not fail here. */
+/* The undeformed elements were evaluated when K was assembled, so that they cannot fail here. */
 void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
 {
     linear_stresses(p->eq, all_of(p, x), p->stress, NULL);
@@ -81,10 +81,10 @@ void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
     memcpy(y, p->force, (size_t)p->free * sizeof *y);
 }
 
-/* Beyond this condition no digit is sure: what fails then fails by round-off. */
+/* Above this condition no digit is reliable; a failure is then due to round-off. */
 static const double no_digits = 1e15;
 
-/* A rigid motion that the supports allow, in words. */
+/* Describes a rigid motion that the supports allow. */
 static void name_motion(const scene *s, int node, const double motion[6], double length, fault *f)
 {
     const double *at = s->node[node].position;
@@ -119,8 +119,8 @@ status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
                      turns ? "turn about" : "move along", axis[0], axis[1], axis[2]);
 }
 
-/* How far apart the stiffnesses of K's coordinates are, displacements in units of the structure's
- * length: a structure that turns mixes them.  1 when memory ran out. */
+/* Ratio of the largest to the smallest stiffness of the coordinates of K, displacements in units of
+ * the structure's length, since rotation of the structure mixes them. 1: out of memory. */
 static double spread(const model *m, const sparse *K)
 {
     const model_size size = model_sizes(m);
@@ -149,8 +149,8 @@ static int has_no_number(const sparse *K)
     return found;
 }
 
-/* Condition of the stiffness of a model at rest, INFINITY where it cannot be factored; *lost: LOST
- * where it has no digits to spare, NO_NUMBER where entries are none. */
+/* Condition of the stiffness of an undeformed model; INFINITY: it cannot be factored. *lost: LOST:
+ * no accuracy is left, NO_NUMBER: entries are NaN or Inf. */
 static double condition_at_rest(const analysis_context *c, const equations *eq, int *lost)
 {
     const counters work = eq->run->counters;
@@ -177,8 +177,8 @@ static double condition_at_rest(const analysis_context *c, const equations *eq, 
     return condition;
 }
 
-/* Condition of the same scene with one element per member; *elements: their number; *lost: 1 where
- * its digits are lost too. */
+/* Condition of the same scene with one element per member; *elements: their number; *lost: 1 when
+ * accuracy is lost too. */
 static double condition_when_coarse(const analysis_context *c, int *elements, int *lost)
 {
     model *coarse = NULL;
@@ -196,8 +196,8 @@ static double condition_when_coarse(const analysis_context *c, int *elements, in
     return condition;
 }
 
-/* Lost in round-off: by the mesh, whose condition grows with the fourth power of the number of
- * elements, or without it. */
+/* Explains lost accuracy: due to the mesh, whose condition grows with the fourth power of the
+ * number of elements, or independent of it. */
 static void explain_loss(const analysis_context *c, fault *f)
 {
     const int elements = model_sizes(c->model).elements;

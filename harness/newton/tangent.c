@@ -1,6 +1,6 @@
-/* The tangent of the free coordinates is factored once; released coordinates border it:
- *   [ K  U ] [x]   [f]
- *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
+/* The tangent of the free coordinates is factored once, and bordered by the released coordinates: [
+ * K U ] [x] [f] [ V W ] [z] = [g], S = W - V K^-1 U, z = S^-1 (g - V K^-1 f), x = K^-1 f - K^-1 U
+ * z. */
 #include "harness/newton/newton_impl.h"
 
 #include <stdlib.h>
@@ -8,13 +8,14 @@
 
 #include "elements/math/dense.h"
 
-/* Solutions are refined where round-off would leave less than eight digits. */
+/* Solutions are refined above this condition, where round-off would leave less than eight digits.
+ */
 static const double harmless_condition = 1e8;
-/* A condition that was this many times away from it is not estimated again while largest and
- * smallest pivot are apart by what they were then, within a factor. */
+/* A condition that differed from it by this factor is not estimated again while the ratio of the
+ * largest to the smallest pivot has changed by less than a factor. */
 static const double clear = 30, alike = 2;
 
-/* The free block out of the whole. */
+/* Copies the free block from the whole. */
 static void copy_inside(node_tangent *t)
 {
     if (t->inside.value != t->K.value)
@@ -72,7 +73,7 @@ void tangent_free(node_tangent *t)
     free(t->residual);
 }
 
-/* Factors of the free block. */
+/* Factors the free block. */
 static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
 {
     counters *n = &c->run->counters;
@@ -95,7 +96,7 @@ static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
     return outcome;
 }
 
-/* Is the condition above what is harmless? */
+/* Does the condition require refinement? */
 static int asks_refinement(node_tangent *t)
 {
     const double apart = factor_count(t->factor).condition;
@@ -167,7 +168,7 @@ status tangent_take_condensed(analysis_context *c, const scene_compliance *a, co
     return complete(c, a, s, reaction, t, f);
 }
 
-/* Coordinates of the node that move: free or released. */
+/* Can a coordinate of the node move, because it is free or released? */
 static int moves(const node_tangent *t, int k)
 {
     return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
@@ -200,8 +201,8 @@ static status refine(const equations *eq, node_tangent *t, const bordered *s, co
     return STATUS_OK;
 }
 
-/* Columns of C for unit loads on the components that are wanted and can move; with what
- * tangent_compliance frees. */
+/* Columns of C for unit loads on the requested components that can move; the caller,
+ * tangent_compliance, frees the memory. */
 static status respond_all(const equations *eq, node_tangent *t, bordered *s, unsigned wanted,
                           unsigned components, double C[36], fault *f)
 {
@@ -236,7 +237,7 @@ status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
     return outcome;
 }
 
-/* The columns of T of coordinates that `wanted` says: [6 x n], and n. */
+/* Columns of T of the requested coordinates: [6 x n]; returns n. */
 static int columns_of(const node_tangent *t, int (*wanted)(const node_tangent *, int), double out[])
 {
     int n = 0;
@@ -398,7 +399,7 @@ static void residual_of(const equations *eq, const node_tangent *t, const border
 
 status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
 {
-    /* x itself was the first, and of condensed members as good as the second */
+    /* x was the first solution; that of condensed members is as accurate as a second one */
     solution_refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
     refinement_state state = REFINEMENT_GOES_ON;
     metric_of(eq->m, s->weight);
@@ -414,11 +415,11 @@ status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, 
 
 enum { LEAST = 2, MOST = 30 };
 
-/* Sizes of a correction: below the first no further one is made; the second is a thousandth of the
+/* Sizes of a correction: below the first no further one is made. The second is a thousandth of the
  * tolerance of quantities (SCENE_TOLERANCE), since quantities derived from the solution may lose
- * further digits.  By the level of newton.h, eps (L/side)^2 times 2.5, bars beyond
- * L/side = 1300 leave the first, beyond 42000 the second; in a run of verify no correction that was
- * evaluated by it exceeded 2e-12. */
+ * further digits. With the level of newton.h, eps (L/side)^2 times 2.5, bars exceed the first
+ * beyond L/side = 1300 and the second beyond 42000. In a run of verify no correction exceeded
+ * 2e-12. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;
 
 refinement_state refinement_judge(solution_refinement *r, double correction)

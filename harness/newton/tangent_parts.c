@@ -1,4 +1,4 @@
-/* Solutions on all coordinates by way of the ends. */
+/* Solutions on all coordinates, computed from those at the ends of members. */
 #include "harness/newton/newton_impl.h"
 
 #include <float.h>
@@ -69,7 +69,7 @@ void condensation_solve(condensation *s, int transposed, double x[])
 {
     const int free_count = model_unknowns(s->m);
     const size_t driven = (size_t)model_driven(s->m) * sizeof *x;
-    memcpy(s->driven, x + free_count, driven); /* those that are known stay */
+    memcpy(s->driven, x + free_count, driven); /* known values do not change */
     reduce(s, x);
     for (int i = 0; i < s->unknowns; i++)
         s->small[i] = x[s->unknown[i]];
@@ -118,8 +118,7 @@ factor_counts condensation_count(const condensation *s)
     return counts;
 }
 
-/* The tangent of the last linearisation as a stiff and a soft part, for residuals that keep their
- * digits. */
+/* The tangent of the last linearisation as a stiff and a soft part, for accurate residuals. */
 
 void stiffness_parts_material_product(const model *m, const linear_memory *memory,
                                       const model_state *s, const double x[], double y[])
@@ -139,8 +138,8 @@ void stiffness_parts_material_product(const model *m, const linear_memory *memor
     discrete_material_product(m, s, x, y);
 }
 
-/* Strains are off by the rounding of their terms, P'' by that of its entries: errors of all
- * elements alike, so they add up. */
+/* Strains have the rounding errors of their terms, P'' those of its entries; these errors are alike
+ * in all elements and therefore add up. */
 double stiffness_parts_material_rounding(const model *m, const linear_memory *memory,
                                          const model_state *s, const double x[])
 {

@@ -7,7 +7,7 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
-/* Elements of a model from which on room is worth more than the last digits of each J. */
+/* Number of elements above which memory matters more than the last digits of each J. */
 enum { LARGE = 1000, FIRST_ROOM = 16 };
 
 static size_t size_of(const model *m)
@@ -24,7 +24,7 @@ static status begin(const equations *eq, fault *f)
     u->room = model_elements(m) < LARGE ? model_elements(m) : FIRST_ROOM;
     u->of = malloc(((size_t)model_elements(m) + 1) * sizeof *u->of);
     u->value = malloc((size_t)u->room * size_of(m) * sizeof *u->value + 1);
-    if (u->of == NULL || u->value == NULL) { /* another analysis may ask again */
+    if (u->of == NULL || u->value == NULL) { /* may be allocated already by another analysis */
         free(u->of);
         free(u->value);
         u->of = NULL;
@@ -36,8 +36,8 @@ static status begin(const equations *eq, fault *f)
     return STATUS_OK;
 }
 
-/* Is element i as the one whose forms were kept last? Its triads are those of chords between places
- * that are rounded. */
+/* Is element i like the last one stored? The triads are those of chords between rounded positions.
+ */
 static int alike(const equations *eq, int i)
 {
     const model *m = eq->m;
@@ -60,7 +60,7 @@ static int is_strained(const model *m, int i)
     return vec3_norm(model_kind_of(m, i)->strain) + vec3_norm(model_kind_of(m, i)->free) > 0;
 }
 
-/* C is that at no strain: what initial stresses add to it is left to geometric stiffnesses. */
+/* C for zero strain; the contribution of initial stresses is left to geometric stiffnesses. */
 static status evaluate_strained(const model *m, int i, const double e[], const double inner[],
                                 double C[], double initial[])
 {
@@ -93,7 +93,7 @@ static status evaluate(const equations *eq, int i, double J[], double C[], doubl
     return ahead_stress(eq, i, model_kind_of(m, i)->data, e, inner, &(stress_output){.C = C});
 }
 
-/* Room for one more. */
+/* Makes room for one more element. */
 static status grow(const equations *eq, fault *f)
 {
     run_undeformed *u = &eq->run->undeformed;
@@ -158,7 +158,7 @@ static const mesh_discrete *spring_of(const model *m, int i)
     return model_discrete(m, model_discretes(m) - model_springs(m) + i);
 }
 
-/* J at rest, and H of sigma where that is given. */
+/* J in the undeformed state, and H of sigma if sigma is given. */
 static void springs_evaluate(const model *m, const mesh_discrete *d, const double sigma[],
                              double J[], double H[])
 {
@@ -294,7 +294,7 @@ double linear_springs_geometric_energy2(const model *m, const double sigma[], co
     return sum;
 }
 
-/* Bytes of an array, so that the next one is aligned. */
+/* Bytes of an array, rounded up so that the next one is aligned. */
 static size_t bytes(size_t count, size_t size)
 {
     const size_t unit = _Alignof(max_align_t);
@@ -308,7 +308,7 @@ static void *part(char **from, size_t count, size_t size)
     return here;
 }
 
-/* All arrays in one block. 0: no memory. */
+/* Allocates all arrays in one block. Returns 0 when out of memory. */
 static int allocate(const equations *eq)
 {
     const model *m = eq->m;

@@ -9,9 +9,9 @@
 #include "elements/shared/beam_constants.h"
 
 enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
-static const double span_enough = 1e-12, tolerable = 1e-7; /* of strains times the length */
+static const double span_enough = 1e-12, tolerable = 1e-7; /* strains times the length */
 
-/* Everything in units of the element: lengths l0, forces EI/l0^2, moments EI/l0, bimoments EI. */
+/* All values in units of the element: length l0, force EI/l0^2, moment EI/l0, bimoment EI. */
 typedef struct span_work {
     const span_grid *g;
     const span_problem *problem;
@@ -21,7 +21,7 @@ typedef struct span_work {
     span_curve curve;
     span_twist twist;
     double N[SPAN_GRID_POINTS][3], M[SPAN_GRID_POINTS][3];
-    double flexibility[36]; /* of a section by its matrices */
+    double flexibility[36]; /* of a section given by matrices */
 } span_work;
 
 static void begin(span_work *w)
@@ -31,7 +31,7 @@ static void begin(span_work *w)
     for (int e = 0; e < 2; e++) {
         w->end[e] = w->problem->end[e];
         for (int i = 0; i < 3; i++) {
-            /* from p, so that nothing is lost where elements are small */
+            /* relative to p, to avoid cancellation for small elements */
             w->end[e].frame.r[i] =
                 (w->problem->end[e].frame.r[i] - w->problem->end[0].frame.r[i]) / w->l0;
             w->end[e].force[i] /= w->force_unit;
@@ -65,8 +65,7 @@ static void loads_of(span_work *w, double out[N][6])
     }
 }
 
-/* Force and moment about the origin p that end e exerts, whatever section it is thought to act on.
- */
+/* Force and moment at end e, transferred to the origin p. */
 static void about_origin(const span_end *end, double out[6])
 {
     memcpy(out, end->force, 3 * sizeof *out);
@@ -75,7 +74,7 @@ static void about_origin(const span_end *end, double out[6])
         out[3 + i] += end->moment[i];
 }
 
-/* N, M at the points: equilibrium of the parts before and after. */
+/* N, M at the points, from equilibrium of the parts on both sides. */
 static void resultants(span_work *w)
 {
     double load[N][6], gathered[N][6], from[2][6];
@@ -97,7 +96,7 @@ static void resultants(span_work *w)
     }
 }
 
-/* Torque per unit of twist rate by the stresses along the fibres, which the twist inclines. */
+/* Torque per twist rate due to the stresses along the fibres, which the twist inclines. */
 static double wagner(const span_work *w, int j, double rate)
 {
     const beam_constants *c = &w->c;
@@ -123,7 +122,7 @@ static int twisted(span_work *w, const double strains[])
     return span_twist_solve(w->g, &t, &w->twist);
 }
 
-/* Resultants of a section given by matrices: no part of the torque is that of warping. */
+/* Strains of a section given by matrices, which has no torque of warping. */
 static void strained_matrices(span_work *w, double out[])
 {
     for (int j = 0; j < N; j++) {
@@ -138,7 +137,7 @@ static void strained_matrices(span_work *w, double out[])
     }
 }
 
-/* Strains that the resultants make on the line that the strains before gave. */
+/* New strains from the resultants on the line of the previous strains. */
 static int again(void *context, const double strains[], double out[])
 {
     span_work *w = context;
@@ -206,7 +205,7 @@ status span_recover(const span_grid *g, const span_problem *problem, span_fields
                          "elements",
                          problem->request->length);
     } else {
-        again(&w, strains, made); /* of the strains that were best */
+        again(&w, strains, made); /* for the best strains found */
     }
     take(&w, out);
     return STATUS_OK;
@@ -225,7 +224,7 @@ void span_at(const span_grid *g, const span_fields *fields, double x, double out
 
 enum { CURVE_N = SPAN_GRID_POINTS };
 
-/* The turn over a gap of length h, in the axes at its beginning (Blanes, Casas, Ros, BIT 40, 2000):
+/* Rotation over a gap of length h, in the axes at its start (Blanes, Casas, Ros, BIT 40, 2000):
  * R^T' = -kappa~ R^T at three Gauss points. */
 static void turn_of(const span_grid *g, int gap, const double kappa[], double h, double out[3])
 {
@@ -253,7 +252,7 @@ static void turn_of(const span_grid *g, int gap, const double kappa[], double h,
         out[i] = -(a[i] + c[i] / 12 + second[i] / 240);
 }
 
-/* Orientations, so that the last is that of q. */
+/* Integrates the orientations; the last one becomes that of q. */
 static void turn(const span_grid *g, const span_frame *p, const span_frame *q, const double kappa[],
                  span_curve *out)
 {
@@ -298,7 +297,7 @@ void span_curve_between(const span_grid *g, const span_frame *p, const span_fram
 
 enum { TWIST_N = SPAN_GRID_POINTS };
 
-/* Amplitudes [N] of the solution with the bimoment given at one end (0, 1) and the amplitude at the
+/* Amplitudes [N] of the solution with given bimoment at one end (0, 1) and given amplitude at the
  * other. */
 static int amplitudes(const span_grid *g, const span_torsion *t, int end, double a[])
 {
@@ -366,7 +365,7 @@ int span_twist_solve(const span_grid *g, const span_torsion *t, span_twist *out)
 enum {
     GRID_N = SPAN_GRID_POINTS,
     EXACT = GRID_N / 2
-}; /* Gauss points that integrate the polynomials */
+}; /* enough Gauss points for the polynomials */
 
 void span_grid_at(const span_grid *g, double x, double share[])
 {
@@ -401,7 +400,7 @@ static void make_integral(span_grid *g)
     }
 }
 
-/* The rows' sums are zero: the derivative of a constant. */
+/* Makes row sums zero, because the derivative of a constant is zero. */
 static void make_derivative(span_grid *g)
 {
     for (int i = 0; i < GRID_N; i++) {
@@ -443,14 +442,14 @@ void span_grid_integrate(const span_grid *g, int count, const double values[], d
 
 enum { MEMORY = 12, MOST = 100 };
 
-/* Differences of the last moves and of what the map gave, the moves made orthonormal
+/* Differences of the last steps and of the values of the map, with the steps orthonormalised
  * (Gram-Schmidt). */
 typedef struct history {
     int count;
     double move[MEMORY][FIXED_POINT_MAX], given[MEMORY][FIXED_POINT_MAX];
 } history;
 
-/* Takes up one more pair of differences; the oldest falls out by starting anew. */
+/* Adds a pair of differences; when the history is full, it is cleared. */
 static void remember(history *h, int n, double move[], double given[])
 {
     if (h->count == MEMORY)

@@ -53,7 +53,7 @@ void table_point(FILE *to, const sweep_point *p)
     fprintf(to, "%s%s%s", p->type->name, p->text[0] != '\0' ? ": " : "", p->text);
 }
 
-/* Returns the physics that the source of a case omits, where the whole physics was requested. */
+/* Physics that the source of a case omits, when all physics was requested. */
 static unsigned omitted_by_source(const sweep_point *p)
 {
     double value[CASE_MAX_PARAMETERS];
@@ -74,7 +74,7 @@ static void assumed(FILE *to, const sweep_point *p)
         paragraph_write(to, fprintf(to, "%s: ", assumptions_kind(a.kind)), INDENT, a.text);
 }
 
-/* Members that have more elements than the mesh says. */
+/* Prints the members with more elements than the mesh specifies. */
 static void divided(FILE *to, const sweep_point *p)
 {
     char words[FAULT_TEXT];
@@ -121,7 +121,7 @@ void table_series(FILE *to, const sweep *s, int index)
         paragraph_write(to, 0, 2, words);
 }
 
-/* Columns of that many bytes of UTF-8. */
+/* Number of columns of that many bytes of UTF-8. */
 static int columns_of(const char *text, size_t bytes)
 {
     int columns = 0;
@@ -135,7 +135,7 @@ int paragraph_columns(const char *text)
     return columns_of(text, strlen(text));
 }
 
-/* Bytes of the word that begins here; in commands blanks within quotes are of it. */
+/* Number of bytes of the next word; in commands, blanks within quotes belong to it. */
 static size_t word_at(const char *text, int command)
 {
     size_t length = strcspn(text, " \n'");
@@ -149,11 +149,11 @@ static size_t word_at(const char *text, int command)
     return length;
 }
 
-/* joint: what ends a line that is continued. */
+/* joint: ends a line that is continued. */
 static void write_words(FILE *to, int at, int indent, const char *joint, const char *text)
 {
     const int width = PARAGRAPH_WIDTH - columns_of(joint, strlen(joint));
-    int column = at, begun = 0; /* begun: a word is on this line */
+    int column = at, begun = 0; /* begun: the line has a word */
     static const char blank[] = " \n";
     for (text += strspn(text, blank); *text != '\0'; text += strspn(text, blank)) {
         const size_t word = word_at(text, joint[0] != '\0');
@@ -226,7 +226,7 @@ static int has_colour(FILE *to)
            (none == NULL || none[0] == '\0');
 }
 
-/* Returns whether the environment's locale is UTF-8, whatever locale the program itself uses. */
+/* Is the locale of the environment UTF-8, whatever locale the program itself uses? */
 static int has_utf8(void)
 {
     const locale_t here = newlocale(LC_CTYPE_MASK, "", (locale_t)0);

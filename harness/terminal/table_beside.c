@@ -12,23 +12,23 @@ enum {
     DIGITS = 9
 };
 
-/* A series that ran, and what it is measured by. */
+/* A series that ran, and its reference. */
 typedef struct beside_column {
     const series *one;
     const truth *row; /* NULL: none */
     verdict shown;
-    const char *name; /* the part of it that is not yet written in the header */
+    const char *name; /* rest of its name that the header does not contain yet */
     char title[FORMULATION_KEY + 16];
 } beside_column;
 
-/* A quantity of some formulations. */
+/* A quantity for some of the formulations. */
 typedef struct block {
     const scene_quantity *q;
     int quantity, count;
     beside_column list[COLUMNS];
 } block;
 
-/* Length of the part of a name on one line: to the last separator of its words that fits. */
+/* Length of the part of a name for one line: up to the last separator that fits. */
 static int piece_of(const char *name)
 {
     const int length = (int)strlen(name);
@@ -41,7 +41,7 @@ static int piece_of(const char *name)
     return fits > 0 ? fits : COLUMN - 1;
 }
 
-/* One line of the names; 0: they are written. */
+/* Writes one line of the names; returns 0 when they are complete. */
 static int write_names(FILE *to, block *b, const char *head)
 {
     int left = 0, last = -1;
@@ -67,7 +67,7 @@ static const solve_result *result_of(const series *one, int elements)
     return NULL;
 }
 
-/* The error, or the value where nothing is known to measure it by; why there is none. */
+/* Writes the error, the value if there is no reference, or the reason why there is none. */
 static void write_cell(FILE *to, const block *b, const beside_column *c, int elements)
 {
     const solve_result *r = result_of(c->one, elements);
@@ -94,7 +94,7 @@ static void write_limit(FILE *to, const block *b, const beside_column *c)
     fprintf(to, "%*s", COLUMN, text);
 }
 
-/* In percent of what the error is relative to, as the error is. */
+/* In percent, relative to the same value as the error. */
 static void write_uncertainty(FILE *to, const block *b, const beside_column *c)
 {
     const double own = c->shown.fit.limit_uncertainty;
@@ -121,7 +121,7 @@ static void write_row(FILE *to, const block *b, const char *head,
     fputc('\n', to);
 }
 
-/* Every number of elements that a formulation of the block was solved with, ascending. */
+/* Every number of elements used by a formulation of the block, ascending. */
 static void write_meshes(FILE *to, const block *b)
 {
     for (int last = 0, next = 0;; last = next) {
@@ -140,14 +140,14 @@ static void write_meshes(FILE *to, const block *b)
     }
 }
 
-/* Explanations of the limits that are not a pass, in words. */
+/* Describes in words the limits that do not pass. */
 static void write_sentences(FILE *to, const block *b)
 {
     for (int i = 0; i < b->count; i++) {
         char text[2 * FAULT_TEXT];
         const beside_column *c = &b->list[i];
         if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
-            continue; /* of the latter once, at the end */
+            continue; /* undecided limits are listed once, at the end */
         sentence_of_verdict(&c->shown, b->q->least_order, text, sizeof text);
         paragraph_write(to, fprintf(to, "  %s: ", c->one->formulation.key), 4, text);
     }
@@ -178,7 +178,7 @@ static void add_truth(char *line, size_t size, const truth *row)
              row->theory[0] != '\0' ? ")" : "");
 }
 
-/* Name, unit and what the formulations are measured by, each once. */
+/* Writes name, unit and the references of the formulations, without duplicates. */
 static void write_heading(FILE *to, const sweep *s, const truths *t, int quantity)
 {
     const sweep_point *p = &s->point[0];
@@ -275,7 +275,7 @@ void table_beside(FILE *to, const sweep *s, const truths *t)
 
 enum { CONVERGENCE_DIGITS = 10, VALUE = 20 };
 
-/* Analytic model beside the elements. */
+/* Prints the estimate of an analytic model. */
 static void prediction_line(FILE *to, const scene_quantity *q, const truth *row)
 {
     char source[FAULT_TEXT];

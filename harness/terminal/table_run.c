@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* "case (parameters), formulation, n = 1, 2: WHY" of the meshes of a series without a solution; the
- * reason of the finest of them. */
+/* "case (parameters), formulation, n = 1, 2: WHY" for the meshes of a series without a solution,
+ * with the reason of the finest of them. */
 static void failed_series(FILE *to, const sweep *s, int index, int *lines)
 {
     const series *one = &s->series[index];
@@ -29,7 +29,7 @@ static void failed_series(FILE *to, const sweep *s, int index, int *lines)
                   status_name(last->status), last->reason);
 }
 
-/* Cells that have no solution, also where finer meshes have one and decide the verdict. */
+/* Cells without a solution, even if finer meshes have one and determine the verdict. */
 static void failed_cells(FILE *to, const sweep *s)
 {
     int lines = 0;
@@ -37,7 +37,7 @@ static void failed_cells(FILE *to, const sweep *s)
         failed_series(to, s, i, &lines);
 }
 
-/* How often the limits of each formulation hold what they promise, over all cases. */
+/* How often the limits of each formulation lie within their uncertainty, over all cases. */
 static void coverage_lines(FILE *to, const judgement *j)
 {
     if (j->coverages > 0)
@@ -65,8 +65,8 @@ static void coverage_lines(FILE *to, const judgement *j)
     }
 }
 
-/* Published values that limits cannot be which agree with the reference value; each is said once.
- */
+/* Published values that are incompatible with limits that agree with the reference value; each is
+ * printed once. */
 static void contradictions(FILE *to, const sweep *s, const judgement *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
@@ -191,21 +191,21 @@ void table_run_end(FILE *to, screen look, const char *sentence)
 
 enum { WIDEST_WORD = 24, NARROWEST_WORD = 5, HEAD_LINES = 12 };
 
-/* A name in the head, cut into lines. */
+/* A name in the header, divided into lines. */
 typedef struct head {
     int lines, width;
     char line[HEAD_LINES][WIDEST_WORD + 1];
 } head;
 
-/* The columns from..to-1, side by side. */
+/* Columns from..to-1. */
 typedef struct overview_block {
     int from, to;
-    int name;   /* width of the cases' names */
+    int name;   /* width of the column of case names */
     head *head; /* [columns] */
 } overview_block;
 
-/* Length of the first piece of a name: words as far as they fit into `limit`; a longer word is cut,
- * to be joined by a hyphen. */
+/* Length of the first piece of a name: as many words as fit into `limit`; a longer word is
+ * hyphenated. */
 static int piece_of(const char *name, int limit, int *cut)
 {
     int fits = 0;
@@ -243,7 +243,7 @@ static head head_of(const char *name, int limit, const char *mark)
     return out;
 }
 
-/* Width of a block whose names have words of at most `limit`; its heads are filled. */
+/* Width of a block whose names have words of at most `limit`; also sets its headers. */
 static int width_with(const overview *o, screen look, overview_block *b, int limit)
 {
     char text[OVERVIEW_TEXT];
@@ -260,7 +260,7 @@ static int width_with(const overview *o, screen look, overview_block *b, int lim
     return sum;
 }
 
-/* Names as whole as the screen allows; as many columns as fit, at least one. */
+/* Chooses the widest names that the screen allows, and as many columns as fit, at least one. */
 static void lay_out(const overview *o, screen look, overview_block *b)
 {
     for (b->to = o->columns; b->to > b->from + 1; b->to--)
@@ -331,7 +331,7 @@ static int width_of_names(const overview *o)
     return width;
 }
 
-/* Cases without a row, of which something is evaluated or nothing. */
+/* Lists cases without a row, of which something is evaluated, or nothing. */
 static void print_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     paragraph words;
@@ -348,14 +348,14 @@ static void print_unshown(FILE *to, const overview *o, int judged, const char *w
     paragraph_end(&words, 0, 0);
 }
 
-/* Cases that pass everywhere, where they have no rows. */
+/* Lists cases that pass everywhere, if they have no rows. */
 static void print_passing(FILE *to, const overview *o)
 {
     print_unshown(to, o, 1, "more pass in all that is judged");
     print_unshown(to, o, 0, "more have nothing that is judged");
 }
 
-/* "text", after what is in the line already or in a new one. */
+/* Appends "text" to the line, or starts a new one. */
 static void print_entry(FILE *to, int *column, const char *text)
 {
     const int width = paragraph_columns(text);
@@ -367,7 +367,7 @@ static void print_entry(FILE *to, int *column, const char *text)
     *column += width + (*column > 0 ? 3 : 0);
 }
 
-/* The marks that were used, the worst first, with their words. */
+/* Explains the marks that occur, the worst first. */
 static void print_legend(FILE *to, screen look, const overview *o)
 {
     int used[OVERVIEW_MARKS] = {0}, unexpected = 0, column = 0;

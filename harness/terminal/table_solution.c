@@ -9,10 +9,10 @@
 #include "harness/time/time.h"
 
 enum { NAME = 28, VALUE = 20, UNIT = 9, DIGITS = 10, INDENT = 2 };
-static const double least_rounding = 1e-11, /* of any value that is computed */
-    noise = 1e-4;                           /* of round-off in the scale of values that are zero */
+static const double least_rounding = 1e-11, /* relative, of any computed value */
+    noise = 1e-4; /* round-off relative to the scale of values that are zero */
 
-/* Analytic models beside the elements; they judge nothing. */
+/* Prints estimates of analytic models, which are not reference values. */
 static void predictions(FILE *to, const sweep_point *p, const truths *t)
 {
     for (int i = 0; i < p->scene.quantities; i++) {
@@ -31,14 +31,14 @@ static void predictions(FILE *to, const sweep_point *p, const truths *t)
     }
 }
 
-/* Has the quantity before it no value for the same reason? */
+/* Does the previous quantity have no value for the same reason? */
 static int is_told(const solve_result *r, int index)
 {
     return index > 0 && r->quantity[index - 1].status != STATUS_OK &&
            strcmp(r->quantity[index - 1].reason, r->quantity[index].reason) == 0;
 }
 
-/* Bound of the change of a value by round-off and by the mesh. */
+/* Bound of the change of a value by round-off and by refinement of the mesh. */
 static double uncertainty_of(const scene *s, int index, const solve_result *r)
 {
     const quantity_result *v = &r->quantity[index];
@@ -49,7 +49,7 @@ static double uncertainty_of(const scene *s, int index, const solve_result *r)
     return isfinite(of_mesh) ? fmax(of_rounding, of_mesh) : of_rounding;
 }
 
-/* To the digit that these leave. */
+/* Prints the digits that this bound allows. */
 static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
 {
     const series *one = &s->series[0];
@@ -81,7 +81,7 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
     fputc('\n', to);
 }
 
-/* Load steps that were chosen, and tries of longer ones. */
+/* Number of load steps used, and of rejected longer steps. */
 static void count_steps(const counters *c, char text[FAULT_TEXT])
 {
     const char *plural = c->steps == 1 ? "" : "s";
@@ -93,7 +93,7 @@ static void count_steps(const counters *c, char text[FAULT_TEXT])
         snprintf(text, FAULT_TEXT, " in %ld load step%s", c->steps, plural);
 }
 
-/* Why curves end early. */
+/* Explains why curves end early. */
 static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result *r)
 {
     for (int i = 0; i < r->quantities; i++) {
@@ -157,7 +157,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
 
 enum { MOST_STEPS = 40 };
 
-/* Writes the corrections of a step's iterations, on several lines where there are many. */
+/* Writes the corrections of the iterations of a step, on several lines if there are many. */
 static void corrections(FILE *to, int column, const solve_result *r, const step_record *k)
 {
     paragraph words;
@@ -167,7 +167,7 @@ static void corrections(FILE *to, int column, const solve_result *r, const step_
     paragraph_end(&words, column, column);
 }
 
-/* Steps to report; those of motions are in a short form. */
+/* Number of steps to report; those of motions have a short form. */
 static int steps_told(const solve_result *r)
 {
     int steps = r->steps;
@@ -252,7 +252,7 @@ void table_path_events(FILE *to, const solve_result *r)
 
 enum { MOTION_INDENT = 2 };
 
-/* Records [first, end) of one motion, the initial state first. */
+/* Records [first, end) of one motion, starting with the initial state. */
 typedef struct motion_extent {
     const motion_record *record;
     int first, end;
@@ -338,7 +338,7 @@ static void energy_line(FILE *to, const motion_extent *e)
     paragraph_end(&words, at, MOTION_INDENT);
 }
 
-/* Energy that the integrator has lost, the largest part of what there was. */
+/* Largest energy dissipated by the integrator, relative to the largest energy. */
 static void damping_line(FILE *to, const motion_extent *e)
 {
     account so_far = {.largest = 0};
@@ -387,8 +387,8 @@ static void momentum_line(FILE *to, const motion_extent *e)
                   change_of(e, SCENE_LX));
 }
 
-/* A load that the path before the motion ends with at one factor, and the motion begins with at
- * another one. */
+/* Reports a load whose factor at the end of the preceding path differs from that at the start of
+ * the motion. */
 static void jump_lines(FILE *to, const scene *s, double path)
 {
     for (int i = 0; i < s->loads && isfinite(path); i++) {

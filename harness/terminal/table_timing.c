@@ -25,7 +25,7 @@ static double error_on(const sweep *s, const verdict *v, int mesh)
                : NAN;
 }
 
-/* Formulation and mesh; a longer name has a line of its own. Returns its columns. */
+/* Prints formulation and mesh; a longer name gets its own line. Returns its width in columns. */
 static int subject(FILE *to, const series *one, int mesh)
 {
     if (fprintf(to, "  %-*s", NAME, one->formulation.key) > 2 + NAME)
@@ -53,7 +53,7 @@ static void row(FILE *to, const sweep *s, const series *one, const verdict *v, i
         paragraph_say(to, column, 6, " %s", c->solve.reason);
 }
 
-/* Meshes of a series of that point that were run. */
+/* Number of meshes of a series of that point that were run. */
 static int meshes_run(const series *one, int at)
 {
     return one->point == at && one->missing[0] == '\0' ? one->meshes : 0;
@@ -79,8 +79,8 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at)
     }
 }
 
-/* Microseconds per iteration in each of its parts and in the rest of the solution; the dense
- * reference where it was timed. */
+/* Prints microseconds per iteration for each part and for the rest of the solution; the dense
+ * reference if it was timed. */
 static void parts_of(FILE *to, const series *one, int mesh)
 {
     const cell_timing *t = &one->timing[mesh];
@@ -100,7 +100,7 @@ static void parts_of(FILE *to, const series *one, int mesh)
                 dense_reference_seconds(&t->dense, iterations) / rounds_least(&t->as_is));
 }
 
-/* Is any part of the iterations known apart from the rest? */
+/* Were the parts of the iterations timed separately? */
 static int is_parted(const series *one, int mesh)
 {
     double sum = 0;
@@ -167,7 +167,7 @@ static void way(FILE *to, const sweep *s, const reached *r)
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
-/* Behind those that pass: which of the others was faster in every round all the same. */
+/* After those that pass: others that were faster in every round. */
 static void faster_ones(FILE *to, const sweep *s, const reached list[], int count, int ties)
 {
     int told = 0;
@@ -180,7 +180,7 @@ static void faster_ones(FILE *to, const sweep *s, const reached list[], int coun
         }
 }
 
-/* Where none passes: those that are within the error, the ones of the same defect together. */
+/* If none passes: those within the error, grouped by defect. */
 static void defective_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -199,7 +199,8 @@ static void defective_ones(FILE *to, const sweep *s, const reached list[], int c
     }
 }
 
-/* Behind those that rank: those that pass and do not. Returns how many pass. */
+/* After the ranked ones: unranked formulations that pass, and that do not. Returns how many pass.
+ */
 static int unranked_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     int i = 0, told = 0;
@@ -211,8 +212,8 @@ static int unranked_ones(FILE *to, const sweep *s, const reached list[], int cou
     return i;
 }
 
-/* The cheapest by counted work among the formulations of a point, and those within its noise. A
- * text that the caller frees; NULL: out of memory. */
+/* Formulation of lowest counted work at a point, and those tied with it. The caller frees the text;
+ * NULL: out of memory. */
 static char *cheapest(const reach_question *q, reached list[])
 {
     char *text = NULL;
@@ -250,7 +251,7 @@ static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
 
 /* The formulation of lowest cost for a quantity at every level. */
 typedef struct cheapest_answer {
-    int quantity, told; /* 1: its lines are written */
+    int quantity, told; /* 1: has been printed */
     char *text[REACH_LEVELS];
 } cheapest_answer;
 
@@ -267,8 +268,8 @@ static int same_answer(const cheapest_answer *a, const cheapest_answer *b)
     return same;
 }
 
-/* "u_x, F_y within 10, 1 %: collocation, n = 1": a line for the quantities whose answers are those
- * of the first, and in it neighbouring levels that say the same. */
+/* "u_x, F_y within 10, 1 %: collocation, n = 1": one line for quantities with the same answers as
+ * the first; neighbouring levels with equal answers are combined. */
 static void write_together(FILE *out, const scene *here, cheapest_answer a[], int count)
 {
     for (int level = 0, next; level < REACH_LEVELS; level = next) {

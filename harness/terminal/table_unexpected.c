@@ -22,7 +22,7 @@ static void print_settings(FILE *to, const char *parameters)
             fputc(*parameters, to);
 }
 
-/* Where the formulation comes from, if that is to be said. */
+/* Prints the source of the formulation, if it is not built in. */
 static void print_element(FILE *to, const element_type *type)
 {
     const char *element = type != NULL ? formulations_element(type) : NULL;
@@ -32,7 +32,7 @@ static void print_element(FILE *to, const element_type *type)
     words_quote(to, element);
 }
 
-/* The command that shows a series again; quantity: one of them, or NULL. */
+/* Prints the command that shows a series again; quantity: one of its quantities, or NULL. */
 static void print_command(FILE *to, const sweep_point *p, const series *one, const char *quantity)
 {
     paragraph words;
@@ -112,7 +112,7 @@ static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *
             v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
     paragraph_say(to, 0, INDENT, "%s", sentence);
     print_numbers(to, one, v);
-    if (v->reason[0] != '\0' && isfinite(v->finest)) /* else it is in the sentence */
+    if (v->reason[0] != '\0' && isfinite(v->finest)) /* otherwise the sentence contains it */
         paragraph_say(to, 0, INDENT, "%s", v->reason);
     if (v->rule != NULL)
         paragraph_say(to, 0, INDENT, "finding %s: %s", v->rule->name, v->rule->cause);
@@ -157,7 +157,7 @@ static void print_rules(FILE *to, const truths *t, int *number)
     }
 }
 
-/* Truths that no case, point or quantity answers to. */
+/* Reference values without a case, point or quantity. */
 static void print_unmet(FILE *to, const truths *t, int *number)
 {
     for (int i = 0; i < t->rows; i++) {
@@ -226,8 +226,8 @@ static const curve *curve_of(const scene *s, const solve_result *r, int quantity
     return c->points > 0 ? c : NULL;
 }
 
-/* The analysis whose stations the curve is of, where steps end; SCENE_NONE: they are no equilibria
- * of a path with given stations. */
+/* Analysis whose stations are the points of the curve, if steps end there; SCENE_NONE: the points
+ * are not those of a path with given stations. */
 static int path_of(const scene *s, int quantity)
 {
     const int analysis = s->quantity[quantity].analysis;
@@ -238,7 +238,7 @@ static int path_of(const scene *s, int quantity)
     return kind == SCENE_STATIC || kind == SCENE_ROTATION ? path : SCENE_NONE;
 }
 
-/* Do both have the same abscissa? */
+/* Do both curves have the same abscissae? */
 static int beside(const scene *s, const solve_result *r, int a, int b)
 {
     const curve *p = curve_of(s, r, a), *q = curve_of(s, r, b);
@@ -264,14 +264,14 @@ static double largest_of(int points, const double value[])
     return largest;
 }
 
-/* 0 where the value is round-off beside the largest one. */
+/* Value; 0 if it is round-off relative to the largest one. */
 static double without_noise(int points, const double value[], int at)
 {
     const double noise = 1e-13;
     return fabs(value[at]) < noise * largest_of(points, value) ? 0 : value[at];
 }
 
-/* To the digit that the mesh may change. */
+/* Prints the digits that refinement does not change. */
 static void write_value(FILE *to, const quantity_result *r, int at)
 {
     const curve *c = &r->curve;
@@ -285,7 +285,7 @@ static void write_value(FILE *to, const quantity_result *r, int at)
         table_digits(to, COLUMN, value, DIGITS);
 }
 
-/* Curves list[count] over the abscissa of the first. */
+/* Prints curves list[count] over the abscissae of the first. */
 static void write_block(FILE *to, const scene *s, const solve_result *r, int count,
                         const int list[])
 {
@@ -318,7 +318,7 @@ void table_curves_values(FILE *to, const scene *s, const solve_result *r)
     for (int q = 0; q < s->quantities; q++) {
         int list[COLUMNS], count = 0, known = curve_of(s, r, q) == NULL;
         for (int k = 0; k < q && !known; k++)
-            known = beside(s, r, k, q); /* it is there already */
+            known = beside(s, r, k, q); /* already printed */
         for (int k = q; k < s->quantities && !known; k++) {
             if (beside(s, r, q, k))
                 list[count++] = k;
@@ -330,7 +330,7 @@ void table_curves_values(FILE *to, const scene *s, const solve_result *r)
     }
 }
 
-/* Is the curve the same on all meshes of all formulations, as what is prescribed is? */
+/* Is the curve the same on all meshes of all formulations, as for a prescribed value? */
 static int is_given(const sweep *s, int quantity, int reference)
 {
     const series *other = &s->series[reference];

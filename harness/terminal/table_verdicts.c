@@ -8,16 +8,16 @@
 
 enum { NAME = 23, LIMIT = 16, DOUBT = 7, ORDER = 5, MOST_RULES = 16 };
 
-/* One point's part of the table. */
+/* The part of the table for one point. */
 typedef struct verdicts_block {
     FILE *to;
     const sweep *s;
     const sweep_point *at;
     int count;
-    const verdict **verdict; /* [count] of the point, set to NULL once they are printed */
-    int name;                /* width of the names; a longer one has a line of its own */
+    const verdict **verdict; /* [count] verdicts of the point, set to NULL after printing */
+    int name;                /* width of the column of names; a longer one gets its own line */
     int rules;
-    const rule *rule[MOST_RULES]; /* that were named, numbered from 1 */
+    const rule *rule[MOST_RULES]; /* rules that are referred to, numbered from 1 */
 } verdicts_block;
 
 static const series *series_of(const verdicts_block *b, const verdict *v)
@@ -31,7 +31,7 @@ static void print_columns(const verdicts_block *b)
             "+-", ORDER, "order", "error", "verdict");
 }
 
-/* Prints the result of another model for a quantity that has a reference value. */
+/* Prints the result of another model, for a quantity with a reference value. */
 static void print_other_model(const verdicts_block *b, const truth *other)
 {
     char value[ROUNDING_TEXT];
@@ -39,7 +39,7 @@ static void print_other_model(const verdicts_block *b, const truth *other)
     paragraph_say(b->to, 0, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
 }
 
-/* A quantity and the reference value that the verdict and those below it are evaluated by. */
+/* Prints a quantity and the reference value for the verdict and those below it. */
 static void print_quantity(const verdicts_block *b, const scene_quantity *q, const verdict *v)
 {
     const truth *row = v->truth;
@@ -58,7 +58,7 @@ static void print_quantity(const verdicts_block *b, const scene_quantity *q, con
         print_other_model(b, v->model_truth);
 }
 
-/* Its number; 0: there is none, or no room for it. */
+/* Number of a rule; 0: none, or the list is full. */
 static int number_of_rule(verdicts_block *b, const rule *r)
 {
     int i = 0;
@@ -71,7 +71,7 @@ static int number_of_rule(verdicts_block *b, const rule *r)
     return i + 1;
 }
 
-/* How far the limit is from what it is not evaluated by. */
+/* Adds the difference of the limit from a reference that does not determine the verdict. */
 static void add_difference(const verdict *v, char *text, size_t size)
 {
     const truth *other = v->model_truth;
@@ -117,11 +117,11 @@ static void print_verdict(verdicts_block *b, const verdict *v)
     verdict_words(b, v, words, sizeof words);
     fputc(' ', b->to);
     paragraph_write(b->to, column, 6, words);
-    if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL) /* at the end, once */
+    if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL) /* printed once, at the end */
         paragraph_say(b->to, 0, 6, "%s", v->reason);
 }
 
-/* The verdicts of a quantity, those judged by the same truth together. */
+/* Prints the verdicts of a quantity, grouped by reference value. */
 static void print_judged(verdicts_block *b, int quantity)
 {
     const scene_quantity *q = &b->at->scene.quantity[quantity];
@@ -141,7 +141,7 @@ static void print_judged(verdicts_block *b, int quantity)
     }
 }
 
-/* Prints the series without a verdict, those with the same reason together. */
+/* Prints the series without a verdict, grouped by reason. */
 static void print_skipped(verdicts_block *b)
 {
     for (int i = 0; i < b->count; i++) {
@@ -166,7 +166,7 @@ static void print_skipped(verdicts_block *b)
     }
 }
 
-/* Prints the physics that series omit, those that omit the same together. */
+/* Prints the physics that series omit, grouped. */
 static void print_omissions(const verdicts_block *b)
 {
     const sweep *s = b->s;
@@ -214,7 +214,7 @@ static void print_point(verdicts_block *b, const judgement *j, int index)
     table_point(b->to, b->at);
     fputc('\n', b->to);
     table_omitted(b->to, b->at);
-    b->name = b->name > 11 ? b->name : 11; /* of the heading */
+    b->name = b->name > 11 ? b->name : 11; /* width of the heading */
     print_columns(b);
     for (int q = 0; q < b->at->scene.quantities; q++)
         print_judged(b, q);
@@ -247,14 +247,14 @@ static const char *const words_of[] = {[STEP_OPEN] = "not decided by pivots",
                                        [STEP_GROWS] = "unstable",
                                        [STEP_HELD] = "stable without damping"};
 
-/* Appends as far as there is room. */
+/* Appends text as far as it fits. */
 static void add(char *text, const char *word)
 {
     const size_t used = strlen(text);
     snprintf(text + used, WORDS - used, "%s", word);
 }
 
-/* Steps `first` to `last` of a path are alike; `end`: they are its last. */
+/* Describes steps `first` to `last` of a path, which are alike; `end`: they are its last. */
 static void add_run(const solve_result *r, int first, int last, int begin, int end, char *text)
 {
     const step_record *a = &r->step[first], *b = &r->step[last];
@@ -272,8 +272,8 @@ static void add_run(const solve_result *r, int first, int last, int begin, int e
     add(text, run);
 }
 
-/* "stable up to 1.35, unstable 1.4 to 1.6, stable from 1.65"; "" where it is stable all along, or
- * says nothing. */
+/* "stable up to 1.35, unstable 1.4 to 1.6, stable from 1.65"; "" if it is stable everywhere or
+ * stability is unknown. */
 static void words_of_path(const solve_result *r, int analysis, char text[WORDS])
 {
     int begin = -1, last = -1, runs = 0, told = 0;

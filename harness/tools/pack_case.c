@@ -22,7 +22,7 @@ static int count_of(const document_node *n)
     return count;
 }
 
-/* Its entries get the next places, then theirs. */
+/* Assigns the next positions to its entries, then to theirs. */
 static void place(packing *p)
 {
     for (int i = 0; i < p->nodes; i++) {
@@ -87,8 +87,7 @@ static void write_parameters(const parameter_type *p)
     puts("{0}};\n");
 }
 
-/* Writes the case. Where its file specifies how mass is modelled, users have a parameter for that.
- */
+/* Writes the case. If its file specifies how mass is modelled, the case gets a parameter for it. */
 static void write_case(const scene_file *file, int nodes)
 {
     const char *shared = scene_file_states(file, "mass") ? "case_mass_omit" : "case_omit";

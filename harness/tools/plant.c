@@ -1,10 +1,9 @@
-/* The program with one fault in it, as large as the environment says:
- *   BEAMWORK_PLANT=NAME=SIZE   one constant of all elements, or one kind of loads, is 1 + SIZE
- * times what it should be; nothing: none is BEAMWORK_PLANT_MESHES=N    only the N coarsest meshes,
- * without measuring their noise It is linked in between (Makefile: --wrap): the sources of the
- * program stay as they are. Stiffnesses are of what elements make stresses from, masses of what
- * they make inertia from: an element is prepared twice, and nothing else that uses a section is
- * touched. */
+/* The program with one fault in it, as large as the environment says: BEAMWORK_PLANT=NAME=SIZE one
+ * constant of all elements, or one kind of loads, is 1 + SIZE times what it should be; not set: no
+ * fault BEAMWORK_PLANT_MESHES=N only the N coarsest meshes, without measuring their scatter It
+ * wraps functions at link time (Makefile: --wrap), so that the sources of the program do not
+ * change. A fault in a stiffness affects only stresses, a fault in a mass only inertia: each
+ * element is prepared twice, and other uses of the section do not change. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,7 +23,7 @@ lumped_mass __wrap_lumped_of(const section *, unsigned, double);
 int __real_judgement_doubts(const sweep *, const truths *, int);
 int __wrap_judgement_doubts(const sweep *, const truths *, int);
 
-/* 1 + the size of this fault, where it is the injected one; else 1. */
+/* 1 + size if this fault is injected, else 1. */
 static double grown(const char *name)
 {
     const char *planted = getenv("BEAMWORK_PLANT");
@@ -48,7 +47,7 @@ static void scale_shear(section *c, int at, double by)
     scale(c->F, 3, at, 1 / by);
 }
 
-/* Each keeps what the others are made from. */
+/* Section with changed stiffness or mass; each does not affect the other. */
 static section stiff(const section *given)
 {
     /* order of the rows of a section by its matrices: N, Qy, Qz, Mx, My, Mz */
@@ -59,7 +58,7 @@ static section stiff(const section *given)
     if (c.matrices)
         return c;
     c.A *= grown("EA");
-    c.Ip *= grown("EA"); /* Ip/A says how a twist shortens */
+    c.Ip *= grown("EA"); /* Ip/A determines the shortening due to twist */
     c.Iy *= grown("EIy");
     c.wagner_z *= grown("EIy");
     c.Iz *= grown("EIz");
@@ -80,7 +79,7 @@ static section heavy(const section *given)
     for (int i = 0; c.matrices && i < 6; i++)
         scale(c.mass, 6, i, grown(i < 3 ? "mass" : "rotary"));
     c.density *= mass;
-    c.young /= rotary; /* the displacements that the mass moves by stay */
+    c.young /= rotary; /* the displacements that the mass follows do not change */
     c.Iy *= rotary;
     c.Iz *= rotary;
     c.Ip *= rotary;
@@ -88,7 +87,7 @@ static section heavy(const section *given)
     return c;
 }
 
-/* Behind the data of the element: those of the same with the fault in its mass. */
+/* After the data of the element: data of the same element with the fault in its mass. */
 enum { ROOM = 1 << 16 };
 
 typedef struct second {
@@ -144,7 +143,7 @@ status __wrap_adapters_complete(const element_type *given, const double options[
     return STATUS_OK;
 }
 
-/* Mass at nodes; elements have theirs from `prepare`. */
+/* Mass at nodes; elements get theirs in `prepare`. */
 lumped_mass __wrap_lumped_of(const section *given, unsigned features, double length)
 {
     const section c = heavy(given);

@@ -18,7 +18,8 @@ static inline void fuzz_must(int holds, const char *what)
     }
 }
 
-/* The bytes as text, up to the first zero; malloced, so that reading beyond it is seen. */
+/* The bytes as text, up to the first zero; allocated by malloc, so that reading past the end is
+ * detected. */
 static inline char *fuzz_text(const uint8_t *data, size_t size)
 {
     char *text = malloc(size + 1);

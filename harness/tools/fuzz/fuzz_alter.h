@@ -1,6 +1,6 @@
-/* Alters a good HDF5 file as the bytes say: links and attributes deleted, renamed, replaced by
- * others of another kind, type or shape, cycles. The result is a proper file, its checksum right,
- * with unexpected contents. (Damaged files are refused by their checksum.) */
+/* Alters a valid HDF5 file as the input bytes specify: deletes or renames links and attributes,
+ * replaces them by others of another kind, type or shape, makes cycles. The result is a proper file
+ * with a valid checksum and unexpected contents. (Damaged files are rejected by their checksum.) */
 #ifndef BEAMWORK_FUZZ_ALTER_H
 #define BEAMWORK_FUZZ_ALTER_H
 
@@ -161,7 +161,7 @@ static void alter_step(hid_t file, const alter_list *list, const uint8_t step[AL
     }
 }
 
-/* Path of the altered copy of the file that the environment's FUZZ_BASE names. */
+/* Path of the altered copy of the file named by the environment variable FUZZ_BASE. */
 static const char *alter_file(const uint8_t *data, size_t size)
 {
     static char all[ALTER_BYTES];

@@ -1,5 +1,5 @@
-/* Any bytes as a command line, one argument per line: parsed, or refused with one line and the
- * documented exit code. */
+/* Uses the input as a command line, one argument per line: it must be parsed, or refused with one
+ * line and the documented exit status. */
 #include <argp.h>
 #include <setjmp.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "harness/cli/cli.h"
 #include "harness/tools/fuzz/fuzz.h"
 
-/* Linked with --wrap: the end of the program is the end of one execution. */
+/* Linked with --wrap: an exit of the program ends one execution. */
 void __wrap_exit(int code);
 void __real_exit(int code);
 error_t __wrap_argp_parse(const struct argp *parser, int count, char **arguments, unsigned flags,

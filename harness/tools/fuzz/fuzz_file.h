@@ -14,7 +14,7 @@ static inline void fuzz_unlink(void)
     unlink(fuzz_path);
 }
 
-/* The path; the file is overwritten by the next call and goes with the program. */
+/* Returns the path; the next call overwrites the file, and the end of the program removes it. */
 static inline const char *fuzz_file(const uint8_t *data, size_t size)
 {
     static int file = -1;

@@ -1,6 +1,6 @@
-/* Any bytes as a formula of the time, and as pieces of a function, one in each line. What is
- * refused has its place; what is read has the same bits in parentheses, and derivatives that are
- * zero where no t is. */
+/* Uses the input as a formula of time, and as pieces of a function, one per line. A refusal must
+ * have a position. An accepted formula must give the same bits in parentheses, and zero derivatives
+ * if it does not contain t. */
 #include <math.h>
 
 #include "cases/scene/scene.h"
@@ -24,7 +24,7 @@ static void check_read(const char *text, const formula *f)
     expression_mistake mistake;
     fuzz_must(wrapped != NULL, "there is memory");
     sprintf(wrapped, "(%s)", text);
-    /* one more parenthesis may be one too many */
+    /* one more parenthesis may exceed the limit */
     if (formula_parse(wrapped, &again, &mistake) == STATUS_OK)
         for (int i = 0; i < INSTANTS; i++) {
             double one[3], two[3];

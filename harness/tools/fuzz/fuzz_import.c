@@ -1,6 +1,6 @@
-/* Any bytes as results of another program: a CSV with a header (first byte 0), a map of columns
- * (1), or columns that a good map reads (2). What is accepted is a series of finite values that
- * ascend; what is refused has a mistake with a place. */
+/* Uses the input as results of another program: a CSV with a header (first byte 0), a map of
+ * columns (1), or columns read with a valid map (2). Accepted results must be a series of finite,
+ * ascending values; an error must have a position. */
 #include <math.h>
 
 #include "harness/exchange/exchange.h"

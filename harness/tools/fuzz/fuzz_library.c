@@ -1,6 +1,6 @@
-/* Any bytes as the texts that a program gives the library: after the number of the call, a text or
- * two with a line between them. What is refused has a reason of one line, or a list of mistakes
- * that is JSON; what is made is JSON, or a scene that reads back; both are UTF-8. */
+/* Uses the input as texts passed to the library: the number of the call, then one or two texts
+ * separated by a line. A refusal must have a reason of one line, or a list of errors in JSON. A
+ * result must be JSON, or a scene that can be read back; both must be UTF-8. */
 #include <jansson.h>
 
 #include "harness/formulations/formulations.h"
@@ -17,7 +17,7 @@ static const char leaf[] =
 
 static int is_utf8(const char *text)
 {
-    json_t *one = json_string(text); /* NULL where it is not */
+    json_t *one = json_string(text); /* NULL if it is not valid UTF-8 */
     json_decref(one);
     return one != NULL;
 }
@@ -30,7 +30,7 @@ static int is_json(const char *text)
     return root != NULL;
 }
 
-/* made: what the call should have made. */
+/* made: what the call should have returned. */
 static void must_tell(bw_status got, const void *made, char *why)
 {
     fuzz_must((got == BW_OK) == (why == NULL), "a failure has a reason, and nothing else has");
@@ -55,7 +55,7 @@ static bw_scene *own_scene(void)
     return s;
 }
 
-/* Solved with any formulation and options: it is small and linear. */
+/* Solves it with any formulation and options, since it is small and linear. */
 static void try_solve(const char *formulation_name, const char *options)
 {
     char *why = NULL, *json = NULL;
@@ -89,7 +89,7 @@ static void try_set(const char *assignment)
     bw_scene_free(s);
 }
 
-/* Refused before anything is run: the selection names nothing. */
+/* Must be refused before anything is run, because the selection matches nothing. */
 static void try_converge(const char *formulations, const char *meshes)
 {
     char *why = NULL, *json = NULL;

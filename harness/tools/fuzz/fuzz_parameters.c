@@ -1,6 +1,6 @@
-/* Any bytes as the parameters of a reference value or of --set: "CASE NUMBER" then
- * "name=value;...". What is accepted is a point whose text reads back as itself, and of which a
- * scene can be built or is refused. */
+/* Uses the input as parameters of a reference value or of --set: "CASE NUMBER", then
+ * "name=value;...". An accepted point must read back from its text, and its scene must be built or
+ * refused. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* A results.h5 with unexpected contents (even first byte), or any bytes as one. */
+/* Uses the input as a results.h5 with unexpected contents (even first byte), or as arbitrary bytes.
+ */
 #include "harness/records/records.h"
 #include "harness/tools/fuzz/fuzz_alter.h"
 

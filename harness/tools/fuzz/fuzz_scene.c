@@ -1,6 +1,5 @@
-/* Any bytes as a scene file. What is accepted is a scene that can be written, and what is written
- * reads back as a scene that is written the same way; what is refused has a mistake with a place.
- */
+/* Uses the input as a scene file. An accepted scene must be written, and what was written must read
+ * back as a scene that is written in the same way; an error must have a position. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +8,7 @@
 #include "harness/study/study.h"
 #include "harness/tools/fuzz/fuzz.h"
 
-/* The scene at its defaults as text, malloced; NULL: it cannot be written. */
+/* The scene at its defaults as text, allocated by malloc; NULL: it cannot be written. */
 static char *written(const scene_file *file, size_t *size)
 {
     const case_type *type = scene_file_case(file);

@@ -1,4 +1,5 @@
-/* Any bytes as the short table of a run. What is read can be written and read again. */
+/* Uses the input as the short table of a run. A table that was read must be written and read again.
+ */
 #include "harness/records/records.h"
 #include "harness/tools/fuzz/fuzz.h"
 

@@ -1,4 +1,5 @@
-/* A truths.h5 with unexpected contents (even first byte), or any bytes as one. */
+/* Uses the input as a truths.h5 with unexpected contents (even first byte), or as arbitrary bytes.
+ */
 #include "harness/study/study.h"
 #include "harness/tools/fuzz/fuzz_alter.h"
 

@@ -1,4 +1,4 @@
-/* Any bytes as the words of the command line that have a grammar: formulation with options,
+/* Uses the input as words of the command line that have a grammar: formulation with options,
  * selection, thresholds. */
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"
