@@ -54,8 +54,9 @@ typedef struct force_output {
 enum { ELEMENT_ALONG_POINTS = 8, ELEMENT_ALONG_COORDINATES = 14 };
 
 /* Input and outputs of `along`: a dead force per length along an element of two nodes. All forces
- * in a state are J^T sigma + turn^T (moment + mixed^T (D(x) - e)) - ends, where the frame of the
- * strains rotates by turn dx in its own axes. */
+ * in a state are
+ *   J^T sigma + turn^T (moment + mixed^T (D(x) - e)) - ends,
+ * where the frame of the strains rotates by turn dx in its own axes. */
 typedef struct along_output {
     const double *force; /* in: [8 x 3] at Gauss points of [0, 1], global axes [N/m] */
     const double *rate;  /* in: as force; if not NULL, sigma, moment and ends are derivatives with

@@ -1,7 +1,8 @@
 /* Masses at points of quadrature on vectors of the section, y = lin(r + R a) + sum m_k (nu_k . e)
- * (inertia.c), m_k the mean of the nodes' unit vectors: y'' = lin(r'') + sum over nodes A f + sum
- * over k (2 m_k' (nu_k . e)' + m_k (nu_k . e)''), f = part R a + sum over k (nu_k . e)/2 n_k, A =
- * w'~ + w~ w~, e'' = J x'' + x'.H x', where f is fixed to a node that rotates with w. */
+ * (inertia.c), m_k the mean of the nodes' unit vectors:
+ *   y'' = lin(r'') + sum over nodes A f + sum over k (2 m_k' (nu_k . e)' + m_k (nu_k . e)''),
+ *   f = part R a + sum over k (nu_k . e)/2 n_k,   A = w'~ + w~ w~,   e'' = J x'' + x'.H x',
+ * where f is fixed to a node that rotates with w. */
 #include "elements/beamw/fields.h"
 
 #include <string.h>

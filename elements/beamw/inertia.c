@@ -167,16 +167,19 @@ void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_ki
 
 /* Consistent mass. The fields are those of J section 3.2 (shear functionals as in fields.h),
  *
- * x = s/l, c = x (1 - x), v_s = chord - [(e5+e6)/2 c + l hg_y c (1-2x)], w_s = chord + [(e3+e4)/2 c
- * - l hg_z c (1-2x)], l phi = l phi_p + e2 x + A c - tw c (1-2x), v_c = v_s + zs phi, w_c = w_s -
- * ys phi, theta_z = v_s' - g_y, theta_y = -(w_s' - g_z), a = phi' - g_w,
+ *   x = s/l, c = x (1 - x),
+ *   v_s = chord - [(e5+e6)/2 c + l hg_y c (1-2x)],
+ *   w_s = chord + [(e3+e4)/2 c - l hg_z c (1-2x)],
+ *   l phi = l phi_p + e2 x + A c - tw c (1-2x),
+ *   v_c = v_s + zs phi,  w_c = w_s - ys phi,
+ *   theta_z = v_s' - g_y,  theta_y = -(w_s' - g_z),  a = phi' - g_w,
  *
  * written as interpolated nodal values plus functionals of the strains: v_c = lin(v) + nu_y . e and
  * so on. In the deformed state the functionals are along the mean m_k of the nodes' unit vectors
  * (derived here),
  *
- * r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e), n_y = lin(n_y) + m_z (chi_x . e) - m_x (chi_z . e),
- * ...
+ *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),
+ *   n_y = lin(n_y) + m_z (chi_x . e) - m_x (chi_z . e), ...
  *
  * and the displacement of warping a m_x, which are linear in e and in vectors fixed to the nodes:
  * their first two derivatives are exact, and so are the quantities derived from the kinetic energy.

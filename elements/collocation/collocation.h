@@ -13,9 +13,10 @@
  * amplitudes a. Orientation is given by a vector x (stage.h), a polynomial of degree p through -X,
  * p - 1 inner values and X. The force F is constant. The potential
  *
- * P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z) + (ys N_z - zs N_y) k + 1/2
- * rho^2 N_x k^2 + 1/2 EI_y kappa_y^2 + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] + warping
- * (exact.h), N = R^T F, k = kappa_x, over p Gauss points,
+ *   P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z)
+ *                          + (ys N_z - zs N_y) k + 1/2 rho^2 N_x k^2 + 1/2 EI_y kappa_y^2
+ *                          + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] + warping (exact.h),
+ *   N = R^T F, k = kappa_x, over p Gauss points,
  *
  * is stationary in F and in the inner x. In a linear problem this is collocation of the moment
  * equilibrium m' = F x r' at the Gauss points; N = R^T F is in equilibrium exactly. The tangent is
@@ -48,11 +49,12 @@ typedef struct exact_stages {
 status exact_stages_prepare(const element_request *request, int count, exact_stages *out, fault *f);
 
 /* A dead force per length q(x) inside the equilibrium of a collocation element (derived here).
- * Between its nodes the force is F + g(x), where F is the force in the middle and g(x) = l0
- * (int_x^1 q - 1/2 int_0^1 q). F + g replaces F in N above, and half of int q acts on each node;
- * together this is the potential with - int q . r. F is given in the mean axes G of the ends, and
- * so is xi = G^T g: a rotation psi of G in its own axes changes it by xi x psi. The potential
- * depends on G only through xi, and is linear in it except for the effect of the points. */
+ * Between its nodes the force is F + g(x), where F is the force in the middle and
+ *   g(x) = l0 (int_x^1 q - 1/2 int_0^1 q).
+ * F + g replaces F in N above, and half of int q acts on each node; together this is the potential
+ * with - int q . r. F is given in the mean axes G of the ends, and so is xi = G^T g: a rotation psi
+ * of G in its own axes changes it by xi x psi. The potential depends on G only through xi, and is
+ * linear in it except for the effect of the points. */
 
 /* Data of a kind of element; q is given at the points of element.h. */
 typedef struct exact_along {

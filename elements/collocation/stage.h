@@ -1,8 +1,9 @@
 /* Rotations by Wiener-Milenkovic parameters x = 4 tan(angle/4) about the axis (Rodrigues' modified
  * vectors): regular up to a full turn, and rational. R^T y, and the curvature kappa of a line on
- * which x varies with slope x', have the same form, w . R^T y = B(w, y; x), w . kappa = B(w, x';
- * x), B(w, y; x) = s w . y - p x . (y x w) + q [(x . w)(x . y) - t w . y], s, p, q functions of t =
- * |x|^2. */
+ * which x varies with slope x', have the same form:
+ *   w . R^T y = B(w, y; x),  w . kappa = B(w, x'; x),
+ *   B(w, y; x) = s w . y - p x . (y x w) + q [(x . w)(x . y) - t w . y],
+ * where s, p, q are functions of t = |x|^2. */
 #ifndef BEAMWORK_COLLOCATION_STAGE_H
 #define BEAMWORK_COLLOCATION_STAGE_H
 

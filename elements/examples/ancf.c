@@ -13,8 +13,8 @@
  * Engrg. 278 (2014)). The mass is that of the displacement field: no constant mass matrix of
  * slopes.
  *
- * cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK ancf.c -lm -o ancf.so beamwork verify --element
- * ./ancf.so -f ancf */
+ *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK ancf.c -lm -o ancf.so
+ *   beamwork verify --element ./ancf.so -f ancf */
 #include <math.h>
 #include <string.h>
 

@@ -1,11 +1,13 @@
-/* A corotational beam of two nodes by its forces and stiffness, as a user element of a finite
- * element program computes them: the linear beam in axes that follow the element. axes: x along the
- * chord, y in the plane of it and of the mean of the nodes' y axes (Battini and Pacoste, Comput.
- * Methods Appl. Mech. Engrg. 191 (2002)); rotations of the nodes in them: the sines, t = axis
- * sin(angle) (Crisfield, ibid. 81 (1990)); stiffness: the complete derivative, its parts named
- * after Felippa and Haugen, ibid. 194 (2005) cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK
- * corotational.c -lm -o corotational.so beamwork verify --element ./corotational.so -f corotational
- */
+/* A corotational beam of two nodes given by its forces and stiffness, as a user element of a finite
+ * element program computes them: the linear beam in axes that follow the element.
+ *   axes: x along the chord, y in the plane of it and of the mean of the nodes' y axes (Battini and
+ *     Pacoste, Comput. Methods Appl. Mech. Engrg. 191 (2002));
+ *   rotations of the nodes in them: the sines, t = axis sin(angle) (Crisfield, ibid. 81 (1990));
+ *   stiffness: the complete derivative, with the names of its parts from Felippa and Haugen, ibid.
+ *     194 (2005)
+ *
+ *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK corotational.c -lm -o corotational.so
+ *   beamwork verify --element ./corotational.so -f corotational */
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,8 @@
-/* A shear-deformable beam of two nodes in one file: strains uniform along the element [m], d = Rm^T
- * (rq - rp) - (l, 0, 0), Rm half way from Rp to Rq, and l log(Rp^T Rq). Their derivatives are
- * computed by differences. cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK timoshenko.c -o timoshenko.so
- * beamwork converge tapered_cantilever --element ./timoshenko.so -f all */
+/* A shear-deformable beam of two nodes in one file: strains uniform along the element [m],
+ *   d = Rm^T (rq - rp) - (l, 0, 0), Rm half way from Rp to Rq, and l log(Rp^T Rq).
+ * Their derivatives are computed by differences.
+ *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK timoshenko.c -o timoshenko.so
+ *   beamwork converge tapered_cantilever --element ./timoshenko.so -f all */
 #include <math.h>
 #include <string.h>
 

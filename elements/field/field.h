@@ -3,13 +3,15 @@
  * and the active physics.
  *
  * Two nodes: written as the nodes' values between p and q plus functionals of the deformation modes
- * e of J Eq. 7 (beamw/modes.h), along the mean m_k of the nodes' unit vectors n_k, r = lin(r) + m_y
- * (nu_y . e) + m_z (nu_z . e), n_x = lin(n_x) + m_y (chi_z . e) - m_z (chi_y . e), and so on. e
- * refers to the straight element; for a curved element its initial value describes the shape. The
+ * e of J Eq. 7 (beamw/modes.h), along the mean m_k of the nodes' unit vectors n_k,
+ *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),
+ *   n_x = lin(n_x) + m_y (chi_z . e) - m_z (chi_y . e), and so on.
+ * e refers to the straight element; for a curved element its initial value describes the shape. The
  * functionals are those of J section 3.2 with the exact twist (beamw/fields.h): because the field
  * contains every solution without loads, any load has the correct work on the nodes of an element
  * that is exact without it. Three nodes: Lagrange polynomials for r and n_k, and in r an additional
- * term for the nonlinear part of the rotations, (l/3) x (1-x)(1-2x) (n_x^1 - 2 n_x^2 + n_x^3). */
+ * term for the nonlinear part of the rotations,
+ *   (l/3) x (1-x)(1-2x) (n_x^1 - 2 n_x^2 + n_x^3). */
 #ifndef BEAMWORK_FIELD_FIELD_H
 #define BEAMWORK_FIELD_FIELD_H
 
@@ -90,13 +92,13 @@ enum { FIELD_INNER = 2 * NODE_COORDINATES };
 
 /* Effect of the deviation of the mass of a straight two-node element from the motion of the field:
  * a motion v of the nodes [14, in the axes of the element] of the eigenvalue lambda = omega^2 obeys
- * v . K v = lambda v . M v + lambda^2 v . B v + O(lambda^3), B = M_bu^T K_bb^-1 M_bu, where b are
- * the displacements between fixed ends. B is the flexibility of the element with fixed ends under
- * the inertia of its static field, twice the complementary energy min over r: int s . C s dx, s =
- * s_p v + s_r r, of resultants s_p in equilibrium with that inertia and those s_r of forces at the
- * ends, and of bimoments, alone. B [14 x 14, kg s^2 and with m for each rotation, likewise
- * warping], symmetric and positive; zero for sections with coupled matrices, and where a stiffness
- * is zero. */
+ *   v . K v = lambda v . M v + lambda^2 v . B v + O(lambda^3),   B = M_bu^T K_bb^-1 M_bu,
+ * where b are the displacements between fixed ends. B is the flexibility of the element with fixed
+ * ends under the inertia of its static field, twice the complementary energy
+ *   min over r: int s . C s dx,   s = s_p v + s_r r,
+ * of resultants s_p in equilibrium with that inertia and those s_r of forces at the ends, and of
+ * bimoments, alone. B [14 x 14, kg s^2 and with m for each rotation, likewise warping], symmetric
+ * and positive; zero for sections with coupled matrices, and where a stiffness is zero. */
 void field_inner(const element_request *, const displacement_field *,
                  double B[FIELD_INNER * FIELD_INNER]);
 

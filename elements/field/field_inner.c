@@ -1,5 +1,6 @@
 /* B of field.h. Resultants about the centroid: with forces q, moments mu and bimoments b per length
- * N' = -q_x, Qy' = -q_y, Qz' = -q_z, Mx' = -mu_x, My' = Qz - mu_y, Mz' = -Qy - mu_z, Mw = -W' - b,
+ *   N' = -q_x,  Qy' = -q_y,  Qz' = -q_z,  Mx' = -mu_x,  My' = Qz - mu_y,  Mz' = -Qy - mu_z,
+ *   Mw = -W' - b,
  * and C is the compliance due to EA, EIy, EIz, GIt (torque about the shear centre minus Mw), EIw
  * (W) and shear (Qy, Qz, Mw) (J App. A). */
 #include <math.h>

@@ -1,6 +1,6 @@
-/* Virtual work of loads on the field, with derivatives. A vector y of the field is y = sum part_n
- * v_n + sum m_k (functional . e), linear in e and in vectors v fixed to the nodes, whose first two
- * derivatives are exact. */
+/* Virtual work of loads on the field, with derivatives. A vector y of the field is
+ *   y = sum part_n v_n + sum m_k (functional . e),
+ * linear in e and in vectors v fixed to the nodes, whose first two derivatives are exact. */
 #include <math.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
  * that strains in the axes of the section are objective (derived here). No function of an angle is
  * needed, and every derivative is rational in Q.
  *
- * kappa = 2 Im(Q^-1 Q'), v = R(Q)^T y.
+ *   kappa = 2 Im(Q^-1 Q'),  v = R(Q)^T y.
  *
  * In the axes of the section, A = u^-1 dQ/m and D = u^-1 dQ'/m, with (A0, A) their scalar and
  * vector parts: dkappa = 2 D - A0 kappa - 2 eta A - A x kappa, dv = dy - 2 A x v, d2kappa = 2 (A0^2

@@ -95,16 +95,17 @@ void exact_strain_prepare(int nodes, int points, double l0, const double curvatu
  * integration, without locking). With ebar = e + 1/2 (e . Q_g e) r_g the energy is 1/2 ebar . S
  * ebar, plus the Wagner torque's quartic.
  *
- * Fields that do not depend on the nodes are eliminated in advance: - bubbles of the warping
- * amplitude, one per point: a = sum L_k a_k + sum c_j beta_j. The twist rate is the interpolation
- * of the point values plus the part of a that they do not represent, kappa_x(s) = P kappa + a - P a
- * with P the interpolation through the points, so that without warping shear kappa_x = a
- * everywhere, without a penalty; - the part of the bending moment beyond the polynomial through the
- * points: with two nodes its linear part (MacNeal's residual bending flexibility: the linear
- * element is exact for end loads, also when it is rigid in shear); with three nodes the quadratic
- * part (derived here), and only for sections that are rigid in shear, which would otherwise have no
- * shear flexibility. It compares Q with the slope of M in section axes, which differ by kappa x M:
- * with three nodes and no shear flexibility the order is four in a plane and two in space. */
+ * Fields that do not depend on the nodes are eliminated in advance:
+ *   - Bubbles of the warping amplitude, one per point: a = sum L_k a_k + sum c_j beta_j. The twist
+ *     rate is the interpolation of the point values plus the part of a that they do not represent,
+ *     kappa_x(s) = P kappa + a - P a, where P is the interpolation through the points. Without
+ *     warping shear kappa_x = a everywhere, without a penalty.
+ *   - The part of the bending moment beyond the polynomial through the points. With two nodes this
+ *     is its linear part (MacNeal's residual bending flexibility): the linear element is exact for
+ *     end loads, also when it is rigid in shear. With three nodes it is the quadratic part (derived
+ *     here), only for sections that are rigid in shear, which would otherwise have no shear
+ *     flexibility. It compares Q with the slope of M in section axes, which differ by kappa x M:
+ *     the order is four in a plane and two in space. */
 
 enum {
     EXACT_STIFFNESS_MAX_STRAINS = 6 * EXACT_STRAIN_MAX_POINTS + ELEMENT_MAX_NODES,

@@ -119,9 +119,11 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
 status section_compute(const section_spec *spec, section *out, fault *f);
 
 /* Sections given by matrices. With the strains of the Simo-Reissner beam along the line of the
- * member, (N, Qy, Qz, Mx, My, Mz) = C (gx, gy, gz, kx, ky, kz), and with the velocity of the line
- * and the angular velocity in section axes v = (vx, vy, vz, wx, wy, wz) the kinetic energy 1/2 v .
- * M v per length (Hodges, Nonlinear Composite Beam Theory, 2006, chapters 4 and 5). Row-major.
+ * member,
+ *   (N, Qy, Qz, Mx, My, Mz) = C (gx, gy, gz, kx, ky, kz),
+ * and with the velocity of the line and the angular velocity in section axes v = (vx, vy, vz, wx,
+ * wy, wz) the kinetic energy 1/2 v . M v per length (Hodges, Nonlinear Composite Beam Theory, 2006,
+ * chapters 4 and 5). Row-major.
  *
  * Other constants are derived for orders of magnitude and for formulations that use constants only:
  * with E = G = 1 Pa, A = C_11, Iy = C_55, Iz = C_66, It = C_44, shear rigidities C_22 and C_33; no

@@ -70,16 +70,20 @@ status sheet_potential_third(const sheet_potential *p, const double x[N], const 
     return STATUS_OK;
 }
 
-/* A_ij = int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw + My_i My_j/EIy + Mz_i Mz_j/EIz + Fx_i
- * Fx_j/EA + Fz_i Fz_j/kGA] ds, b_i = int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)' + My_i
- * phi_x u_y'' + Mz_i u_y'' - (Mx_i + B_i') kx - My_i ky - Mz_i kz] ds + (u + int u_y'^2/2 for F~x,
- * yp for M~yp, yq for M~yq), P0 = int [B_0' phi_x' + B_0 phi_x'' - B_0'^2/2GJ - B_0^2/2EIw - B_0'
- * kx] ds, with Mx, Mz of N Eq. 49, B_0 = EIw k0' the bimoment due to the twist rates of the ends,
- * k0(0) = Wp, k0(L) = Wq, and kx, ky, kz the initial torsion and curvatures (N Eq. 52). By parts,
- * with the twist rates of sheet.h, int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw] ds = (L/GJ)
- * lambda^2 int Mx_i g_j dx, int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)'] ds = L int Mx_i
- * (phi_x' - k0) dx, P0 = (EIw/2L) int (lambda^2 k0^2 + k0'^2) dx - kx EIw [k0']. My_i phi_x u_y''
- * cancels the same term of Mz_i u_y''. */
+/* Coefficients of the potential:
+ *   A_ij = int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw + My_i My_j/EIy + Mz_i Mz_j/EIz
+ *               + Fx_i Fx_j/EA + Fz_i Fz_j/kGA] ds,
+ *   b_i  = int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)' + My_i phi_x u_y'' + Mz_i u_y''
+ *               - (Mx_i + B_i') kx - My_i ky - Mz_i kz] ds
+ *          + (u + int u_y'^2/2 for F~x, yp for M~yp, yq for M~yq),
+ *   P0   = int [B_0' phi_x' + B_0 phi_x'' - B_0'^2/2GJ - B_0^2/2EIw - B_0' kx] ds,
+ * with Mx, Mz of N Eq. 49, B_0 = EIw k0' the bimoment due to the twist rates of the ends, k0(0) =
+ * Wp, k0(L) = Wq, and kx, ky, kz the initial torsion and curvatures (N Eq. 52). Integration by
+ * parts, with the twist rates of sheet.h, gives
+ *   int [(Mx_i + B_i')(Mx_j + B_j')/GJ + B_i B_j/EIw] ds = (L/GJ) lambda^2 int Mx_i g_j dx,
+ *   int [(Mx_i + B_i')(phi_x' - k0) + B_i (phi_x' - k0)'] ds = L int Mx_i (phi_x' - k0) dx,
+ *   P0 = (EIw/2L) int (lambda^2 k0^2 + k0'^2) dx - kx EIw [k0'].
+ * My_i phi_x u_y'' cancels the same term of Mz_i u_y''. */
 
 /* Variables in which the stress fields are affine, as indices of v. */
 enum {

@@ -87,7 +87,7 @@ void body_write_held(const body_numbers *, const scene *s, int node, unsigned re
 
 /* Steps of a deck, with comments that assign printed numbers of steps to quantities:
  *
- * **Q name|unit|displacements or forces|step|node|direction|reciprocal|factor|offset|x
+ *   **Q name|unit|displacements or forces|step|node|direction|reciprocal|factor|offset|x
  *
  * value = factor*printed + offset, with the reciprocal of the printed number if `reciprocal` is 1.
  * Steps start at 1; x [SI] is the abscissa of a curve, or empty. */

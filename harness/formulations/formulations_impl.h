@@ -172,8 +172,8 @@ void handshake_options_free(const parameter_type *table); /* or NULL */
 
 /* Strains of an element defined by its force or energy. They are the positions of its nodes
  * relative to the first one, in the axes of that node: e = (|d| - undeformed distance, l p, l
- * log(R0^T R_k)) of every other node, and l^2 a of all nodes [m]. Here d = r_k - r_0, and p = (2
- * n_y, 2 n_z)/(1 + n_x) for its direction n, which is regular unless the chord points backward. The
+ * log(R0^T R_k)) of every other node, l^2 a of all [m], where d = r_k - r_0, and p = (2 n_y, 2
+ * n_z)/(1 + n_x) for its direction n, which is regular unless the chord points backward. The
  * distance is a separate strain: otherwise a stiff chord would need more iterations of the mixed
  * equations than a soft one. */
 

@@ -178,10 +178,11 @@ status chain_stiffness(const chain *s, double K[], fault *f)
 /* Transfers loads to the ends of a chain, and motions of the ends to its interior.
  *
  * Two sweeps find the forces between the links: where w are the forces on the joint before a link
- * and of the link on it, x = Z a + Z F w, w - B x = Z^T w - B Z a. The motions then follow link by
- * link, so that neighbours differ exactly by the deformation of a link. Differences of
- * independently computed motions would lose as many digits as an assembled stiffness. Sizes are
- * compile-time constants where a sweep is inlined. */
+ * and of the link on it,
+ *   x = Z a + Z F w,   w - B x = Z^T w - B Z a.
+ * The motions then follow link by link, so that neighbours differ exactly by the deformation of a
+ * link. Differences of independently computed motions would lose as many digits as an assembled
+ * stiffness. Sizes are compile-time constants where a sweep is inlined. */
 
 #define INLINED static inline __attribute__((always_inline))
 

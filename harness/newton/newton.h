@@ -487,9 +487,9 @@ typedef struct row_label {
 /* out[free]; a coordinate shared by several nodes belongs to the first one. */
 void rows_label(const model *, row_label out[]);
 
-/* Matrices of small motions about the states of a solution, for other programs: M q'' + (C + G) q'
- * + K q = B u, with the free coordinates q in the order of the rows and the changes u of the load
- * factors. */
+/* Matrices of small motions about the states of a solution, for other programs:
+ *   M q'' + (C + G) q' + K q = B u,
+ * with the free coordinates q in the order of the rows and the changes u of the load factors. */
 
 typedef struct state_matrices {
     int analysis;             /* index in the scene; SCENE_NONE: the undeformed structure at rest */
@@ -946,8 +946,9 @@ void loads_at_node(const equations *, const model_state *, double path, int node
 
 /* In equilibrium, internal minus external forces are zero on the free coordinates. Mixed
  * linearisation (simultaneous in coordinates, strains and stresses; N section 4), condensed per
- * element: K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)], K = J^T P'' J + sum sigma_i H_i The
- * prescribed part of dx is known; its contribution is moved to the right-hand side here. */
+ * element:
+ *   K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i
+ * The prescribed part of dx is known; its contribution is moved to the right-hand side here. */
 typedef struct model_linearisation {
     double path;
     int displacement; /* 1: displacement-only Newton: e and sigma are first set from D(x) */

@@ -84,13 +84,14 @@ status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, 
 /* A chain of links, condensed to its two ends, and the expansion of solutions.
  *
  * A link joins joint p to joint q; y are the coordinates inside, followed by those of q. For forces
- * g on the link, y = A x_p + F g_y, g_p = B x_p - A^T g_y: where A is its rigid motion with p, F
- * its flexibility with p clamped, and B the stiffness of that motion (prestress, warping). Joined
- * links form a link (the star product of R. Redheffer, J. Math. Phys. 41, 1962): with F of the row
- * before joint m and B, A of the next link x_m = Z (a_m + F (r_m + A^T g_y)), Z = (1 + F B)^-1, F
- * <- F_qq + A_q Z F A_q^T. Flexibilities add without cancellation. Rounding therefore grows about
- * in proportion to the number of links, and not to its fourth power as for assembled stiffnesses.
- */
+ * g on the link,
+ *   y = A x_p + F g_y,   g_p = B x_p - A^T g_y:
+ * where A is its rigid motion with p, F its flexibility with p clamped, and B the stiffness of that
+ * motion (prestress, warping). Joined links form a link (the star product of R. Redheffer, J. Math.
+ * Phys. 41, 1962): with F of the row before joint m and B, A of the next link
+ *   x_m = Z (a_m + F (r_m + A^T g_y)),   Z = (1 + F B)^-1,   F <- F_qq + A_q Z F A_q^T.
+ * Flexibilities add without cancellation. Rounding therefore grows about in proportion to the
+ * number of links, and not to its fourth power as for assembled stiffnesses. */
 
 enum { CHAIN_JOINT = 7, CHAIN_LINK = 2 * CHAIN_JOINT };
 

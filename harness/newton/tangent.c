@@ -1,6 +1,6 @@
-/* The tangent of the free coordinates is factored once, and bordered by the released coordinates: [
- * K U ] [x] [f] [ V W ] [z] = [g], S = W - V K^-1 U, z = S^-1 (g - V K^-1 f), x = K^-1 f - K^-1 U
- * z. */
+/* The tangent of the free coordinates is factored once, and bordered by the released coordinates:
+ *   [ K  U ] [x]   [f]
+ *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
 #include "harness/newton/newton_impl.h"
 
 #include <stdlib.h>

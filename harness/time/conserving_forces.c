@@ -407,9 +407,10 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
 }
 
 /* Strain rates r1 and their derivatives s1 at the end of a step, from r0 and s0 at its start and
- * the mean rate m: r1 = (3 m - r0)/2 + h s0/4, s1 = (m - r0)/h + s0/2. Of second order, also
- * without inertia. An initial error disappears after two steps; with r1 = 2 m - r0 it would
- * persist. */
+ * the mean rate m:
+ *   r1 = (3 m - r0)/2 + h s0/4,  s1 = (m - r0)/h + s0/2.
+ * Of second order, also without inertia. An initial error disappears after two steps; with r1 = 2 m
+ * - r0 it would persist. */
 void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;

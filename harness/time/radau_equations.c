@@ -127,8 +127,9 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
 }
 
 /* Rates and accelerations of three stages from their increments. The derivative of the rates of
- * stage j with respect to the increment of stage k is G_jk = B_jk/h Jr(t_j) + (j = k) d(Jr(t_j)
- * t_j')/dt_j; that of the accelerations of stage i is sum_j B_ij/h G_jk. */
+ * stage j with respect to the increment of stage k is
+ *   G_jk = B_jk/h Jr(t_j) + (j = k) d(Jr(t_j) t_j')/dt_j,
+ * that of the accelerations of stage i is sum_j B_ij/h G_jk. */
 
 void radau_coefficients(radau *r)
 {
@@ -247,8 +248,9 @@ void radau_in_space(const radau *r, int vertex, int i, const double B[9], double
     mat3_mul(R, B, out);
 }
 
-/* Members with damping stresses eta S0 e'. The strain rates of the stages, e_i' = 1/h sum_j B_ij
- * (e_j - e_0), couple all three stages in every damped element. */
+/* Members with damping stresses eta S0 e'. The strain rates of the stages,
+ *   e_i' = 1/h sum_j B_ij (e_j - e_0),
+ * couple all three stages in every damped element. */
 
 /* Damping forces of one element in one stage. */
 typedef struct damped {

@@ -1,9 +1,10 @@
 /* Masses of ends that are released from their nodes. For a body with velocities v, w, a node at the
- * offset p from it, released rotations t about axes b and shifts s along d, q = sum d s: w_end = w
- * + sum b t', w_end' = w' + sum b t'' + sum t' (rotation before it) x b, v_end = v + w x p + w_end
- * x q + sum d s', a_end = a + w' x p + w x (w x p) + w_end' x q + w_end x (w_end x q) + 2 w_end x
- * sum d s' + sum d s''. With three released rotations the rates are the angular velocity in the
- * axes of the end. */
+ * offset p from it, released rotations t about axes b and shifts s along d, q = sum d s:
+ *   w_end = w + sum b t',  w_end' = w' + sum b t'' + sum t' (rotation before it) x b,
+ *   v_end = v + w x p + w_end x q + sum d s',
+ *   a_end = a + w' x p + w x (w x p) + w_end' x q + w_end x (w_end x q) + 2 w_end x sum d s'
+ *           + sum d s''.
+ * With three released rotations the rates are the angular velocity in the axes of the end. */
 #include "harness/time/time_impl.h"
 
 #include <stdlib.h>

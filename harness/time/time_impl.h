@@ -68,10 +68,10 @@ int body_mass_rank(body_mass *, double none);
 /* Splits the step of one element into a common rotation, which is removed exactly, and a relative
  * motion: node j moves by dr_j and rotates by the Cayley vector c_j, R_1 = cay(c) R_n. With the
  * mean c, kappa = 1/sqrt(1 + c.c/4), b = kappa^2/(4 (1 + kappa)), S = kappa 1 + b c c^T, T = 1 - b
- * c c^T, G half the common rotation and D_j = r_j - mean r, r(s) = (1 - s) G D_n + s G^T D_1, R(s)
- * = exp(s phi) G R_n, a(s) = a_n + s da, dr^_j = S (dD_j - c x Dm_j), c^_j = T (c_j - c)/(kappa (1
- * + c.c_j/4)), phi_j = psi_j c^_j: zero for every rigid motion. A spring to the ground has no
- * common rotation: c = 0, D_j = r_j. */
+ * c c^T, G half the common rotation and D_j = r_j - mean r,
+ *   r(s) = (1 - s) G D_n + s G^T D_1,   R(s) = exp(s phi) G R_n,   a(s) = a_n + s da,
+ *   dr^_j = S (dD_j - c x Dm_j),   c^_j = T (c_j - c)/(kappa (1 + c.c_j/4)),   phi_j = psi_j c^_j:
+ * zero for every rigid motion. A spring to the ground has no common rotation: c = 0, D_j = r_j. */
 
 /* Cayley vector 2 tan(|t|/2) t/|t| of a rotation vector, and back. */
 void cayley_of_vector(const double t[3], double c[3]);
@@ -377,16 +377,17 @@ status checks_massless(const analysis_context *, const carried_masses *, const s
                        const model_state *begin, fault *);
 
 /* A step that conserves energy and both momenta for any formulation. It needs `strain` at three
- * states and `stress` at the end. With the strains e at both ends, s = (sigma_n + sigma_1)/2, W =
- * (P''(e_n) + P''(e_1))/2, d = sum_g w_g J(x(s_g)) (dr^, phi, da), sigma_m = s + k W d, k = sum
- * [P(e_1) - P(e_n) - s.d]/sum d.W d (one number for the whole structure). Then sum sigma_m.d is the
- * change of energy, and the forces A^T sigma_m do no work in any rigid motion (cayley_step).
- * Translations m (v1 - v)/h = f - F with dr = h (v + v1)/2; rotations by Cayley vectors R_n^T c = h
- * (W + W1)/2, (R_1 J W1 - R_n J W)/h = m - M. After Simo, Tarnow & Doblare (1995), Gonzalez (1996)
- * and Sansour et al. (2004); the common rotation of an element, its two points and the single
- * number k are additions. W is not P'' of the undeformed element: if stresses inside an element
- * depend on its bending, the stiff directions change with the strains, and k W d would have a
- * component along them. */
+ * states and `stress` at the end. With the strains e at both ends,
+ *   s = (sigma_n + sigma_1)/2,   W = (P''(e_n) + P''(e_1))/2,
+ *   d = sum_g w_g J(x(s_g)) (dr^, phi, da),   sigma_m = s + k W d,
+ *   k = sum [P(e_1) - P(e_n) - s.d]/sum d.W d   (one number for the whole structure).
+ * Then sum sigma_m.d is the change of energy, and the forces A^T sigma_m do no work in any rigid
+ * motion (cayley_step). Translations m (v1 - v)/h = f - F with dr = h (v + v1)/2; rotations by
+ * Cayley vectors R_n^T c = h (W + W1)/2, (R_1 J W1 - R_n J W)/h = m - M. After Simo, Tarnow &
+ * Doblare (1995), Gonzalez (1996) and Sansour et al. (2004); the common rotation of an element, its
+ * two points and the single number k are additions. W is not P'' of the undeformed element: if
+ * stresses inside an element depend on its bending, the stiff directions change with the strains,
+ * and k W d would have a component along them. */
 
 /* REFUSED: a node has several successive angles; no rotation has inertia. Rates of massless
  * coordinates are mean rates of a step. */
@@ -571,9 +572,10 @@ double kinks_next(const model *, double time);
 double kinks_before(const model *, double time);
 
 /* One instant of a motion by mixed Newton iteration (Nijenhuis et al., section 4), starting from
- * the previous instant: equilibrium with the inertia forces of rates that follow the increment, v =
- * v0 + g inc, a = a0 + b inc. Strains and stresses of elements are unknowns, so that stiff elements
- * need no additional iterations. */
+ * the previous instant: equilibrium with the inertia forces of rates that follow the increment,
+ *   v = v0 + g inc,   a = a0 + b inc.
+ * Strains and stresses of elements are unknowns, so that stiff elements need no additional
+ * iterations. */
 
 /* Returns 1 when the last factors may be used again. Their error is the product of both
  * corrections; in stiff members the corrections of the stresses (newton.h) show it. Measured with
@@ -699,10 +701,12 @@ void peaks_end(peaks *);
 
 /* Motion of a frame during a step, from the coordinates of its body and of a released end. It is
  * exact, so that forces do the same work in both sets of coordinates. With means m of both ends of
- * the step, for a frame moved by a body: dr = dr_b + c x rho_m, forces f, m + rho_m x f; for angles
- * and released rotations, each about b, with tau = 2 tan(d angle/2): c_k = c_(k-1) + tau_k x_k, x =
- * [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4) with b at the start: along the mean axis, about which
- * no moment acts; for released sliding: dr = .. + c x (a s)_m + [a_m - c x (a_1 - a_n)/4] ds. */
+ * the step:
+ *   moved by a body:      dr = dr_b + c x rho_m,   forces f, m + rho_m x f;
+ *   angles and released rotations, each about b, with tau = 2 tan(d angle/2):
+ *                         c_k = c_(k-1) + tau_k x_k,  x = [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4)
+ *                         with b at the start: along the mean axis, about which no moment acts;
+ *   released sliding:     dr = .. + c x (a s)_m + [a_m - c x (a_1 - a_n)/4] ds. */
 
 enum { PLACE_MOST = 6 + SCENE_RELEASED };
 
@@ -734,9 +738,9 @@ void place_add(conserving *, const model_state *from, const model_state *now, in
                const double F[6], const double K[36], double out[]);
 
 /* Radau IIA with three stages (Hairer & Wanner II, IV.8), order 5, for q' = v, v' = a: the
- * positions of the stages are the unknowns, rotations by their vectors in the frame's axes, t_i' =
- * 1/h sum_j B_ij t_j, W_i = Jr(t_i) t_i', a_i = 1/h sum_j B_ij (v_j - v), B = A^-1, The mixed
- * Newton iteration (Nijenhuis et al., section 4) solves all three stages together. */
+ * positions of the stages are the unknowns, rotations by their vectors in the frame's axes,
+ *   t_i' = 1/h sum_j B_ij t_j,  W_i = Jr(t_i) t_i',  a_i = 1/h sum_j B_ij (v_j - v),  B = A^-1.
+ * The mixed Newton iteration (Nijenhuis et al., section 4) solves all three stages together. */
 
 /* Allocates the integrator; an additional factorisation in each step gives an error estimate of
  * order 3. */
@@ -985,8 +989,9 @@ status stations_inside(stations *, const instant *from, const instant *to, fault
 status stations_here(stations *, const instant *now, const double balance[SCENE_BALANCES], fault *);
 
 /* Rotation vectors of a frame between two instants, and their rates: with R = R_n exp(t~), body
- * rates W of R'(t) = R W~ and t' are W = Jr(t) t', Jr(t) = 1 - (1 - cos |t|)/|t|^2 t~ + (|t| - sin
- * |t|)/|t|^3 t~ t~. 3 x 3 matrices are row-major. */
+ * rates W of R'(t) = R W~ and t' are
+ *   W = Jr(t) t',  Jr(t) = 1 - (1 - cos |t|)/|t|^2 t~ + (|t| - sin |t|)/|t|^3 t~ t~.
+ * 3 x 3 matrices are row-major. */
 
 void turning_jacobian(const double t[3], double Jr[9]);
 /* Its inverse 1 + t~/2 + (1 - |t|/2 cot(|t|/2))/|t|^2 t~ t~; |t| < 2 pi. */
