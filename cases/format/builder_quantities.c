@@ -181,8 +181,8 @@ void builder_quantities(builder *b)
     for (int i = 0; i < b->list[SCENE_QUANTITIES].count; i++) {
         const unrolled *entry = &b->list[SCENE_QUANTITIES].entry[i];
         const fields f = fields_of(b, entry);
-        scene_quantity *q = scene_add_quantity(b->scene, entry->name, "", SCENE_NONE,
-                                               (scene_extract){.kind = SCENE_COORDINATE});
+        scene_quantity *q =
+            scene_add_quantity(b->scene, entry->name, "", SCENE_NONE, scene_coordinate(0, 0));
         fields_read(&f, entry_quantity, q);
         const quantity_type *type = quantity_type_of(q);
         const fields what = fields_below(&f, type->key);

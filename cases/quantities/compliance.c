@@ -10,6 +10,12 @@ static const entry_field fields[] = {
     QUANTITY_TAKEN,
     {.name = NULL}};
 
+const char *scene_compliance_unit(int row, int column)
+{
+    static const char *const unit[2][2] = {{"m/N", "1/N"}, {"rad/N", "rad/(N m)"}};
+    return unit[row > SCENE_UZ][column > SCENE_UZ];
+}
+
 static const char *unit(const scene *s, const scene_quantity *q)
 {
     (void)s;
@@ -34,6 +40,11 @@ static int turns(const scene *s, const scene_quantity *q, int i, scene_component
     return i < 2;
 }
 
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    return state->compliance(state, q->what.of.entry.row, q->what.of.entry.column);
+}
+
 const quantity_type quantity_compliance = {.key = "compliance",
                                            .summary = "entry of the matrix",
                                            .kind = SCENE_COMPLIANCE_ENTRY,
@@ -41,4 +52,5 @@ const quantity_type quantity_compliance = {.key = "compliance",
                                            .analyses = 1u << SCENE_COMPLIANCE,
                                            .unit = unit,
                                            .meaning = meaning,
+                                           .read = read,
                                            .turns = turns};

@@ -24,10 +24,18 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             q->what.of.load.sign > 0 ? "positive" : "negative");
 }
 
+static double eigenvalue(const scene_quantity *q, const quantity_eigenvalue *found, double *part)
+{
+    (void)q;
+    *part = found->value;
+    return found->value;
+}
+
 const quantity_type quantity_critical_factor = {.key = "critical_factor",
                                                 .summary = "critical load factor",
                                                 .kind = SCENE_CRITICAL_FACTOR,
                                                 .field = fields,
                                                 .analyses = 1u << SCENE_BUCKLING,
                                                 .unit = unit,
-                                                .meaning = meaning};
+                                                .meaning = meaning,
+                                                .eigenvalue = eigenvalue};

@@ -1,4 +1,6 @@
 /* Damping ratio of a mode, or its rate of decay. */
+#include <math.h>
+
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {QUANTITY_ANALYSIS,
@@ -33,6 +35,12 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
                      q->name, scene_called(s, SCENE_ANALYSES, q->analysis).text);
 }
 
+static double eigenvalue(const scene_quantity *q, const quantity_eigenvalue *found, double *part)
+{
+    *part = found->decay;
+    return q->what.of.mode.decay ? found->decay : found->decay / hypot(found->decay, found->value);
+}
+
 const quantity_type quantity_damping_ratio = {.key = "damping_ratio",
                                               .summary = "damping ratio of a mode",
                                               .kind = SCENE_DAMPING_RATIO,
@@ -40,4 +48,5 @@ const quantity_type quantity_damping_ratio = {.key = "damping_ratio",
                                               .analyses = 1u << SCENE_MODAL,
                                               .unit = unit,
                                               .meaning = meaning,
+                                              .eigenvalue = eigenvalue,
                                               .check = check};

@@ -29,9 +29,9 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     fputs(word[q->what.of.balance], to);
 }
 
-static int is(const scene_quantity *q)
+static double read(const scene_quantity *q, const quantity_state *state)
 {
-    return q->what.of.balance < SCENE_PX;
+    return state->balance(state, q->what.of.balance);
 }
 
 const quantity_type quantity_energy = {.key = "energy",
@@ -42,4 +42,4 @@ const quantity_type quantity_energy = {.key = "energy",
                                        .passing = QUANTITY_EXTREMES,
                                        .unit = unit,
                                        .meaning = meaning,
-                                       .is = is};
+                                       .read = read};

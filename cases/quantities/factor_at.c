@@ -17,6 +17,12 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     fputs("load factor", to);
 }
 
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    (void)q;
+    return state->path;
+}
+
 const quantity_type quantity_factor_at = {
     .key = "factor_at",
     .summary = "load factor where the control coordinate has a value",
@@ -24,4 +30,5 @@ const quantity_type quantity_factor_at = {
     .field = fields,
     .analyses = 1u << SCENE_CONTINUATION,
     .unit = unit,
-    .meaning = meaning};
+    .meaning = meaning,
+    .read = read};

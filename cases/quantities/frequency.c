@@ -1,5 +1,6 @@
 /* Natural frequency. */
 #include "cases/scene/scene.h"
+#include "elements/math/scalar.h"
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS, QUANTITY_MODE, QUANTITY_TAKEN, {.name = NULL}};
@@ -28,10 +29,18 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
         fprintf(to, " with %d half-wave%s", mode->half_waves, mode->half_waves > 1 ? "s" : "");
 }
 
+static double eigenvalue(const scene_quantity *q, const quantity_eigenvalue *found, double *part)
+{
+    (void)q;
+    *part = found->value;
+    return found->value / (2 * PI);
+}
+
 const quantity_type quantity_frequency = {.key = "frequency",
                                           .summary = "natural frequency",
                                           .kind = SCENE_FREQUENCY,
                                           .field = fields,
                                           .analyses = 1u << SCENE_MODAL | 1u << SCENE_ROTATION,
                                           .unit = unit,
-                                          .meaning = meaning};
+                                          .meaning = meaning,
+                                          .eigenvalue = eigenvalue};

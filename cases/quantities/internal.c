@@ -55,6 +55,11 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     meaning_member(to, s, c->member);
 }
 
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    return state->internal(state, &q->what.of.internal);
+}
+
 const quantity_type quantity_internal = {.key = "internal",
                                          .summary =
                                              "resultant of stresses on a section of a member",
@@ -63,4 +68,5 @@ const quantity_type quantity_internal = {.key = "internal",
                                          .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
                                          .passing = QUANTITY_EXTREMES,
                                          .unit = unit,
-                                         .meaning = meaning};
+                                         .meaning = meaning,
+                                         .read = read};

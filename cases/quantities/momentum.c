@@ -23,9 +23,9 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(component));
 }
 
-static int is(const scene_quantity *q)
+static double read(const scene_quantity *q, const quantity_state *state)
 {
-    return q->what.of.balance >= SCENE_PX;
+    return state->balance(state, q->what.of.balance);
 }
 
 const quantity_type quantity_momentum = {.key = "momentum",
@@ -36,4 +36,4 @@ const quantity_type quantity_momentum = {.key = "momentum",
                                          .passing = QUANTITY_EXTREMES,
                                          .unit = unit,
                                          .meaning = meaning,
-                                         .is = is};
+                                         .read = read};

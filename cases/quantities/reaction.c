@@ -58,6 +58,11 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
     return "turn_1 is of a node with a sequence whose first axis is x, y or z; take rx, ry or rz";
 }
 
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    return state->reaction(state, q->what.of.component.node, q->what.of.component.component);
+}
+
 const quantity_type quantity_reaction = {.key = "reaction",
                                          .summary = "of a held or driven component",
                                          .kind = SCENE_REACTION,
@@ -66,4 +71,5 @@ const quantity_type quantity_reaction = {.key = "reaction",
                                          .passing = QUANTITY_EXTREMES,
                                          .unit = unit,
                                          .meaning = meaning,
+                                         .read = read,
                                          .settle = settle};

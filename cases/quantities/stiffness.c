@@ -41,6 +41,11 @@ static int turns(const scene *s, const scene_quantity *q, int i, scene_component
     return i < 2;
 }
 
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    return 1 / state->compliance(state, q->what.of.entry.row, q->what.of.entry.row);
+}
+
 const quantity_type quantity_stiffness = {.key = "stiffness",
                                           .summary = "1/compliance, the other components free",
                                           .kind = SCENE_STIFFNESS_ENTRY,
@@ -48,5 +53,6 @@ const quantity_type quantity_stiffness = {.key = "stiffness",
                                           .analyses = 1u << SCENE_COMPLIANCE,
                                           .unit = unit,
                                           .meaning = meaning,
+                                          .read = read,
                                           .turns = turns,
                                           .settle = settle};

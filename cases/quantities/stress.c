@@ -69,6 +69,11 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
                      q->name, scene_called(s, SCENE_MEMBERS, q->what.of.stress.member).text);
 }
 
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    return state->stress(state, &q->what.of.stress);
+}
+
 const quantity_type quantity_stress = {.key = "stress",
                                        .summary =
                                            "largest stress of a member or of a section of it",
@@ -78,5 +83,6 @@ const quantity_type quantity_stress = {.key = "stress",
                                        .passing = QUANTITY_EXTREMES,
                                        .unit = unit,
                                        .meaning = meaning,
+                                       .read = read,
                                        .settle = settle,
                                        .check = check};

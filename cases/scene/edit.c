@@ -25,6 +25,13 @@ static void mirror_section(section_spec *spec)
         }
 }
 
+/* Another place of the same quantity, whose file stays. */
+static void replace(scene_quantity *q, scene_extract what)
+{
+    what.type = q->what.type;
+    q->what = what;
+}
+
 /* Reverses a quantity of internal forces as mirror_section requires: forces change sides, x and y
  * their direction. */
 static void reverse_internal(scene_quantity *q)
@@ -37,10 +44,10 @@ static void reverse_internal(scene_quantity *q)
         along = SCENE_ALONG_MIN;
     else if (odd && along == SCENE_ALONG_MIN)
         along = SCENE_ALONG_MAX;
-    q->what = along == SCENE_ALONG_PLACE
-                  ? scene_beside(scene_internal_at(what.member, 1 - what.place, what.resultant),
-                                 !what.before)
-                  : scene_internal_along(what.member, along, what.resultant);
+    replace(q, along == SCENE_ALONG_PLACE
+                   ? scene_beside(scene_internal_at(what.member, 1 - what.place, what.resultant),
+                                  !what.before)
+                   : scene_internal_along(what.member, along, what.resultant));
     if (odd && along != SCENE_ALONG_LARGEST)
         q->factor = -q->factor;
 }
@@ -49,8 +56,8 @@ static void reverse_stress(scene_quantity *q)
 {
     const scene_stress what = *scene_stress_of(q);
     if (!what.whole)
-        q->what =
-            scene_beside(scene_stress_at(what.member, 1 - what.place, what.measure), !what.before);
+        replace(q, scene_beside(scene_stress_at(what.member, 1 - what.place, what.measure),
+                                !what.before));
 }
 
 /* Reverses a load of a member whose ends are exchanged. */
@@ -135,12 +142,12 @@ static status split_quantity(scene_quantity *q, double fraction, int second, fau
     if (internal) {
         const scene_internal what = *scene_internal_of(q);
         const double place = split_place(what.place, what.before, fraction, second, &member);
-        q->what = scene_beside(scene_internal_at(member, place, what.resultant), what.before);
+        replace(q, scene_beside(scene_internal_at(member, place, what.resultant), what.before));
     }
     if (stress) {
         const scene_stress what = *scene_stress_of(q);
         const double place = split_place(what.place, what.before, fraction, second, &member);
-        q->what = scene_beside(scene_stress_at(member, place, what.measure), what.before);
+        replace(q, scene_beside(scene_stress_at(member, place, what.measure), what.before));
     }
     return STATUS_OK;
 }

@@ -121,7 +121,7 @@ int entry_word(const entry_field *k, const char *word)
 int entry_stands(const entry_field *k, const void *entry)
 {
     if (k->type != NULL)
-        return quantity_type_is(k->type, entry);
+        return quantity_type_of(entry) == k->type;
     return k->size == 0 || whole_of(k, entry) == k->first;
 }
 

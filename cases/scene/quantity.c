@@ -3,84 +3,87 @@
 #include <assert.h>
 #include <string.h>
 
-extern const quantity_type quantity_orientation;
+#include "quantities.h" /* by the build: QUANTITY_TYPES, a word for each file of cases/quantities */
+
+#define DECLARED(name) extern const quantity_type quantity_##name;
+QUANTITY_TYPES(DECLARED)
+
+/* An extract of the file of that name. */
+#define EXTRACT(name, ...) ((scene_extract){quantity_##name.kind, &quantity_##name, {__VA_ARGS__}})
 
 scene_extract scene_coordinate(int node, int component)
 {
-    return (scene_extract){SCENE_COORDINATE, {.component = {node, component}}};
+    return EXTRACT(displacement, .component = {node, component});
 }
 
 scene_extract scene_reaction(int node, int component)
 {
-    return (scene_extract){SCENE_REACTION, {.component = {node, component}}};
+    return EXTRACT(reaction, .component = {node, component});
 }
 
 scene_extract scene_compliance_entry(int row, int column)
 {
-    return (scene_extract){SCENE_COMPLIANCE_ENTRY, {.entry = {row, column}}};
+    return EXTRACT(compliance, .entry = {row, column});
 }
 
 scene_extract scene_stiffness_entry(int component)
 {
-    return (scene_extract){SCENE_STIFFNESS_ENTRY, {.entry = {component, component}}};
+    return EXTRACT(stiffness, .entry = {component, component});
 }
 
 scene_extract scene_critical_factor(int sign, int order)
 {
-    return (scene_extract){SCENE_CRITICAL_FACTOR, {.load = {sign, order}}};
+    return EXTRACT(critical_factor, .load = {sign, order});
 }
 
 scene_extract scene_growth(void)
 {
-    return (scene_extract){.kind = SCENE_GROWTH};
+    return (scene_extract){.kind = SCENE_GROWTH, .type = &quantity_growth};
 }
 
 scene_extract scene_frequency(int order, scene_family family)
 {
-    return (scene_extract){SCENE_FREQUENCY, {.mode = {.order = order, .family = family}}};
+    return EXTRACT(frequency, .mode = {.order = order, .family = family});
 }
 
 scene_extract scene_frequency_of(int order, scene_family family, int half_waves)
 {
-    return (scene_extract){SCENE_FREQUENCY,
-                           {.mode = {.order = order, .family = family, .half_waves = half_waves}}};
+    return EXTRACT(frequency, .mode = {.order = order, .family = family, .half_waves = half_waves});
 }
 
 scene_extract scene_factor_at(void)
 {
-    return (scene_extract){.kind = SCENE_FACTOR_AT};
+    return (scene_extract){.kind = SCENE_FACTOR_AT, .type = &quantity_factor_at};
 }
 
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate)
 {
-    return (scene_extract){SCENE_CRITICAL_POINT, {.point = {kind, order, ordinate}}};
+    return EXTRACT(critical_point, .point = {kind, order, ordinate});
 }
 
 scene_extract scene_driver_value(int driver)
 {
-    return (scene_extract){SCENE_DRIVER_VALUE, {.driver = driver}};
+    return EXTRACT(motion, .driver = driver);
 }
 
 scene_extract scene_rate(int node, int component)
 {
-    return (scene_extract){SCENE_RATE, {.component = {node, component}}};
+    return EXTRACT(rate, .rated = {.at = {node, component}});
 }
 
 scene_extract scene_orientation_entry(int node, int row, int column)
 {
-    return (scene_extract){
-        SCENE_READING,
-        {.reading = {.type = &quantity_orientation, .node = {node}, .component = {row, column}}}};
+    return EXTRACT(orientation, .reading = {.node = {node}, .component = {row, column}});
 }
 
 scene_extract scene_balance_of(scene_balance what)
 {
-    return (scene_extract){SCENE_BALANCE, {.balance = what}};
+    return what < SCENE_PX ? EXTRACT(energy, .balance = what) : EXTRACT(momentum, .balance = what);
 }
 
 scene_extract scene_relative_to(int node, int component, int from)
 {
-    return (scene_extract){SCENE_RELATIVE, {.relative = {node, component, from}}};
+    return EXTRACT(relative, .relative = {node, component, from});
 }
 
 scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, int analysis,
@@ -135,8 +138,7 @@ void scene_set_passing(scene_quantity *q, scene_reduction reduction, scene_passi
 
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant)
 {
-    return (scene_extract){SCENE_INTERNAL,
-                           {.internal = {member, resultant, SCENE_ALONG_PLACE, place, 0}}};
+    return EXTRACT(internal, .internal = {member, resultant, SCENE_ALONG_PLACE, place, 0});
 }
 
 scene_extract scene_beside(scene_extract what, int before)
@@ -150,17 +152,17 @@ scene_extract scene_beside(scene_extract what, int before)
 
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant)
 {
-    return (scene_extract){SCENE_INTERNAL, {.internal = {member, resultant, along, 0, 0}}};
+    return EXTRACT(internal, .internal = {member, resultant, along, 0, 0});
 }
 
 scene_extract scene_stress_along(int member, scene_stress_measure measure)
 {
-    return (scene_extract){SCENE_STRESS, {.stress = {member, measure, 1, 0, 0}}};
+    return EXTRACT(stress, .stress = {member, measure, 1, 0, 0});
 }
 
 scene_extract scene_stress_at(int member, double place, scene_stress_measure measure)
 {
-    return (scene_extract){SCENE_STRESS, {.stress = {member, measure, 0, place, 0}}};
+    return EXTRACT(stress, .stress = {member, measure, 0, place, 0});
 }
 
 const scene_stress *scene_stress_of(const scene_quantity *q)
@@ -229,6 +231,12 @@ int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind)
     return q->analysis == analysis && q->what.kind == kind;
 }
 
+int scene_reads_forces(const scene_quantity *q)
+{
+    return q->what.kind == SCENE_REACTION || q->what.kind == SCENE_INTERNAL ||
+           q->what.kind == SCENE_STRESS;
+}
+
 int scene_reads(const scene *s, int analysis)
 {
     int read = s->quantities == 0;
@@ -254,10 +262,4 @@ void scene_keep_quantities(scene *s, const scene *of)
         if (has_quantity(of, s->quantity[i].name))
             s->quantity[kept++] = s->quantity[i];
     s->quantities = kept;
-}
-
-const char *scene_compliance_unit(int row, int column)
-{
-    static const char *const unit[2][2] = {{"m/N", "1/N"}, {"rad/N", "rad/(N m)"}};
-    return unit[row > SCENE_UZ][column > SCENE_UZ];
 }

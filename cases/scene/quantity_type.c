@@ -4,10 +4,6 @@
 #define DECLARED(name) extern const quantity_type quantity_##name;
 QUANTITY_TYPES(DECLARED)
 
-#define LISTED(name) &quantity_##name,
-static const quantity_type *const types[] = {QUANTITY_TYPES(LISTED)};
-enum { TYPES = sizeof types / sizeof types[0] };
-
 static const entry_field abscissa[] = {
     {"quantity", ENTRY_NAME, .summary = "whose curve, of the same path, it is",
      .left_out = "the path, time or frequency"},
@@ -68,26 +64,15 @@ const entry_field entry_quantity[] = {
      .left_out = "none"},
     {.name = NULL}};
 
-int quantity_type_is(const quantity_type *type, const scene_quantity *q)
-{
-    return type->kind == q->what.kind &&
-           (type->kind != SCENE_READING || type == q->what.of.reading.type) &&
-           (type->is == NULL || type->is(q));
-}
-
 void quantity_type_begin(const quantity_type *type, scene_quantity *q)
 {
     q->what.kind = type->kind;
-    if (type->kind == SCENE_READING)
-        q->what.of.reading.type = type;
+    q->what.type = type;
 }
 
 const quantity_type *quantity_type_of(const scene_quantity *q)
 {
-    int i = 0;
-    while (i < TYPES - 1 && !quantity_type_is(types[i], q))
-        i++;
-    return types[i];
+    return q->what.type;
 }
 
 int scene_gives(scene_analysis_kind analysis, const scene_quantity *q)

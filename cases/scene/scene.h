@@ -295,7 +295,7 @@ typedef enum scene_quantity_kind {
     SCENE_RELATIVE, /* displacement or rotation of a node in the axes of another */
     SCENE_RESPONSE, /* of a harmonic analysis */
     SCENE_DAMPING_RATIO, /* of a damped mode, or its rate of decay */
-    SCENE_READING        /* what a file of cases/quantities reads of nodes, as it says itself */
+    SCENE_READING        /* of nodes, of which nothing outside its file knows more */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -450,7 +450,6 @@ typedef struct scene_relative {
 /* Members that the reader of a kind without a struct of its own reads: its table of keys lists
  * them. */
 typedef struct scene_reading {
-    const struct quantity_type *type;
     int node[4], component[4];
     double number[4];
 } scene_reading;
@@ -504,7 +503,8 @@ typedef struct scene_point {
 
 /* The extracted value; made by the functions of the kinds. */
 typedef struct scene_extract {
-    scene_quantity_kind kind;
+    scene_quantity_kind kind;         /* that of the type: what an analysis is asked for */
+    const struct quantity_type *type; /* all else: its file in cases/quantities */
     union {
         scene_component component; /* coordinate, reaction; where a rate is */
         scene_rated rated;
@@ -617,6 +617,8 @@ const scene_internal *scene_internal_of(const scene_quantity *q);
 const scene_stress *scene_stress_of(const scene_quantity *q);
 /* Is it of this kind and this analysis? */
 int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
+/* Does it read reactions, resultants or stresses? */
+int scene_reads_forces(const scene_quantity *q);
 /* Is the analysis read: by a quantity, or by an analysis that follows it and is read itself? Where
  * there are no quantities, all of them are. */
 int scene_reads(const scene *s, int analysis);
@@ -1253,11 +1255,11 @@ void scene_omission_words(unsigned omits, char words[SCENE_OMISSION_WORDS]);
 /* "haringx" */
 const char *scene_shear_word(scene_shear theory);
 
-/* A kind of quantity: all that is to be said of it, but for how a solution is requested it
- * (harness/analysis) where it is more than a reading of nodes.  One file each in cases/quantities:
- * the build finds it. */
+/* A kind of quantity: all that is to be said of it. One file each in cases/quantities: the build
+ * finds it. */
 
-/* Values that a kind reads: positions and motions of nodes in one state of a structure. */
+/* Values that a kind reads: of one state of a structure. Those below `path` are of the kinds that
+ * ask for them (scene_quantity_kind); NAN: not known, which whoever asks for the quantity says. */
 typedef struct quantity_state {
     /* displacement [m] or rotation-vector component [rad]; NAN: it has lost its direction */
     double (*component)(const struct quantity_state *, int node, int component);
@@ -1270,7 +1272,23 @@ typedef struct quantity_state {
     /* its derivative: acceleration [m/s^2], or angular one in the node's own axes [rad/s^2] */
     double (*acceleration)(const struct quantity_state *, int node, int component);
     double (*driver)(const struct quantity_state *, int driver);
+    double path; /* parameter, load factor or time */
+    /* SCENE_REACTION, SCENE_INTERNAL, SCENE_STRESS: any of these */
+    double (*reaction)(const struct quantity_state *, int node, int component);
+    double (*internal)(const struct quantity_state *, const scene_internal *);
+    double (*stress)(const struct quantity_state *, const scene_stress *);
+    /* SCENE_BALANCE */
+    double (*balance)(const struct quantity_state *, scene_balance);
+    /* SCENE_COMPLIANCE_ENTRY, SCENE_STIFFNESS_ENTRY: in the column of its entry */
+    double (*compliance)(const struct quantity_state *, int row, int column);
 } quantity_state;
+
+/* Eigenvalue of the mode that is asked for. */
+typedef struct quantity_eigenvalue {
+    double value; /* SCENE_CRITICAL_FACTOR: load factor; SCENE_FREQUENCY, SCENE_DAMPING_RATIO:
+                     angular frequency [rad/s] */
+    double decay; /* of a damped mode: its rate [1/s] */
+} quantity_eigenvalue;
 
 /* Events that are evaluated between the stations of a motion. */
 typedef enum quantity_passing {
@@ -1281,7 +1299,9 @@ typedef enum quantity_passing {
 
 typedef struct quantity_type {
     const char *key, *summary;
-    scene_quantity_kind kind; /* SCENE_READING of one that nothing outside its file names */
+    /* SCENE_READING, of nodes alone; or one of the others: its struct, and what an analysis is
+     * asked for; several files may have the same */
+    scene_quantity_kind kind;
     const entry_field *field; /* of the map below the key */
     unsigned analyses;        /* 1 << kind of analysis: those that have it */
     quantity_passing passing;
@@ -1290,21 +1310,20 @@ typedef struct quantity_type {
     /* In words; names_analysis: also of which analysis. */
     void (*meaning)(FILE *, const scene *, const scene_quantity *);
     int names_analysis;
-    /* NULL of most: is it this one, of two of a kind; what follows from what is read of a file:
-     * what is wrong with the key, or NULL; REFUSED: what the table does not say. */
-    int (*is)(const scene_quantity *);
-    /* As extracted, without factor and offset, of what is read of nodes alone; and the components
-     * of turns that it needs, where nodes may turn by themselves: 1: *out is the one of index i, 0:
-     * there are no more. */
+    /* As extracted, without factor and offset: from a state, or from an eigenvalue, where *part is
+     * what of it the error of the quantity is of. */
     double (*read)(const scene_quantity *, const quantity_state *);
+    double (*eigenvalue)(const scene_quantity *, const quantity_eigenvalue *, double *part);
+    /* NULL of most: the components of turns that it needs, where nodes may turn by themselves: 1:
+     * *out is the one of index i, 0: there are no more; what follows from what is read of a file:
+     * what is wrong with the key, or NULL; REFUSED: what the table does not say. */
     int (*turns)(const scene *, const scene_quantity *, int i, scene_component *out);
     const char *(*settle)(const scene *, scene_quantity *, const char **key);
     status (*check)(const scene *, const scene_quantity *, fault *);
 } quantity_type;
 
-/* The type of a quantity; is it this one; makes it one, to be filled. */
 const quantity_type *quantity_type_of(const scene_quantity *q);
-int quantity_type_is(const quantity_type *, const scene_quantity *q);
+/* Makes it one, to be filled. */
 void quantity_type_begin(const quantity_type *, scene_quantity *q);
 
 /* Keys of most kinds: first, and last. */

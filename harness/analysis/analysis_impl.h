@@ -320,12 +320,6 @@ int extract_path_wants(const analysis_context *, int analysis, int stations, con
  * ask for nothing more. */
 int extract_path_whole(const analysis_context *, int analysis, int station);
 
-/* Quantities of the sections of a member. */
-
-/* At full load, about the undeformed state. */
-void extract_section_linear(const analysis_context *, const scene_quantity *,
-                            const analysis_outcome *, quantity_result *r);
-
 /* Quantities of eigenvalues: critical loads and frequencies. */
 
 /* Critical load factor of the wanted sign and order. */

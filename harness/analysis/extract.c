@@ -7,26 +7,12 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "elements/math/scalar.h"
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
 static const char *const no_frequency = "the mesh has no mode of this kind that is distinguishable "
                                         "from round-off: coordinates without mass, "
                                         "or with hardly any beside the heaviest, have none";
-
-static void from_linear(const analysis_context *c, const scene_quantity *q,
-                        const analysis_outcome *o, quantity_result *r)
-{
-    const scene_component *what = scene_component_of(q);
-    const double *x = outcome_displacements(o);
-    int index[6];
-    double T[36], sum = 0;
-    const int n = kinematics_node_jacobian(c->model, NULL, what->node, 6, index, T);
-    for (int k = 0; k < n; k++)
-        sum += T[what->component * n + k] * x[index[k]];
-    r->value = quantity_scaled(q, sum);
-}
 
 /* Has a node an angle of its own about this component? */
 static int is_turned(const scene *s, int node, int component, fault *f)
@@ -51,6 +37,28 @@ static int is_defined(const scene *s, const scene_quantity *q, fault *f)
         if (!is_turned(s, one.node, one.component, f))
             return 0;
     return 1;
+}
+
+/* At full load, about the undeformed state. */
+static void from_linear(const analysis_context *c, const scene_quantity *q,
+                        const analysis_outcome *o, quantity_result *r)
+{
+    double *sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *sigma), value = NAN;
+    const reading from = {.eq = &c->eq,
+                          .state = kinematics_rest(c->model),
+                          .x = outcome_displacements(o),
+                          .sigma = sigma};
+    fault f = {"out of memory for stresses"};
+    status outcome = sigma != NULL ? STATUS_OK : STATUS_FAULT;
+    if (outcome == STATUS_OK && scene_reads_forces(q))
+        outcome = linear_whole_stresses(&c->eq, from.x, 1, sigma, &f);
+    if (outcome == STATUS_OK)
+        outcome = reading_whole(&from, q, &value, &f);
+    if (outcome == STATUS_OK)
+        r->value = quantity_scaled(q, value);
+    else
+        quantity_no_value(r, outcome, f.text);
+    free(sigma);
 }
 
 /* Did it leave something, though it failed? */
@@ -83,10 +91,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     }
     switch (c->scene->analysis[q->analysis].kind) {
     case SCENE_LINEAR:
-        if (q->what.kind == SCENE_COORDINATE)
-            from_linear(c, q, o, r);
-        else
-            extract_section_linear(c, q, o, r);
+        from_linear(c, q, o, r);
         break;
     case SCENE_BUCKLING:
         extract_spectrum_buckling(q, o, r);
@@ -115,33 +120,21 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         quantity_no_value(r, STATUS_SINGULAR, "the value is not finite");
 }
 
-/* Value i of a side, or why it has none. */
-static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i, double unit,
+/* From value i of a side, or why it has none. */
+static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i,
                             quantity_result *r)
 {
-    if (isnan(side->value[i])) {
+    const quantity_eigenvalue found = {side->value[i], side->growth != NULL ? -side->growth[i] : 0};
+    const double size = hypot(found.decay, found.value);
+    double part;
+    if (isnan(found.value)) {
         quantity_no_value(r, side->status, side->reason);
         return;
     }
-    r->value = quantity_scaled(q, side->value[i] / unit);
+    r->value = quantity_scaled(q, quantity_type_of(q)->eigenvalue(q, &found, &part));
     r->rounding = side->error != NULL ? side->error[i] : 0;
-}
-
-/* Of a damped mode, whose error is that of its eigenvalue. */
-static void take_damped(const scene_quantity *q, const outcome_side *side, int i,
-                        quantity_result *r)
-{
-    const double decay = -side->growth[i], size = hypot(decay, side->value[i]);
-    if (isnan(side->value[i])) {
-        quantity_no_value(r, side->status, side->reason);
-        return;
-    }
-    const int frequency = q->what.kind == SCENE_FREQUENCY;
-    const double part = frequency ? side->value[i] : decay;
-    r->value = quantity_scaled(q, frequency                 ? part / (2 * PI)
-                                  : scene_mode_of(q)->decay ? part
-                                                            : part / size);
-    r->rounding = part != 0 ? side->error[i] * size / fabs(part) : 0;
+    if (side->growth != NULL) /* the error is of the eigenvalue as a whole */
+        r->rounding = part != 0 ? r->rounding * size / fabs(part) : 0;
 }
 
 static void take_meaning(const outcome_spectrum *from, quantity_result *r)
@@ -159,7 +152,7 @@ void extract_spectrum_buckling(const scene_quantity *q, const analysis_outcome *
     const char *sign = load->sign > 0 ? "positive" : "negative";
     char why[FAULT_TEXT];
     if (load->order < side->count) {
-        take_eigenvalue(q, side, load->order, 1, r);
+        take_eigenvalue(q, side, load->order, r);
         take_meaning(found, r);
         return;
     }
@@ -211,43 +204,11 @@ void extract_spectrum_modal(const analysis_context *c, const scene_quantity *q,
     free(x);
     if (known != STATUS_OK)
         quantity_no_value(r, known, f.text);
-    else if (found >= 0 && side->growth != NULL)
-        take_damped(q, side, found, r);
     else if (found >= 0)
-        take_eigenvalue(q, side, found, 2 * PI, r);
+        take_eigenvalue(q, side, found, r);
     else if (side->status != STATUS_OK)
         quantity_no_value(r, side->status, side->reason);
     else
         quantity_no_value(r, STATUS_NO_VALUE, "the mesh has no mode of this kind");
     take_meaning(outcome_spectrum_of(o), r);
-}
-
-/* Under the loads at path 1. */
-static double reaction_of(const equations *eq, const scene_component *what, const double sigma[])
-{
-    const model *m = eq->m;
-    double F[6], L[6];
-    linearise_node_force(eq, kinematics_rest(m), sigma, what->node, F);
-    loads_at_node(eq, kinematics_rest(m), 1, what->node, L);
-    return F[what->component] - L[what->component];
-}
-
-void extract_section_linear(const analysis_context *c, const scene_quantity *q,
-                            const analysis_outcome *o, quantity_result *r)
-{
-    double *sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *sigma), value;
-    const internal_state at = {
-        .s = kinematics_rest(c->model), .sigma = sigma, .x = outcome_displacements(o), .path = 1};
-    fault f = {"out of memory for stresses"};
-    status outcome =
-        sigma != NULL ? linear_whole_stresses(&c->eq, at.x, 1, sigma, &f) : STATUS_FAULT;
-    if (outcome == STATUS_OK && q->what.kind == SCENE_REACTION)
-        value = reaction_of(&c->eq, scene_component_of(q), sigma);
-    else if (outcome == STATUS_OK)
-        outcome = resultants_in_section(&c->eq, q, &at, &value, &f);
-    if (outcome == STATUS_OK)
-        r->value = quantity_scaled(q, value);
-    else
-        quantity_no_value(r, outcome, f.text);
-    free(sigma);
 }

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "elements/math/scalar.h"
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
@@ -22,17 +21,20 @@ static double known(const analysis_context *c, double value, double error, const
     return NAN;
 }
 
-/* [Hz]; NAN: no mode of this kind, or lost in round-off. */
-static double frequency_of(const analysis_context *c, const scene_quantity *q,
-                           const rotation_modes *modes, quantity_result *r)
+/* Of a mode; NAN: none is of this kind, or it is lost in round-off. */
+static double eigenvalue_of(const analysis_context *c, const scene_quantity *q,
+                            const rotation_modes *modes, quantity_result *r)
 {
     int order = 0;
     char what[64];
     for (int i = 0; i < modes->count; i++)
         if (modes->growth[i] == 0 && modes_in_family(scene_mode_of(q), &modes->shape[i]) &&
             order++ == scene_mode_of(q)->order) {
+            const quantity_eigenvalue found = {.value = modes->frequency[i]};
+            double part;
             snprintf(what, sizeof what, "frequency %d in rotating axes", i + 1);
-            return known(c, modes->frequency[i] / (2 * PI), modes->error[i], what, r);
+            return known(c, quantity_type_of(q)->eigenvalue(q, &found, &part), modes->error[i],
+                         what, r);
         }
     return NAN;
 }
@@ -50,26 +52,6 @@ static double growth_of(const analysis_context *c, const rotation_modes *modes, 
     return known(c, growth, modes->error[largest] * size / growth, "the rate of growth", r);
 }
 
-/* NULL: not of a motion. */
-static const outcome_instant *moving_at(const analysis_outcome *o, int i)
-{
-    return o->kind == SCENE_MOTION ? &outcome_motion_of(o)->instant[i] : NULL;
-}
-
-static double force_at(const analysis_context *c, const scene_quantity *q,
-                       const analysis_outcome *o, int i, quantity_result *r)
-{
-    const outcome_instant *moving = moving_at(o, i);
-    double value = NAN;
-    fault f = {""};
-    const status outcome =
-        resultants_of(&c->eq, q, outcome_path_of(o)->state[i], moving != NULL ? moving->rate : NULL,
-                      moving != NULL ? moving->acceleration : NULL, &value, &f);
-    if (outcome != STATUS_OK)
-        quantity_no_value(r, outcome, f.text);
-    return outcome == STATUS_OK ? value : NAN;
-}
-
 /* NULL: no quantity requested them. */
 static const rotation_modes *modes_at(const analysis_outcome *o, int i)
 {
@@ -77,58 +59,49 @@ static const rotation_modes *modes_at(const analysis_outcome *o, int i)
     return modes != NULL ? &modes[i] : NULL;
 }
 
-/* Of nodes alone. */
+/* What a file of cases/quantities reads of the state; NAN: r says why. */
 static double read_at(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
-                      int i)
+                      int i, quantity_result *r)
 {
-    const outcome_instant *moving = moving_at(o, i);
+    const outcome_instant *moving =
+        o->kind == SCENE_MOTION ? &outcome_motion_of(o)->instant[i] : NULL;
     const outcome_path *path = outcome_path_of(o);
+    reading from = {.eq = &c->eq, .state = path->state != NULL ? path->state[i] : NULL};
+    fault f = {""};
+    double value = NAN;
+    if (moving != NULL) {
+        from.v = moving->rate;
+        from.a = moving->acceleration;
+        from.balance = moving->balance;
+    }
+    if (o->kind == SCENE_COMPLIANCE)
+        from.compliance = &outcome_compliance_of(o)->matrix[36 * i];
     if (reading_is_slope(q))
-        return outcome_motion_of(o)
-            ->slope[(size_t)(q - c->scene->quantity) * (size_t)path->stations + (size_t)i];
-    return reading_of(c->model, q, path->state[i], moving != NULL ? moving->rate : NULL,
-                      moving != NULL ? moving->acceleration : NULL);
-}
-
-static double followed(double value, quantity_result *r)
-{
-    if (isnan(value))
+        value = outcome_motion_of(o)
+                    ->slope[(size_t)(q - c->scene->quantity) * (size_t)path->stations + (size_t)i];
+    const status outcome = reading_is_slope(q) ? STATUS_OK : reading_whole(&from, q, &value, &f);
+    if (outcome != STATUS_OK)
+        quantity_no_value(r, outcome, f.text);
+    else if (isnan(value) && reading_is_kinematic(q) && o->kind != SCENE_COMPLIANCE)
         quantity_no_value(r, STATUS_NO_VALUE, turns_lost);
-    return value;
+    return outcome == STATUS_OK ? value : NAN;
 }
 
 /* Value of a quantity of the path at one station; NAN: r may say why. */
 static double extracted(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, int i, quantity_result *r)
 {
-    const outcome_path *path = outcome_path_of(o);
-    switch (q->what.kind) {
-    case SCENE_COMPLIANCE_ENTRY:
-        return outcome_compliance_of(o)
-            ->matrix[36 * i + 6 * scene_entry_of(q)->row + scene_entry_of(q)->column];
-    case SCENE_STIFFNESS_ENTRY:
-        return 1 / outcome_compliance_of(o)->matrix[36 * i + 7 * scene_entry_of(q)->row];
-    case SCENE_FREQUENCY:
-        return modes_at(o, i) != NULL ? frequency_of(c, q, modes_at(o, i), r) : NAN;
-    case SCENE_GROWTH:
-        return modes_at(o, i) != NULL ? growth_of(c, modes_at(o, i), r) : NAN;
-    case SCENE_FACTOR_AT:
-        return kinematics_state_path(path->state[i]);
-    case SCENE_REACTION:
-    case SCENE_INTERNAL:
-    case SCENE_STRESS:
-        return force_at(c, q, o, i, r);
-    case SCENE_BALANCE:
-        return outcome_motion_of(o)->instant[i].balance[scene_balance_in(q)];
-    case SCENE_RESPONSE:
+    const quantity_type *type = quantity_type_of(q);
+    if (type->read != NULL)
+        return read_at(c, q, o, i, r);
+    if (q->what.kind == SCENE_RESPONSE)
         return o->left.harmonic
-            .response[(size_t)(q - c->scene->quantity) * (size_t)path->stations + (size_t)i];
-    case SCENE_CRITICAL_FACTOR:
-    case SCENE_CRITICAL_POINT:
+            .response[(size_t)(q - c->scene->quantity) * (size_t)outcome_path_of(o)->stations +
+                      (size_t)i];
+    if (o->kind != SCENE_ROTATION || modes_at(o, i) == NULL)
         return NAN;
-    default: /* of nodes alone */
-        return followed(read_at(c, q, o, i), r);
-    }
+    return type->eigenvalue != NULL ? eigenvalue_of(c, q, modes_at(o, i), r)
+                                    : growth_of(c, modes_at(o, i), r);
 }
 
 static double at_station(const analysis_context *c, const scene_quantity *q,
@@ -167,7 +140,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
         bound = fmax(bound, bound_at(c, q, o, i));
         largest = fmax(largest, fabs(r->curve.value[i]));
     }
-    r->rounding = relative(bound, largest);
+    r->rounding = fmax(r->rounding, relative(bound, largest)); /* of modes it is known */
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
 }
 
@@ -245,18 +218,6 @@ int extract_path_wants(const analysis_context *c, int analysis, int stations, co
     return !c->options->values_only || extract_path_asks(c, analysis, stations, path, station);
 }
 
-static int reads_elements(const scene_quantity *q)
-{
-    switch (q->what.kind) {
-    case SCENE_REACTION:
-    case SCENE_INTERNAL:
-    case SCENE_STRESS:
-        return 1;
-    default:
-        return 0;
-    }
-}
-
 /* Does an analysis that follows the path begin with the state? */
 static int begins_with(const analysis_context *c, int analysis, int path, int station)
 {
@@ -280,7 +241,7 @@ int extract_path_whole(const analysis_context *c, int analysis, int station)
     const scene_path *along = scene_path_of(&s->analysis[analysis]);
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *q = &s->quantity[i];
-        if (q->analysis == analysis && reads_elements(q) &&
+        if (q->analysis == analysis && scene_reads_forces(q) &&
             (q->reduction == SCENE_CURVE ||
              takes_station(q, along->stations, along->value, station)))
             return 1;
@@ -352,6 +313,6 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
         return;
     }
     r->value = at_station(c, q, o, chosen, r);
-    r->rounding = relative(bound_at(c, q, o, chosen), r->value);
+    r->rounding = fmax(r->rounding, relative(bound_at(c, q, o, chosen), r->value));
     r->x = quantity_abscissa(q, p->value[chosen]);
 }

@@ -5,8 +5,6 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "elements/math/rotation.h"
-#include "elements/math/vec3.h"
 
 static size_t strains_of(const model *m)
 {
@@ -87,97 +85,6 @@ void instant_remember(const arrival *a, instant *to)
     to->contraction = a->contraction;
 }
 
-/* A state in the form that kinds of quantities read; rate NULL: not from a motion. */
-typedef struct read_state {
-    quantity_state as;
-    const model *m;
-    const model_state *state;
-    const double *rate, *acceleration;
-} read_state;
-
-/* The interface is the first member of read_state. */
-static const read_state *of(const quantity_state *s)
-{
-    return (const read_state *)s;
-}
-
-static double component_of(const quantity_state *s, int node, int component)
-{
-    return kinematics_component(of(s)->m, of(s)->state, node, component);
-}
-
-static double relative_of(const quantity_state *s, int from, int node, int component)
-{
-    return kinematics_relative(of(s)->m, of(s)->state, from, node, component);
-}
-
-static void frame_of(const quantity_state *s, int node, double place[3], double R[9])
-{
-    double turn[4];
-    kinematics_frame(of(s)->m, of(s)->state, node, place, turn);
-    rotation_matrix(turn, R);
-}
-
-/* Velocity of a node, which may be part of a body, or angular velocity in the axes of the node. */
-static double rate_of(const quantity_state *s, int node, int component)
-{
-    const model *m = of(s)->m;
-    const int moved_by = model_body(m, node);
-    frame_rates body;
-    forms_rates(m, of(s)->state, moved_by, of(s)->rate, NULL, &body);
-    if (component >= SCENE_RX) {
-        double own[3];
-        mat3_transpose_mul_vec(body.R, body.w, own);
-        return own[component - SCENE_RX];
-    }
-    double rho[3], carried[3];
-    kinematics_offset(m, of(s)->state, node, rho);
-    vec3_cross(body.w, rho, carried);
-    return body.v[component] + (moved_by == node ? 0 : carried[component]);
-}
-
-static double acceleration_of(const quantity_state *s, int node, int component)
-{
-    frame_rates at;
-    vertex_rates(of(s)->m, of(s)->state, node, of(s)->rate, of(s)->acceleration, &at);
-    if (component < SCENE_RX)
-        return at.a[component];
-    double own[3];
-    mat3_transpose_mul_vec(at.R, at.wd, own);
-    return own[component - SCENE_RX];
-}
-
-static double driver_of(const quantity_state *s, int driver)
-{
-    return kinematics_driver_value(of(s)->m, of(s)->state, driver);
-}
-
-int reading_is_kinematic(const scene_quantity *q)
-{
-    return quantity_type_of(q)->read != NULL;
-}
-
-int reading_is_slope(const scene_quantity *q)
-{
-    return q->what.kind == SCENE_RATE && q->what.of.rated.rate == SCENE_JERK;
-}
-
-double reading_of(const model *m, const scene_quantity *q, const model_state *s, const double v[],
-                  const double a[])
-{
-    const read_state state = {.as = {.component = component_of,
-                                     .relative = relative_of,
-                                     .frame = frame_of,
-                                     .rate = rate_of,
-                                     .acceleration = acceleration_of,
-                                     .driver = driver_of},
-                              .m = m,
-                              .state = s,
-                              .rate = v,
-                              .acceleration = a};
-    return quantity_type_of(q)->read(q, &state.as);
-}
-
 static int peaks_watches(const peaks *s, const scene_quantity *q)
 {
     return q->analysis == s->analysis && scene_is_passed(q, SCENE_MOTION) &&
@@ -229,15 +136,14 @@ static status read_at(const peaks *s, const scene_quantity *q, const instant *at
                       const double balance[], double *out, fault *f)
 {
     double own[SCENE_BALANCES];
-    if (q->what.kind != SCENE_BALANCE)
-        return resultants_of(&s->c->eq, q, at->state, at->v, at->a, out, f);
-    if (balance == NULL) {
+    reading from = {
+        .eq = &s->c->eq, .state = at->state, .v = at->v, .a = at->a, .balance = balance};
+    if (q->what.kind == SCENE_BALANCE && balance == NULL) {
         TRY(balance_of(&s->c->eq, s->masses, at, own, f));
         own[SCENE_DRIFT] -= s->out->origin;
-        balance = own;
+        from.balance = own;
     }
-    *out = balance[scene_balance_in(q)];
-    return STATUS_OK;
+    return reading_whole(&from, q, out, f);
 }
 
 static void take(peak *one, double value, double time, double error)

@@ -337,10 +337,8 @@ static int reads_forces(const stations *s, double time)
     const scene *what = s->c->scene;
     for (int i = 0; i < what->quantities; i++) {
         const scene_quantity *q = &what->quantity[i];
-        const scene_quantity_kind kind = q->what.kind;
         if (q->analysis == s->analysis &&
-            (kind == SCENE_REACTION || kind == SCENE_INTERNAL || kind == SCENE_STRESS ||
-             kind == SCENE_BALANCE) &&
+            (scene_reads_forces(q) || q->what.kind == SCENE_BALANCE) &&
             (q->reduction == SCENE_AT ? fabs(q->at - time) <= same_instant * fmax(1, fabs(time))
                                       : q->reduction == SCENE_CURVE))
             return 1;

@@ -223,25 +223,30 @@ double damping_power(const equations *, const double rate[]);
 
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
-/* Quantities at an instant of a motion that require no forces. */
+/* Quantities of a state, as their files in cases/quantities read them. */
+
+/* What is known of the state. */
+typedef struct reading {
+    const equations *eq;
+    const model_state *state; /* NULL: not kept; of compliances alone */
+    const double *v,
+        *a; /* [free + driven] rates of a motion and their derivatives; NULL: at rest */
+    const double *balance;    /* [SCENE_BALANCES]; NULL: of no SCENE_BALANCE */
+    const double *compliance; /* [36]; NULL: of no entry of that */
+    /* of linear statics about the state, which is undeformed: displacements [free + driven] and
+     * stresses [elements x strains] under all loads; else NULL */
+    const double *x, *sigma;
+} reading;
 
 /* Does the quantity depend on positions and rates only? */
 int reading_is_kinematic(const scene_quantity *);
 /* The extracted value without factor and offset; for kinematic kinds only; of a jerk the
- * acceleration. v, a[free + driven]: rates of a motion and their derivatives. */
+ * acceleration. v, a[free + driven]: rates of a motion and their derivatives; NULL: at rest. */
 double reading_of(const model *, const scene_quantity *, const model_state *, const double v[],
                   const double a[]);
 /* Is it the slope of a reading, which is known inside steps only? */
 int reading_is_slope(const scene_quantity *);
-
-/* Quantities of a state that require forces: reactions, resultants, stresses. */
-
-/* The extracted value without factor and offset of SCENE_REACTION, SCENE_INTERNAL and SCENE_STRESS.
- * v, a[free + driven]: rates of a motion and their derivatives; NULL: at rest. */
-status resultants_of(const equations *, const scene_quantity *, const model_state *,
-                     const double v[], const double a[], double *out, fault *);
-/* Resultant in a section, for any state that internal_state describes. */
-status resultants_in_section(const equations *, const scene_quantity *, const internal_state *,
-                             double *out, fault *);
+/* The extracted value without factor and offset, of every kind with `read`. */
+status reading_whole(const reading *, const scene_quantity *, double *out, fault *);
 
 #endif

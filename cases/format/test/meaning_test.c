@@ -138,32 +138,28 @@ static void check_words(void)
 /* What a motion is asked for. */
 static void check_motion(void)
 {
+    scene_extract acceleration = scene_rate(1, SCENE_UX);
+    acceleration.of.rated.rate = SCENE_SPEEDING;
     const struct {
         scene_extract what;
         scene_reduction reduction;
         const char *words;
     } row[] = {
-        {{SCENE_RATE, {.component = {1, SCENE_UX}}},
-         SCENE_LAST,
+        {scene_rate(1, SCENE_UX), SCENE_LAST,
          "velocity of node_1 (1, 0, 0) along x, 2 s after the start of the motion"},
-        {{SCENE_RATE, {.component = {1, SCENE_RY}}},
-         SCENE_AT,
+        {scene_rate(1, SCENE_RY), SCENE_AT,
          "angular velocity of node_1 (1, 0, 0) about its own y axis, 0.5 s after the start of the "
          "motion"},
-        {{SCENE_RATE, {.rated = {{1, SCENE_UX}, SCENE_SPEEDING}}},
-         SCENE_RMS,
+        {acceleration, SCENE_RMS,
          "acceleration of node_1 (1, 0, 0) along x, root mean square over time"},
         {scene_orientation_entry(1, 0, 2), SCENE_MAX,
          "entry xz of the rotation matrix of node_1 (1, 0, 0), largest value along the motion"},
-        {{SCENE_RELATIVE, {.relative = {1, SCENE_UY, 0}}},
-         SCENE_MIN,
+        {scene_relative_to(1, SCENE_UY, 0), SCENE_MIN,
          "displacement of node_1 (1, 0, 0) along y as seen from node_0 (0, 0, 0), least value "
          "along the motion"},
-        {{SCENE_BALANCE, {.balance = SCENE_LZ}},
-         SCENE_LAST,
+        {scene_balance_of(SCENE_LZ), SCENE_LAST,
          "angular momentum about the z axis, 2 s after the start of the motion"},
-        {{SCENE_BALANCE, {.balance = SCENE_DISSIPATED}},
-         SCENE_LAST,
+        {scene_balance_of(SCENE_DISSIPATED), SCENE_LAST,
          "energy that damping dissipated, since the start, 2 s after the start of the motion"}};
     static const double path[] = {0.5, 2};
     scene s;
