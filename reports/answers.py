@@ -7,7 +7,7 @@ cost model tie; one that does not pass in the requested quantity is never the ch
 that only repeat the formulation without their options are not shown.
 
     found = answers.answer(point, quantity, level)    # quantity: a name, or ALL
-    found.best       [Way] the cheapest one, and those within noise of it; empty: none
+    found.best       [Way] the cheapest one, and those whose costs tie with it; empty: none
     `found.dearer`   [Way] the other ones that pass, by cost
     found.defective  [Way] within the level too, but with a verdict that is not a pass, by cost
     found.faster     [Way] of the more expensive ones: measured faster than the cheapest in every round

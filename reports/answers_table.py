@@ -86,7 +86,7 @@ def sentence(answer):
 
     out = told(answer.best) or ("" if answer.unranked else "not reached by one that passes")
     if len(answer.best) > 1:
-        out += ": within noise of each other"
+        out += ": costs tie"
     for words in sorted({w.unranked for w in answer.unranked}):
         ways = [w for w in answer.unranked if w.unranked == words]
         out += ("; also " if out else "") + (f"within {100 * answer.level:g} %, no rank ({words}): "

@@ -23,6 +23,16 @@ static int all_formulations(formulation out[MOST])
     return count;
 }
 
+/* Times rank: formulations that are another model at the point do not run. */
+static void leave_out_others(sweep *s, int point)
+{
+    for (int i = 0; i < s->seriess; i++) {
+        series *one = &s->series[i];
+        if (one->point == point && one->without.other && one->missing[0] == '\0')
+            snprintf(one->missing, sizeof one->missing, "%s", one->without.words);
+    }
+}
+
 /* At the parameters given, with the formulations and meshes given (or all, and the case's). */
 static status plan_case(const bench_request *r, const case_type *type, sweep *s, fault *f)
 {
@@ -36,7 +46,9 @@ static status plan_case(const bench_request *r, const case_type *type, sweep *s,
     const sweep_point *here = &s->point[s->points - 1];
     if (here->status != STATUS_OK)
         return fault_set(f, here->status, "%s", here->reason);
-    return plan_extend(s, some > 0 ? r->cells.formulation : all, count, f);
+    TRY(plan_extend(s, some > 0 ? r->cells.formulation : all, count, f));
+    leave_out_others(s, s->points - 1);
+    return narrow_to(s, r->cells.select, f);
 }
 
 static status plan_named(const bench_request *r, sweep *s, fault *f)
@@ -55,7 +67,6 @@ static status plan(const void *asked, void *found, fault *f)
     const bench_request *r = asked;
     bench *b = found;
     b->named = r->count > 0 || r->scene != NULL;
-    b->sweep.whole_only = 1; /* times rank, and another model does not */
     TRY(b->named ? plan_named(r, &b->sweep, f) : plan_sweep(&r->cells, &b->truths, &b->sweep, f));
     b->sweep.threads = r->threads;
     b->made = environment_now(r->threads > 1 ? r->threads : 1);
@@ -74,6 +85,8 @@ static status judge(const void *asked, void *found, fault *f)
 {
     const bench_request *r = asked;
     bench *b = found;
+    if (b->named)
+        TRY(families_add_truths(&b->sweep, 0, &b->truths, f));
     TRY(judgement_make(&b->sweep, &b->truths, 0, &b->judgement, f));
     if (r->threads <= 1)
         rounds_pin();
@@ -86,14 +99,24 @@ static experiment_cells cells(const void *found)
     return (experiment_cells){&b->sweep, &b->judgement, &b->made};
 }
 
+/* Errors against agreements too. */
+static status write_table(FILE *to, const bench *b, fault *f)
+{
+    judgement shown = {.verdicts = 0};
+    shown.verdict = reach_verdicts(&b->sweep, &b->truths, &shown.verdicts);
+    if (shown.verdict == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for verdicts");
+    table_timing(to, &b->sweep, &shown, b->named);
+    free(shown.verdict);
+    return STATUS_OK;
+}
+
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const bench *b = found;
-    (void)f;
-    if (format[0] == 'c')
-        csv_timing(to, &b->sweep, &b->judgement);
-    else
-        table_timing(to, &b->sweep, &b->judgement, b->named);
+    if (format[0] != 'c')
+        return write_table(to, b, f);
+    csv_timing(to, &b->sweep, &b->judgement);
     return STATUS_OK;
 }
 

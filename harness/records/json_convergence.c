@@ -188,7 +188,7 @@ static void write_ranking(FILE *to, const reach_question *q, const reached list[
         fputs(i == 0 ? "" : i < ties ? ", " : "; ", to);
         write_reached(to, q->s, &list[i]);
         if (ties > 1 && i == ties - 1)
-            fputs(": within noise of each other", to);
+            fputs(": costs tie", to);
     }
     if (sound == 0)
         fputs("no formulation that passes in all of it", to);

@@ -649,8 +649,8 @@ status output_folder_finish(output_folder *, status written, fault *f);
 
 #define REACH_LINE_LEVEL 0.01 /* where none is requested */
 
-/* "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2 (0.4 ms): within noise
- * of each other; beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work.
+/* "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2 (0.4 ms): costs tie;
+ * beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work.
  * Then follow the formulations with a defect, those not within the level, and the difference of
  * passing ones from reference values of another model. "in 5 of 6 quantities (without a reference:
  * frequency_1)" is added if some have neither a reference value nor an agreement; curves do not

@@ -332,15 +332,16 @@ status families_reserve(const sweep *s, int files_only, truths *t, fault *f)
 
 /* Marks the selected quantities of the point and of the series. */
 typedef struct kept {
+    int point;
     char *quantity, *series;
 } kept;
 
 static void mark(const sweep *s, const char *select, select_words *words, kept *out)
 {
-    const sweep_point *p = &s->point[0];
+    const sweep_point *p = &s->point[out->point];
     char text[SWEEP_TEXT];
     for (int i = 0; i < s->seriess; i++)
-        for (int q = 0; q < p->scene.quantities; q++) {
+        for (int q = 0; s->series[i].point == out->point && q < p->scene.quantities; q++) {
             sweep_text(p, &s->series[i].formulation, p->scene.quantity[q].name, text);
             select_meet(select, text, words);
             if (select_matches(select, text) == 1)
@@ -350,7 +351,7 @@ static void mark(const sweep *s, const char *select, select_words *words, kept *
 
 static void drop(sweep *s, const kept *k)
 {
-    scene *wanted = &s->point[0].scene;
+    scene *wanted = &s->point[k->point].scene;
     int quantities = 0, seriess = 0;
     for (int q = 0; q < wanted->quantities; q++) /* together with the abscissae of their curves */
         if (k->quantity[q] && scene_abscissa_of(wanted, &wanted->quantity[q]) != SCENE_NONE)
@@ -359,7 +360,7 @@ static void drop(sweep *s, const kept *k)
         if (k->quantity[q])
             wanted->quantity[quantities++] = wanted->quantity[q];
     for (int i = 0; i < s->seriess; i++)
-        if (k->series[i])
+        if (k->series[i] || s->series[i].point != k->point)
             s->series[seriess++] = s->series[i];
         else
             sweep_series_free(&s->series[i]);
@@ -374,9 +375,9 @@ static const char *quantity_at(const void *context, int i)
 }
 
 /* Nearest name: among the quantities of the point, otherwise among all names. */
-static status check_words(const sweep *s, const char *select, const select_words *words, fault *f)
+static status check_words(const sweep_point *p, const char *select, const select_words *words,
+                          fault *f)
 {
-    const sweep_point *p = &s->point[0];
     char word[SELECT_WORD];
     if (!select_unmet(select, words, word))
         return STATUS_OK;
@@ -394,20 +395,24 @@ static status narrow(sweep *s, const char *select, kept *k, fault *f)
     select_words words;
     TRY(select_begin(select, &words, f));
     mark(s, select, &words, k);
-    TRY(check_words(s, select, &words, f));
+    TRY(check_words(&s->point[k->point], select, &words, f));
     drop(s, k); /* omissions stay those of all quantities */
-    return s->seriess > 0 ? STATUS_OK
-                          : fault_set(f, STATUS_REFUSED,
-                                      "-k '%.100s' holds for no quantity of %.60s; 'beamwork list "
-                                      "%.60s' shows them",
-                                      select, s->point[0].type->name, s->point[0].type->name);
+    const sweep_point *p = &s->point[k->point];
+    return p->scene.quantities > 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "-k '%.100s' holds for no quantity of %.60s; 'beamwork list "
+                           "%.60s' shows them",
+                           select, p->type->name, p->type->name);
 }
 
 status narrow_to(sweep *s, const char *select, fault *f)
 {
     if (select == NULL)
         return STATUS_OK;
-    kept k = {.quantity = calloc((size_t)s->point[0].scene.quantities + 1, 1),
+    const int last = s->points - 1;
+    kept k = {.point = last,
+              .quantity = calloc((size_t)s->point[last].scene.quantities + 1, 1),
               .series = calloc((size_t)s->seriess + 1, 1)};
     const status outcome = k.quantity != NULL && k.series != NULL
                                ? narrow(s, select, &k, f)

@@ -982,7 +982,7 @@ meeting meeting_at(const sweep *s, const truths *t, double level);
 /* Do both series meet the target? */
 int meeting_holds(const meeting *);
 
-/* Reduces a planned sweep of one point to its selection. */
+/* Reduces the last point of a planned sweep to its selection. */
 
 /* Call before the run. Keeps the quantities and the formulations that appear in at least one
  * selected combination (formulations/formulations.h; NULL: all). REFUSED: the selection is

@@ -6,11 +6,12 @@
 
 enum { NAME = 23 };
 
-/* First verdict of a series that has a reference value, or NULL. */
-static const verdict *first_judged(const judgement *j, int series_index)
+/* The verdict of a series on a quantity that has a reference value for it, or NULL. */
+static const verdict *judged_on(const judgement *j, int series_index, int quantity)
 {
     for (int i = 0; i < j->verdicts; i++)
-        if (j->verdict[i].series == series_index && j->verdict[i].truth != NULL)
+        if (j->verdict[i].series == series_index && j->verdict[i].quantity == quantity &&
+            j->verdict[i].truth != NULL)
             return &j->verdict[i];
     return NULL;
 }
@@ -59,15 +60,50 @@ static int meshes_run(const series *one, int at)
     return one->point == at && one->missing[0] == '\0' ? one->meshes : 0;
 }
 
-static void rows(FILE *to, const sweep *s, const judgement *j, int at)
+/* The first quantity that a formulation has a reference value for which none of the quantities
+ * before has one for it; `done`: of each series, 1: its errors were shown. -1: none. */
+static int next_quantity(const sweep *s, const judgement *j, int at, const char done[])
 {
+    for (int q = 0; q < s->point[at].scene.quantities; q++)
+        for (int i = 0; i < s->seriess; i++)
+            if (!done[i] && meshes_run(&s->series[i], at) > 0 && judged_on(j, i, q) != NULL)
+                return q;
+    return -1;
+}
+
+static void mark_shown(const sweep *s, const judgement *j, int at, int quantity, char done[])
+{
+    for (int i = 0; i < s->seriess; i++)
+        done[i] |= s->series[i].point == at && judged_on(j, i, quantity) != NULL;
+}
+
+/* Formulations without a reference value of the first quantity: their errors in others. */
+static void errors_of(FILE *to, const sweep *s, const judgement *j, int at, int quantity)
+{
+    fprintf(to, "  %-*s%5s %11s   of %s\n", NAME, "formulation", "n", "error",
+            s->point[at].scene.quantity[quantity].name);
+    for (int i = 0; i < s->seriess; i++) {
+        const verdict *v = judged_on(j, i, quantity);
+        for (int k = 0; v != NULL && k < meshes_run(&s->series[i], at); k++) {
+            subject(to, &s->series[i], k);
+            table_percent(to, error_on(s, v, k));
+            fputc('\n', to);
+        }
+    }
+}
+
+static void rows(FILE *to, const sweep *s, const judgement *j, int at, char done[])
+{
+    const int first = next_quantity(s, j, at, done);
+    if (first >= 0)
+        fprintf(to, "  errors of %s\n", s->point[at].scene.quantity[first].name);
     fprintf(to, "%*s%7s%7s%9s%9s %8s %8s\n", 2 + NAME + 5, "", "un-", "itera-", "evalu-",
             "factori-", "set-up", "solution");
     fprintf(to, "  %-*s%5s%7s%7s%9s%9s %8s %8s %5s %11s\n", NAME, "formulation", "n", "knowns",
             "tions", "ations", "sations", "[ms]", "[ms]", "noise", "error");
     for (int i = 0; i < s->seriess; i++)
         for (int k = 0; k < meshes_run(&s->series[i], at); k++)
-            row(to, s, &s->series[i], first_judged(j, i), k);
+            row(to, s, &s->series[i], judged_on(j, i, first), k);
     for (int i = 0; i < s->seriess; i++)
         if (s->series[i].point == at && s->series[i].missing[0] != '\0')
             paragraph_say(to, fprintf(to, "  %s: ", s->series[i].formulation.key), 4,
@@ -76,6 +112,11 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at)
         const char *why = reach_unranked(s->series[i].formulation.type);
         if (meshes_run(&s->series[i], at) > 0 && why[0] != '\0')
             fprintf(to, "  %s: %s, its times are not ranked\n", s->series[i].formulation.key, why);
+    }
+    for (int q = first; q >= 0; q = next_quantity(s, j, at, done)) {
+        mark_shown(s, j, at, q, done);
+        if (q != first)
+            errors_of(to, s, j, at, q);
     }
 }
 
@@ -135,7 +176,8 @@ static void parts(FILE *to, const sweep *s, int at)
 void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
 {
     reached *list = calloc((size_t)s->seriess + 1, sizeof *list);
-    for (int p = 0; p < s->points && list != NULL; p++) {
+    char *done = calloc((size_t)s->seriess + 1, 1);
+    for (int p = 0; p < s->points && list != NULL && done != NULL; p++) {
         const sweep_point *here = &s->point[p];
         if (!every_mesh && strcmp(here->name, "default") != 0)
             continue;
@@ -143,12 +185,13 @@ void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
         if (here->status == STATUS_OK)
             table_omitted(to, here);
         if (every_mesh)
-            rows(to, s, j, p);
+            rows(to, s, j, p, done);
         if (every_mesh)
             parts(to, s, p);
         if (!table_cheapest(to, s, j, p, every_mesh, list))
-            fprintf(to, "  no truth\n");
+            fprintf(to, "  no reference value, and no agreement of formulations\n");
     }
+    free(done);
     free(list);
 }
 
@@ -161,8 +204,10 @@ static void way(FILE *to, const sweep *s, const reached *r)
 {
     const series *one = &s->series[r->series];
     fprintf(to, "%s, n = %d", one->formulation.key, one->mesh[r->mesh]);
+    if (isfinite(r->cost))
+        fprintf(to, ", cost %.3g ms", 1e3 * r->cost);
     if (time_of(s, r)->rounds > 0)
-        fprintf(to, ", %.4g ms", 1e3 * rounds_least(time_of(s, r)));
+        fprintf(to, ", timed %.4g ms", 1e3 * rounds_least(time_of(s, r)));
     if (!isfinite(r->cost))
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
@@ -227,7 +272,7 @@ static char *cheapest(const reach_question *q, reached list[])
         way(to, q->s, &list[i]);
     }
     if (ties > 0) {
-        fputs(ties > 1 ? ": within noise of each other" : "", to);
+        fputs(ties > 1 ? ": costs tie" : "", to);
         faster_ones(to, q->s, list, count, ties);
         unranked_ones(to, q->s, list, count);
     } else {

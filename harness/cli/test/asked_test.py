@@ -357,7 +357,7 @@ class Unranked(ProgramTest):
         self.assertEqual(out.count(MARK), 1)
         self.assertNotIn("collocation: by differences", out)
         self.assertRegex(out, r"stretch within 10, 1 %: collocation, n = 4, [^;]*; also within it: "
-                         r"timoshenko, n = 4, [0-9.e-]+ ms \(by differences: no rank\)")
+                         r"timoshenko, n = 4, timed [0-9.e-]+ ms \(by differences: no rank\)")
 
     def test_alone(self):
         """Nobody is the cheapest where nobody ranks."""

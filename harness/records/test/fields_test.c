@@ -471,11 +471,10 @@ static void reach_line_tests(void)
         &b, 0.2,
         "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
         "cost coefficients of its own: grey, red, blue, green\n");
-    line_expect(
-        &b, 0.03,
-        "for 3 % in every quantity: red n = 2, blue n = 2: within noise of each other; green n "
-        "= 2; without cost coefficients of its own: red, blue, green; not reached by grey "
-        "(load: 10 %)\n");
+    line_expect(&b, 0.03,
+                "for 3 % in every quantity: red n = 2, blue n = 2: costs tie; green n = 2; "
+                "without cost coefficients of its own: red, blue, green; not reached by grey "
+                "(load: 10 %)\n");
     finish(&b);
     not_every_quantity();
     other_models();

@@ -30,13 +30,42 @@ class Bench(ProgramTest):
         self.assertIn("w_over_L, u_over_L, theta within 10, 1, 0.1, 0.01 %: ", text)
         self.assertIn("twist_ratio within 10, 1, 0.1, 0.01 %: ", text)
 
+    def test_errors_of_one_quantity(self):
+        """A table of errors names its quantity, and has no error of another one."""
+        work = ("bench", "c_column", "-f", "beamw", "-f", "collocation", "-n", "2")
+        text = self.answered(*work, "-k", "buckling_load").stdout
+        self.assertIn("\n  errors of buckling_load\n", text)
+        self.assertRegex(text, r"(?m)^  beamw  .*\+8\.26\d* %$")
+        self.assertRegex(text, r"(?m)^  collocation  .* -$")
+        self.assertNotIn("frequency", text)
+        other = self.answered(*work, "-k", "=buckling_load or =frequency_1").stdout
+        self.assertRegex(other, r"(?m)^  formulation +n +error   of frequency_1$")
+        self.assertRegex(other, r"(?m)^  collocation +2 +\+0\.189\d* %$")
+
+    def test_selection(self):
+        """Of quantities and of formulations, as in converge; all formats."""
+        work = ("bench", "c_column", "-n", "2", "-k", "=frequency_3 and (beamw or collocation)", "--format", "csv")
+        rows = list(csv.DictReader(io.StringIO(self.answered(*work).stdout)))
+        self.assertEqual({r["quantity"] for r in rows}, {"frequency_3"})
+        self.assertIn("collocation", {r["formulation"] for r in rows})
+        self.assertEqual([r["formulation"] for r in rows if r["formulation"][:2] not in ("be", "co")], [])
+        self.refused(2, "did you mean 'buckling_load'", "bench", "c_column", "-k", "buckling_laod")
+        self.refused(2, "for no quantity of elastica", "bench", "warping_torsion", "elastica", "-k", "warping_torsion")
+
+    def test_ranks_as_converge(self):
+        """What converge ranks without a reference value: errors against the agreement, and a formulation that
+        lacks physics without effect."""
+        text = self.answered("bench", "--scene", LEAF, "--set", "stroke=0.009", "-n", "1,2,4").stdout
+        self.assertNotIn("no reference value", text)
+        self.assertRegex(text, r"(?m)^  collocation +4 .* %$")
+
     def test_none_that_passes(self):
         """Within the error with a limit of its own; lines that say the same are one."""
         done = self.answered("bench", "shear_elastica", "-f", "beamw", "-f", "sheet_third", "-n",
                              "2,4,8,16")
         text = " ".join(done.stdout.split())
         self.assertRegex(text, r"\b[uv] within 10\b[^%]* %: none that passes; also within it, with a "
-                               r"different limit: beamw, n = \d+, [\d.]+ ms")
+                               r"different limit: beamw, n = \d+, cost [\d.]+ ms, timed [\d.]+ ms")
         told = re.findall(r"(?m)^  (\S[\w, ]*) within ([\d., ]+) %: ", done.stdout)
         for name in {n for names, _ in told for n in names.split(", ")}:
             levels = [level for names, some in told if name in names.split(", ")
