@@ -49,7 +49,7 @@ static status build(const double value[], scene *s, fault *f)
     TRY(hexapod_add(value, s, angle, platform, &profile, legs, f));
 
     const int lifting = scene_add_static(s, steps, station + 1, 1);
-    /* The condition ends: the cranks hold their angle. */
+    /* The condition ends here: the cranks keep their angle. */
     const int compliance = scene_add_compliance(
         s, lifting, (scene_compliance){.node = platform, .released = 1u << SCENE_UZ});
     add_stiffnesses(s, compliance, station + 1, steps);

@@ -44,7 +44,7 @@ static void make_curve(scene_quantity *q, double omega)
     scene_set_curve(q, "angular velocity", "1", omega, 0);
 }
 
-/* Where the axis is along the beam, modes whirl: they are neither flap nor lag, and counted
+/* If the axis is along the beam, modes whirl: they are neither flap nor lag, and are counted
  * together. */
 static void add_frequencies(scene *s, int rotation, double omega, int curves, int whirl)
 {
@@ -63,7 +63,7 @@ static void add_frequencies(scene *s, int rotation, double omega, int curves, in
         }
 }
 
-/* Only the products matter: E = G = 1 Pa. */
+/* Only the products matter, therefore E = G = 1 Pa. */
 static void add_beam(scene *s, double area, double stiffness_ratio, int *root, int *tip)
 {
     const double y_axis[3] = {0, 1, 0};
@@ -79,7 +79,7 @@ static void add_beam(scene *s, double area, double stiffness_ratio, int *root, i
     *tip = scene_add_node(s, 1, 0, 0);
     scene_add_member(s, *root, *tip, profile, y_axis);
     scene_hold_all(s, *root);
-    /* a rod of no fibres; Bernoulli's has no rotary inertia either */
+    /* a beam without fibres; a Bernoulli beam has no rotary inertia either */
     scene_omit(s, FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
 }
 
@@ -103,7 +103,7 @@ static status build(const double value[], scene *s, fault *f)
     double path[MOST_STATIONS + 1];
     for (int i = 0; i <= intervals; i++)
         path[i] = intervals > 0 ? (double)i / intervals : 1;
-    /* An inclined axis bends the beam, which has more than one equilibrium then. */
+    /* An inclined axis bends the beam, which then has more than one equilibrium. */
     const int steps = value[AXIS] > 0 ? 8 : 1;
     const int rotation = scene_add_rotation(
         s, intervals + 1, path, steps, 2 * MODES,

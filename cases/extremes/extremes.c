@@ -104,8 +104,8 @@ const extreme extremes[] = {
      {{NULL, 0, 0, 0}},
      {{"buckling_load", 0}}, "short/whole", "1", EXTREME_SPLIT,
      8, 6, {0.5, 1e-1, 1e-2, 1e-4, 1e-6, 1e-8}, EXTREME_EXACT, 0, 1e-4},
-    /* The same in other words. */
-    /* In another unit of length, x of them to the metre, and a second shorter by the same factor: moduli and density go with x^-2. */
+    /* Equivalent scenes in another form. */
+    /* In another unit of length, x of them per metre, with the second shortened by the same factor: moduli and density are multiplied by x^-2. */
     {"units_sheet", "units", "sheet flexure in m, mm and um",
      "sheet_cantilever", "",
      {{"length", 0, 0.1, 1}, {"width", 0, 0.1, 1}, {"thickness", 0, 0.00225, 1}, {"tip_deflection", 0, 0.015, 1},
@@ -227,7 +227,7 @@ const extreme extremes[] = {
      {{"step", 0, 0.5, 1}},
      {{"w_z", 0}, {"R_xx", 0}, {"energy", 0}}, "turn in a step", "rad", EXTREME_WHOLE,
      1, 4, {0.1, 0.9, 2, 3}, EXTREME_EXACT, 0, 1e-9},
-    /* The turn of conserving, 2 atan(x/2), has an error of order 2 and is not requested. */
+    /* The rotation of conserving steps, 2 atan(x/2), has an error of order 2 and is not requested. */
     /* 3627.6 s: the first period; four steps in each. */
     {"long_motion", "long motion", "energy over many periods of a cantilever with a heavy body, by conserving",
      "release", "body=1e6;integrator=conserving;step=907;tolerance=0",

@@ -1,15 +1,15 @@
-/* Springs of a scene and what loads it. */
+/* Springs and loads of a scene. */
 #include "cases/format/format_impl.h"
 
 #include <string.h>
 
-/* Adds one load of the scene, as the entry describes it; its index. */
+/* Adds one load to the scene, as described; returns its index. */
 static int add(const fields *f, const scene_load *what)
 {
     scene *s = f->b->scene;
     double *path, *factor;
     const int load = scene_add_load(s, what->kind, what->where, 0, 0, 0);
-    *scene_load_at(s, load) = *what; /* has neither a name nor factors yet */
+    *scene_load_at(s, load) = *what; /* so far without name and factors */
     if (fields_have(f, "path") || fields_have(f, "factor")) {
         const int stations = builder_stations(f, "factor", &path, &factor);
         if (stations > 0 && load >= 0)
@@ -24,7 +24,7 @@ static void mistake_at(const fields *f, const char *key, const char *words)
     document_mistake(f->b->mistakes, document_find(f->map, key), 0, "%s", words);
 }
 
-/* Is its `on` the word, and the name of nothing? */
+/* Is its `on` the word "all", and not the name of an entry? */
 static int is_on_all(const fields *f)
 {
     const document_node *on = document_find(f->map, "on");
@@ -44,7 +44,7 @@ static int is_heavy(const scene *s, const scene_member *m)
     return 0;
 }
 
-/* The same gravity on a body. */
+/* The same gravity for a body. */
 static scene_load at_centre(const scene_load *what)
 {
     scene_load out = *what;
@@ -53,8 +53,8 @@ static scene_load at_centre(const scene_load *what)
     return out;
 }
 
-/* Gravity on each member that has a density and each body that has a mass; a mistake is reported
- * once. */
+/* Adds gravity for each member with a density and each body with a mass; an error is reported once.
+ */
 static void weigh_all(const fields *f, scene_load *what)
 {
     const scene *s = f->b->scene;
@@ -108,7 +108,7 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
 
-/* Keys of the table up to that of gravity are kinds of loads; behind it is a temperature. */
+/* Keys of the table up to gravity are kinds of loads; a temperature follows. */
 enum { OF_TEMPERATURE = SCENE_GRAVITY + 1 };
 
 static int spreads(int given)
@@ -117,7 +117,7 @@ static int spreads(int given)
            given == OF_TEMPERATURE;
 }
 
-/* A force or a moment with a place within a member is of another kind than one at a node. */
+/* A force or a moment at a position inside a member is of another kind than one at a node. */
 static scene_load_kind kind_of(const fields *f, int given)
 {
     const int within = fields_have(f, "where");
@@ -127,7 +127,7 @@ static scene_load_kind kind_of(const fields *f, int given)
                                      : (scene_load_kind)given;
 }
 
-/* Returns a part of the member's length, or `otherwise` where the key is absent. */
+/* A fraction of the member's length, or `otherwise` if the key is missing. */
 static double part_of(const fields *f, const char *key, double otherwise)
 {
     const double part = fields_number(f, key, otherwise);
@@ -138,7 +138,7 @@ static double part_of(const fields *f, const char *key, double otherwise)
     return otherwise;
 }
 
-/* Keys that a load of this kind cannot have. */
+/* Rejects keys that a load of this kind cannot have. */
 static void check_keys(const fields *f, int given)
 {
     static const char *const of_range[] = {"from", "to", "to_value"};
@@ -163,7 +163,7 @@ static void check_keys(const fields *f, int given)
     }
 }
 
-/* Where on its member it acts. */
+/* Reads the range on its member. */
 static void read_range(const fields *f, int given, scene_load *what)
 {
     check_keys(f, given);
@@ -182,7 +182,7 @@ static void read_range(const fields *f, int given, scene_load *what)
                      what->range[0], what->range[1]);
 }
 
-/* The node or the member that a load is on. */
+/* The node or the member on which a load acts. */
 static int place_of(const fields *f, const scene_load *what)
 {
     const int node = fields_names(f, "on", SCENE_NODES),
@@ -209,8 +209,8 @@ static int place_of(const fields *f, const scene_load *what)
     return fields_entry(f, "on", scene_load_along(what) ? SCENE_MEMBERS : SCENE_NODES);
 }
 
-/* In the axes of the scene, unless it is in those of a member, which turn with an instance by
- * themselves. */
+/* Rotates the vector to the axes of the scene, unless it is given in those of a member, which
+ * rotate with an instance. */
 static void turn_load(const fields *f, scene_load *what)
 {
     if (what->axes == SCENE_AXES_MEMBER)
@@ -254,7 +254,7 @@ void builder_loads(builder *b)
     }
 }
 
-/* In a part that is turned the stiffness is in its axes: K <- T K T^T, T = diag(R, R). */
+/* Rotates the stiffness from the axes of an instance: K <- T K T^T, T = diag(R, R). */
 static void turn_stiffness(const placement *placed, double K[36])
 {
     double turned[36];
@@ -273,7 +273,7 @@ static void turn_stiffness(const placement *placed, double K[36])
             K[6 * i + j] = (turned[6 * i + j] + turned[6 * j + i]) / 2;
 }
 
-/* Six numbers, or a matrix, of a spring; 0: the key is not there. */
+/* Reads six numbers, or a matrix, of a spring; returns 0 if the key is missing. */
 static int spring_matrix(builder *b, const fields *f, const char *key, double out[36])
 {
     double *given;

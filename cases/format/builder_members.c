@@ -1,4 +1,4 @@
-/* Members of a scene and what moves it. */
+/* Members and drivers of a scene. */
 #include "cases/format/format_impl.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static int share(const fields *f, const document_node *name)
         document_mistake(b->mistakes, name, 0, "shared: a name is expected");
         return SCENE_WARP_FREE;
     }
-    /* of an instance: its own */
+    /* for an instance: its full name */
     char full[200];
     const int length = snprintf(full, sizeof full, "%.90s.%.90s",
                                 f->placed != NULL ? f->placed->name : "", name->text);
@@ -72,7 +72,7 @@ static void check_taper(const fields *f, const document_node *n, const int profi
         document_mistake(f->b->mistakes, n, 0, "%s", why.text);
 }
 
-/* One name, or [at from, at to]. */
+/* Reads one name, or [at from, at to]. */
 static void read_sections(const fields *f, scene_member *m)
 {
     const document_node *n = document_find(f->map, "section");
@@ -90,7 +90,7 @@ static void read_sections(const fields *f, scene_member *m)
     check_taper(f, n, (const int[]){m->section, m->section_q});
 }
 
-/* One word or a list of them, in their order. */
+/* Reads one word or a list, in order. */
 static void read_released(const fields *f, const char *key, int member, int end)
 {
     const document_node *n = document_find(f->map, key);
@@ -154,7 +154,7 @@ static void check_unit(const fields *f, int motion)
                          angle == 1 ? "a translation" : "an angle", angle == 1 ? "m" : "rad");
 }
 
-/* Known along a path, in time, in both, or unknown. */
+/* Is the motion known along a path, in time, in both, or unknown? */
 static void check_given(const fields *f)
 {
     const int known = fields_have(f, "value") || builder_has_function(f),
@@ -244,7 +244,7 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
 
 enum { MOST_TEXT = 4000 };
 
-/* An expression with the values of its names in their places, and where its characters stand in the
+/* An expression with the values of its names inserted, and the positions of its characters in the
  * file. */
 typedef struct written_out {
     char text[MOST_TEXT];
@@ -252,7 +252,7 @@ typedef struct written_out {
     size_t used;
 } written_out;
 
-/* 0: there is no room. */
+/* Returns 0 when there is no room. */
 static int put(written_out *to, const char *text, size_t length, int place)
 {
     if (to->used + length >= MOST_TEXT)
@@ -265,8 +265,8 @@ static int put(written_out *to, const char *text, size_t length, int place)
     return 1;
 }
 
-/* A word of functions of time as it is, any other name as its value, and *at after it; 0 after a
- * mistake. */
+/* Writes a word of functions of time unchanged, and any other name as its value; *at moves past it.
+ * Returns 0 after an error. */
 static int put_name(const fields *f, const document_node *n, int *at, written_out *to)
 {
     const int from = *at, length = (int)expression_name_length(n->text + from);
@@ -295,7 +295,7 @@ static int put_name(const fields *f, const document_node *n, int *at, written_ou
     return put(to, number, strlen(number), from);
 }
 
-/* 0 after a mistake. */
+/* Returns 0 after an error. */
 static int write_out(const fields *f, const document_node *n, written_out *to)
 {
     int at = 0;
@@ -358,7 +358,7 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
     }
 }
 
-/* Slopes of the cubic spline that begins and ends at rest, whose curvature does not jump between:
+/* Slopes of the cubic spline that starts and ends at rest and has a continuous second derivative:
  * m[k-1]/h + 2 m[k] (1/h + 1/g) + m[k+1]/g = 3 (rise/h^2 + next rise/g^2). */
 static void spline_slopes(int count, const double at[], const double value[], double m[],
                           double room[])
@@ -377,7 +377,7 @@ static void spline_slopes(int count, const double at[], const double value[], do
         m[k] -= room[k] * m[k + 1];
 }
 
-/* From one station to the next, by the slopes there. */
+/* Adds cubic pieces between stations, with the given slopes. */
 static void add_cubic(scene *s, int index, builder_piece *add, const double at[2],
                       const double value[2], const double slope[2])
 {

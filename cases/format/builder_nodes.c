@@ -6,11 +6,11 @@
 
 #include "elements/shared/choice.h"
 
-/* Lengths of a unit vector below it are round-off. */
+/* Deviations of a unit vector below this are round-off. */
 static const double round_off = 1e-12;
 
-/* Returns the component of the scene along the instance's component c, *same: 1: with the same
- * sign; SCENE_NONE: it is along none. */
+/* Component of the scene along the instance's component c, *same: 1: with the same sign;
+ * SCENE_NONE: the axes are not parallel. */
 static int component_of(const fields *f, int c, int *same)
 {
     double axis[3] = {0};
@@ -26,7 +26,7 @@ static int component_of(const fields *f, int c, int *same)
     return others > 0 || along == SCENE_NONE ? SCENE_NONE : c - c % 3 + along;
 }
 
-/* Components are along the axes of the scene. */
+/* Reports components that are not along the axes of the scene. */
 static void refuse_components(const fields *f, const char *key)
 {
     document_mistake(f->b->mistakes, document_find(f->map, key), 0,
@@ -129,7 +129,7 @@ static void read_rotation(const fields *f, scene_node *n)
         n->angle[i] = fields_entry_of(&rotation, vector->item[i], SCENE_DRIVERS);
 }
 
-/* Rotations have one master: components, a rotation or a fork. */
+/* Rotations have one definition: components, a rotation or a fork. */
 static void check_masters(const fields *f, const scene_node *n)
 {
     const int held =
@@ -142,7 +142,7 @@ static void check_masters(const fields *f, const scene_node *n)
                          "'rotation' sets all rotations; remove rx, ry, rz and forks");
 }
 
-/* Rotates the inertia of a body at rest with its instance: I <- A I A^T, row by row. */
+/* Rotates the inertia of an undeformed body with its instance: I <- A I A^T, row by row. */
 static void turn_inertia(const placement *placed, double I[6])
 {
     double row[3][3] = {{I[0], I[3], I[5]}, {I[3], I[1], I[4]}, {I[5], I[4], I[2]}};
@@ -179,7 +179,7 @@ void builder_nodes(builder *b)
 
 /* Sections of a scene. */
 
-/* Index of a point that a wall names; -1 after a mistake. */
+/* Index of the point that a wall names; -1 after an error. */
 static int point_of(const fields *wall, const char *key, const document_node *points)
 {
     const document_node *name = document_find(wall->map, key);
@@ -253,7 +253,7 @@ static void read_rest(const fields *f, section_spec *spec)
         spec->zeros |= SECTION_ZERO_SHEAR;
 }
 
-/* 36 numbers, or six of the diagonal. */
+/* Reads 36 numbers, or the six of the diagonal. */
 static void read_matrix(const fields *f, const char *key, double out[36])
 {
     double *given;
@@ -275,8 +275,8 @@ static void read_matrices(const fields *f, section_spec *spec)
     read_matrix(f, "mass", spec->constants.mass);
 }
 
-/* Material and overrides belong to all sections but those of matrices, and masses of their own to
- * these. */
+/* Material and overrides are allowed for all sections except those given by matrices; separate
+ * masses only for these. */
 static void check_material(const fields *f)
 {
     static const struct {
@@ -352,11 +352,11 @@ void builder_sections(builder *b)
 
 /* Motions in time. */
 
-/* Where neither a step nor a tolerance is given: 0.1 % of the motion. The step is of the last
- * station. */
+/* Used if neither a step nor a tolerance is given: 0.1 % of the motion. The step is relative to the
+ * last station. */
 static const double usual_tolerance = 1e-3, usual_of_radau = 1e-5, usual_step = 1e-3;
 
-/* A number of one parameter set of alpha, between two. */
+/* Reads a number of one parameter set of alpha, between two limits. */
 static double between(const fields *f, const char *key, double otherwise, double least, double most,
                       const char *range)
 {
@@ -383,7 +383,7 @@ static scene_alpha alpha_of(const fields *f)
 
 static const char *const of_alpha[] = {"rho", "hht", "trapezoidal", "parameters"};
 
-/* Without an integrator: by a parameter that no other one has, or by steps that are all alike. */
+/* Without an integrator, alpha is chosen by a parameter that only it has, or by constant steps. */
 static int asks_for_alpha(const fields *f)
 {
     int asks = fields_have(f, "step") && !fields_have(f, "tolerance");
@@ -392,8 +392,7 @@ static int asks_for_alpha(const fields *f)
     return asks;
 }
 
-/* Parameters of alpha that another integrator does not have, unless that is a parameter's choice.
- */
+/* Rejects parameters of alpha for another integrator, unless they are parameters of the scene. */
 static void check_parameters(const fields *f, scene_scheme scheme)
 {
     const int chosen = choice_index(SCENE_SCHEME_CHOICES, fields_text(f, "integrator", "")) < 0;
@@ -403,7 +402,7 @@ static void check_parameters(const fields *f, scene_scheme scheme)
                              "%s applies to the integrator alpha only; remove it", of_alpha[i]);
 }
 
-/* Parameter sets of alpha have names of their own where integrators are compared (motion -u). */
+/* Parameter sets of alpha have their own names in comparisons of integrators (motion -u). */
 static scene_scheme scheme_of(const fields *f)
 {
     static const char *const set[][2] = {{"hht", "hht: 0.1"}, {"trapezoidal", "trapezoidal: yes"}};

@@ -6,7 +6,7 @@
 
 #include "cases/scene/scene.h"
 
-/* Unit of a value where the file gives none. */
+/* Default unit of a value. */
 static const char *usual_unit(const scene *s, const scene_quantity *q)
 {
     if (q->reduction == SCENE_PER_SECOND)
@@ -35,7 +35,7 @@ static void read_unit(const fields *f, scene_quantity *q)
     units_translate(&f->b->units, usual_unit(f->b->scene, q), sizeof own, own);
     if (q->transform == SCENE_PSD)
         make_density(own);
-    /* a factor may make any unit of it */
+    /* a factor may give any unit */
     if (unit != NULL && !fields_have(f, "factor")) {
         if (!f->b->units.given)
             units_check(unit, f->b->mistakes);
@@ -53,7 +53,7 @@ static void read_unit(const fields *f, scene_quantity *q)
     snprintf(q->unit, sizeof q->unit, "%s", unit != NULL ? unit->text : own);
 }
 
-/* A quantity with a curve, too. */
+/* Reads an abscissa that is another quantity with a curve. */
 static void read_abscissa_of(const fields *x, scene_quantity *q)
 {
     static const char *const own[] = {"name", "unit", "factor", "offset"};
@@ -66,7 +66,7 @@ static void read_abscissa_of(const fields *x, scene_quantity *q)
     scene_set_curve_over(q, over >= 0 ? x->b->list[SCENE_QUANTITIES].entry[over].name : "", "");
 }
 
-/* Known when all quantities are. */
+/* Call when all quantities are known. */
 static void take_abscissa_units(scene *s)
 {
     for (int i = 0; i < s->quantities; i++) {
@@ -102,7 +102,7 @@ static void read_abscissa(const fields *f, scene_quantity *q)
                     fields_number(&x, "factor", 1), fields_number(&x, "offset", 0));
 }
 
-/* Which stations: `at` a value, or last, max, min, curve. */
+/* Reads the stations: `at` a value, or last, max, min, curve. */
 static void read_stations(const fields *entry, const fields *what, scene_quantity *q)
 {
     const int taken = fields_word(what, "take", SCENE_TAKE_CHOICES, 0);
@@ -120,7 +120,7 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
                          "an abscissa is of a curve; add take: curve, or remove it");
 }
 
-/* The prediction's source stays when the scene is built anew: as it is in the file. */
+/* The source of the prediction keeps its text when the scene is built again. */
 static void read_prediction(const fields *f, const unrolled *entry, scene_quantity *q)
 {
     const fields prediction = fields_below(f, "prediction");
@@ -130,7 +130,7 @@ static void read_prediction(const fields *f, const unrolled *entry, scene_quanti
     q->prediction.source = document_find(written, "source")->text;
 }
 
-/* How many eigenvalues the quantities ask of an analysis. */
+/* Number of eigenvalues of an analysis that the quantities request. */
 static int asked_of(const scene *s, int analysis)
 {
     int most = 0;
@@ -147,7 +147,7 @@ static int asked_of(const scene *s, int analysis)
     return most;
 }
 
-/* The quantities say how many are computed; `wanted` may say so too, and must not contradict. */
+/* The quantities determine how many eigenvalues are computed; `wanted` must not contradict them. */
 static void check_wanted(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
@@ -195,10 +195,10 @@ void builder_quantities(builder *b)
     check_wanted(b);
 }
 
-/* Default analysis and quantities of a scene whose file requests none: one analysis and its visible
+/* Default analysis and quantities for a scene file that requests none: one analysis and its visible
  * results. */
 
-/* A path to the last station of the motions; without motions, one linear solution. */
+/* A path to the last station of the motions; without motions a linear solution. */
 static int add_analysis(builder *b)
 {
     double end = 0;
@@ -222,7 +222,7 @@ static int is_asked(const scene *s, int node)
     return 0;
 }
 
-/* Largest extent of the positions [m]: values far below it are zero. */
+/* Largest extent of the positions [m]; far smaller values count as zero. */
 static double size_of(const scene *s)
 {
     double least[3] = {INFINITY, INFINITY, INFINITY}, most[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -252,7 +252,7 @@ static void add_displacements(builder *b, int analysis, int node, int prefixed)
     }
 }
 
-/* Translations of the nodes that are loaded or driven; of all free ones where none is. */
+/* Adds translations of the nodes that are loaded or driven; of all free nodes if there is none. */
 static void add_states(builder *b, int analysis, int prefixed)
 {
     const scene *s = b->scene;
@@ -321,7 +321,7 @@ void builder_defaults(builder *b)
         add_quantities(b);
 }
 
-/* Behind a word of the SI and its power; NULL: it is not one. */
+/* Returns the text after a word of the SI and its power; NULL: it is not one. */
 static const char *word_end(const char *at)
 {
     static const char *const si[] = {"1", "m", "rad", "s", "kg", "N", "Pa", "J", "W", "Hz", "K"};
@@ -342,7 +342,7 @@ static const char *product_end(const char *at)
     return at;
 }
 
-/* "N m", "kg/m^3", "rad/(N m)": after the stroke one word, or several in parentheses. */
+/* Checks "N m", "kg/m^3", "rad/(N m)": after the slash one word, or several in parentheses. */
 static int is_si(const char *unit)
 {
     const char *at = product_end(unit);
@@ -436,7 +436,7 @@ static const named_unit *find_unit(const named_unit list[], const char *text, si
     return NULL;
 }
 
-/* One of the three words of a unit; returns 0 after a mistake, which is reported. */
+/* Reads one of the three words of a unit system; returns 0 after an error, which is reported. */
 static int units_read_unit(const document_node *n, const char *word, size_t length,
                            unit_system *out, double *stress, mistakes *m)
 {

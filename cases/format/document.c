@@ -23,7 +23,7 @@ static void *refuse(reader *r, yaml_mark_t at, const char *what)
     return NULL;
 }
 
-/* Reports a syntax error: beamwork's words for known ones, else those of the parser. */
+/* Reports a syntax error, in beamwork's words if it is a known one, else in those of the parser. */
 static void tell_syntax(reader *r)
 {
     const yaml_parser_t *p = &r->parser;
@@ -52,7 +52,7 @@ static void tell_syntax(reader *r)
                      context, context[0] != '\0' ? ": " : "", problem);
 }
 
-/* 1: there is a further event, to be deleted. */
+/* Returns 1 when there is another event; the caller deletes it. */
 static int next(reader *r, yaml_event_t *event)
 {
     if (yaml_parser_parse(&r->parser, event))
@@ -76,7 +76,7 @@ static document_node *new_node(reader *r, document_kind kind, yaml_mark_t at)
     return n;
 }
 
-/* Columns count characters: the bytes that continue one are none. */
+/* Columns count characters: continuation bytes are not counted. */
 static int characters(const char *text, int bytes)
 {
     int count = 0;
@@ -128,7 +128,7 @@ static int add_entry(reader *r, document_node *n, document_node *key, document_n
     return 1;
 }
 
-/* A key that the map can take; mistakes that leave it readable are only noted. */
+/* Reads a key of a map; errors that leave it readable are only reported. */
 static int check_key(reader *r, const document_node *map, const document_node *key)
 {
     if (key->kind != DOCUMENT_TEXT) {
@@ -224,7 +224,7 @@ static document_node *read_node(reader *r, const yaml_event_t *event, int depth)
     }
 }
 
-/* The stream's first events, the tree, and the end after it. */
+/* Reads the first events of the stream, the tree, and the end. */
 static document_node *read_stream(reader *r)
 {
     yaml_event_t event;
@@ -271,7 +271,7 @@ document_node *document_read(const char *bytes, size_t size, arena *a, mistakes 
         return NULL;
     }
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
-    /* a byte order mark, as some editors put it, is no text */
+    /* skips the byte order mark that some editors add */
     const size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     yaml_parser_set_input_string(&r.parser, (const unsigned char *)bytes + mark, size - mark);
     document_node *root = read_stream(&r);
@@ -302,7 +302,7 @@ void document_mistake(mistakes *m, const document_node *n, int offset, const cha
 }
 
 enum { BLOCK = 1 << 10, ALIGNMENT = 16 };
-/* A file of the largest size needs less. */
+/* The largest allowed file needs less. */
 static const size_t most = (size_t)1 << 28;
 
 typedef struct arena_block {
@@ -365,7 +365,7 @@ void arena_free(arena *a)
     memset(a, 0, sizeof *a);
 }
 
-/* Is the place before that of the mistake? */
+/* Is the position before that of the error? */
 static int is_before(int line, int column, const mistake *other)
 {
     return line < other->line || (line == other->line && column < other->column);

@@ -44,7 +44,7 @@ static int constant(const name_context *c, const char *text, int *at, int length
                          rest < 40 ? rest : 40, text + behind, section_names_all);
     else
         *out = known->constants[index];
-    return known != NULL && index >= 0 && !isnan(*out); /* its own mistake is already reported */
+    return known != NULL && index >= 0 && !isnan(*out); /* its error is already reported */
 }
 
 int names_number(const void *context, const char *text, int *at, double *out,
@@ -63,7 +63,7 @@ int names_number(const void *context, const char *text, int *at, double *out,
         expression_wrong(why, from, "'%s' is a choice of words ('%.40s'), not a number",
                          known->name, known->word);
     *out = known->number;
-    return known->word == NULL && !isnan(*out); /* its own mistake is already reported */
+    return known->word == NULL && !isnan(*out); /* its error is already reported */
 }
 
 int expression_part(const document_node *n, int from, int length, const scope *names, mistakes *m,
@@ -106,7 +106,7 @@ int expression_vector(const document_node *n, int count, const scope *names, mis
 
 enum { MOST = 10000 };
 
-/* Where a text stands outside parentheses, after `from`; the last such place; -1: nowhere. */
+/* Last position of a text outside parentheses, after `from`; -1: none. */
 static int find_outside(const char *text, int from, const char *what)
 {
     int depth = 0, found = -1;

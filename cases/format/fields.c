@@ -162,7 +162,7 @@ static int find_entry(const fields *f, const char *text, scene_list list, int ow
     return found;
 }
 
-/* The name that a node of the tree says: of a loop, of a port, or as it is; *port: of a port. */
+/* Name given by a node of the tree: of a loop, of a port, or plain; *port: of a port. */
 static const char *name_of(const fields *f, const document_node *n, scene_list list, int *port)
 {
     const scope *known = scope_find(f->names, n->text, strlen(n->text));

@@ -1,4 +1,4 @@
-/* format/: scene files read and written. */
+/* format/: reads and writes scene files. */
 #ifndef BEAMWORK_CASES_FORMAT_FORMAT_H
 #define BEAMWORK_CASES_FORMAT_FORMAT_H
 
@@ -9,54 +9,54 @@
 #include "cases/scene/scene.h"
 #include "elements/shared/status.h"
 
-/* Memory that is given back all at once: what a scene file is made of. */
+/* Memory that is released together; holds everything made from a scene file. */
 
 typedef struct arena {
     struct arena_block *block;
-    size_t used, total; /* bytes: of the first block; of all */
-    int failed;         /* 1: memory, or the share of it that a file may take, ran out */
+    size_t used, total; /* bytes in the first block, and in all */
+    int failed;         /* 1: out of memory, or above the limit for a file */
 } arena;
 
-/* Zeroed and aligned for every type; NULL when memory ran out, which `failed` keeps. {0} is an
+/* Zeroed memory, aligned for every type; NULL when out of memory, which `failed` records. {0} is an
  * empty arena. */
 void *arena_take(arena *a, size_t size);
-/* The first `length` bytes of a text, and a zero. */
+/* Copies the first `length` bytes of a text, and adds a zero. */
 const char *arena_copy(arena *a, const char *text, size_t length);
-/* Room for one more entry in a list of `count`: the list, or a copy of it with twice the room; NULL
- * when memory ran out. */
+/* Makes room for one more entry in a list of `count`: returns the list, or a copy with twice the
+ * room; NULL when out of memory. */
 void *arena_grow(arena *a, void *list, int count, size_t size);
 void arena_free(arena *a);
 
-/* Mistakes in a scene file: each with its position, all reported at once. */
+/* Errors in a scene file, each with its position, reported together. */
 
 enum { MISTAKES_MOST = 20 };
 
 typedef struct mistake {
-    int line, column; /* counted from 1 */
+    int line, column; /* starting at 1 */
     char text[FAULT_TEXT];
 } mistake;
 
 typedef struct mistakes {
-    const char *file; /* as messages call it */
+    const char *file; /* name used in messages */
     int count;
-    int more;                    /* that found no room */
-    int out_of_memory;           /* 1: the file was not read to its end for lack of it */
-    mistake list[MISTAKES_MOST]; /* ascending by place */
+    int more;                    /* number of errors that did not fit */
+    int out_of_memory;           /* 1: memory ran out, and the file was not read to its end */
+    mistake list[MISTAKES_MOST]; /* ordered by position */
 } mistakes;
 
-/* Adds one, unless there is one at that place. */
+/* Adds an error, unless there is one at that position. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
 void mistakes_add(mistakes *m, int line, int column, const char *format, ...);
 
-/* "; did you mean 'near'?", or the remedy where near is NULL. */
+/* "; did you mean 'near'?", or the remedy if near is NULL. */
 const char *mistakes_remedy(const char *near, const char *remedy, char text[FAULT_TEXT]);
 
-/* OK where there are none; else REFUSED, or FAULT out of memory, and the first of them in f. */
+/* OK if there are none; else REFUSED, or FAULT (out of memory), with the first of them in f. */
 status mistakes_status(const mistakes *m, fault *f);
 
-/* "file:line:column: what", a line each; after them how many more there are. */
+/* Prints "file:line:column: what", one per line; then the number of further errors. */
 void mistakes_print(const mistakes *m, FILE *to);
 /* {"file": ..., "mistakes": [{"line", "column", "text"}, ...], "more": n}, for editors; FAULT out
  * of memory. */
@@ -64,9 +64,9 @@ status mistakes_json(const mistakes *m, FILE *to, fault *f);
 
 /* A YAML document as a tree of maps, lists and texts, each with its position in the file.
  *
- * Every scalar is text until a number or a word is requested: there are no implicit types. Anchors,
- * aliases, tags, merge keys, several documents, duplicate keys, and documents that are too deep or
- * too large are refused. */
+ * Every scalar is a text until a number or a word is read from it: there are no implicit types.
+ * Anchors, aliases, tags, merge keys, several documents, duplicate keys, and documents that are too
+ * deep or too large are refused. */
 
 enum { DOCUMENT_BYTES = 1 << 20, DOCUMENT_DEPTH = 16, DOCUMENT_ENTRIES = 10000 };
 
@@ -74,134 +74,135 @@ typedef enum document_kind { DOCUMENT_TEXT, DOCUMENT_LIST, DOCUMENT_MAP } docume
 
 typedef struct document_node {
     document_kind kind;
-    int line, column; /* of its first character, counted from 1 */
-    /* A text that is in the file as it is: how many columns after `column` it begins (a
-     * quote); -1: its characters have no place of their own (several lines, escapes, a name that
-     * was put in). */
+    int line, column; /* of its first character, starting at 1 */
+    /* For a text that appears unchanged in the file: columns from `column` to its beginning (a
+     * quote); -1: its characters have no position of their own (several lines, escapes, an inserted
+     * name). */
     int inset;
-    const char *text;            /* of a text: without control characters */
-    int count;                   /* entries of a list or map */
+    const char *text;            /* without control characters */
+    int count;                   /* number of entries of a list or map */
     struct document_node **item; /* [count] */
-    struct document_node **key;  /* [count] texts; of a list NULL */
+    struct document_node **key;  /* [count] texts; NULL for a list */
 } document_node;
 
-/* The tree of the bytes, owned by the arena; NULL after a mistake. */
+/* Reads the bytes into a tree, owned by the arena; NULL after an error. */
 document_node *document_read(const char *bytes, size_t size, arena *a, mistakes *m);
-/* The entry of a map, or NULL; also of what is no map. */
+/* The entry of a map, or NULL; also NULL if `map` is not a map. */
 const document_node *document_find(const document_node *map, const char *key);
-/* Adds a mistake at the character `offset` of the text, or where the node begins. */
+/* Adds an error at character `offset` of the text, or at the beginning of the node. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
 void document_mistake(mistakes *m, const document_node *n, int offset, const char *format, ...);
 
-/* The keys of scene files as a list to read. */
+/* The keys of scene files as a list for readers. */
 
 /* Text before the list: two paragraphs. */
 extern const char *const key_list_head[2];
 
-/* A key at its depth below the root (0), its form ("NAME: {...}") and what it is. */
+/* Receives a key: its depth below the root (0), its form ("NAME: {...}") and its description. */
 typedef void key_list_take(void *context, int depth, const char *name, const char *form,
                            const char *text);
-/* Keys that every entry may have (loops), and all other keys, each after the key that it belongs
- * to. Keys that are not carried yet are omitted. */
+/* Keys that every entry may have (loops), and all other keys, each after its parent. Keys that are
+ * not implemented yet are omitted. */
 void key_list_loops(key_list_take *take, void *context);
 void key_list_all(key_list_take *take, void *context);
 
-/* Writes a text after `at` columns of a line, further lines indented, and the end of the line. */
+/* Writes a text after `at` columns of a line, indents continuation lines, and ends the line. */
 typedef void key_list_say(FILE *to, int at, int indent, const char *text);
-/* Name, form, unit, summary and words of each key. */
+/* Writes name, form, unit, summary and words of each key. */
 void key_list_write(FILE *to, key_list_say *say);
 
 /* Lines of other programs' files as text, fields, numbers. Every line is checked. */
 
-/* Opens a file to read text; a byte order mark at its beginning, as some editors put it, is no text
- * and skipped. NULL and errno. */
+/* Opens a text file; skips a byte order mark at its beginning. Returns NULL with errno after a
+ * failure. */
 FILE *line_open(const char *path);
-/* The same of a stream that was opened. */
+/* As line_open, for an open stream. */
 void line_skip_mark(FILE *from);
-/* Without blanks at both ends, within the line, which is cut. */
+/* Removes blanks at both ends, in place. */
 char *line_trim(char *line);
 /* UTF-8 without control characters? */
 int line_is_text(const char *line);
-/* Fields between commas, trimmed, which may stand in quotes ("" inside them is one quote); their
- * number, more than `most` where there are too many. The line is cut. */
+/* Splits fields at commas, trimmed, possibly in quotes ("" inside them is one quote). Returns their
+ * number, or more than `most` if there are too many. Changes the line. */
 int line_split(char *line, char *field[], int most);
-/* Words between blanks; the same. */
+/* As line_split, for words between blanks. */
 int line_words(char *line, char *word[], int most);
-/* A finite number and nothing else; an exponent may be marked D. */
+/* A finite number and nothing else; the exponent may be marked D. */
 int line_number(const char *text, double *value);
 
-/* Description of a quantity of a scene, in words made from the scene's own data. */
+/* Description of a quantity of a scene, made from the data of the scene. */
 
 enum { MEANING_ROOM = 512 };
 
-/* One line without a full stop: kind, component, node or member with its place, station, and
- * the analysis where another one would have the same line. Quantities of a scene that differ in
- * any of these have different lines. Nodes and members are
- * named as write_scene names them. The text is cut where it does not fit. */
+/* One line without a full stop: kind, component, node or member with its position, station, and the
+ * analysis if another one would have the same line. Quantities that differ in any of these have
+ * different lines. Nodes and members are named as by write_scene. The text is truncated if it does
+ * not fit. */
 void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size);
 
-/* A scene file as a case like any other: parameters, a function that builds the scene, truths. */
+/* A scene file as a case: parameters, a function that builds the scene, reference values. */
 
 typedef struct scene_file scene_file;
 
-/* Reference value that a file gives for a quantity at a point of its parameters. */
+/* Reference value that a file gives for a quantity, at a point of its parameters. */
 typedef struct scene_truth {
     const double *parameter;       /* [CASE_MAX_PARAMETERS] */
-    double value, uncertainty, at; /* at: an abscissa of a curve; NAN: it is a number */
+    double value, uncertainty, at; /* at: abscissa of a curve; NAN: not a curve */
     const char *quantity, *unit, *kind, *formulation, *theory, *model, *convention, *source;
 } scene_truth;
-/* Takes one, whose texts and numbers last as long as the call. */
+/* Receives a reference value, whose texts and numbers are valid during the call. */
 typedef status scene_truth_taker(void *to, const scene_truth *, fault *);
 
-/* The file, with its defaults built once to see that they are a scene. Not OK: *out is NULL;
- * REFUSED with all mistakes in m (and the first in f), FAULT when it cannot be read. path must
- * outlive m and the file. */
+/* Reads the file and builds its defaults once to check them. After a failure *out is NULL; REFUSED
+ * with all errors in m (and the first in f), FAULT when it cannot be read. path must outlive m and
+ * the file. */
 status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f);
-/* Its form and parameters alone, where values other than the defaults are requested; what it is
- * at these says scene_file_check. */
+/* Reads only form and parameters, if values other than the defaults are requested; scene_file_check
+ * then checks the scene at these values. */
 status scene_file_read_form(const char *path, scene_file **out, mistakes *m, fault *f);
-/* Is it a scene at these values of its parameters? REFUSED with all mistakes in m, the first in f.
- */
+/* Is it a valid scene at these values of its parameters? REFUSED with all errors in m, the first in
+ * f. */
 status scene_file_check(const scene_file *, const double value[], mistakes *m, fault *f);
-/* The same as scene_file_read of bytes, which the fuzzer gives; path: as messages call it. */
+/* As scene_file_read, from memory (for the fuzzer); path: used in messages. */
 status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,
                              mistakes *m, fault *f);
 void scene_file_free(scene_file *);
 
-/* Lives as long as the file. */
+/* Valid as long as the file. */
 const case_type *scene_file_case(const scene_file *);
-/* The path of the file that a case is made from; NULL: of none. */
+/* Path of the file from which a case is made; NULL: none. */
 const char *scene_file_path(const case_type *type);
 const struct document_node *scene_file_document(const scene_file *);
-/* Does the file say anything under this key? */
+/* Does the file contain this key? */
 int scene_file_states(const scene_file *, const char *key);
-/* The scene as earlier versions read it: ends that say nothing of their warping leave it free.
- * The caller frees it in any case. */
+/* The scene as earlier versions read it: ends without specified warping are free. The caller frees
+ * it in any case. */
 status scene_file_build_before(const scene_file *, const double value[], scene *, fault *);
-/* Gives the reference values that hold at a point of the parameters, with their values there. */
+/* Passes the reference values that apply at a point of the parameters to `taker`, with their values
+ * there. */
 status scene_file_truths(const scene_file *, const double value[], scene_truth_taker *, void *to,
                          fault *f);
-/* The same at the defaults and at every point that a reference value names: some come several
- * times. */
+/* As scene_file_truths, at the defaults and at every point that a reference value names; values may
+ * repeat. */
 status scene_file_truths_all(const scene_file *, scene_truth_taker *, void *to, fault *f);
 
-/* The keys of scene files as a JSON Schema: editors complete and check with it. */
+/* The keys of scene files as JSON Schema, for completion and checks in editors. */
 
 status schema_file_write(FILE *to, fault *f);
 
-/* A scene -> a scene file that reads back as the same scene, bit for bit. */
+/* Writes a scene as a scene file that reads back as the same scene, bit for bit. */
 
 typedef struct write_head {
     const char *name, *summary, *source;
 } write_head;
 
-/* Loops and expressions are written out, numbers with as many digits as they need. REFUSED: the
- * scene has something that no file can say. */
+/* Loops and expressions are expanded; numbers have as many digits as necessary. REFUSED: the scene
+ * contains something that a file cannot express. */
 status write_scene(FILE *to, const scene *s, const write_head *head, fault *f);
-/* The same in memory, which the caller frees; "" where there is no scene (NULL) or no file can say
- * it. NULL: out of memory. */
+/* As write_scene, in memory; the caller frees it. "" if there is no scene (NULL), or if a file
+ * cannot express it. NULL: out of memory. */
 char *write_scene_text(const scene *s, const write_head *head);
 
 #endif

@@ -1,4 +1,4 @@
-/* The inside of format/. */
+/* Internal declarations of format/. */
 #ifndef BEAMWORK_CASES_FORMAT_FORMAT_IMPL_H
 #define BEAMWORK_CASES_FORMAT_FORMAT_IMPL_H
 
@@ -9,76 +9,77 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* The names that expressions may use: parameters, derived values, loop names. */
+/* Names that expressions may use: parameters, derived values, loop names. */
 
-/* The name added last; those before it stay visible. NULL: no name is known. */
+/* The name added last; earlier ones remain visible. NULL: no names. */
 typedef struct scope {
     const char *name;
-    double number;           /* NAN: its expression has a mistake, which is reported */
-    const char *word;        /* of a choice; NULL: a number */
-    const char *choices;     /* "a|b|c" of a parameter; NULL: not known */
-    const double *constants; /* of a section, whose name ends in a point; NULL: it is not one */
+    double number;           /* NAN: its expression has an error, which has been reported */
+    const char *word;        /* of a choice; NULL: it is a number */
+    const char *choices;     /* "a|b|c" of a parameter; NULL: unknown */
+    const double *constants; /* of a section, whose name ends with a point; NULL: not a section */
     const struct scope *before;
 } scope;
 
-/* The scope with one name more, a number or a word; the scope itself where memory ran out. */
+/* Adds a name for a number or a word; returns the same scope when out of memory. */
 const scope *scope_number(const scope *names, const char *name, double number, arena *a);
 const scope *scope_word(const scope *names, const char *name, const char *word, arena *a);
-/* A word of a parameter that has these. */
+/* Adds a word of a parameter with these choices. */
 const scope *scope_choice(const scope *names, const char *name, const char *word,
                           const char *choices, arena *a);
 /* Adds the constants of a section as names. */
 const scope *scope_constants(const scope *names, const char *name, const double value[], arena *a);
 /* The entry of a name of that length, or NULL. */
 const scope *scope_find(const scope *names, const char *name, size_t length);
-/* The known name, constant or function nearest to a misspelt one, or NULL. */
+/* Known name, constant or function nearest to a misspelt one, or NULL. */
 const char *scope_nearest(const scope *names, const char *name);
-/* Can `key` be a new name: a letter, then letters, digits and _, not taken by another or by a
- * function? Else a mistake. */
+/* Can `key` be a new name: a letter, then letters, digits and _, not used by another name or a
+ * function? Reports an error otherwise. */
 int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 
-/* A checked tree and values of its parameters -> a scene. */
+/* Builds a scene from a checked tree and values of its parameters. */
 
-/* Ends of members that say nothing of their warping: as their supports say, or all free, as earlier
- * versions had them. */
+/* Warping of ends for which the file does not specify it: from their supports, or free as in
+ * earlier versions. */
 typedef enum build_ends { BUILD_BY_SUPPORTS, BUILD_FREE } build_ends;
 
-/* names: the parameters. The scene is valid where no mistake was found. The caller frees it in any
- * case. */
+/* names: the parameters. The scene is valid if no error was found. The caller frees it in any case.
+ */
 void build_scene(const document_node *root, const scope *names, build_ends ends, arena *a,
                  mistakes *m, scene *out);
 
-/* Sections only, and their constants as names, into a builder with root and names. */
+/* Reads only the sections, with their constants as names, into a builder with root and names. */
 struct builder;
 void build_sections(struct builder *b);
 
-/* Loops and local names: the entries of a map or list with `for` and `let` written out. */
+/* Expands loops and local names: the entries of a map or list with `for` and `let`. */
 
-/* One entry as it was meant: $i in its name and texts is replaced, and its names are known. */
+/* One expanded entry: $i in its name and texts is replaced, and its names are known. */
 typedef struct unrolled {
-    const char *name;           /* of an entry of a map; of a list NULL */
-    const document_node *place; /* where messages point to: its key, or itself */
+    const char *name;           /* for an entry of a map; NULL for a list */
+    const document_node *place; /* position for messages: its key, or the entry itself */
     const document_node *value;
-    const document_node *written; /* the value as it is in the file */
+    const document_node *written; /* the value as written in the file */
     const scope *names;
-    const struct placement *placed; /* of an instance of a part; NULL: of the scene itself */
+    const struct placement
+        *placed; /* instance of a part to which it belongs; NULL: the scene itself */
 } unrolled;
 
 enum { UNROLL_MOST = 10000 };
 
-/* Number of entries in the file's order; the first loop of an entry is the outermost. An error in a
- * loop is reported as a mistake, and its entry is omitted. */
+/* Number of entries in the order of the file; the first loop of an entry is the outermost. An error
+ * in a loop is reported, and the entry is omitted. */
 int unroll_entries(const document_node *collection, const scope *names, arena *a, mistakes *m,
                    unrolled **out);
-/* NAME: EXPR, in order, each known to those after it. */
+/* NAME: EXPR, in order; each name is known to the following ones. */
 const scope *unroll_let(const document_node *let, const scope *names, arena *a, mistakes *m);
 
-/* Parts and their instances: sub-assemblies described once in axes of their own, and placed in the
+/* Parts and their instances: sub-assemblies described once in their own axes, and placed in the
  * scene. */
 
 /* Position and orientation of an instance. */
 typedef struct placement {
-    const char *name;             /* of the instance: its entries are NAME.ENTRY */
+    const char *name;             /* name of the instance: its entries are NAME.ENTRY */
     double origin[3];             /* [m] */
     int turned;                   /* 0: its axes are those of the scene */
     double R[9];                  /* columns: its axes in the scene, row-major */
@@ -89,40 +90,38 @@ enum { PLACEMENT_LISTS = 4 };
 /* Lists of a part: "nodes", "members", "springs", "loads". */
 extern const char *const placement_list[PLACEMENT_LISTS];
 
-/* Adds the entries of all instances of the scene after list[k] of count[k], in the order of
- * placement_list. */
+/* Adds the entries of all instances after list[k] of count[k], in the order of placement_list. */
 void placement_unroll(const document_node *root, const scope *names, arena *a, mistakes *m,
                       unrolled *list[], int count[]);
 
-/* v <- R v; p <- origin + R p. NULL: nothing changes. */
+/* v <- R v; p <- origin + R p. NULL: no change. */
 void placement_turn(const placement *, double v[3]);
 void placement_move(const placement *, double p[3]);
-/* The scene's node that a port of the instance is connected to, or NULL: it is no port. */
+/* Node of the scene connected to a port of the instance; NULL: not a port. */
 const document_node *placement_port(const placement *, const char *name);
 
-/* Units: SI throughout; what else is written is refused with the way to write it. */
+/* Units: SI throughout; others are rejected with the correct form. */
 
-/* A mistake where the text is none of the units that values have here. */
+/* Reports an error if the text is not one of the allowed units. */
 void units_check(const document_node *unit, mistakes *m);
 
-/* Units of a scene: of length and force; those of stress and of mass (force s^2/length) follow. */
+/* Units of a scene: of length and force; those of stress and mass (force s^2/length) follow. */
 typedef struct unit_system {
     int given;            /* 0: SI */
-    double length, force; /* [m], [N]: of one of them */
+    double length, force; /* size of one unit [m], [N] */
     const char *name_of_length, *name_of_force;
     char name_of_stress[16];
 } unit_system;
 
-/* Reads "mm, N, MPa" or [mm, N, MPa]; n NULL: SI. A mistake: units that are not consistent with
- * each other. */
+/* Reads "mm, N, MPa" or [mm, N, MPa]; n NULL: SI. Reports units that are not consistent. */
 void units_read(const document_node *n, mistakes *m, unit_system *out);
-/* A unit of SI in those of the system: "N m" becomes "N mm"; seconds and angles stay. */
+/* Translates an SI unit to the system: "N m" becomes "N mm"; seconds and angles do not change. */
 void units_translate(const unit_system *, const char *unit, size_t size, char out[]);
 
-/* Builds a scene from a checked tree, and reads values of its maps by their keys.
+/* Builds a scene from a checked tree, and reads values of its maps by key.
  *
- * The tree has been checked by its keys: a requested value is a number, a word, or a
- * list where one is required. A value without meaning is a mistake, and some value is returned. */
+ * The keys of the tree have been checked: a requested value is a number, a word, or a list if one
+ * is required. An invalid value is reported, and some value is returned. */
 
 typedef struct builder {
     arena *arena;
@@ -134,18 +133,18 @@ typedef struct builder {
     struct {
         unrolled *entry;
         int count;
-        int incomplete;  /* 1: entries were omitted after mistakes */
+        int incomplete;  /* 1: entries were omitted after errors */
     } list[SCENE_LISTS]; /* in the order of the scene's indices */
-    const char **shared; /* names of warping coordinates that members share */
+    const char **shared; /* names of warping coordinates shared by members */
     int shares;
-    int unsaid_warping; /* of ends of which nothing is said */
+    int unsaid_warping; /* number of ends whose warping is not specified */
 } builder;
 
-/* One map: of an entry, or below one. */
+/* One map: an entry, or a map inside one. */
 typedef struct fields {
     builder *b;
     const scope *names;
-    const document_node *map; /* NULL: it is not there, and has nothing */
+    const document_node *map; /* NULL: missing, without entries */
     const document_node *place;
     const placement *placed; /* NULL: in the axes of the scene */
 } fields;
@@ -153,26 +152,26 @@ typedef struct fields {
 fields fields_of(builder *b, const unrolled *entry);
 fields fields_below(const fields *f, const char *key);
 int fields_have(const fields *f, const char *key);
-/* All values of the table that are in the struct of the entry; those of a map that is not there
- * stay as they are. */
+/* Reads all values of the table into the struct of the entry; values of a missing map do not
+ * change. */
 void fields_read(const fields *f, const entry_field *table, void *entry);
 double fields_number(const fields *f, const char *key, double otherwise);
 int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
-/* out[count] is left as it is, and 0 returned, where there is none. */
+/* Leaves out[count] unchanged and returns 0 if the key is missing. */
 int fields_vector(const fields *f, const char *key, int count, double out[]);
-/* A list or range: how many; 0 where there is none; *out is the arena's. */
+/* A list or range: returns the count, 0 if the key is missing; *out belongs to the arena. */
 int fields_values(const fields *f, const char *key, double **out);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);
 /* Index in "a|b|c" of a word, or of the word that a parameter of that name has. */
 int fields_word(const fields *f, const char *key, const char *choices, int otherwise);
 int fields_word_of(const fields *f, const document_node *word, const char *what,
                    const char *choices, int otherwise);
-/* Bits of one word or of a list of them. */
+/* Bits of one word or of a list. */
 unsigned fields_words(const fields *f, const char *key, const char *choices);
-/* Index of the entry that is named; SCENE_NONE where there is none. */
+/* Index of the named entry; SCENE_NONE: none. */
 int fields_entry(const fields *f, const char *key, scene_list list);
 int fields_entry_of(const fields *f, const document_node *name, scene_list list);
-/* 1: there is an entry of that name. Reports nothing. */
+/* Returns 1 when there is an entry of that name. Reports nothing. */
 int fields_names(const fields *f, const char *key, scene_list list);
 /* "ux|uy|uz|rx|ry|rz" */
 extern const char fields_components[];
@@ -188,82 +187,83 @@ void builder_motions(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
-/* Settings of a transient analysis that the table does not cover. */
+/* Reads settings of a transient analysis that the table does not cover. */
 void builder_in_time(const fields *f, scene_motion *how);
-/* Adds a piece to the function of time of an entry of the scene. */
+/* Adds a piece to the function of time of an entry. */
 typedef void builder_piece(scene *, int index, double until, const char *text);
-/* Adds the function that `time`, `pieces` or `table` gives; values of a table are joined by lines,
- * or by a cubic spline that begins and ends at rest. */
+/* Adds the function given by `time`, `pieces` or `table`; a table is interpolated linearly, or by a
+ * cubic spline that starts and ends at rest. */
 void builder_function(const fields *f, int index, builder_piece *add, int spline);
 /* Is there one? */
 int builder_has_function(const fields *f);
-/* Reports that the analysis of a quantity does not have it, and which kinds of analysis do. */
+/* Reports that the analysis does not have the quantity, and which kinds of analysis do. */
 void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q);
-/* `path` and as many `values` as it has stations: their number; 0 after a mistake or where there
- * are none. */
+/* Reads `path` and as many `values` as it has stations. Returns their number; 0 after an error or
+ * if there are none. */
 int builder_stations(const fields *f, const char *values, double **path, double **value);
-/* Analyses and quantities where the file has none. */
+/* Adds default analyses and quantities if the file has none. */
 void builder_defaults(builder *b);
 
-/* Sections by their sizes: I, channel, Z, angle, box. */
+/* Sections given by sizes: I, channel, Z, angle, box. */
 
-/* 1, and points and walls, where the section is one of them. */
+/* Returns 1, with points and walls, when the section is one of them. */
 int build_shapes_read(const fields *f, section_spec *spec);
 
 /* Entries and values that depend on the values of names. */
 
-/* {NAME: VALUE, NAME: [VALUE, ...], ...}: has each name one of its values? 0 after a mistake. NULL:
- * 1. */
+/* {NAME: VALUE, NAME: [VALUE, ...], ...}: has each name one of its values? 0 after an error.
+ * NULL: 1. */
 int choose_holds(const document_node *conditions, const scope *names, mistakes *m);
-/* {NAME: {VALUE: ..., else: ...}}: what is after the value that the name has; anything else is
- * itself. NULL after a mistake. */
+/* {NAME: {VALUE: ..., else: ...}}: the value for the present value of the name; anything else is
+ * returned unchanged. NULL after an error. */
 const document_node *choose_value(const document_node *n, const scope *names, mistakes *m);
 
-/* Numbers as expressions (cases/scene/expression.c); mistakes are reported with the position of
+/* Numbers given as expressions (cases/scene/expression.c); errors are reported with the position of
  * their character. */
 
-/* An expression_name of what a scope has; context: a name_context. */
+/* An expression_name for the names of a scope; context: a name_context. */
 typedef struct name_context {
     const scope *names;
     int in_time; /* 1: of a function of time */
 } name_context;
 int names_number(const void *context, const char *text, int *at, double *out, expression_mistake *);
 
-/* 1 and the value, or 0 after a mistake. */
+/* Returns 1 and the value, or 0 after an error. */
 int expression_number(const document_node *n, const scope *names, mistakes *m, double *out);
-/* The same of `length` bytes of the text from `from`. */
+/* As expression_number, for `length` bytes of the text from `from`. */
 int expression_part(const document_node *n, int from, int length, const scope *names, mistakes *m,
                     double *out);
 /* Exactly `count` numbers of a list. */
 int expression_vector(const document_node *n, int count, const scope *names, mistakes *m,
                       double out[]);
 
-/* Tables of the keys of scene files. They check and describe a file, and suggest the key that was
- * meant. */
+/* Tables of the keys of scene files, used to check and describe a file, and to suggest corrections
+ * of keys. */
 
 extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], keys_parameter[],
     keys_part[], keys_instance[];
 
 /* `for`, `let` and `if`, which every entry may have. */
 extern const entry_field keys_loop[];
-/* May its entries have them? */
+/* May its entries have loops? */
 int keys_loops(const entry_field *table);
 
-/* Unknown, missing, misplaced keys and values of the wrong form, in the whole tree. 1: none. */
+/* Checks the whole tree for unknown, missing and misplaced keys and values of the wrong form.
+ * Returns 1 when there are none. */
 int keys_check(const document_node *root, mistakes *m);
 
-/* Parts of the words of a quantity, for the files that put them together. */
+/* Parts of the description of a quantity. */
 
-/* Writes which states of which analysis: ", at the end of the static path". */
+/* Writes the states and their analysis: ", at the end of the static path". */
 void meaning_state(FILE *to, const scene *s, const scene_quantity *q);
 
-/* A scene file as the build writes it into the program (harness/tools/pack_case.c): read and
- * checked there, without a pointer in it, and a case like any other here. */
+/* A scene file stored in the program by the build (harness/tools/pack_case.c): read and checked
+ * there, without pointers, and a case like any other. */
 
 typedef struct document_packed {
-    int kind, line, column, inset; /* as document_node has them */
-    /* Text: where it begins in all texts. List: its first entry, which the others follow. Map: its
-     * first key, which the other keys follow, and then its entries. */
+    int kind, line, column, inset; /* as in document_node */
+    /* Text: its position in all texts. List: its first entry, followed by the others. Map: its
+     * first key, followed by the other keys, then its entries. */
     int first;
     int count;
 } document_packed;
@@ -278,11 +278,11 @@ typedef struct scene_packed {
 /* The build_from of such a case; context: a scene_packed. */
 status scene_packed_build(const void *context, const double value[], scene *s, fault *f);
 
-/* Lists of numbers, written out or as a range. */
+/* Lists of numbers, explicit or as a range. */
 
 /* A list of numbers, or a range: a..b (steps of 1), a..b step c, a..b/n (n equal parts; the last /
- * after .. always divides so, else put b in parentheses). Both ends are values. The count, or -1
- * after a mistake; *out is the arena's. */
+ * after .. always divides so, otherwise put b in parentheses). Both ends are included. Returns the
+ * count, or -1 after an error; *out belongs to the arena. */
 int range_values(const document_node *n, const scope *names, arena *a, mistakes *m, double **out);
 /* Is the text a range? */
 int range_is(const document_node *n);
@@ -290,7 +290,7 @@ int range_is(const document_node *n);
 /* Parts of a scene file, for the files that read it. */
 
 struct scene_file {
-    arena arena; /* of the document and of all texts */
+    arena arena; /* holds the document and all texts */
     const char *path;
     const document_node *root;
     case_type type;
@@ -298,35 +298,35 @@ struct scene_file {
     int parameters;
 };
 
-/* The table of parameters; defaults are in their ranges where there is no mistake. */
+/* Reads the table of parameters; defaults are inside their ranges if there is no error. */
 void parameter_table_read(scene_file *file, mistakes *m);
-/* The names of the parameters of a table with these values. */
+/* Names of the parameters of a table, with these values. */
 const scope *parameter_table_names(const parameter_type *, const double value[], arena *a);
-/* Mistakes of the reference values, whose quantities are those of the scene, at a point. */
+/* Checks the reference values and their quantities, at a point. */
 void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
                              mistakes *m);
 
-/* Constants of sections as names of expressions: SECTION.A. */
+/* Constants of sections as names in expressions: SECTION.A. */
 
-/* The scope with the constants of one more section; c NULL: the section has a mistake, which is
+/* Adds the constants of a section to the scope; c NULL: the section has an error, which has been
  * reported. */
 const scope *section_names_add(const scope *names, const char *section_name, const section *c,
                                arena *a);
-/* Index of a constant's name among those of every section, or -1. */
+/* Index of the name of a constant of sections, or -1. */
 int section_names_index(const char *name, size_t length);
 /* All of them, for messages. */
 extern const char section_names_all[];
 
-/* Names of loops in texts: $i, or ${i} before letters, is replaced by the loop's whole number or
- * word. */
+/* Names of loops in texts: $i, or ${i} before letters, is replaced by the value of the loop, an
+ * integer or a word. */
 
-/* The tree with all names replaced: itself where there are none, else a copy; NULL when memory ran
- * out. What cannot be replaced is a mistake and stays. */
+/* The tree with all names replaced: the same tree if there are none, else a copy; NULL when out of
+ * memory. A name that cannot be replaced is reported and remains. */
 const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
                                      mistakes *m);
-/* A text for people: numbers of any kind, with six digits. */
+/* Text for messages: numbers with six digits. */
 const char *substitute_said(const document_node *n, const scope *names, arena *a, mistakes *m);
-/* 1: a loop name remains in this text: it could not be replaced, which was reported. */
+/* Returns 1 when a loop name remains in the text; the error has been reported. */
 int substitute_is_left(const char *text);
 
 /* Parts of a scene file, for the files that write it. */
@@ -334,40 +334,40 @@ int substitute_is_left(const char *text);
 typedef struct writer {
     FILE *to;
     const scene *scene;
-    int unwritable; /* 1: a number that is not one */
-    int begun;      /* 1: a key is in the map already */
+    int unwritable; /* 1: a number is not finite */
+    int begun;      /* 1: the map already has a key */
 } writer;
 
-/* Functions that write an entry in a form of their own: its key, and all after it. */
+/* Functions that write an entry in a special form: its key, and everything after it. */
 typedef struct write_own {
     const char *key; /* NULL ends a list */
     void (*write)(writer *, const void *entry);
 } write_own;
 
-/* A map with the keys of an entry whose values are not the default. own: also for the maps below
- * it; NULL: none. */
+/* Writes a map with the keys of an entry whose values are not the default. own: special forms, also
+ * for maps inside it; NULL: none. */
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
-/* "key: ", after ", " where it is not the first of its map. */
+/* "key: ", after ", " if it is not the first of its map. */
 void write_values_key(writer *w, const char *key);
 /* The word of that index in "a|b|c". */
 void write_values_word(writer *w, const char *words, int index);
-/* A list of words between [ and ]: a bit for each. */
+/* Writes words between [ and ], one for each bit. */
 void write_values_bits(writer *w, const char *words, unsigned bits);
 
-/* Six digits, or as many more as give the same number. */
+/* Writes six digits, or more if necessary to give the same number. */
 void write_values_number(writer *w, double value);
 /* [a, b, c] */
 void write_values_numbers(writer *w, int count, const double value[]);
-/* The diagonal of a 6 x 6 matrix, or all of it where the rest is not zero. */
+/* Writes the diagonal of a 6 x 6 matrix, or the whole matrix if other entries are not zero. */
 void write_values_matrix(writer *w, const double A[36]);
-/* Is one of them not zero? */
+/* Is any of them nonzero? */
 int write_values_any(int count, const double value[]);
-/* Key and number where it differs from what a reader takes when it is not there. */
+/* Writes key and number if it differs from the default. */
 void write_values_if(writer *w, const char *key, double value, double otherwise);
 /* In double quotes. */
 void write_values_quoted(writer *w, const char *text);
-/* Name of an entry in the file: as in the scene where it is unique and a file can express it, else
- * its number. */
+/* Name of an entry in the file: as in the scene if it is unique and allowed in a file, else from
+ * its index. */
 void write_values_name(writer *w, scene_list list, int index);
 void write_values_motion(writer *w, int index);
 /* `before` and the name of an entry. */

@@ -98,7 +98,7 @@ const char *const key_list_head[2] = {
 
 typedef struct key_rows {
     FILE *to;
-    int depth; /* of what is at the root of what is walked */
+    int depth; /* depth of the part that is walked */
     key_list_say *say;
 } key_rows;
 
@@ -128,7 +128,7 @@ static json_t *scalar(void)
     return json_pack("{s:[s, s]}", "type", "number", "string");
 }
 
-/* "a|b|c" -> examples: what an editor offers. */
+/* "a|b|c" -> examples, which editors offer. */
 static json_t *words_of(const char *words)
 {
     json_t *list = json_array();

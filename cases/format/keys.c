@@ -156,7 +156,7 @@ const entry_field keys_root[] = {
      .left_out = "none"},
     {.name = NULL}};
 
-/* Both tables as one list of names. */
+/* Names of both tables in one list. */
 typedef struct known_keys {
     const entry_field *table, *loop; /* loop NULL: no entry that may have loops */
 } known_keys;
@@ -269,7 +269,7 @@ static void check_value(const document_node *n, const entry_field *k, const docu
     }
 }
 
-/* Keys of other programs that no key here resembles, and what says the same. */
+/* Keys of other programs that resemble no key here, with the equivalent key. */
 static const char *elsewhere(const entry_field *table, const char *name)
 {
     static const char *const poisson[] = {"poisson", "poissons_ratio", "poisson_ratio", "nu"};
@@ -288,7 +288,7 @@ static const char *remedy_of(const known_keys *known, const char *name, char tex
                            text);
 }
 
-/* A key that is not there: unless it is what a misspelt one means. */
+/* Is a missing key probably meant by a misspelt one? */
 static int is_meant(const document_node *map, const known_keys *known, const char *name)
 {
     for (int i = 0; i < map->count; i++) {

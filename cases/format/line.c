@@ -44,7 +44,8 @@ char *line_trim(char *line)
     return line;
 }
 
-/* Bytes that follow the first one of a character; 0: it is none of several. */
+/* Number of continuation bytes after the first byte of a character; 0: not a multi-byte character.
+ */
 static int following(unsigned char first)
 {
     if (first < 0xc2 || first >= 0xf5)
@@ -54,7 +55,7 @@ static int following(unsigned char first)
     return first < 0xf0 ? 2 : 3;
 }
 
-/* Bytes of the character that begins here; 0: none that is allowed. */
+/* Number of bytes of the character that begins here; 0: not allowed. */
 static int character_length(const unsigned char *at)
 {
     if (at[0] < 0x80)
@@ -80,7 +81,7 @@ int line_is_text(const char *line)
     return 1;
 }
 
-/* Ends the field that begins at `at`; where the next one begins, or NULL. */
+/* Ends the field that begins at `at`; returns the position of the next one, or NULL. */
 static char *end_field(char *at)
 {
     char *end = at;
@@ -168,7 +169,7 @@ static void put_sentence(const scene *s, const scene_quantity *q, char *text, si
     text[size - 1] = '\0';
 }
 
-/* Does another analysis of the same kind answer in the same words? */
+/* Would another analysis of the same kind have the same description? */
 static int has_twin(const scene *s, const scene_quantity *q, const char *text)
 {
     char other[MEANING_ROOM];
@@ -212,7 +213,7 @@ static const char *path_name(const scene_analysis *a)
     return a->kind == SCENE_CONTINUATION ? "path of the load factor" : "static path";
 }
 
-/* The analysis along whose path stations are counted, or NULL: there is no path. */
+/* Analysis along whose path stations are counted; NULL: none. */
 static const scene_analysis *path_of(const scene *s, const scene_analysis *a)
 {
     const scene_analysis *walked =
@@ -220,7 +221,7 @@ static const scene_analysis *path_of(const scene *s, const scene_analysis *a)
     return scene_path_of(walked) != NULL ? walked : NULL;
 }
 
-/* Where on the path: its last station, or the value of its parameter. */
+/* Writes the position on the path: the last station, or the value of the parameter. */
 static void at_station(FILE *to, const scene *s, const scene_quantity *q, const scene_analysis *a)
 {
     const scene_path *path = scene_path_of(a);

@@ -17,8 +17,7 @@ static void check_version(const scene_file *file, mistakes *m)
         document_mistake(m, file->root, 0, "'beamwork: 1' must be the first key; move it up");
 }
 
-/* Returns the name of the file without its ending; each character that a name cannot have becomes
- * '_'. */
+/* Name of the file without its ending, with '_' for characters that a name cannot have. */
 static const char *name_of_file(scene_file *file)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_"
@@ -55,7 +54,7 @@ static const char *line_of(const scene_file *file, const char *key)
     return n != NULL ? n->text : "";
 }
 
-/* Builds the scene in memory of its own; mistakes are reported in m. */
+/* Builds the scene in separate memory; errors are reported in m. */
 static void build_at(const scene_file *file, const double value[], build_ends ends, scene *s,
                      mistakes *m)
 {
@@ -80,7 +79,7 @@ status scene_file_build_before(const scene_file *file, const double value[], sce
     return mistakes_status(&m, f);
 }
 
-/* Tree, form, parameters: each where what is before it has no mistake. */
+/* Reads tree, form and parameters, each only if the previous part has no errors. */
 static void read_form(scene_file *file, const char *bytes, size_t size, mistakes *m)
 {
     file->root = document_read(bytes, size, &file->arena, m);
@@ -112,7 +111,7 @@ status scene_file_check(const scene_file *file, const double value[], mistakes *
     return mistakes_status(m, f);
 }
 
-/* built: at its defaults too. */
+/* built: also builds the scene at its defaults. */
 static status read_from(const char *bytes, size_t size, const char *path, int built,
                         scene_file **out, mistakes *m, fault *f)
 {
@@ -147,8 +146,7 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
     return read_from(bytes, size, path, 1, out, m, f);
 }
 
-/* All bytes of a file, at most one more than a scene file may have: a longer one is refused as
- * such. */
+/* Reads a file, at most one byte more than allowed, so that a longer one is refused. */
 static status read_bytes(const char *path, char *bytes, size_t room, size_t *size, fault *f)
 {
     FILE *from = fopen(path, "rb");
@@ -237,7 +235,7 @@ static const scene_quantity *quantity_of(const scene *s, const char *name)
     return NULL;
 }
 
-/* One parameter that a reference value names: its index and value there; -1 after a mistake. */
+/* Index of a parameter that a reference value names, and its value there; -1 after an error. */
 static int named_value(const scene_file *file, const fields *f, const document_node *those, int i,
                        double *value)
 {
@@ -258,7 +256,8 @@ static int named_value(const scene_file *file, const fields *f, const document_n
     return index;
 }
 
-/* Moves `point` to the values that the reference value names; 1: it was there already. */
+/* Moves `point` to the values that the reference value names; returns 1 when it was already there.
+ */
 static int visit_point(const scene_file *file, const fields *f, double point[])
 {
     const document_node *those = document_find(f->map, "parameters");
@@ -385,7 +384,7 @@ status scene_file_truths(const scene_file *file, const double value[], scene_tru
     return outcome;
 }
 
-/* At the defaults, and at every other point that has a reference value. */
+/* At the defaults, and at every other point with a reference value. */
 static status give_everywhere(const scene_file *file, arena *a, scene_truth_taker *take, void *to,
                               fault *f)
 {

@@ -38,7 +38,7 @@ static void read_switch(parameter_type *p, const document_node *value, mistakes 
         document_mistake(m, value, 0, "%s: the default is none of its choices 0|1", p->name);
 }
 
-/* [a, b, c] -> "a|b|c"; NULL after a mistake. */
+/* [a, b, c] -> "a|b|c"; NULL after an error. */
 static const char *join_choices(scene_file *file, const document_node *list, mistakes *m)
 {
     char text[400] = "";
@@ -68,7 +68,7 @@ static void read_choice(parameter_type *p, const document_node *value, mistakes 
                          p->choices);
 }
 
-/* any_unit: the scene has units of its own, and its parameters theirs. */
+/* any_unit: the scene has its own units, and its parameters may too. */
 static void read_number(parameter_type *p, const document_node *entry, int any_unit, mistakes *m)
 {
     const document_node *unit = document_find(entry, "unit"), *at = document_find(entry, "value");
@@ -84,7 +84,7 @@ static void read_number(parameter_type *p, const document_node *entry, int any_u
     else if (read && !(p->value >= p->min && p->value <= p->max))
         document_mistake(m, at, 0, "%s = %g %s is outside its range %g .. %g", p->name, p->value,
                          p->unit, p->min, p->max);
-    /* a range of exactly 0 .. 1 without unit is that of a switch for --set */
+    /* a range of exactly 0 .. 1 without unit would look like a switch in --set */
     if (p->min == 0 && p->max == 1)
         p->max = nextafter(1, 2);
 }
@@ -139,7 +139,7 @@ const scope *parameter_table_names(const parameter_type *p, const double value[]
 static const char *const list_name[SCENE_LISTS] = {"sections", "nodes", "members",  "springs",
                                                    "motions",  "loads", "analyses", "quantities"};
 
-/* A name of an entry that others can use, once. */
+/* Checks a name of an entry that others can refer to. */
 static void check_name(const builder *b, scene_list list, int i)
 {
     const unrolled *entry = &b->list[list].entry[i];
@@ -170,7 +170,7 @@ void build_sections(builder *b)
     builder_sections(b);
 }
 
-/* Entries of the scene's own lists but sections, and after them those of its instances. */
+/* Lists the entries of the scene except sections, followed by those of its instances. */
 static void list_entries(builder *b)
 {
     static const scene_list placed[PLACEMENT_LISTS] = {SCENE_NODES, SCENE_MEMBERS, SCENE_SPRINGS,
@@ -216,7 +216,7 @@ static void read_needs(const fields *f)
                                                   : SCENE_SHEAR_OWN;
 }
 
-/* A word of 'omit': yes, or the values of names for which it is omitted. */
+/* Value of a word of 'omit': yes, or the values of names for which it is omitted. */
 static int is_omitted(const fields *f, const document_node *n)
 {
     if (n->kind == DOCUMENT_MAP)
@@ -276,7 +276,7 @@ static void read_plane(builder *b)
 
 static void read_meshes(builder *b)
 {
-    int usual[] = {1, 2, 4, 8}, least = 1; /* elements that show every imperfection */
+    int usual[] = {1, 2, 4, 8}, least = 1; /* meshes that show every imperfection */
     for (int i = 0; i < b->scene->members; i++) {
         const scene_member *m = &b->scene->member[i];
         if ((m->bow[0] != 0 || m->bow[1] != 0) && 2 * m->half_waves > least)
@@ -304,7 +304,7 @@ static void read_meshes(builder *b)
     scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }
 
-/* Location of the entry that a refusal names ("node tip: ..."), and its text. */
+/* Finds the entry that a refusal names ("node tip: ..."), and its text. */
 static void tell_refusal(const builder *b, const char *text)
 {
     static const char *const word[SCENE_LISTS] = {"section ", "node ", "member ",   "spring ",
@@ -326,7 +326,7 @@ static void tell_refusal(const builder *b, const char *text)
     document_mistake(b->mistakes, b->root, 0, "%s", text);
 }
 
-/* 1: values of parameters are refused. */
+/* Returns 1 when the values of the parameters are refused. */
 static int refuses(const builder *b)
 {
     const document_node *all = document_find(b->root, "refuse");
@@ -341,8 +341,8 @@ static int refuses(const builder *b)
     return b->mistakes->count > before;
 }
 
-/* From the units of the file, in which quantities are reported. own: the rest are not of the file.
- */
+/* Converts from the units of the file, in which quantities are reported. own: number of quantities
+ * of the file. */
 static void to_si(const builder *b, int own)
 {
     fault f = {""};
@@ -362,8 +362,8 @@ static void hold_warping(builder *b)
     scene_warping_by_supports(b->scene);
 }
 
-/* Each refers to those before it: nothing more is read where memory has ended. How many quantities
- * the file has itself. */
+/* Each list refers to previous ones; stops when out of memory. Returns the number of quantities in
+ * the file. */
 static int build_lists(builder *b)
 {
     static void (*const own[])(builder *) = {builder_nodes,    builder_members,   builder_springs,

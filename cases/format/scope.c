@@ -104,7 +104,7 @@ static int has_name(const document_node *n)
     return 0;
 }
 
-/* Length of the loop name that $ or ${ here stands before; 0: none does. */
+/* Length of the loop name at $ or ${ in the text; 0: none. */
 static size_t substitute_name_at(const char *at, int *braces)
 {
     *braces = at[0] == '$' && at[1] == '{';
@@ -121,7 +121,7 @@ int substitute_is_left(const char *text)
     return 0;
 }
 
-/* The text of a name, said: as text to read; 0: a mistake was reported. */
+/* Text of a name; said: for messages. Returns 0 when an error was reported. */
 static int value_text(const document_node *n, int at, size_t length, int said, const scope *names,
                       mistakes *m, char out[64])
 {

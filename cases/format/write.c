@@ -77,7 +77,7 @@ char *write_scene_text(const scene *s, const write_head *head)
 
 /* Nodes, members, springs, motions and loads of a scene file. */
 
-/* In how many components the fixed axes say how it moves. */
+/* Number of components whose motion is given along the global axes. */
 static int components_of(const scene_node *n)
 {
     return n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3;
@@ -143,7 +143,7 @@ static void write_rotation(writer *w, const void *entry)
     fputs("]}", w->to);
 }
 
-/* A list of the scene: KEY, and its entries, each in a line. */
+/* Writes a list of the scene: KEY, and one entry per line. */
 static void write_list(writer *w, const char *key, scene_list list, const entry_field *table,
                        const write_own own[])
 {
@@ -300,7 +300,7 @@ static void write_on(writer *w, const void *entry)
     write_values_name(w, scene_load_along(load) ? SCENE_MEMBERS : SCENE_NODES, load->where);
 }
 
-/* Also 0, beside a gradient. */
+/* Writes zero too, if there is a gradient. */
 static void write_temperature(writer *w, const void *entry)
 {
     const scene_load *load = entry;
@@ -310,7 +310,7 @@ static void write_temperature(writer *w, const void *entry)
     write_values_number(w, load->temperature);
 }
 
-/* Which part of its member a load acts on. */
+/* Writes the range of a member on which a load acts. */
 static void write_range(writer *w, const void *entry)
 {
     const scene_load *load = entry;

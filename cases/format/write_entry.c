@@ -1,4 +1,4 @@
-/* Entries of a scene file, by their tables. */
+/* Writes entries of a scene file from their tables. */
 #include "cases/format/format_impl.h"
 
 #include <math.h>
@@ -52,7 +52,7 @@ static const write_own *find_own(const write_own own[], const char *key)
     return NULL;
 }
 
-/* Nothing else can say it: it must be there, or is said in any case. */
+/* Must the key be written, because no other key expresses it, or in any case? */
 static int is_due(const entry_field *k, const void *entry)
 {
     const int must = k->always || (k->needed && k->group == 0);
@@ -159,7 +159,8 @@ void write_values_quoted(writer *w, const char *text)
     fputc('"', w->to);
 }
 
-/* Has the node weight, and a member its name? `gravity` takes the member first. */
+/* Would `gravity` be ambiguous, because a node with mass and a member have the same name? It refers
+ * to members first. */
 static int is_mistaken(const scene *s, int node, const char *name)
 {
     int weighs = 0, other = 0;
@@ -170,7 +171,7 @@ static int is_mistaken(const scene *s, int node, const char *name)
     return other;
 }
 
-/* No other entry of the list is called so, and a key can be. */
+/* Is the name unique in its list, and allowed as a key? */
 static int is_good_name(const scene *s, scene_list list, int index, const char *name)
 {
     static const char *const taken[] = {"free", "held", "all"};
@@ -216,7 +217,7 @@ void write_values_matrix(writer *w, const double A[36])
 
 /* Sections of a scene file: by their constants, walls or sizes. */
 
-/* Which of the two is taken: see section_compute. */
+/* Writes the one of D and F that was given: see section_compute. */
 static void write_shear(writer *w, const void *entry)
 {
     const section_spec *spec = entry;
@@ -327,7 +328,7 @@ void write_analyses(writer *w)
 
 /* Quantities of a scene file. */
 
-/* The place of a resultant; what is all along a member has none. */
+/* Writes the position of a resultant, unless it refers to the whole member. */
 static void write_end(writer *w, const void *entry)
 {
     const scene_internal *c = scene_internal_of(entry);
@@ -351,7 +352,7 @@ static void write_where(writer *w, const void *entry)
     write_values_number(w, scene_stress_of(q)->place);
 }
 
-/* Where the place says it. */
+/* Only if the position is given. */
 static void write_side(writer *w, const void *entry)
 {
     const scene_quantity *q = entry;

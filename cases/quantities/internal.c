@@ -5,7 +5,7 @@ static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     {"member", ENTRY_NAME, .needed = 1, .summary = "member",
      ENTRY_IN(scene_quantity, what.of.internal.member), .of = SCENE_MEMBERS},
-    /* before the end, which is a place, too */
+    /* before `end`, which is also a position */
     {"where", ENTRY_NUMBER, .needed = 1, .group = 2, .summary = "0 'from' to 1 'to', of its length",
      ENTRY_IN(scene_quantity, what.of.internal.place), .most = 1,
      .range = "a part of the member's length, from 0 to 1"},

@@ -1,4 +1,4 @@
-/* Value of an unknown motion. */
+/* Value of an unknown driver. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {

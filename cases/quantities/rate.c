@@ -29,7 +29,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(q->what.of.component.component));
 }
 
-/* Of a jerk the acceleration, whose slope it is: harness/time. */
+/* For a jerk the acceleration, whose slope it is: harness/time. */
 static double read(const scene_quantity *q, const quantity_state *state)
 {
     const scene_component *what = &q->what.of.component;
@@ -38,7 +38,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
                : state->acceleration(state, what->node, what->component);
 }
 
-/* Which integrators know it. */
+/* Checks that the integrator provides it. */
 static status check(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_scheme scheme = scene_motion_of(&s->analysis[q->analysis])->scheme;
@@ -56,7 +56,7 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* Its own turn. */
+/* The rotation that it reads. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     (void)s;

@@ -1,4 +1,4 @@
-/* Force or moment that holds or drives a component of a node. */
+/* Reaction force or moment of a fixed or prescribed component of a node. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
@@ -16,8 +16,7 @@ static const char *unit(const scene *s, const scene_quantity *q)
     return q->what.of.component.component <= SCENE_UZ ? "N" : "N m";
 }
 
-/* Does the node follow a motion in this component, or in any of the turns that follow each other?
- */
+/* Is this component of the node driven, or any rotation of its sequence? */
 static int is_driven(const scene_node *n, int component)
 {
     if (component < SCENE_RX)
@@ -37,7 +36,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
                  what->node);
 }
 
-/* turn_1: the moment about the first axis of a sequence, which is fixed in space. */
+/* turn_1: the moment about the first axis of a sequence, which does not rotate. */
 static const char *settle(const scene *s, scene_quantity *q, const char **key)
 {
     enum { TURN_1 = SCENE_RZ + 1 };

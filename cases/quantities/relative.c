@@ -1,4 +1,4 @@
-/* Displacement or rotation of a node in the axes of another one that carries it along. */
+/* Displacement or rotation of a node relative to another, in the axes of that node. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
@@ -38,7 +38,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
     return state->relative(state, what->from, what->node, what->component);
 }
 
-/* Its own, and all of the node in whose axes it is. */
+/* The rotation that it reads, and all of the node whose axes it uses. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     (void)s;

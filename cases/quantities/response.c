@@ -1,4 +1,5 @@
-/* Steady vibration of a node by frequency: receptance, mobility, accelerance, transmissibility. */
+/* Steady vibration of a node as a function of frequency: receptance, mobility, accelerance,
+ * transmissibility. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {
@@ -27,7 +28,7 @@ static const entry_field fields[] = {
     QUANTITY_TAKEN,
     {.name = NULL}};
 
-/* Does it turn a node? */
+/* Does the driver rotate a node? */
 static int driver_turns(const scene *s, int driver)
 {
     for (int i = 0; i < s->nodes; i++)

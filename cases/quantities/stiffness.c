@@ -1,4 +1,4 @@
-/* One by an entry on the diagonal of the compliance matrix. */
+/* Reciprocal of a diagonal entry of the compliance matrix. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {QUANTITY_ANALYSIS,
@@ -32,7 +32,7 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
     return NULL;
 }
 
-/* Returns the rotations that the quantity reads: both of the node at which the load acts. */
+/* Returns the rotations that the quantity depends on: all of the node at which the load acts. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     const scene_entry *what = &q->what.of.entry;

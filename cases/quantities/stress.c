@@ -38,7 +38,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     meaning_member(to, s, c->member);
 }
 
-/* Given constants have no points. */
+/* Sections given by constants have no points. */
 static int has_points(const scene *s, int member)
 {
     const int profile = member >= 0 && member < s->members ? s->member[member].section : SCENE_NONE;

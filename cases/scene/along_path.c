@@ -36,10 +36,10 @@ double along_path_value(const scene_driver *d, double path)
     return interpolate(d->stations, d->path, d->value, path);
 }
 
-/* Where something changes along the path; begin > end: nowhere. */
+/* Range of the path in which something changes; begin > end: none. */
 typedef struct changes {
     double begin, end;
-    scene_words last; /* what ends there */
+    scene_words last; /* what changes last */
 } changes;
 
 static void add_changes(int stations, const double path[], const double value[], scene_words who,
@@ -85,7 +85,7 @@ along_path_words along_path_end(const scene *s)
     return out;
 }
 
-/* Returns 1 where the values of all stations between 0 and 1 lie on the line from the value at 0 to
+/* Returns 1 when the values at all stations between 0 and 1 are on the line from the value at 0 to
  * that at 1. */
 static int is_straight(int stations, const double path[], const double value[])
 {
@@ -139,7 +139,7 @@ static int called(const scene *s, scene_list list, int i, char *who, int size)
     return 1;
 }
 
-/* The first load for which `is` holds. */
+/* The first load for which `is` is true. */
 static int load_that(const scene *s, int (*is)(const scene_load *), char *who, int size)
 {
     for (int i = 0; i < s->loads; i++)
@@ -256,7 +256,7 @@ static int has_kink(const scene *s, int analysis, char *who, int size)
     return 0;
 }
 
-/* A warping that the ends of two members have as one. */
+/* Is a warping coordinate shared by the ends of two members? */
 static int has_shared_warping(const scene *s, int analysis, char *who, int size)
 {
     (void)analysis;
@@ -288,8 +288,7 @@ static int has_drive(const scene *s, int analysis, char *who, int size)
     return s->drivers > 0 && called(s, SCENE_DRIVERS, 0, who, size);
 }
 
-/* Returns whether the analysis, or the one whose states it is about, has a rotating frame; *who
- * names that one. */
+/* Does the analysis, or its base analysis, have a rotating frame? *who names that one. */
 static int has_spin(const scene *s, int analysis, char *who, int size)
 {
     const int follows = s->analysis[analysis].follows;
@@ -373,7 +372,7 @@ scene_column scene_column_of(const scene *s, int analysis)
     case SCENE_BUCKLING:
         return a->follows == SCENE_NONE ? SCENE_OF_BUCKLING : SCENE_OF_BUCKLING_ABOUT;
     case SCENE_MODAL:
-    case SCENE_HARMONIC: /* the same states; damping, which it counts, has no row of its own */
+    case SCENE_HARMONIC: /* has the same states; damping, which it includes, has no row */
         return a->follows == SCENE_NONE                       ? SCENE_OF_MODAL
                : s->analysis[a->follows].kind == SCENE_LINEAR ? SCENE_OF_MODAL_LINEAR
                                                               : SCENE_OF_MODAL_ABOUT;
@@ -399,7 +398,8 @@ int scene_inputs_flutter(const scene *s, int analysis)
     return 0;
 }
 
-/* Refuses an unknown that is solved for along a path: a linear solution would take it for zero. */
+/* Refuses an unknown that is solved for along a path, because a linear solution would treat it as
+ * zero. */
 static status check_unknown(const scene *s, int analysis, scene_column column, fault *f)
 {
     for (int d = 0; d < s->drivers; d++)

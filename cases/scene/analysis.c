@@ -96,7 +96,7 @@ scene_alpha scene_alpha_of_radius(double rho)
 
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame)
 {
-    if (analysis < 0) /* memory ran out */
+    if (analysis < 0) /* out of memory */
         return;
     scene_analysis *a = &s->analysis[analysis];
     assert(scene_rotating_frame_of(a) != NULL);
@@ -148,7 +148,7 @@ int scene_spreads(const scene_analysis *a)
     return a->kind == SCENE_MOTION && scene_motion_of(a)->mass == SCENE_CONSISTENT;
 }
 
-/* The first motion of a chain in which each continues the one before. */
+/* The first motion of a chain of continued motions. */
 static int first_motion(const scene *s, int analysis)
 {
     const int before = s->analysis[analysis].follows;

@@ -5,9 +5,9 @@
 
 #include "elements/section/section.h"
 
-/* The same section seen from the other end, turned by pi about z: y' = -y, z' = z, and sectorial
- * coordinates change their sign with x. Face and axis turn together, so that Qy and Mw keep their
- * signs and Qz does not. */
+/* The section seen from the other end, rotated by pi about z: y' = -y, z' = z, and sectorial
+ * coordinates change sign with x. Face and axis rotate together, so that Qy and Mw keep their signs
+ * and Qz does not. */
 static void mirror_section(section_spec *spec)
 {
     section *c = &spec->constants;
@@ -32,8 +32,8 @@ static void replace(scene_quantity *q, scene_extract what)
     q->what = what;
 }
 
-/* Reverses a quantity of internal forces as mirror_section requires: forces change sides, x and y
- * their direction. */
+/* Reverses a quantity of internal forces for a mirrored section: forces change sides, x and y
+ * change direction. */
 static void reverse_internal(scene_quantity *q)
 {
     const scene_internal what = *scene_internal_of(q);
@@ -121,7 +121,8 @@ static status reverse(scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* A place of the first member, which ends at `fraction` now: in that one, or in the second. */
+/* Transforms a position on the first member, which now ends at `fraction`: to that member, or to
+ * the second. */
 static double split_place(double place, int before, double fraction, int second, int *member)
 {
     const int first = before ? place <= fraction : place < fraction;
@@ -162,7 +163,7 @@ static int unused_name(const scene *s)
     return name;
 }
 
-/* The section there, a new one where it changes along the member. */
+/* Index of the section there; a new one if the member is tapered. */
 static int section_between(scene *s, const scene_member *m, double fraction)
 {
     section_spec spec;
@@ -172,7 +173,7 @@ static int section_between(scene *s, const scene_member *m, double fraction)
     return scene_add_section(s, &spec);
 }
 
-/* Cuts a load to its part between two positions of its member, which become 0 and 1. */
+/* Cuts a load to the part between two positions of its member, which become 0 and 1. */
 static void cut_load(scene_load *load, double from, double to)
 {
     const scene_load whole = *load;
@@ -188,8 +189,8 @@ static void cut_load(scene_load *load, double from, double to)
     }
 }
 
-/* A load of the first member, which ends at `fraction` now: of that one, of the second, or one of
- * each. */
+/* Splits a load of the first member, which now ends at `fraction`: between that one and the second.
+ */
 static void split_load(scene *s, int load, double fraction, int second)
 {
     const scene_load whole = *scene_load_at(s, load);

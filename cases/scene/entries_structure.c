@@ -307,7 +307,7 @@ static const entry_field wall[] = {
     {"thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "of the wall"},
     {.name = NULL}};
 
-/* A zero that is given says that there is none, of what is not known otherwise. */
+/* Records that a zero was given explicitly, for constants that are otherwise unknown. */
 #define ZERO(bit) .zeros = offsetof(section_spec, zeros), .zero = (bit)
 
 static const entry_field constants[] = {
@@ -370,7 +370,7 @@ static const entry_field given[] = {
      GIVEN(wagner_torque)},
     {.name = NULL}};
 
-/* Sizes are those of the walls' centre lines. */
+/* Sizes refer to the centre lines of the walls. */
 static const entry_field flanged[] = {
     {"depth", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "between the flanges"},
     {"flange", ENTRY_NUMBER, .needed = 1, .unit = "m",

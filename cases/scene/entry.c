@@ -19,7 +19,7 @@ static int whole_of(const entry_field *k, const void *entry)
     return value;
 }
 
-/* Number of values, and where the first is; 0: the value is not numeric. */
+/* Number of values, and position of the first; 0: the value is not numeric. */
 static int numbers_of(const entry_field *k, const void *entry, const double **out)
 {
     const scene_path *path = place_of(k, entry);
@@ -153,7 +153,7 @@ static status check_number(const entry_field *k, double value, fault *f)
                                                         k->name, value, entry_range(k, range));
 }
 
-/* Is there such an entry, or none where there need not be one? */
+/* Does the named entry exist, or is there none where none is needed? */
 static status check_name(const scene *s, const entry_field *k, int index, fault *f)
 {
     const char *what = scene_list_word(k->of);
@@ -165,7 +165,7 @@ static status check_name(const scene *s, const entry_field *k, int index, fault 
                      index, what);
 }
 
-/* A word that need not be there may have another value where it is not. */
+/* An optional word may have another value if it is missing. */
 static status check_word(const entry_field *k, int value, fault *f)
 {
     char word[SCENE_NAME] = "";
@@ -224,7 +224,7 @@ static int base_power(const char *word, size_t size, entry_base base)
 int entry_power(const char *unit, entry_base base)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-    int power = 0, side = 1; /* side -1: after a stroke */
+    int power = 0, side = 1; /* side -1: after a slash */
     while (*unit != '\0') {
         const size_t size = strspn(unit, letters);
         const int times = unit[size] == '^' ? unit[size + 1] - '0' : 1;

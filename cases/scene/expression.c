@@ -1,6 +1,6 @@
-/* Expressions: read once for numbers and for functions of time, as steps on a stack of values with
- * their derivatives. What no t enters is one number as soon as it is read, so that a number is an
- * expression of one step. */
+/* Expressions are read once, for numbers and for functions of time, as operations on a stack of
+ * values with their derivatives. Parts without t are combined to one number at once, so that a
+ * number is an expression with a single operation. */
 #include "cases/scene/scene.h"
 
 #include <ctype.h>
@@ -12,7 +12,7 @@
 
 #include "elements/math/scalar.h"
 
-/* A value with its first two derivatives by the time, and what formulas do with such. */
+/* A value with its first two time derivatives, and operations on such values. */
 
 typedef struct jet {
     double v, d, dd;
@@ -111,8 +111,8 @@ static jet of_function(jet_operation what, jet x)
     }
 }
 
-/* The operation on a, and on b where it is of two; not finite where it has no value or no
- * derivative. Not of JET_NUMBER and JET_TIME. */
+/* Applies the operation to a, and to b if it has two operands; not finite where it has no value or
+ * no derivative. Not for JET_NUMBER and JET_TIME. */
 static jet jet_of(jet_operation what, jet a, jet b)
 {
     switch (what) {
@@ -138,9 +138,9 @@ typedef struct expression_function {
     int arguments; /* 0: a constant; -1: two or more */
     double value;  /* of a constant */
     double (*of_one)(double);
-    double (*of_two)(double, double); /* of more: taken again and again */
-    int kinked;                       /* 1: it has kinks or jumps */
-    jet_operation in_time; /* JET_NUMBER: none, of what changes in time it cannot be taken */
+    double (*of_two)(double, double); /* for two or more arguments: applied repeatedly */
+    int kinked;                       /* 1: it has slope discontinuities or jumps */
+    jet_operation in_time;            /* JET_NUMBER: not allowed for arguments that contain t */
 } expression_function;
 
 static double sign_of(double x)
@@ -148,7 +148,7 @@ static double sign_of(double x)
     return (x > 0) - (x < 0);
 }
 
-/* The remainder with the sign of the divisor, as of an angle in turns. */
+/* Remainder with the sign of the divisor. */
 static double modulo(double x, double y)
 {
     const double rest = fmod(x, y);
@@ -215,7 +215,7 @@ typedef struct instruction {
     double number;
 } instruction;
 
-/* In the order in which they are carried out, on a stack. */
+/* Operations in the order of execution, on a stack. */
 struct formula {
     int count;
     instruction step[MOST];
@@ -223,8 +223,8 @@ struct formula {
 
 typedef struct reader {
     const char *text;
-    int at, end;       /* place in it; where the expression ends */
-    int nested, depth; /* in parentheses, signs and powers; of the stack */
+    int at, end;       /* position; end of the expression */
+    int nested, depth; /* nesting depth of parentheses, signs and powers; depth of the stack */
     int in_time;       /* 1: t is the time */
     expression_name *find;
     const void *names;
@@ -244,7 +244,7 @@ status expression_wrong(expression_mistake *m, int at, const char *of, ...)
 
 #define WRONG(r, place, ...) expression_wrong((r)->mistake, place, __VA_ARGS__)
 
-/* Returns the next character that is not blank; '\0': the expression ends. */
+/* Returns the next character that is not blank; '\0' at the end of the expression. */
 static char here(reader *r)
 {
     while (r->at < r->end && isspace((unsigned char)r->text[r->at]))
@@ -260,7 +260,7 @@ static int takes(reader *r, char sign)
     return 1;
 }
 
-/* grows: values more on the stack. */
+/* grows: change of the number of values on the stack. */
 static status emit(reader *r, jet_operation what, double number, int grows)
 {
     if (r->to->count == MOST)
@@ -272,7 +272,8 @@ static status emit(reader *r, jet_operation what, double number, int grows)
                : WRONG(r, r->at, "too deeply nested; compute parts of it with 'let'");
 }
 
-/* The last value is one number: where it is; else NULL, t enters. first: step of its beginning. */
+/* Position of the last value if it is a single number; NULL if it contains t. first: its first
+ * operation. */
 static double *number_from(const reader *r, int first)
 {
     instruction *step = &r->to->step[first];
@@ -295,8 +296,8 @@ static double of_numbers(jet_operation what, double a, double b)
     }
 }
 
-/* An operation at that place of the text on the last two values, which begin at these steps.  An
- * operation without t gives one number: its derivatives are zero, also where those of a function
+/* Applies an operation at that position of the text to the last two values, which begin at these
+ * operations. Without t the result is one number, with zero derivatives even if those of a function
  * are not finite. */
 static status operate(reader *r, jet_operation what, int place, int left, int right)
 {
@@ -476,7 +477,7 @@ static status read_power(reader *r)
     return operate(r, JET_POWER, place, left, right);
 }
 
-/* A sign binds weaker than ^. */
+/* A sign has lower precedence than ^. */
 static status read_signed(reader *r)
 {
     const int minus = takes(r, '-'), first = r->to->count;
@@ -493,7 +494,7 @@ static status read_signed(reader *r)
     return STATUS_OK;
 }
 
-/* Terms between which one of two signs stands. */
+/* Terms joined by one of two operators. */
 static status read_terms(reader *r, const char sign[2], const jet_operation what[2],
                          status (*term)(reader *))
 {

@@ -67,7 +67,7 @@ void function_at(const scene_function *f, double t, double out[3])
         out[k] *= f->scale;
 }
 
-/* Instants of a piece at which it is examined: both ends, and between. */
+/* Number of instants at which a piece is checked: both ends, and between. */
 enum { LOOKS = 64 };
 
 static int is_finite(const double at[3], int derivatives)

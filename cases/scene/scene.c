@@ -56,8 +56,8 @@ int scene_add_section(scene *s, const section_spec *spec)
     return i;
 }
 
-/* Bit by bit: NaNs are equal to themselves; scenes that differ in padding alone are only computed
- * again. */
+/* Compares bits: NaNs equal themselves; a difference in padding only causes a repeated computation.
+ */
 static int same_bits(const void *a, const void *b, size_t size)
 {
     return memcmp(a, b, size) == 0;
@@ -206,7 +206,7 @@ void scene_set_table(scene *s, int spring, int component, int points, const doub
     t->value = (scene_path){points, scene_copy(s, points, value)};
 }
 
-/* The line that x is on: between points i and i + 1. */
+/* The line at x, between points i and i + 1. */
 static int line_of(const scene_table *t, double x)
 {
     int i = 0;
@@ -223,7 +223,7 @@ double scene_table_at(const scene_table *t, double x, double *slope)
     const int i = line_of(t, x);
     const double *at = t->at.value + i, *value = t->value.value + i;
     *slope = (value[1] - value[0]) / (at[1] - at[0]);
-    /* from the nearer point: exact at both */
+    /* from the nearer point, so that it is exact at both */
     return fabs(x - at[0]) <= fabs(x - at[1]) ? value[0] + *slope * (x - at[0])
                                               : value[1] + *slope * (x - at[1]);
 }
@@ -361,7 +361,7 @@ int scene_is_free(const scene *s, scene_words *who)
     return 0;
 }
 
-/* EA [N]; 0: an axial force makes more than an elongation, or not the same one all along. */
+/* EA [N]; 0: an axial force causes more than an elongation, or a varying one. */
 static double axial_stiffness(const scene *s, const scene_member *m)
 {
     section c;
@@ -373,7 +373,7 @@ static double axial_stiffness(const scene *s, const scene_member *m)
     return coupled ? 0 : c.matrices ? c.stiffness[0] : c.young * c.A;
 }
 
-/* Strains are counted from the length as drawn: N = EA (L - Lo)/L in place of EA (L - Lo)/Lo. */
+/* Strains are measured from the length as drawn: N = EA (L - Lo)/L instead of EA (L - Lo)/Lo. */
 static const double most_misfit = 0.01;
 
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f)
@@ -476,7 +476,7 @@ int scene_has_body(const scene_node *n)
     return has;
 }
 
-/* Its mistakes are reported where it is computed. */
+/* Errors are reported where the section is computed. */
 static int is_massive(const scene *s, int index)
 {
     section c;

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Each number times x to the power of its length. */
+/* Multiplies each number by x to its power of length. */
 typedef struct scaled {
     double *number;
     int power;
@@ -51,7 +51,7 @@ static void scale_section(section_spec *spec, double x)
     scale_constants(&spec->constants, x);
 }
 
-/* 1: the driver moves translations, or is found from one; 0: angles only; -1: both. */
+/* 1: the driver prescribes translations, or is determined by one; 0: only angles; -1: both. */
 static int is_length(const scene *s, int driver)
 {
     int lengths = 0, angles = 0;
@@ -132,7 +132,7 @@ static void scale_entries(scene *s, entry_base base, double times)
     }
 }
 
-/* Steps along the control coordinate are lengths, those of arc are not. */
+/* Steps along the control coordinate are lengths, steps of arc are not. */
 static void scale_steps(scene_analysis *a, double x)
 {
     if (a->kind != SCENE_CONTINUATION || a->of.continuation.control.by_arc)
@@ -141,7 +141,7 @@ static void scale_steps(scene_analysis *a, double x)
     a->of.continuation.control.step_max *= x;
 }
 
-/* Are its stations coordinates [m]: those of a continuation, or of what is about one? */
+/* Are its stations coordinates [m], as for a continuation or an analysis about one? */
 static int stations_are_lengths(const scene *s, const scene_quantity *q)
 {
     if (q->analysis < 0 || q->analysis >= s->analyses)
@@ -197,7 +197,7 @@ void scene_change_force(scene *s, double y)
         }
 }
 
-/* Largest size of a section that is described by sizes; 0: none is. */
+/* Largest size of a section given by sizes; 0: there is none. */
 static double size_of(const section_spec *spec)
 {
     double low[2] = {0}, high[2] = {0};
@@ -225,8 +225,8 @@ static double longest(const scene *s)
     return most;
 }
 
-/* Bounds that no structure in SI units passes but by wrong units: solids stiffer than foam and
- * heavier than it carry waves faster than 30 m/s, and none faster than 30 km/s. */
+/* Bounds that a structure in SI units satisfies: in solids that are stiffer and heavier than foam,
+ * waves travel faster than 30 m/s, and in no solid faster than 30 km/s. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT])
 {
     static const double soft[2] = {1e3, 1e6}, stiff = 1e8, wide = 15, slow = 30, fast = 3e4;

@@ -14,7 +14,7 @@ static status check_taper(const scene *s, int i, fault *f)
     fault why = {""};
     for (int k = 0; k < 2; k++)
         if (scene_constants(s, at[k], &c[k], NULL) != STATUS_OK)
-            return STATUS_OK; /* model_alloc says why */
+            return STATUS_OK; /* model_alloc reports it */
     const section *const ends[2] = {&c[0], &c[1]};
     if (section_taper_check(&s->section[at[0]], &s->section[at[1]], ends, &why) != STATUS_OK)
         return fault_set(f, STATUS_REFUSED, "%s: %s", scene_called(s, SCENE_MEMBERS, i).text,
@@ -50,7 +50,7 @@ static status check_member(const scene *s, int i, fault *f)
     return scene_validate_release(s, i, f);
 }
 
-/* Symmetric, and no deformation gives energy away: elimination meets no negative pivot. */
+/* Is it symmetric and positive semidefinite? Elimination then has no negative pivot. */
 static int is_stiffness(const double K[36])
 {
     double A[36], largest[6];
@@ -79,7 +79,7 @@ static int is_stiffness(const double K[36])
     return 1;
 }
 
-/* A table of a spring: lines that ascend, or a mistake in words. */
+/* Checks that a table of a spring has ascending lines; returns an error message or NULL. */
 static const char *table_mistake(const scene_table *t)
 {
     const int n = t->at.stations;
@@ -140,7 +140,7 @@ static int is_used(const scene *s, int driver)
     return 0;
 }
 
-/* Does the node move in the component of a condition as the known driver says, but for it? */
+/* Does the known driver alone determine the component of a condition of the node? */
 static int is_conditioned(const scene *s, const scene_driver *d)
 {
     const scene_node *n = &s->node[d->condition_node];
@@ -185,7 +185,7 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Checks the part of the member that a load acts on. */
+/* Checks the range of the member on which a load acts. */
 static status check_range(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
@@ -222,7 +222,7 @@ static status check_range(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* A temperature has no direction and no place but its range. */
+/* A temperature has no direction, and no position except its range. */
 static status check_temperature(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
@@ -313,7 +313,7 @@ static status check_load(const scene *s, int i, fault *f)
     return check_load_kind(s, i, f);
 }
 
-/* Numbers that are none or beyond their range. */
+/* Checks for numbers that are not finite or out of range. */
 static status check_numbers(const scene *s, fault *f)
 {
     const struct {

@@ -21,7 +21,7 @@ static status check_steps(const scene *s, const scene_motion *m, int i, fault *f
     return STATUS_OK;
 }
 
-/* Where the scheme is stable whatever the step (Chung & Hulbert 1993). */
+/* Checks that the scheme is unconditionally stable (Chung & Hulbert 1993). */
 static status check_scheme(const scene *s, const scene_motion *m, int i, fault *f)
 {
     if (m->scheme < SCENE_ALPHA || m->scheme >= SCENE_SCHEMES)
@@ -46,7 +46,7 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
     return STATUS_OK;
 }
 
-/* An analysis that continues a motion has its clock and its rates. */
+/* An analysis that continues a motion uses its time and its rates. */
 static status check_resumed(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_path *before = scene_path_of(&s->analysis[a->follows]);
@@ -93,7 +93,7 @@ static status check_follows(const scene *s, int i, fault *f)
     return scene_validate_mass(s, i, f);
 }
 
-/* Returns the value of a table at a value of the path parameter, interpolated. */
+/* Value of a table at a path parameter, interpolated. */
 static double along_table(int stations, const double at[], const double value[], double path)
 {
     int k = 0;
@@ -105,7 +105,7 @@ static double along_table(int stations, const double at[], const double value[],
     return value[k - 1] + part * (value[k] - value[k - 1]);
 }
 
-/* A driver begins where it is, and moves on without a jump of its velocity. */
+/* A driver starts at the present value and continues without a jump of its velocity. */
 static status check_driver(const scene *s, int d, int i, fault *f)
 {
     const scene_driver *driver = &s->driver[d];
@@ -152,7 +152,7 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     return STATUS_OK;
 }
 
-/* A temperature changes without a jump: strains would jump with it. */
+/* A temperature must not jump: strains would jump with it. */
 static status check_temperature(const scene *s, int l, int i, fault *f)
 {
     const scene_load *load = &s->load[l];
@@ -438,7 +438,7 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
     return scene_spectrum_stations(s, q, &first, &count, f);
 }
 
-/* Only positions and rates are followed between the stations of a motion. */
+/* Only positions and rates are evaluated between the stations of a motion. */
 static status check_passing(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_analysis *a = &s->analysis[q->analysis];
@@ -475,7 +475,8 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* The path whose stations the curve is of, and whether it has points of its own between them. */
+/* Path whose stations are the points of the curve, and whether it has further points between them.
+ */
 static int path_of_curve(const scene *s, const scene_quantity *q, int *points)
 {
     const scene_analysis *a = &s->analysis[q->analysis];

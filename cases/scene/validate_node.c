@@ -6,8 +6,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Does a straight member of the node run along the direction, or a curved one end there?  Also 1
- * when no member ends there. */
+/* Is a straight member of the node along the direction, or does a curved one end there? Also 1 when
+ * no member ends there. */
 static int has_member_along(const scene *s, int node, const double direction[3])
 {
     int ends = 0, along = 0;
@@ -25,7 +25,7 @@ static int has_member_along(const scene *s, int node, const double direction[3])
     return along || ends == 0;
 }
 
-/* The fork decides about all rotations, and its axis is that of a member. */
+/* A fork defines all rotations, and its axis is that of a member. */
 static status check_fork(const scene *s, int i, fault *f)
 {
     const scene_node *n = &s->node[i];
@@ -49,12 +49,12 @@ static status check_fork(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* A body that exists: its inertia has no negative principal moment, and none above the sum of the
- * other two. */
+/* Checks the inertia of a body: no negative principal moment, and none above the sum of the other
+ * two. */
 static int is_inertia(const double I[6])
 {
     const double half = (I[0] + I[1] + I[2]) / 2;
-    /* of int x x^T dm = (trace/2) 1 - I all leading and other principal minors */
+    /* all principal minors of int x x^T dm = (trace/2) 1 - I */
     const double A[3] = {half - I[0], half - I[1], half - I[2]}, xy = -I[3], yz = -I[4], zx = -I[5],
                  small = 1e-9 * half;
     const double determinant =
@@ -64,13 +64,13 @@ static int is_inertia(const double I[6])
            A[2] * A[0] - zx * zx >= -small * half && determinant >= -small * half * half;
 }
 
-/* Is the end of a member or a spring at the body of this node? */
+/* Is the end of a member or a spring part of the body of this node? */
 static int is_at(const scene *s, int end, int body)
 {
     return end >= 0 && end < s->nodes && (end == body || s->node[end].attached == body);
 }
 
-/* Does a member or a spring hold the node's body? */
+/* Is the body of the node connected to a member or a spring? */
 static int is_reached(const scene *s, int node)
 {
     const int body = s->node[node].attached == SCENE_NONE ? node : s->node[node].attached;
@@ -142,7 +142,7 @@ status scene_validate_node(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Directions and places are in the plane within this part of their size. */
+/* Directions and positions are in the plane within this fraction of their size. */
 static const double within = 1e-9;
 
 static int is_across(const scene *s, const double v[3])
@@ -150,7 +150,7 @@ static int is_across(const scene *s, const double v[3])
     return fabs(v[scene_normal(s)]) > within * vec3_norm(v);
 }
 
-/* Is it not along the normal, though it is there? */
+/* Is it nonzero and not along the normal? */
 static int is_beside(const scene *s, const double v[3])
 {
     double in[3] = {v[0], v[1], v[2]};
@@ -174,14 +174,14 @@ static double size_of(const scene *s)
     return size;
 }
 
-/* A place beside the plane of the nodes. */
+/* Is the position outside the plane of the nodes? */
 static int is_out(const scene *s, const double place[3])
 {
     const int n = scene_normal(s);
     return fabs(place[n] - s->node[0].position[n]) > within * size_of(s);
 }
 
-/* The turn k of a node: its axis. */
+/* Axis of rotation k of a node. */
 static void axis_of(const scene_node *n, int k, double axis[3])
 {
     memset(axis, 0, 3 * sizeof *axis);
@@ -225,8 +225,8 @@ static status check_node(const scene *s, int i, fault *f)
     return check_turns(s, i, f);
 }
 
-/* Its axes at t = 0: x along the chord. For a member in the plane, the same one of y and z
- * is across the plane at every point. */
+/* Axes at the start: x along the chord. For a member in the plane, the same one of y and z is
+ * normal to the plane at every point. */
 static void axes_of(const scene *s, int member, double R[9])
 {
     const scene_member *m = &s->member[member];
@@ -307,7 +307,8 @@ static status check_load(const scene *s, int i, fault *f)
     return is_across(s, at) ? refuse(s, who, "it acts outside the plane", f) : STATUS_OK;
 }
 
-/* An axis in the plane gives rise to forces in it, one across too; another one does not. */
+/* A rotation axis in the plane, or normal to it, causes forces in the plane; an oblique one does
+ * not. */
 static status check_frame(const scene *s, int i, fault *f)
 {
     const scene_rotating_frame *r = scene_rotating_frame_of(&s->analysis[i]);
@@ -350,7 +351,7 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* A fixed coordinate has no stiffness, compliance or growth to report. */
+/* A fixed coordinate has no stiffness, compliance or growth rate. */
 static status check_quantity(const scene *s, int i, fault *f)
 {
     const scene_quantity *q = &s->quantity[i];

@@ -47,7 +47,7 @@ status scene_validate_release(const scene *s, int member, fault *f)
     return STATUS_OK;
 }
 
-/* P += 1 - the projection on the span of `count` axes: what is kept from turning. */
+/* P += 1 - the projection on the span of `count` axes: rotations that are resisted. */
 static void add_kept(int count, double (*axis)[3], double P[9])
 {
     double basis[3][3];
@@ -73,7 +73,7 @@ static void add_kept(int count, double (*axis)[3], double P[9])
         }
 }
 
-/* Adds to P the rotations that the node's supports leave free. */
+/* Adds to P the rotations that the supports of the node leave free. */
 static void add_supports(const scene_node *n, double P[9])
 {
     double axis[3][3] = {{0}};
@@ -95,8 +95,8 @@ static void add_supports(const scene_node *n, double P[9])
     add_kept(count, axis, P);
 }
 
-/* Turns that the end of a straight member releases; of a curved one, whose axes are known later,
- * none. */
+/* Rotations that the end of a straight member releases; none for a curved one, whose axes are known
+ * later. */
 static void add_end(const scene_member *m, const scene *s, int end, double P[9])
 {
     const scene_release *r = &m->release[end];
@@ -122,7 +122,7 @@ static void add_springs(const scene *s, int node, double P[9])
                         s->spring[k].table[3 + i].at.stations > 0;
 }
 
-/* An axis that P keeps from nothing; 0: it has none. */
+/* An axis about which P resists nothing; 0: there is none. */
 static int loose_axis(const double P[9], double axis[3])
 {
     double A[9], largest = 0;
@@ -143,7 +143,7 @@ static int loose_axis(const double P[9], double axis[3])
     return 1;
 }
 
-/* Does a body reach further than the node, so that places hold its turn too? */
+/* Does the body extend beyond the node, so that positions also resist its rotation? */
 static int is_wide(const scene *s, int node)
 {
     int wide = s->node[node].attached != SCENE_NONE;
@@ -169,7 +169,7 @@ static int releases_at(const scene *s, int node)
     return count;
 }
 
-/* Rotations that are loose at a node; axis: the one of LOOSE_AXIS. */
+/* Rotations of a node that nothing resists; axis: for LOOSE_AXIS. */
 typedef enum loose { LOOSE_NOTHING, LOOSE_AXIS, LOOSE_PLANE, LOOSE_ALL } loose;
 
 static loose loose_at(const scene *s, int node, double axis[3])
@@ -190,7 +190,7 @@ static loose loose_at(const scene *s, int node, double axis[3])
     return vec3_norm(axis) > 0 ? LOOSE_AXIS : largest > 1e-9 ? LOOSE_PLANE : LOOSE_ALL;
 }
 
-/* Does something act on the turns of a node, or go by how it is turned? */
+/* Does a load act on the rotations of a node, or does anything depend on them? */
 static int turn_matters(const scene *s, int node)
 {
     const scene_body *b = &s->node[node].body;
@@ -214,7 +214,7 @@ static int turn_matters(const scene *s, int node)
     return matters;
 }
 
-/* Which angles of the node are free, in bits. */
+/* Bits of the free angles of the node. */
 static int free_angles(const scene_node *n)
 {
     int bits = 0;
@@ -257,7 +257,7 @@ status scene_validate_turns(const scene *s, int node, fault *f)
                            scene_called(s, SCENE_NODES, node).text);
 }
 
-/* Directions that differ by less are one: round-off of positions. */
+/* Directions that differ by less are equal: round-off of positions. */
 static const double round_off = 1e-9;
 
 static int is_held(const scene_node *n)
@@ -281,7 +281,7 @@ static int releases_turn(const scene_release *r)
     return 0;
 }
 
-/* Unit vectors of a straight member: along it, and of its y axis. Returns 0 for a curved one. */
+/* Unit vectors of a straight member: along it, and along its y axis. Returns 0 for a curved one. */
 static int frame_of(const scene *s, const scene_member *m, double x[3], double y[3])
 {
     if (m->p < 0 || m->p >= s->nodes || m->q < 0 || m->q >= s->nodes)
@@ -305,7 +305,7 @@ static int frame_of(const scene *s, const scene_member *m, double x[3], double y
     return 1;
 }
 
-/* 1: one direction, -1: opposite ones, 0: others. */
+/* 1: same direction, -1: opposite, 0: other. */
 static int sense_of(const double a[3], const double b[3])
 {
     double same = 0, opposite = 0;
@@ -316,7 +316,7 @@ static int sense_of(const double a[3], const double b[3])
     return same <= round_off ? 1 : opposite <= round_off ? -1 : 0;
 }
 
-/* Is there a wall where the mirrored ends of wall i are? */
+/* Is there a wall at the mirror image of wall i? */
 static int has_image(const section_spec *spec, const double centroid[2], const int sign[2], int i,
                      double size)
 {
@@ -336,7 +336,7 @@ static int has_image(const section_spec *spec, const double centroid[2], const i
     return 0;
 }
 
-/* Is the section where it was when the signs of its y and z are these? */
+/* Is the section unchanged by these signs of its y and z axes? */
 static int is_symmetric(const scene *s, int profile, const int sign[2])
 {
     section c;
@@ -358,7 +358,7 @@ static int is_symmetric(const scene *s, int profile, const int sign[2])
 }
 
 typedef struct member_end {
-    int member, end; /* 0 at p, 1 at q */
+    int member, end; /* end: 0 at p, 1 at q */
 } member_end;
 
 static int *warp_of(scene *s, member_end e)
@@ -366,7 +366,8 @@ static int *warp_of(scene *s, member_end e)
     return e.end == 0 ? &s->member[e.member].warp_p : &s->member[e.member].warp_q;
 }
 
-/* Is the second member what the first one is, drawn on across their node? */
+/* Is the second member the straight continuation of the first one across their node, with the same
+ * section? */
 static int runs_on(const scene *s, member_end first, member_end second)
 {
     const member_end both[2] = {first, second};
@@ -379,14 +380,14 @@ static int runs_on(const scene *s, member_end first, member_end second)
             return 0;
     }
     const int along = sense_of(x[0], x[1]), across = sense_of(y[0], y[1]);
-    /* the third axis follows from two */
+    /* the sign of the third axis follows from the others */
     const int sign[2] = {across, along * across};
     return along == (first.end != second.end ? 1 : -1) && across != 0 && profile[0] == profile[1] &&
            is_symmetric(s, profile[0], sign);
 }
 
 /* Number of element ends at a node, the sum of their indices, and whether the node belongs to a
- * body, or to one that members or springs reach at other nodes too. */
+ * body, possibly with members or springs at other nodes. */
 typedef struct warping_place {
     int ends, tied;
     long sum;

@@ -1,5 +1,5 @@
-/* Parameters that all built-in cases share: the omitted physics (that which the source omits, or
- * none) and, where there is mass, the mass of members. */
+/* Parameters common to all built-in cases: the omitted physics (as in the source, or none) and, if
+ * there is mass, the mass of members. */
 #include "cases/shared/shared.h"
 
 #include <math.h>
@@ -49,7 +49,7 @@ static void place_mass(scene *s, scene_mass mass)
             s->analysis[i].of.motion.mass = mass;
 }
 
-/* Where the case leaves it to its user; a scene file that does not says it itself. */
+/* Only if the case leaves the choice to its user; otherwise a scene file specifies it. */
 static void choose_mass(const case_type *c, const double value[], scene *s)
 {
     const parameter_type *p;

@@ -1,4 +1,4 @@
-/* shared/: what built-in cases have in common. */
+/* shared/: common parts of built-in cases. */
 #ifndef BEAMWORK_CASES_SHARED_SHARED_H
 #define BEAMWORK_CASES_SHARED_SHARED_H
 
@@ -58,7 +58,7 @@ enum {
 };
 extern const parameter_type hexapod_parameters[];
 
-/* Nodes of what floats: the rod, at its lower end, and the bodies inside the joints, at their
+/* Nodes of the free bodies: the rod, at its lower end, and the bodies inside the joints, at their
  * centres, the lower one first. */
 typedef struct hexapod_leg {
     int rod, joint[2];
@@ -115,7 +115,7 @@ void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int c
 extern const char sheet_prediction_source[];
 
 typedef struct sheet_prediction {
-    double u_x;        /* tip displacement along x [m] */
+    double u_x;        /* displacement of the tip along x [m] */
     double F_y, M_z;   /* reactions [N, N m] */
     double C_xx, C_zz; /* compliance of the tip, spatial moments [m/N] */
 } sheet_prediction;
@@ -130,8 +130,8 @@ sheet_prediction sheet_prediction_of(const section *c, double length, double def
 /* The first parameters of every such case, in this order. */
 enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETERS };
 #define TIMED_INTEGRATORS "alpha|conserving|radau|explicit"
-/* Defaults for judging meshes: error-controlled steps whose error of time is far below that of the
- * meshes; what it is stands with each case. */
+/* Defaults for the evaluation of meshes: error-controlled steps whose time error is far below the
+ * error of the meshes; each case gives its value. */
 #define TIMED_HOW(step, rule, tolerance)                                                           \
     [TIMED_INTEGRATOR] = {"integrator",          "", SCENE_RADAU, 0, 0, TIMED_INTEGRATORS,         \
                           "how it is integrated"},                                                 \
@@ -145,15 +145,15 @@ enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETE
         NULL,                                                                                      \
         "of the error of time, relative to the largest motion; 0: all steps are equal"}
 
-/* A motion that ends when it is observed; follows: SCENE_NONE, or a static path; start: initial
- * velocities. */
+/* A motion that ends at the time of observation; follows: SCENE_NONE, or a static path; start:
+ * initial velocities. */
 int timed_add(scene *s, const double value[], int follows, scene_start start);
-/* Position of a node: those of its coordinates x, y, z that have a name. size: reference length of
- * their errors where they are smaller [m]. */
+/* Adds the position of a node: those of its coordinates x, y, z that have a name. size: reference
+ * length of their errors where they are smaller [m]. */
 void timed_places(scene *s, int motion, int node, double size, const char *const name[3]);
 
-/* A driver that goes from 0 to `end` [m or rad] in that time [s] and stays: 10 s^3 - 15 s^4 + 6
- * s^5, which begins and ends without acceleration. */
+/* A driver from 0 to `end` [m or rad] within that time [s], then constant: 10 s^3 - 15 s^4 + 6 s^5,
+ * which starts and ends without acceleration. */
 int timed_driver(scene *s, double end, double duration);
 
 #endif

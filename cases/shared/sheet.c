@@ -64,7 +64,7 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
     scene_omit(s, (value[SHEET_SHEAR] == 0 ? FEATURE_SHEAR : 0) |
                       (value[SHEET_TRAPEZE] == 0 ? FEATURE_TRAPEZE : 0) |
                       (value[SHEET_WAGNER] == 0 ? FEATURE_WAGNER_TORQUE : 0));
-    /* a far bent sheet of many widths settles late */
+    /* a strongly bent, very wide sheet converges late */
     const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64, 128, 256},
               is_narrow = length >= 10 * value[SHEET_WIDTH];
     scene_meshes(s, is_narrow ? 10 : 8, meshes);
@@ -99,7 +99,7 @@ const char sheet_prediction_source[] = "N Eq. 54";
 
 typedef struct plane {
     double EA, EIz, L;
-    double V, gradient[IN_PLANE], hessian[IN_PLANE * IN_PLANE]; /* by (u, zp, zq) */
+    double V, gradient[IN_PLANE], hessian[IN_PLANE * IN_PLANE]; /* with respect to (u, zp, zq) */
     double F;
 } plane;
 
@@ -161,7 +161,7 @@ static void tip(plane *p, double w, double Y, double force[3], double K[9])
     }
 }
 
-/* sinh(lambda x)/sinh(lambda), lambda infinite where nothing warps. */
+/* sinh(lambda x)/sinh(lambda); lambda infinite without warping. */
 static double hyperbolic(double lambda, double x)
 {
     return isinf(lambda) ? 0 : exp(lambda * (x - 1)) * expm1(-2 * lambda * x) / expm1(-2 * lambda);
