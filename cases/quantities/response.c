@@ -20,7 +20,8 @@ static const entry_field fields[] = {
     {"along", ENTRY_WORD, .words = ENTRY_COMPONENTS, .summary = "of the force: its component",
      .usual = "ux", ENTRY_IN(scene_quantity, what.of.response.forced_along),
      .turns = ENTRY_COMPONENT},
-    {"of", ENTRY_WORD, .words = SCENE_VIBRATION_CHOICES, .summary = "what vibrates",
+    {"of", ENTRY_WORD, .words = SCENE_VIBRATION_CHOICES,
+     .summary = "what vibrates; reaction: that of the motion which drives the component",
      .usual = "displacement", ENTRY_IN(scene_quantity, what.of.response.of)},
     {"part", ENTRY_WORD, .words = SCENE_VIBRATION_PARTS,
      .summary = "of the complex response; phase: ahead of the input, -pi to pi",
@@ -40,14 +41,14 @@ static int driver_turns(const scene *s, int driver)
 
 static const char *unit(const scene *s, const scene_quantity *q)
 {
-    static const char *const of[2][4][3] = {{{"m/N", "m/(N s)", "m/(N s^2)"},
-                                             {"1/N", "1/(N s)", "1/(N s^2)"},
-                                             {"1", "1/s", "1/s^2"},
-                                             {"m/rad", "m/(rad s)", "m/(rad s^2)"}},
-                                            {{"rad/N", "rad/(N s)", "rad/(N s^2)"},
-                                             {"rad/(N m)", "rad/(N m s)", "rad/(N m s^2)"},
-                                             {"rad/m", "rad/(m s)", "rad/(m s^2)"},
-                                             {"1", "1/s", "1/s^2"}}};
+    static const char *const of[2][4][4] = {{{"m/N", "m/(N s)", "m/(N s^2)", "1"},
+                                             {"1/N", "1/(N s)", "1/(N s^2)", "1/m"},
+                                             {"1", "1/s", "1/s^2", "N/m"},
+                                             {"m/rad", "m/(rad s)", "m/(rad s^2)", "N/rad"}},
+                                            {{"rad/N", "rad/(N s)", "rad/(N s^2)", "m"},
+                                             {"rad/(N m)", "rad/(N m s)", "rad/(N m s^2)", "1"},
+                                             {"rad/m", "rad/(m s)", "rad/(m s^2)", "N"},
+                                             {"1", "1/s", "1/s^2", "N m/rad"}}};
     const scene_response *r = &q->what.of.response;
     const int by = r->driver >= 0 ? 2 + driver_turns(s, r->driver) : r->forced_along >= SCENE_RX;
     return r->part == SCENE_PHASE ? "rad" : of[r->component >= SCENE_RX][by][r->of];
@@ -56,9 +57,9 @@ static const char *unit(const scene *s, const scene_quantity *q)
 static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 {
     static const char *const part[] = {"amplitude", "phase", "real part", "imaginary part"},
-                             *const of[] = {"displacement", "velocity", "acceleration"},
+                             *const of[] = {"displacement", "velocity", "acceleration", "reaction"},
                              *const turn[] = {"rotation", "angular velocity",
-                                              "angular acceleration"};
+                                              "angular acceleration", "reaction moment"};
     const scene_response *r = &q->what.of.response;
     const int turns = r->component >= SCENE_RX;
     fprintf(to, "%s of the harmonic %s", part[r->part], (turns ? turn : of)[r->of]);
@@ -90,6 +91,9 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: its input is not known; name the node of a force, or a "
                          "motion with drive",
+                         q->name);
+    if (r->of == SCENE_REACTING && r->from != SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED, "quantity %s: a reaction is of one node; remove from",
                          q->name);
     if (r->driver == SCENE_NONE || s->driver[r->driver].condition_driver == SCENE_NONE)
         return STATUS_OK;

@@ -459,7 +459,8 @@ typedef struct scene_reading {
 typedef enum scene_vibration {
     SCENE_DISPLACED,
     SCENE_VELOCITY,
-    SCENE_ACCELERATION
+    SCENE_ACCELERATION,
+    SCENE_REACTING /* force or moment of the motion that drives the component */
 } scene_vibration;
 typedef enum scene_vibration_part {
     SCENE_AMPLITUDE,
@@ -467,7 +468,7 @@ typedef enum scene_vibration_part {
     SCENE_REAL,
     SCENE_IMAGINARY
 } scene_vibration_part;
-#define SCENE_VIBRATION_CHOICES "displacement|velocity|acceleration"
+#define SCENE_VIBRATION_CHOICES "displacement|velocity|acceleration|reaction"
 #define SCENE_VIBRATION_PARTS   "amplitude|phase|real|imaginary"
 typedef struct scene_response {
     int node, component;

@@ -357,10 +357,82 @@ static void add_motion(const vibration *v, int node, int component, double times
         o[index[k]] += times * T[component * count + k];
 }
 
-/* What a quantity reads, of the displacements: o^T x. */
-static void output_of(const vibration *v, const scene_response *r, double complex o[])
+/* The driven coordinate whose reaction a quantity reads, and no other node's. */
+static status reacting(const vibration *v, const scene_response *r, int *out, fault *f)
 {
+    const scene *s = v->c->scene;
+    int index[KINEMATICS_MOST], driver = SCENE_NONE, nodes = 0;
+    double T[6 * KINEMATICS_MOST];
+    const int count =
+        kinematics_node_jacobian(v->c->model, v->state, r->node, KINEMATICS_MOST, index, T);
+    *out = -1;
+    for (int k = 0; k < count; k++)
+        if (T[r->component * count + k] != 0)
+            *out = *out == -1 && index[k] >= v->free ? index[k] : -2;
+    for (int i = 0; i < s->drivers && *out >= 0; i++)
+        if (model_driver_coordinate(v->c->model, i) == *out)
+            driver = i;
+    for (int i = 0; i < s->nodes && driver != SCENE_NONE; i++)
+        for (int k = 0; k < 3; k++)
+            nodes += (s->node[i].translation[k] == driver) + (s->node[i].angle[k] == driver) +
+                     2 * (model_vertex(v->c->model, i)->vector_driver[k] == driver);
+    if (driver == SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED,
+                         "the reaction of %s is that of a motion, and none drives the component "
+                         "alone; give the node itself a motion with value: [0, 0] in place of hold",
+                         scene_called(s, SCENE_NODES, r->node).text);
+    return nodes == 1
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "motion %s drives more than the component whose reaction is asked for; "
+                           "give each a motion of its own, or one node that carries the others",
+                           s->driver[driver].name);
+}
+
+/* o[all] += row c of D at w. */
+static void add_row(const vibration *v, int c, double w, double complex o[])
+{
+    for (int j = 0; j < v->all; j++)
+        for (int k = v->K.column[j]; k < v->K.column[j + 1]; k++) {
+            if (v->K.row[k] == c)
+                o[j] += harmonic_dynamic(v, w, k);
+            else if (j == c && v->K.symmetric)
+                o[v->K.row[k]] += harmonic_dynamic(v, w, k);
+        }
+}
+
+/* What the damping of modes adds to the reaction of a driven coordinate: forces -i w r^T U U^T (x -
+ * r of the input). */
+static void add_carried(vibration *v, const scene_response *r, int c, double w, double complex o[])
+{
+    const double *U;
+    const int more = harmonic_modes_damped(v->modes, &U), n = v->free;
+    double *own = v->x, *input = v->x + n;
+    if (more == 0)
+        return;
+    harmonic_modes_carried(v, c, own);
+    for (int i = 0; i < more; i++)
+        for (int k = 0; k < n; k++)
+            o[k] -= I * w * own[i] * U[(size_t)i * (size_t)n + (size_t)k];
+    if (!carried_of(v, r, input))
+        return;
+    for (int i = 0; i < more; i++)
+        o[model_driver_coordinate(v->c->model, r->driver)] += I * w * own[i] * input[i];
+}
+
+/* What a quantity reads, of the displacements: o^T x. */
+static void output_of(vibration *v, const scene_response *r, double w, double complex o[])
+{
+    int c = 0;
+    fault unused = {""};
     memset(o, 0, (size_t)v->all * sizeof *o);
+    if (r->of == SCENE_REACTING) {
+        if (reacting(v, r, &c, &unused) == STATUS_OK) {
+            add_row(v, c, w, o);
+            add_carried(v, r, c, w, o);
+        }
+        return;
+    }
     add_motion(v, r->node, r->component, 1, o);
     if (r->from != SCENE_NONE)
         add_motion(v, r->from, r->component, -1, o);
@@ -397,16 +469,33 @@ static double bound_of(const scene_response *r, double complex z, double bound)
     return bound < cabs(z) ? asin(bound / cabs(z)) : PI;
 }
 
+/* The part of the force of 1 that the motion bears whose reaction is read. */
+static double force_at(const vibration *v, const scene_response *r)
+{
+    int index[KINEMATICS_MOST], c = 0;
+    double T[6 * KINEMATICS_MOST], sum = 0;
+    fault unused = {""};
+    if (r->of != SCENE_REACTING || r->driver != SCENE_NONE ||
+        reacting(v, r, &c, &unused) != STATUS_OK)
+        return 0;
+    const int count =
+        kinematics_node_jacobian(v->c->model, v->state, r->forced, KINEMATICS_MOST, index, T);
+    for (int k = 0; k < count; k++)
+        sum += index[k] == c ? T[r->forced_along * count + k] : 0;
+    return sum;
+}
+
 static void read_quantity(vibration *v, int quantity, double w, double *value, double *bound)
 {
     const scene *s = v->c->scene;
     const scene_response *r = &s->quantity[quantity].what.of.response;
     const size_t n = (size_t)v->free, all = (size_t)v->all;
-    output_of(v, r, v->output);
+    output_of(v, r, w, v->output);
     const double complex times = r->of == SCENE_VELOCITY       ? I * w
                                  : r->of == SCENE_ACCELERATION ? -w * w
                                                                : 1,
-                         z = times * dot(all, v->output, v->found + (size_t)quantity * all);
+                         z = times * dot(all, v->output, v->found + (size_t)quantity * all) -
+                             force_at(v, r);
     *value = part_of(r, z);
     *bound = 0;
     if (s->analysis[v->analysis].by_modes && s->analysis[v->analysis].modes > 0) {
@@ -435,32 +524,56 @@ static status respond(vibration *v, outcome_harmonic *o, fault *f)
     return STATUS_OK;
 }
 
-enum { SHAPES_OF_MOTION = 4, SHAPES_OF_QUANTITY = SHAPES_OF_MOTION + 1 };
+enum { SHAPES_OF_MOTION = 4, SHAPES_OF_QUANTITY = 2 * SHAPES_OF_MOTION };
+
+/* Those of a driven coordinate. */
+static int shapes_of_motion(const vibration *v, int c, double out[])
+{
+    const sparse *const by_motion[SHAPES_OF_MOTION] = {&v->K, &v->M, &v->C, &v->B};
+    for (int i = 0; i < SHAPES_OF_MOTION; i++)
+        for (int k = v->K.column[c]; k < v->K.column[c + 1]; k++)
+            if (v->K.row[k] < v->free)
+                out[(size_t)i * (size_t)v->free + (size_t)v->K.row[k]] = by_motion[i]->value[k];
+    return SHAPES_OF_MOTION;
+}
 
 /* The forces that a quantity's input makes at any frequency, and its output as forces: out[n
  * each]. Returns how many. */
-static int shapes_of(const vibration *v, const scene_response *r, double out[])
+static int shapes_of(vibration *v, const scene_response *r, double out[])
 {
     const size_t n = (size_t)v->free;
-    const sparse *const by_motion[SHAPES_OF_MOTION] = {&v->K, &v->M, &v->C, &v->B};
-    int count = 0;
-    for (int i = 0; r->driver != SCENE_NONE && i < SHAPES_OF_MOTION; i++) {
-        const int c = model_driver_coordinate(v->c->model, r->driver);
-        for (int k = v->K.column[c]; k < v->K.column[c + 1]; k++)
-            if (v->K.row[k] < v->free)
-                out[(size_t)count * n + (size_t)v->K.row[k]] = by_motion[i]->value[k];
-        count++;
-    }
-    for (int output = r->driver != SCENE_NONE; output < 2; output++, count++) {
+    fault unused = {""};
+    int c, count = 0;
+    if (r->driver != SCENE_NONE)
+        count += shapes_of_motion(v, model_driver_coordinate(v->c->model, r->driver), out);
+    for (int output = r->driver != SCENE_NONE; output < 2; output++) {
+        if (output && r->of == SCENE_REACTING) {
+            if (reacting(v, r, &c, &unused) == STATUS_OK)
+                count += shapes_of_motion(v, c, out + (size_t)count * n);
+            continue;
+        }
         memset(v->output, 0, (size_t)v->all * sizeof *v->output);
         if (output)
-            output_of(v, r, v->output);
+            output_of(v, r, 0, v->output);
         else
             add_motion(v, r->forced, r->forced_along, 1, v->output);
         for (size_t k = 0; k < n; k++)
             out[(size_t)count * n + k] = creal(v->output[k]);
+        count++;
     }
     return count;
+}
+
+/* Every reaction that is asked for is one. */
+static status check_reactions(const vibration *v, fault *f)
+{
+    const scene *s = v->c->scene;
+    int c;
+    for (int i = 0; i < s->quantities; i++)
+        if (scene_asks(&s->quantity[i], v->analysis, SCENE_RESPONSE) &&
+            s->quantity[i].what.of.response.of == SCENE_REACTING)
+            TRY(reacting(v, &s->quantity[i].what.of.response, &c, f));
+    return STATUS_OK;
 }
 
 static status find_modes_of(vibration *v, fault *f)
@@ -509,6 +622,7 @@ static status solve(vibration *v, outcome_harmonic *o, fault *f)
         return no_memory(f);
     TRY(matrices(v, 1, f));
     TRY(make_pattern(v, f));
+    TRY(check_reactions(v, f));
     TRY(find_modes_of(v, f));
     if (!s->analysis[v->analysis].by_modes)
         TRY(make_matrix(v, f));

@@ -63,14 +63,20 @@ def solve(rows, right):
 
 def exact(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
     """Deflection and slope at the tip, of a force there or a shift of the root."""
+    amplitude, roots, at, _ = waves(hertz, force, shift, tension, length, **damping)
+    return (sum(a*e for a, e in zip(amplitude, at)),
+            sum(a*k*e for a, k, e in zip(amplitude, roots, at)))
+
+
+def waves(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
+    """Amplitudes of the exponentials, their roots, their values at the tip, and the force on the root."""
     w = 2*math.pi*hertz
     roots, stiff = beam(hertz, tension, length, **damping)
     at = [cmath.exp(k*length) for k in roots]
     rows = [[1]*4, list(roots), [k*k*e for k, e in zip(roots, at)],
             [-stiff*length*k**3*e + tension*k*e + 1j*w*C*e for k, e in zip(roots, at)]]
     amplitude = solve(rows, [shift, 0, 0, force])
-    return (sum(a*e for a, e in zip(amplitude, at)),
-            sum(a*k*e for a, k, e in zip(amplitude, roots, at)))
+    return amplitude, roots, at, sum(a*(stiff*length*k**3 - tension*k) for a, k in zip(amplitude, roots))
 
 
 # Point masses on springs and dashpots along y, each with a post that has no mass; and modes.
@@ -348,6 +354,37 @@ class HarmonicTest(ProgramTest):
         found = self.curves(text, "collocation", 24)
         self.near(found["u"], expected, 2e-6, "base")
         self.near(found["r"], [u - 1 for u in expected], 2e-6, "as seen from the base")
+
+    def test_reaction(self):
+        """Of the root to a force at the tip, and to its own motion; by modes too, and of a mass on a base."""
+        for keys in ("", ", solution: modal", ", solution: modal, modes: 40"):
+            text = BEAM % ("hold: [ux, uz, rx, ry, rz], drive: {uy: shake}",
+                           "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}", "", keys,
+                           "".join(f"  {name}_{part}: {{response: {{analysis: steady, node: root, component: uy, of: reaction, "
+                                   f"{source}, part: {part}, take: curve}}}}\n" for part in PARTS
+                                   for name, source in (("f", "force: tip, along: uy"), ("s", "drive: shake"))))
+            found = self.curves(text, "collocation", 24)
+            self.near(found["f"], [waves(f, force=1)[3] for f in FREQUENCIES], 2e-6, keys)
+            self.near(found["s"], [waves(f, shift=1)[3] for f in FREQUENCIES], 2e-6, keys)
+
+    def test_reaction_with_ratios(self):
+        """m w^2 x of a mass that nothing else holds; and what has no reaction."""
+        base = MASSES.replace("to: body_$i, ", "from: base, to: body_$i, ").replace(
+            "nodes:", "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}\nnodes:\n"
+            "  base: {at: [0, -1, 0], hold: [ux, uz, rx, ry, rz], drive: {uy: shake}}").replace(
+            "analyses: {modes: {modal: {%s}}}", "analyses: {steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}}")
+        for keys in (", damping: {ratio: 0.05}", ", solution: modal, damping: {ratio: 0.05}"):
+            scene = lambda quantities: base % ("0..0", "0..0", "0..0", "0..0", 2, keys, quantities)
+            found = self.curves(scene("".join(
+                f"  {name}_{part}: {{response: {{analysis: steady, node: {node}, component: uy, of: {of}, drive: shake, "
+                f"part: {part}, take: curve}}}}\n" for part in PARTS for name, node, of in (
+                    ("r", "base", "reaction"), ("a", "body_0", "acceleration")))), "collocation", 1)
+            self.near(found["r"], [2*a for a in found["a"]], 1e-9, keys)
+            for node, words in (("body_0", "none drives the component"), ("top_0", "none drives the component")):
+                done = run("solve", "--scene", self.scene(scene(
+                    f"  r: {{response: {{analysis: steady, node: {node}, component: uy, of: reaction, drive: shake, at: 5}}}}")),
+                    "-f", "collocation", "-n", 1)
+                self.assertRegex(done.stdout + done.stderr, words)
 
     def test_proportional_damping(self):
         """Of all formulations; of a base that shakes, the mass is damped by its velocity in fixed axes."""
