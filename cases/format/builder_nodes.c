@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
 #include "elements/shared/choice.h"
 
 /* Deviations of a unit vector below this are round-off. */
@@ -26,46 +28,151 @@ static int component_of(const fields *f, int c, int *same)
     return others > 0 || along == SCENE_NONE ? SCENE_NONE : c - c % 3 + along;
 }
 
-/* Reports components that are not along the axes of the scene. */
-static void refuse_components(const fields *f, const char *key)
+static const char held_choices[] = "all|ux|uy|uz|rx|ry|rz";
+
+/* Are its components along axes of their own: given ones, or those of a part that is turned? Then
+ * sets the latter. */
+static int has_axes(const fields *f, scene_node *n)
 {
-    document_mistake(f->b->mistakes, document_find(f->map, key), 0,
-                     "%s: components that are not along axes of the scene, in a part that is "
-                     "turned; name them at a node of the scene, and connect it",
-                     key);
+    const unsigned held = fields_words(f, "hold", held_choices);
+    int same = 1;
+    if (fields_have(f, "axes"))
+        return 1;
+    if (f->placed == NULL || !f->placed->turned || fields_have(f, "rotation"))
+        return 0;
+    for (int c = SCENE_UX; c <= SCENE_UZ && same; c++)
+        if (component_of(f, c, &same) == SCENE_NONE)
+            same = 0;
+        else
+            same |= !fields_have(f, "drive");
+    if (same || (!(held & ~1u) && !fields_have(f, "drive")))
+        return 0;
+    n->axes[0][0] = n->axes[1][1] = 1;
+    placement_turn(f->placed, n->axes[0]);
+    placement_turn(f->placed, n->axes[1]);
+    return 1;
 }
 
-static void read_hold(const fields *f, int node)
+static void read_hold(const fields *f, int node, int own)
 {
-    static const char choices[] = "all|ux|uy|uz|rx|ry|rz";
-    const unsigned held = fields_words(f, "hold", choices);
+    const unsigned held = fields_words(f, "hold", held_choices);
     for (int c = SCENE_UX; c <= SCENE_RZ; c++) {
         int same;
-        const int ours = held & 1u ? c : component_of(f, c, &same);
-        if (!(held & 1u || held >> (c + 1) & 1u))
-            continue;
-        if (ours == SCENE_NONE)
-            refuse_components(f, "hold");
-        else
+        const int ours = held & 1u || own ? c : component_of(f, c, &same);
+        if (held & 1u || held >> (c + 1) & 1u)
             scene_hold(f->b->scene, node, ours, ours);
     }
 }
 
-static void read_drive(const fields *f, int node)
+/* Directions: two of x, y and z. */
+static void read_directions(const fields *axes, scene_node *n)
+{
+    double z[3] = {0};
+    const int x = fields_have(axes, "x"), y = fields_have(axes, "y");
+    if (fields_vector(axes, "z", 3, z))
+        placement_turn(axes->placed, z);
+    if (x + y + fields_have(axes, "z") != 2) {
+        document_mistake(axes->b->mistakes, axes->place, 0,
+                         "axes: give two of x, y and z, or a member");
+        return;
+    }
+    if (!x)
+        vec3_cross(n->axes[1], z, n->axes[0]);
+    if (!y)
+        vec3_cross(z, n->axes[0], n->axes[1]);
+    const double *a = x ? n->axes[0] : n->axes[1], *b = x && y ? n->axes[1] : z,
+                 lengths = vec3_norm(a) * vec3_norm(b);
+    if (!(lengths > 0 && fabs(vec3_dot(a, b)) <= 1e-9 * lengths))
+        document_mistake(axes->b->mistakes, axes->place, 0,
+                         "axes: they are not at right angles; give two that are");
+}
+
+/* Those of a straight member at the end that is there. */
+static void read_member_axes(const fields *axes, int node, scene_node *n)
+{
+    const document_node *name = document_find(axes->map, "member");
+    const int member = fields_entry_of(axes, name, SCENE_MEMBERS);
+    if (member < 0)
+        return;
+    const scene *s = axes->b->scene;
+    const scene_member *m = &s->member[member];
+    double R[9], chord[3];
+    if (m->p != node && m->q != node) {
+        document_mistake(axes->b->mistakes, name, 0, "axes: no end of %.40s is at the node",
+                         name->text);
+        return;
+    }
+    if (vec3_norm(m->curvature) > 0) {
+        document_mistake(axes->b->mistakes, name, 0,
+                         "axes: %.40s is curved; give directions, as {x: [...], y: [...]}",
+                         name->text);
+        return;
+    }
+    scene_chord(s, member, chord);
+    if (rotation_triad(chord, m->y_axis, R) != 0)
+        return; /* the member is refused */
+    for (int i = 0; i < 3; i++) {
+        n->axes[0][i] = R[3 * i];
+        n->axes[1][i] = R[3 * i + 1];
+    }
+}
+
+/* One turn that moves is a sequence of one angle; several about axes of its own have no order. */
+static void turn_about_axes(const fields *f, scene_node *n)
+{
+    double R[9];
+    int moving = 0, which = 0, driven = 0;
+    if (n->rotation != SCENE_ROTATION_SPATIAL || !scene_node_axes(n, R))
+        return;
+    for (int k = 0; k < 3; k++) {
+        driven += n->angle[k] >= 0;
+        if (n->angle[k] == SCENE_HELD)
+            continue;
+        moving++;
+        which = k;
+    }
+    if (moving == 0 || (moving == 3 && driven == 0))
+        return;
+    if (moving > 1) {
+        document_mistake(f->b->mistakes, f->place, 0,
+                         "axes: of its turns none, one or all may move about axes of their own; "
+                         "hold others by rotation: {sequence: [{axis: [...], angle: free}, ...]}");
+        return;
+    }
+    n->rotation = SCENE_ROTATION_SEQUENCE;
+    for (int i = 0; i < 3; i++)
+        n->axis[0][i] = R[3 * i + which];
+    n->angle[0] = n->angle[which];
+    n->angle[1] = n->angle[2] = SCENE_FREE;
+}
+
+void builder_axes(builder *b)
+{
+    for (int i = 0; i < b->list[SCENE_NODES].count; i++) {
+        const fields f = fields_of(b, &b->list[SCENE_NODES].entry[i]),
+                     axes = fields_below(&f, "axes");
+        scene_node *n = scene_node_at(b->scene, i);
+        if (b->mistakes->count > 0)
+            return;
+        if (fields_have(&axes, "member"))
+            read_member_axes(&axes, i, n);
+        else if (axes.map != NULL)
+            read_directions(&axes, n);
+        turn_about_axes(&f, n);
+    }
+}
+
+static void read_drive(const fields *f, int node, int own)
 {
     static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
     const fields drive = fields_below(f, "drive");
     const scene_node *n = scene_node_at(f->b->scene, node);
     for (int c = SCENE_UX; c <= SCENE_RZ; c++) {
         const int motion = fields_entry(&drive, component[c], SCENE_DRIVERS);
-        int same = 1;
-        const int ours = component_of(f, c, &same);
+        int same;
+        const int ours = own ? c : component_of(f, c, &same);
         if (motion < 0)
             continue;
-        if (ours == SCENE_NONE || !same) {
-            refuse_components(f, "drive");
-            continue;
-        }
         if ((ours < SCENE_RX ? n->translation[ours] : n->angle[ours - SCENE_RX]) == SCENE_HELD)
             document_mistake(f->b->mistakes, document_find(drive.map, component[c]), 0,
                              "%s is fixed and prescribed; remove one", component[c]);
@@ -136,7 +243,9 @@ static void check_masters(const fields *f, const scene_node *n)
         n->angle[0] != SCENE_FREE || n->angle[1] != SCENE_FREE || n->angle[2] != SCENE_FREE;
     const document_node *rotation = document_find(f->map, "rotation");
     if (document_find(rotation, "vector") != NULL && f->placed != NULL && f->placed->turned)
-        refuse_components(f, "rotation");
+        document_mistake(f->b->mistakes, rotation, 0,
+                         "rotation: its components are not along axes of the scene, in a part that "
+                         "is turned; name them at a node of the scene, and connect it");
     if (rotation != NULL && (held || fields_have(f, "fork")))
         document_mistake(f->b->mistakes, rotation, 0,
                          "'rotation' sets all rotations; remove rx, ry, rz and forks");
@@ -170,8 +279,9 @@ void builder_nodes(builder *b)
         builder_call(b, SCENE_NODES, node, i);
         fields_read(&f, entry_node, n);
         turn_inertia(f.placed, n->body.inertia);
-        read_hold(&f, node);
-        read_drive(&f, node);
+        const int own = has_axes(&f, n);
+        read_hold(&f, node, own);
+        read_drive(&f, node, own);
         check_masters(&f, n);
         read_rotation(&f, n);
     }

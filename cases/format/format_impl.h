@@ -181,6 +181,8 @@ void builder_call(builder *b, scene_list list, int index, int i);
 
 void builder_sections(builder *b);
 void builder_nodes(builder *b);
+/* Axes of their supports, after the members. */
+void builder_axes(builder *b);
 void builder_members(builder *b);
 void builder_springs(builder *b);
 void builder_motions(builder *b);

@@ -366,9 +366,9 @@ static void hold_warping(builder *b)
  * the file. */
 static int build_lists(builder *b)
 {
-    static void (*const own[])(builder *) = {builder_nodes,    builder_members,   builder_springs,
-                                             hold_warping,     builder_motions,   builder_loads,
-                                             builder_analyses, builder_quantities},
+    static void (*const own[])(builder *) = {builder_nodes,   builder_members,  builder_axes,
+                                             builder_springs, hold_warping,     builder_motions,
+                                             builder_loads,   builder_analyses, builder_quantities},
                                        (*const whole[])(builder *) = {builder_defaults, read_plane,
                                                                       read_physics, read_meshes};
     for (size_t i = 0; i < sizeof own / sizeof own[0] && !b->scene->out_of_memory; i++)

@@ -31,6 +31,9 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     const scene_component *what = &q->what.of.component;
     fprintf(to, "%s %c", what->component >= SCENE_RX ? "moment about" : "force along",
             meaning_axis(what->component));
+    double R[9];
+    if (what->node >= 0 && what->node < s->nodes && scene_node_axes(&s->node[what->node], R))
+        fputs(" of its axes", to);
     meaning_node(to, s,
                  is_driven(&s->node[what->node], what->component) ? "that drives" : "that holds",
                  what->node);

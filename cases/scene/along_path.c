@@ -216,6 +216,7 @@ MEMBER(held_warping, m->warp_p == SCENE_WARP_FIXED || m->warp_q == SCENE_WARP_FI
 NODE(mass, n->body.mass > 0)
 NODE(inertia, n->body.inertia[0] + n->body.inertia[1] + n->body.inertia[2] > 0)
 NODE(tied, n->attached != SCENE_NONE)
+NODE(axes, vec3_norm(n->axes[0]) > 0)
 NODE(fork, n->rotation == SCENE_ROTATION_FORK)
 
 static int has_dashpot(const scene *s, int analysis, char *who, int size)
@@ -349,6 +350,7 @@ const scene_input scene_inputs[] = {
     {"warping held", "uuuuuuuuuuuu", NULL, has_held_warping},
     {"warping shared", "uuuuuuuuuuuu", NULL, has_shared_warping},
     {"node that another carries", "uuuuuuuuuuuu", NULL, has_tied},
+    {"supports in axes of their own", "uuuuuuuuuuuu", NULL, has_axes},
     {"fork", "uuuuuuuuuuuu", NULL, has_fork},
     {"mass of a node", "-ii-iuuu-iuu", NULL, has_mass},
     {"inertia of a node", "-ii-iuuu-iuu", NULL, has_inertia},

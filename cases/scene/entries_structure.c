@@ -31,11 +31,25 @@ static const entry_field rotation[] = {
     {"vector", ENTRY_FORMS, .needed = 1, .group = 1, .summary = "[MOTION, MOTION, MOTION]"},
     {.name = NULL}};
 
+static const entry_field axes[] = {
+    {"x", ENTRY_DIRECTION, .count = 3, .summary = "direction; give two of x, y and z",
+     .left_out = "across the two others", ENTRY_IN(scene_node, axes[0])},
+    {"y", ENTRY_DIRECTION, .count = 3, .summary = "at right angles to it",
+     .left_out = "across the two others", ENTRY_IN(scene_node, axes[1])},
+    {"z", ENTRY_DIRECTION, .count = 3, .summary = "in place of x or y",
+     .left_out = "across the two others"},
+    {"member", ENTRY_NAME, .summary = "in place of directions: a straight member that ends there",
+     .left_out = "directions"},
+    {.name = NULL}};
+
 const entry_field entry_node[] = {
     {"at", ENTRY_POSITION, .needed = 1, .count = 3, .unit = "m", .summary = "position",
      ENTRY_IN(scene_node, position)},
     {"part_of", ENTRY_NAME, .summary = "node that it moves with, as one rigid body",
      .left_out = "of no body", ENTRY_IN(scene_node, attached), .of = SCENE_NODES},
+    {"axes", ENTRY_MAP, .below = axes,
+     .summary = "of hold and drive, and of reactions of the node: supports on inclined planes",
+     .left_out = "those of the scene"},
     {"hold", ENTRY_WORDS, .words = "all|" ENTRY_COMPONENTS,
      .summary = "components that are fixed; a "
                 "single rotation: about that fixed axis",

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/rotation.h"
 
 void scene_init(scene *s, const char *name)
 {
@@ -453,6 +454,16 @@ void scene_hold_all(scene *s, int node)
 void scene_drive(scene *s, int node, int component, int driver)
 {
     *component_of(scene_node_at(s, node), component) = driver;
+}
+
+int scene_node_axes(const scene_node *n, double R[9])
+{
+    static const double scene_axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    memcpy(R, scene_axes, sizeof scene_axes);
+    if (!(vec3_norm(n->axes[0]) > 0))
+        return 0;
+    rotation_triad(n->axes[0], n->axes[1], R);
+    return memcmp(R, scene_axes, sizeof scene_axes) != 0;
 }
 
 void scene_fork(scene *s, int node, const double axis[3], const double web[3])

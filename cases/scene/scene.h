@@ -692,6 +692,8 @@ typedef struct scene_node {
                      the vector */
     double axis[3][3]; /* axes of the sequence; a zero axis ends it. For a fork: the section's own
                           axis, and the direction of the web */
+    double axes[2][3]; /* x and y, of any length, of the axes that its translations above are along;
+                          zero: those of the scene */
     scene_body body;
     char name[SCENE_NAME]; /* "": no name, as for every entry */
 } scene_node;
@@ -953,6 +955,8 @@ void scene_hold(scene *s, int node, int first,
 void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component,
                  int driver); /* a translation, or a spatial rotation component */
+/* Unit vectors of the axes of its supports, in columns. 0: they are those of the scene. */
+int scene_node_axes(const scene_node *n, double R[9]);
 /* A fork has guides on both sides of the web with the fixed normal n = web x axis. The web remains
  * between them, R web . n = 0, for any bending of the section: R = exp(n t_1) exp(web t_2). For
  * bending in the plane of axis and web, the section does not rotate about its present axis, R axis,

@@ -119,6 +119,12 @@ status scene_validate_node(const scene *s, int i, fault *f)
                              "three of its components",
                              scene_called(s, SCENE_NODES, i).text);
     }
+    const double lengths = vec3_norm(n->axes[0]) * vec3_norm(n->axes[1]);
+    if (vec3_norm(n->axes[0]) > 0 &&
+        !(lengths > 0 && fabs(vec3_dot(n->axes[0], n->axes[1])) <= 1e-9 * lengths))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the axes of its supports are not at right angles; give two that are",
+                         scene_called(s, SCENE_NODES, i).text);
     if (n->rotation == SCENE_ROTATION_FORK) {
         TRY(check_fork(s, i, f));
     }
@@ -218,7 +224,17 @@ static status check_node(const scene *s, int i, fault *f)
     const scene_words who = scene_called(s, SCENE_NODES, i);
     if (is_out(s, n->position))
         return refuse(s, who, "it does not lie in one plane with the first node", f);
-    if (n->translation[scene_normal(s)] >= 0)
+    double R[9];
+    int along = scene_normal(s);
+    scene_node_axes(n, R);
+    for (int k = 0; k < 3; k++) {
+        const double axis[3] = {R[k], R[3 + k], R[6 + k]};
+        if (is_across(s, axis) && is_beside(s, axis))
+            return refuse(s, who, "an axis of its supports is neither in the plane nor across it",
+                          f);
+        along = is_across(s, axis) ? k : along;
+    }
+    if (n->translation[along] >= 0)
         return refuse(s, who, "it is prescribed out of the plane", f);
     if (scene_has_body(n) && is_across(s, n->body.centre))
         return refuse(s, who, "the centre of its body is outside the plane", f);

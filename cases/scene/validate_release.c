@@ -226,11 +226,14 @@ static int free_angles(const scene_node *n)
 int scene_idle_turn(const scene *s, int node, double axis[3])
 {
     const scene_node *n = &s->node[node];
-    const loose what = n->rotation == SCENE_ROTATION_SPATIAL && free_angles(n) != 0
+    const int single = n->rotation == SCENE_ROTATION_SEQUENCE && vec3_norm(n->axis[1]) == 0;
+    const loose what = (n->rotation == SCENE_ROTATION_SPATIAL || single) && free_angles(n) != 0
                            ? loose_at(s, node, axis)
                            : LOOSE_NOTHING;
     if (what == LOOSE_NOTHING || what == LOOSE_PLANE || turn_matters(s, node))
         return 0;
+    if (single)
+        return what == LOOSE_AXIS && n->angle[0] == SCENE_FREE ? SCENE_IDLE_AXIS : 0;
     if (what == LOOSE_ALL)
         return free_angles(n) == 7 ? SCENE_IDLE_ALL : 0;
     for (int k = 0; k < 3; k++) /* a node of a plane frame: the others are fixed */

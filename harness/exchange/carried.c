@@ -97,6 +97,12 @@ static status check_node(const scene *s, int node, fault *f)
     const scene_node *n = &s->node[node];
     const int held = held_rotations(n), large = carried_static(s) != SCENE_NONE;
     int driven = 0;
+    double R[9];
+    if (scene_node_axes(n, R))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: supports in axes of their own are not written as solids; hold it "
+                         "along the axes of the scene",
+                         scene_called(s, SCENE_NODES, node).text);
     for (int i = 0; i < 3; i++)
         driven += n->angle[i] >= 0;
     if (n->rotation == SCENE_ROTATION_VECTOR || n->attached != SCENE_NONE ||

@@ -590,6 +590,7 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
             kinematics_axes(m, s, body, b);
             sequence_force(m->mesh.vertex[body].angles, b, force + NODE_COORDINATES * k);
         }
+        kinematics_to_own(&m->mesh.vertex[body], force + NODE_COORDINATES * k);
     }
 }
 
@@ -648,5 +649,6 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
             sequence_matrix(n, NODE_COORDINATES * k, m->mesh.vertex[body].angles, b,
                             force != NULL ? moment + 3 : NULL, K);
         }
+        kinematics_turn_matrix(&m->mesh.vertex[body], n, NODE_COORDINATES * k, K);
     }
 }

@@ -34,7 +34,7 @@ static int leaves_plane(const model *m, int vertex, int component)
     if (normal == SCENE_NONE)
         return 0;
     if (turn < 0)
-        return component == normal;
+        return v->turned ? fabs(v->along[3 * normal + component]) > 0.5 : component == normal;
     if (v->angles == 0)
         return turn != normal;
     return turn < v->angles && fabs(v->axis[turn][normal]) < 0.5 * vec3_norm(v->axis[turn]);
@@ -194,7 +194,7 @@ static void index_element(model *m, mesh_element *el)
             el->index[NODE_COORDINATES * k + c] = body->coordinate[c];
         el->index[NODE_COORDINATES * k + 6] =
             el->warp[k] == NONE ? NONE : m->mesh.warp[el->warp[k]].coordinate;
-        el->plain &= v->body == el->vertex[k] && body->angles == 0;
+        el->plain &= v->body == el->vertex[k] && body->angles == 0 && !body->turned;
         if (release_of(m, el->vertex[k]) != NULL)
             index_release(m, k, el);
     }

@@ -77,6 +77,31 @@ void kinematics_gather(const model *m, const model_state *s, const mesh_element 
     }
 }
 
+void kinematics_turn_back(const mesh_vertex *v, double A[9])
+{
+    double half[9];
+    if (!v->turned)
+        return;
+    mat3_mul(v->along, A, half);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            A[3 * i + j] = vec3_dot(&half[3 * i], &v->along[3 * j]);
+}
+
+void kinematics_turn_matrix(const mesh_vertex *v, int n, int at, double K[])
+{
+    if (!v->turned)
+        return;
+    for (int i = 0; i < n; i++)
+        kinematics_to_own(v, K + i * n + at);
+    for (int j = 0; j < n; j++) {
+        double column[3] = {K[at * n + j], K[(at + 1) * n + j], K[(at + 2) * n + j]};
+        kinematics_to_own(v, column);
+        for (int i = 0; i < 3; i++)
+            K[(at + i) * n + j] = column[i];
+    }
+}
+
 /* Increments (translation, spatial rotation) of a body's frame. */
 static void body_increment(const model *m, const model_state *s, int body, const double dx[],
                            double out[6])
@@ -85,6 +110,7 @@ static void body_increment(const model *m, const model_state *s, int body, const
     double d[6];
     for (int c = 0; c < 6; c++)
         d[c] = v->coordinate[c] == NONE ? 0 : dx[v->coordinate[c]];
+    kinematics_to_fixed(v, d);
     memcpy(out, d, 6 * sizeof(double));
     if (v->angles > 0) {
         double b[3][3];
@@ -302,7 +328,8 @@ int kinematics_node_jacobian(const model *m, const model_state *s, int node, int
         if (slot[c] == NONE)
             continue;
         if (c < 3) {
-            T[c * count + slot[c]] += 1;
+            for (int i = 0; i < 3; i++)
+                T[i * count + slot[c]] += body->turned ? body->along[3 * i + c] : i == c;
             continue;
         }
         double moved[3];

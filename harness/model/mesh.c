@@ -31,6 +31,10 @@ static void hold_idle(const scene *s, int node, mesh_vertex *v)
     const int what = scene_idle_turn(s, node, axis);
     if (what == 0)
         return;
+    if (v->angles == 1) {
+        v->idle = 1;
+        return;
+    }
     for (int k = 0; k < 3; k++)
         v->idle |= (s->node[node].angle[k] == SCENE_FREE) << k;
     if (what == SCENE_IDLE_ALL || v->idle != 7)
@@ -43,6 +47,12 @@ static void hold_idle(const scene *s, int node, mesh_vertex *v)
     vec3_cross(axis, across[0], across[1]);
     add_axis(across[0], v);
     add_axis(across[1], v);
+}
+
+static int is_free(const scene_node *n)
+{
+    return n->translation[0] == SCENE_FREE && n->translation[1] == SCENE_FREE &&
+           n->translation[2] == SCENE_FREE;
 }
 
 static void scene_vertices(model *m)
@@ -67,6 +77,7 @@ static void scene_vertices(model *m)
             while (v->angles < 3 && vec3_norm(n->axis[v->angles]) > 0)
                 add_axis(n->axis[v->angles], v);
         hold_idle(s, i, v);
+        v->turned = scene_node_axes(n, v->along) && !(is_free(n) && s->plane == SCENE_SPACE);
     }
 }
 

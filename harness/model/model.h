@@ -193,7 +193,9 @@ typedef struct mesh_vertex {
     int body;           /* vertex that moves this one rigidly; itself: it has its own coordinates */
     double offset[3];   /* from the body, undeformed [m] */
     int coordinate[6];  /* of a body: global coordinate or NONE where fixed */
-    int angles;         /* > 0: rotation is a sequence of that many angles about the axes */
+    int turned;         /* 1: its translations are along the columns of `along` */
+    double along[9];
+    int angles; /* > 0: rotation is a sequence of that many angles about the axes */
     double axis[3][3];
     int idle;             /* bits of angles that are fixed: nothing depends on them */
     int vector_driver[3]; /* prescribed rotation vector: its drivers; NONE: not prescribed so */
@@ -604,6 +606,25 @@ int kinematics_node_jacobian(const model *, const model_state *, int node, int s
                              double T[]);
 /* Current offset of a vertex from its body [m]. */
 void kinematics_offset(const model *, const model_state *, int vertex, double rho[3]);
+
+/* Of a vertex whose translations may be turned, in place: what three of its coordinates are in
+ * fixed axes, and the reverse, forces too. */
+static inline void kinematics_to_fixed(const mesh_vertex *v, double d[3])
+{
+    const double x = d[0], y = d[1], z = d[2];
+    for (int i = 0; i < 3 && v->turned; i++)
+        d[i] = v->along[3 * i] * x + v->along[3 * i + 1] * y + v->along[3 * i + 2] * z;
+}
+static inline void kinematics_to_own(const mesh_vertex *v, double d[3])
+{
+    const double x = d[0], y = d[1], z = d[2];
+    for (int i = 0; i < 3 && v->turned; i++)
+        d[i] = v->along[i] * x + v->along[3 + i] * y + v->along[6 + i] * z;
+}
+/* A[3 x 3] of own translations becomes that of fixed ones. */
+void kinematics_turn_back(const mesh_vertex *, double A[9]);
+/* K[n x n], whose six of the vertex begin at `at`: from fixed axes, rows and columns. */
+void kinematics_turn_matrix(const mesh_vertex *, int n, int at, double K[]);
 
 /* Fills x[nodes], the nodes of an element in a state, as its type takes them. */
 void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,

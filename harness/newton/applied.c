@@ -238,6 +238,7 @@ static void add_following(const entries *all, const mesh_vertex *body, const dou
     vec3_cross(b[column], F, force);
     vec3_cross(b[column], F + 3, moment);
     vec3_cross(rho, force, arm);
+    kinematics_to_own(body, force);
     for (int i = 0; i < 3; i++) {
         all->take(all->to, body->coordinate[i], body->coordinate[3 + column], force[i]);
         all->take(all->to, body->coordinate[3 + i], body->coordinate[3 + column],

@@ -370,6 +370,18 @@ void loads_at_node(const equations *eq, const model_state *s, double path, int n
         add_element_at_node(&sum, i, path);
 }
 
+double loads_reaction(const model *m, int node, int component, const double elements[6],
+                      const double loads[6])
+{
+    const int along = component % 3, first = component - along;
+    double R[9], sum = 0;
+    if (!scene_node_axes(&model_scene(m)->node[node], R))
+        return elements[component] - loads[component];
+    for (int i = 0; i < 3; i++)
+        sum += R[3 * i + along] * (elements[first + i] - loads[first + i]);
+    return sum;
+}
+
 void loads_drive(const equations *eq, const model_state *s, double path, double dx[])
 {
     const model *m = eq->m;

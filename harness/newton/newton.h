@@ -941,6 +941,10 @@ void loads_release_moment(const model *, const model_state *, int node, const do
                           sparse *K);
 /* Force and spatial moment of the loads at `path` on the frame of a node: F[6] [N, N m]. */
 void loads_at_node(const equations *, const model_state *, double path, int node, double F[6]);
+/* Force or moment that holds a component of a node, along the axes of its supports, of what
+ * elements and loads have there. */
+double loads_reaction(const model *, int node, int component, const double elements[6],
+                      const double loads[6]);
 
 /* Newton's equations of a state. */
 

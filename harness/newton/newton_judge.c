@@ -110,6 +110,7 @@ static double advance_vertex(const model *m, model_state *s, int index, const do
     double d[6], q[4], largest = 0;
     for (int c = 0; c < 6; c++)
         d[c] = v->coordinate[c] == NONE ? 0 : dx[v->coordinate[c]];
+    kinematics_to_fixed(v, d);
     for (int c = 0; c < 3; c++) {
         s->u[3 * index + c] += d[c];
         s->angle[3 * index + c] += d[3 + c];

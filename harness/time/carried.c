@@ -165,16 +165,34 @@ void carried_free(carried_masses *c)
  * moment g x m (v_c1 - v_c)/4 of the fixed components compensates for the work of this difference,
  * so that the kinetic energy gained equals the work done. */
 
+/* to[3 x n]: its fixed translations become those of from. */
+static void hold_rows(const carried_step *p, int n, const double from[], double to[])
+{
+    for (int k = 0; k < n; k++) {
+        const double x[3] = {to[k], to[n + k], to[2 * n + k]};
+        for (int i = 0; i < 3; i++) {
+            to[i * n + k] = 0;
+            for (int j = 0; j < 3; j++)
+                to[i * n + k] +=
+                    ((i == j) - p->held[3 * i + j]) * x[j] + p->held[3 * i + j] * from[j * n + k];
+        }
+    }
+}
+
 void carried_step_follow(const carried_mass *one, carried_step *p)
 {
-    double w1[3], swept[3], change[3], crossed[3], before[3];
+    double w1[3], swept[3], change[3], crossed[3], before[3], apart[3];
     if (!p->rides)
         return;
     mat3_mul_vec(p->R1, p->W1, w1);
     vec3_cross(w1, p->after, swept);
+    hold_rows(p, 1, swept, p->v1);
     for (int i = 0; i < 3; i++) {
-        p->v1[i] = p->held[i] ? swept[i] : p->v1[i];
-        p->behind[i] = p->held[i] ? one->mass * (p->v1[i] - p->v0[i]) / 4 : 0;
+        apart[i] = one->mass * (p->v1[i] - p->v0[i]) / 4;
+        p->behind[i] = 0;
+    }
+    hold_rows(p, 1, apart, p->behind);
+    for (int i = 0; i < 3; i++) {
         change[i] = p->W1[i] - p->W0[i];
     }
     vec3_cross(change, p->centre, crossed);
@@ -212,8 +230,8 @@ void carried_step_sway(const carried_step *p, double h, const double T[9], const
         return;
     riding(p, h, T, swept, speed);
     for (int k = 0; k < 9; k++)
-        if (p->held[k / 3])
-            sway[k] = -h / 2 * speed[k];
+        speed[k] *= -h / 2;
+    hold_rows(p, 3, speed, sway);
 }
 
 /* dg/dc */
@@ -234,12 +252,13 @@ static void change_of(const carried_step *p, double h, const double T[9], double
 void carried_step_late(const carried_mass *one, const carried_step *p, double h, const double T[9],
                        const double sway[9], double K[36])
 {
-    double dg[9], behind[9], A[9], first[9], then[9];
+    double dg[9], behind[9] = {0}, by_mass[9], A[9], first[9], then[9];
     if (!p->rides)
         return;
     change_of(p, h, T, dg);
     for (int k = 0; k < 9; k++)
-        behind[k] = p->held[k / 3] ? -one->mass / (2 * h) * sway[k] : 0;
+        by_mass[k] = -one->mass / (2 * h) * sway[k];
+    hold_rows(p, 3, by_mass, behind);
     cayley_skew(p->behind, A);
     mat3_mul(A, dg, first);
     cayley_skew(p->g, A);

@@ -436,9 +436,11 @@ void conserving_rates(conserving *s, const instant *from, double h, instant *to)
         without_inertia(one, one == &plain ? NULL : s->massless + (size_t)(9 * k), &p);
         mat3_mul_vec(p.R1, p.W1, w);
         vec3_cross(w, p.after, turned);
+        double frame[3] = {p.v1[0] - turned[0], p.v1[1] - turned[1], p.v1[2] - turned[2]};
+        kinematics_to_own(model_vertex(m, i), frame);
         for (int c = 0; c < 3; c++) {
             if (at[c] != NONE && at[c] < model_unknowns(m))
-                to->v[at[c]] = p.v1[c] - turned[c];
+                to->v[at[c]] = frame[c];
             if (at[SCENE_RX + c] != NONE && at[SCENE_RX + c] < model_unknowns(m) &&
                 model_vertex(m, i)->angles == 0)
                 to->v[at[SCENE_RX + c]] = p.W1[c];

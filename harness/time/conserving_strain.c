@@ -220,9 +220,13 @@ void carried_step_of(const conserving *s, const instant *from, const model_state
 {
     const model *m = s->of.c->model;
     double dr[3], swept[3], body[3], turned[3];
+    int held[3] = {0};
     frame_rates r;
     carried_step_centre(m, one, out->centre, out->J);
-    out->rides = held_of(m, one->frame, out->held);
+    out->rides = held_of(m, one->frame, held);
+    for (int k = 0; k < 9; k++)
+        out->held[k] = k % 4 == 0 && held[k / 3];
+    kinematics_turn_back(model_vertex(m, one->frame), out->held);
     inertia_rates(m, from->state, one->frame, from->v, NULL, &r);
     memcpy(out->Rn, r.R, sizeof r.R);
     rotation_matrix(&now->q[4 * one->frame], out->R1);
@@ -415,9 +419,12 @@ void conserving_predict(conserving *s, const instant *from, double h)
         predict_turn(s, &r, at + SCENE_RX, h, c);
         vec3_cross(c, r.v, crossed);
         vec3_cross(c, crossed, twice);
+        double moved[3];
+        for (int k = 0; k < 3; k++)
+            moved[k] = h * (r.v[k] + (crossed[k] + twice[k] / 2) / (1 + vec3_dot(c, c) / 4) / 2);
+        kinematics_to_own(model_vertex(m, i), moved);
         for (int k = 0; k < 3; k++)
             if (at[k] != NONE && at[k] < s->free)
-                s->step[at[k]] =
-                    h * (r.v[k] + (crossed[k] + twice[k] / 2) / (1 + vec3_dot(c, c) / 4) / 2);
+                s->step[at[k]] = moved[k];
     }
 }

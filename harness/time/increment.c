@@ -20,6 +20,7 @@ static void apply_vertex(const model *m, const model_state *from, int index, con
     double d[6], q[4];
     for (int c = 0; c < 6; c++)
         d[c] = v->coordinate[c] == NONE ? 0 : inc[v->coordinate[c]];
+    kinematics_to_fixed(v, d);
     for (int c = 0; c < 3; c++) {
         to->u[3 * index + c] = from->u[3 * index + c] + d[c];
         to->angle[3 * index + c] = from->angle[3 * index + c] + d[3 + c];

@@ -212,6 +212,7 @@ void inertia_add_tangent(const equations *eq, const carried_masses *all, const m
         for (int i = 0; i < 36; i++)
             K[i] += more[i];
         inertia_rows(p.turn, K);
+        kinematics_turn_matrix(model_vertex(m, vertex), 6, 0, K);
         for (int i = 0; i < 6; i++)
             for (int j = 0; j < 6; j++)
                 assemble_subtract(S, at[i], at[j], -K[6 * i + j]);

@@ -67,6 +67,7 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
     velocity_of(m, s, index, field, velocity);
     rotation_matrix(&s->q[4 * index], R);
     mat3_transpose_mul_vec(R, field->spin, body);
+    kinematics_to_own(frame, velocity);
     for (int i = 0; i < 3; i++) {
         const int c = frame->coordinate[i], t = frame->coordinate[SCENE_RX + i];
         if (c != NONE && c < model_unknowns(m) && own)

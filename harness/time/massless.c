@@ -213,7 +213,7 @@ enum { BLOCK = 9, BLOCKS = 2 };
 static int is_whole(const model *m, int i, int block)
 {
     const int *at = model_vertex(m, i)->coordinate + 3 * block;
-    int whole = model_vertex(m, i)->body == i;
+    int whole = model_vertex(m, i)->body == i && !(block == 0 && model_vertex(m, i)->turned);
     for (int k = 0; k < 3; k++)
         whole &= at[k] != NONE && at[k] < model_unknowns(m);
     return whole;

@@ -10,7 +10,8 @@ enum { FIRST_TURN = 6, BALL = 3 };
 
 int place_plain(const model *m, int vertex)
 {
-    return model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
+    const mesh_vertex *v = model_vertex(m, vertex);
+    return v->body == vertex && v->angles == 0 && !v->turned;
 }
 
 /* A relative position under construction, with its derivatives as [3 x columns]. */
@@ -237,11 +238,14 @@ static void angle_rows(const place_chain *by, const double moment[3], frame_plac
 static void finish(const place_chain *by, frame_place *p)
 {
     const int n = p->columns, ball = by->release != NULL && by->release->turns == BALL;
+    const mesh_vertex *body = model_vertex(by->m, model_vertex(by->m, by->vertex)->body);
     double force[9], more[3 * PLACE_MOST], dmoment[3 * PLACE_MOST], moment[3];
-    for (int i = 0; i < 3; i++) {
-        p->work[i * n + i] = 1;
-        p->moved[i * n + i] += 1;
-    }
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            const double along = body->turned ? body->along[3 * i + k] : i == k;
+            p->work[i * n + k] = along;
+            p->moved[i * n + k] += along;
+        }
     for (int i = 0; i < 3 * n; i++) {
         p->moved[i] += by->moved[i];
         p->moved[3 * n + i] = by->dc[i];

@@ -32,6 +32,7 @@ static void add_frame(radau *r, int index, double h, int i)
                 K[x] += more[x];
         }
         inertia_rows(p.turn, K);
+        kinematics_turn_matrix(model_vertex(m, vertex), 6, 0, K);
         for (int row = 0; row < 6; row++)
             for (int column = 0; column < 6; column++)
                 stages_add(&r->S, i, k, at[row], at[column], K[6 * row + column]);

@@ -111,7 +111,7 @@ static status reaction_in(const read_state *s, int node, int component, double *
         TRY(shares_node(eq->m, s->section.s, &s->motion, node, F, f));
         TRY(dashpots_at_node(eq->m, s->section.s, s->motion.v, node, F, f));
     }
-    *out = F[component] - L[component];
+    *out = loads_reaction(eq->m, node, component, F, L);
     return STATUS_OK;
 }
 

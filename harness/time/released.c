@@ -489,6 +489,8 @@ void forms_rates(const model *m, const model_state *s, int vertex, const double 
         out->v[i] = c != NONE ? v[c] : 0;
         out->a[i] = c != NONE && a != NULL ? a[c] : 0;
     }
+    kinematics_to_fixed(frame, out->v);
+    kinematics_to_fixed(frame, out->a);
     if (frame->angles > 0) {
         sequence_rates(m, s, vertex, v, a, out);
         return;
@@ -507,12 +509,13 @@ void forms_add_force(const model *m, const model_state *s, int vertex, const dou
                      double out[])
 {
     const mesh_vertex *frame = model_vertex(m, vertex);
-    double b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, own[3] = {F[0], F[1], F[2]};
     if (frame->angles > 0)
         kinematics_axes(m, s, vertex, b);
+    kinematics_to_own(frame, own);
     for (int c = 0; c < 3; c++)
         if (frame->coordinate[c] != NONE)
-            out[frame->coordinate[c]] += F[c];
+            out[frame->coordinate[c]] += own[c];
     for (int k = 0; k < 3; k++)
         if (frame->coordinate[SCENE_RX + k] != NONE)
             out[frame->coordinate[SCENE_RX + k]] += vec3_dot(b[k], F + 3);

@@ -165,7 +165,8 @@ static void begin_parts(const model *m, const mesh_element *el, const model_stat
     out->columns = el->columns;
     out->wide = 0;
     for (int k = 0; k < el->nodes; k++)
-        out->wide |= model_is_released(m, el->vertex[k]);
+        out->wide |= model_is_released(m, el->vertex[k]) ||
+                     model_vertex(m, model_vertex(m, el->vertex[k])->body)->turned;
 }
 
 void spread_element(const model *m, int element, const model_state *s, const double v[],
@@ -202,11 +203,13 @@ static void wide_motion(const model *m, const spread_parts *p, const spread_moti
                      *turn = moves != NULL ? moves[k].turn : p->turn[k];
         T[p->columns * (at + 6) + at + 6] = plain;
         if (el->vertex[k] < model_first_release(m)) {
-            for (int i = 0; i < 3; i++) {
-                T[p->columns * (at + i) + at + i] = plain;
-                for (int j = 0; j < 3; j++)
+            const mesh_vertex *body = model_vertex(m, model_vertex(m, el->vertex[k])->body);
+            for (int i = 0; i < 3; i++)
+                for (int j = 0; j < 3; j++) {
+                    const double along = body->turned ? body->along[3 * i + j] : i == j;
+                    T[p->columns * (at + i) + at + j] = plain * along;
                     T[p->columns * (at + 3 + i) + at + 3 + j] = turn[3 * i + j];
-            }
+                }
             continue;
         }
         released_masses of;

@@ -138,9 +138,13 @@ void between_take(step_between *b, between_degree degree, const instant *from, c
         const mesh_vertex *v = model_vertex(m, i);
         if (v->body != i)
             continue;
+        double moved[3];
+        for (int k = 0; k < 3; k++)
+            moved[k] = to->state->u[3 * i + k] - from->state->u[3 * i + k];
+        kinematics_to_own(v, moved);
         for (int k = 0; k < 3; k++) {
             const int at = 3 * i + k;
-            put_plain(b, v->coordinate[k], to->state->u[at] - from->state->u[at], h);
+            put_plain(b, v->coordinate[k], moved[k], h);
             if (v->angles > 0)
                 put_plain(b, v->coordinate[SCENE_RX + k],
                           to->state->angle[at] - from->state->angle[at], h);

@@ -327,7 +327,8 @@ typedef struct carried_step {
     double v0[3], v1[3], W0[3],
         W1[3]; /* velocity of the centre; angular velocity in the axes of the frame */
     double c[3];
-    int rides, held[3]; /* 1: some but not all translations of the frame are fixed */
+    int rides;      /* 1: some but not all translations of the frame are fixed: */
+    double held[9]; /* projects onto these */
     double g[3], behind[3], turned[3], late[3]; /* of these (carried.c) */
 } carried_step;
 

@@ -207,6 +207,10 @@ static void add(scene *s, const char *name)
         double k[36] = {[28] = 500, [35] = 400};
         scene_release_end(s, 1, 0, SCENE_RZ);
         scene_add_spring(s, MIDDLE, TIP, k);
+    } else if (IS("supports in axes of their own")) {
+        static const double axes[2][3] = {{1, 0, 0}, {0, 0.8, 0.6}};
+        memcpy(scene_node_at(s, TIP)->axes, axes, sizeof axes);
+        scene_hold(s, TIP, SCENE_UZ, SCENE_UZ);
     } else if (IS("fork")) {
         twist(s);
         ended_in_a_fork(s);
