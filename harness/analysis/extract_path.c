@@ -276,6 +276,24 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
     }
 }
 
+/* The extreme between the frequencies of the analysis, where that is beyond those there. */
+static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quantity_result *r)
+{
+    char why[FAULT_TEXT];
+    if (!peak->known)
+        return;
+    snprintf(why, sizeof why,
+             "unbounded at %.6g Hz, where nothing damps it; give damping, or take: curve",
+             peak->hertz);
+    if (peak->unbounded) {
+        quantity_no_value(r, STATUS_NO_VALUE, why);
+        return;
+    }
+    r->value = quantity_scaled(q, peak->value);
+    r->rounding = relative(fabs(q->factor) * peak->bound, r->value);
+    r->x = quantity_abscissa(q, peak->hertz);
+}
+
 void extract_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                   quantity_result *r)
 {
@@ -315,4 +333,6 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
     r->value = at_station(c, q, o, chosen, r);
     r->rounding = fmax(r->rounding, relative(bound_at(c, q, o, chosen), r->value));
     r->x = quantity_abscissa(q, p->value[chosen]);
+    if (q->what.kind == SCENE_RESPONSE)
+        extract_peak(q, &o->left.harmonic.peak[q - c->scene->quantity], r);
 }

@@ -322,6 +322,21 @@ static void solve_by_modes(vibration *v, const scene_response *r, double w, doub
     harmonic_modes_solve(v, left, x);
 }
 
+/* Solves for the input of a quantity. */
+static status solve_own_input(vibration *v, int quantity, double w, fault *f)
+{
+    const scene *s = v->c->scene;
+    const scene_response *r = &s->quantity[quantity].what.of.response;
+    double complex *x = v->found + (size_t)quantity * (size_t)v->all,
+                   *left = v->left + (size_t)quantity * (size_t)v->free;
+    TRY(input_of(v, r, w, x, f));
+    if (s->analysis[v->analysis].by_modes)
+        solve_by_modes(v, r, w, x, left);
+    else
+        solve_direct(v, r, w, x);
+    return STATUS_OK;
+}
+
 /* The solution for the input of a quantity, of an earlier one where that has the same. */
 static status solve_input(vibration *v, int quantity, double w, fault *f)
 {
@@ -337,12 +352,7 @@ static status solve_input(vibration *v, int quantity, double w, fault *f)
             memcpy(left, v->left + (size_t)i * (size_t)v->free, (size_t)v->free * sizeof *left);
             return STATUS_OK;
         }
-    TRY(input_of(v, r, w, x, f));
-    if (s->analysis[v->analysis].by_modes)
-        solve_by_modes(v, r, w, x, left);
-    else
-        solve_direct(v, r, w, x);
-    return STATUS_OK;
+    return solve_own_input(v, quantity, w, f);
 }
 
 /* o[all] += times the small motion of the component of a node, of all coordinates. */
@@ -505,6 +515,90 @@ static void read_quantity(vibration *v, int quantity, double w, double *value, d
     }
 }
 
+/* One quantity at a frequency; sign * value is to be large. */
+static status respond_at(vibration *v, int quantity, double sign, double hertz, outcome_peak *out,
+                         fault *f)
+{
+    const double w = 2 * PI * hertz;
+    *out = (outcome_peak){.hertz = hertz};
+    const status factored = factor_at(v, hertz, f);
+    if (factored == STATUS_SINGULAR) { /* on an undamped resonance */
+        out->value = sign * INFINITY;
+        return STATUS_OK;
+    }
+    TRY(factored);
+    TRY(solve_own_input(v, quantity, w, f));
+    read_quantity(v, quantity, w, &out->value, &out->bound);
+    return STATUS_OK;
+}
+
+/* Golden sections between two frequencies: the largest of sign * value, where there is one only. */
+static status refine_between(vibration *v, int quantity, double sign, double low, double high,
+                             outcome_peak *best, fault *f)
+{
+    const double part = 0.6180339887498949, narrow = 1e-10, settled = 1e-3;
+    outcome_peak a, b;
+    TRY(respond_at(v, quantity, sign, high - part * (high - low), &a, f));
+    TRY(respond_at(v, quantity, sign, low + part * (high - low), &b, f));
+    while (high - low > narrow * high && isfinite(a.value) && isfinite(b.value)) {
+        if (sign * a.value >= sign * b.value) {
+            high = b.hertz;
+            b = a;
+            TRY(respond_at(v, quantity, sign, high - part * (high - low), &a, f));
+        } else {
+            low = a.hertz;
+            a = b;
+            TRY(respond_at(v, quantity, sign, low + part * (high - low), &b, f));
+        }
+    }
+    *best = sign * a.value >= sign * b.value ? a : b;
+    best->known = 1;
+    best->unbounded = !isfinite(best->value) ||
+                      fabs(a.value - b.value) > settled * fmax(fabs(a.value), fabs(b.value));
+    return STATUS_OK;
+}
+
+/* The extreme of a quantity: from every value that is so beside its neighbours, between these. */
+static status refine(vibration *v, int quantity, outcome_harmonic *o, fault *f)
+{
+    const scene_quantity *q = &v->c->scene->quantity[quantity];
+    const int last = o->path.stations - 1;
+    const double *value = o->response + (size_t)quantity * (size_t)o->path.stations;
+    const double sign = (q->reduction == SCENE_MAX) == (q->factor > 0) ? 1 : -1;
+    static const double boundless = 1e8; /* times the value at a frequency of the analysis */
+    double most = -INFINITY;
+    for (int i = 0; i <= last; i++)
+        most = fmax(most, sign * value[i]);
+    for (int i = 0; i <= last && last > 0; i++) {
+        const int before = i > 0 ? i - 1 : i, after = i < last ? i + 1 : i;
+        outcome_peak one;
+        if (sign * value[i] < sign * value[before] || sign * value[i] < sign * value[after])
+            continue;
+        TRY(refine_between(v, quantity, sign, o->path.value[before], o->path.value[after], &one,
+                           f));
+        one.unbounded |= fabs(one.value) > boundless * fabs(value[i]);
+        if (sign * one.value <= most)
+            continue;
+        most = sign * one.value;
+        o->peak[quantity] = one;
+    }
+    return STATUS_OK;
+}
+
+/* Of amplitudes, real and imaginary parts; a phase turns over. */
+static status refine_extremes(vibration *v, outcome_harmonic *o, fault *f)
+{
+    const scene *s = v->c->scene;
+    for (int k = 0; k < s->quantities; k++) {
+        const scene_quantity *q = &s->quantity[k];
+        if (scene_asks(q, v->analysis, SCENE_RESPONSE) &&
+            (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN) &&
+            q->what.of.response.part != SCENE_PHASE)
+            TRY(refine(v, k, o, f));
+    }
+    return STATUS_OK;
+}
+
 static status respond(vibration *v, outcome_harmonic *o, fault *f)
 {
     const scene *s = v->c->scene;
@@ -521,7 +615,7 @@ static status respond(vibration *v, outcome_harmonic *o, fault *f)
             }
         o->path.value[o->path.reached++] = path->value[i];
     }
-    return STATUS_OK;
+    return refine_extremes(v, o, f);
 }
 
 enum { SHAPES_OF_MOTION = 4, SHAPES_OF_QUANTITY = 2 * SHAPES_OF_MOTION };
@@ -610,15 +704,16 @@ static status solve(vibration *v, outcome_harmonic *o, fault *f)
     o->path.value = calloc(stations + 1, sizeof *o->path.value);
     o->response = calloc((size_t)s->quantities * stations + 1, sizeof *o->response);
     o->bound = calloc((size_t)s->quantities * stations + 1, sizeof *o->bound);
+    o->peak = calloc((size_t)s->quantities + 1, sizeof *o->peak);
     v->x = calloc(4 * (size_t)v->free + 1, sizeof *v->x);
     v->found = calloc((size_t)s->quantities * (size_t)v->all + 1, sizeof *v->found);
     v->left = calloc((size_t)s->quantities * (size_t)v->free + 1, sizeof *v->left);
     v->output = calloc((size_t)v->all + 1, sizeof *v->output);
     v->dual = calloc((size_t)v->all + 1, sizeof *v->dual);
     v->room = calloc((size_t)model_stresses(v->c->model) + (size_t)v->all + 1, sizeof *v->room);
-    if (o->path.value == NULL || o->response == NULL || o->bound == NULL || v->x == NULL ||
-        v->found == NULL || v->left == NULL || v->output == NULL || v->dual == NULL ||
-        v->room == NULL)
+    if (o->path.value == NULL || o->response == NULL || o->bound == NULL || o->peak == NULL ||
+        v->x == NULL || v->found == NULL || v->left == NULL || v->output == NULL ||
+        v->dual == NULL || v->room == NULL)
         return no_memory(f);
     TRY(matrices(v, 1, f));
     TRY(make_pattern(v, f));

@@ -378,10 +378,18 @@ typedef struct outcome_motion {
     outcome_end end;
 } outcome_motion;
 
+/* Extreme of a response between the frequencies of the analysis. */
+typedef struct outcome_peak {
+    int known;     /* 0: it is at a frequency of the analysis */
+    int unbounded; /* 1: nothing damps the resonance at hertz */
+    double hertz, value, bound;
+} outcome_peak;
+
 typedef struct outcome_harmonic {
-    outcome_path path; /* path of frequencies [Hz]; without states */
-    double *response;  /* [quantities of the scene x stations] as extracted */
-    double *bound;     /* the same: error by omitted modes, at most */
+    outcome_path path;  /* path of frequencies [Hz]; without states */
+    double *response;   /* [quantities of the scene x stations] as extracted */
+    double *bound;      /* the same: error by omitted modes, at most */
+    outcome_peak *peak; /* [quantities of the scene] of those that take the largest or the least */
 } outcome_harmonic;
 
 typedef struct outcome_continuation {

@@ -179,6 +179,7 @@ void outcome_free(analysis_outcome *o)
     case SCENE_HARMONIC:
         free(o->left.harmonic.response);
         free(o->left.harmonic.bound);
+        free(o->left.harmonic.peak);
         free(o->left.harmonic.path.value);
         break;
     }

@@ -72,6 +72,8 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
     const int passed = scene_is_passed(q, p->scene.analysis[q->analysis].kind);
     if (passed && (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN))
         fprintf(to, ", at %.6g s", v->x);
+    if (q->what.kind == SCENE_RESPONSE && (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN))
+        fprintf(to, ", at %.6g Hz", v->x);
     if (v->rounding > 1e-9)
         fprintf(to, ", %s %.1e",
                 passed                           ? "between steps"

@@ -314,6 +314,52 @@ class ByModesTest(ProgramTest):
                 self.assertIn("something vibrates by itself", done.stdout + done.stderr)
 
 
+class ExtremesTest(ProgramTest):
+    """Of one mass on a spring, between the frequencies of the analysis: closed form."""
+    OSCILLATOR = """beamwork: 1
+sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
+nodes: {body: {at: [0, 0, 0], mass: 2, hold: [ux, uz, rx, ry, rz]}, top: {at: [1, 0, 0]}}
+members: {post: {from: body, to: top, section: s, y: [0, 1, 0]}}
+springs: {s: {to: body, stiffness: [0, 800, 0, 0, 0, 0]}}
+analyses: {steady: {harmonic: {frequencies: %s, damping: {ratio: %g}%s}}}
+quantities:
+  most:  {response: {analysis: steady, node: body, component: uy, force: body, along: uy, take: max}, unit: m/N}
+  least: {response: {analysis: steady, node: body, component: uy, force: body, along: uy, part: real, take: min}, unit: m/N}
+"""
+
+    def extremes(self, frequencies, ratio, more=""):
+        path = self.folder/"scene.yaml"
+        path.write_text(self.OSCILLATOR % (frequencies, ratio, more), encoding="utf-8")
+        record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
+        return ({q["quantity"]: q for q in record["quantities"]},
+                self.answered("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout)
+
+    def test_closed_form(self):
+        """Whatever the frequencies; also where the half-power width is far below their distance."""
+        hertz = 20/(2*math.pi)
+        for ratio in (0.2, 0.01, 1e-5):
+            for frequencies in ("1..10/8:log", "1..10/200:log", "[3, 4]"):
+                for more in ("", ", solution: modal"):
+                    got, text = self.extremes(frequencies, ratio, more)
+                    exact = 1/(800*2*ratio*math.sqrt(1 - ratio**2))
+                    self.assertLess(abs(got["most"]["value"]/exact - 1), 1e-8, (ratio, frequencies))
+                    self.assertLess(abs(got["most"]["x"]/(hertz*math.sqrt(1 - 2*ratio**2)) - 1), 1e-6)
+                    self.assertRegex(text, r"(?m)^most .*, at 3\.\d+ Hz")
+                    if hertz*math.sqrt(1 + 2*ratio) < 4:  # the real part is least there
+                        self.assertLess(abs(got["least"]["value"]*800*4*ratio*(1 + ratio) + 1), 1e-8)
+
+    def test_at_an_end(self):
+        got, text = self.extremes("[5, 6, 7]", 0.01)
+        self.assertAlmostEqual(got["most"]["x"], 5, delta=1e-9)
+        self.assertIn(", at 5 Hz", text)
+
+    def test_nothing_damps(self):
+        path = self.folder/"scene.yaml"
+        path.write_text((self.OSCILLATOR % ("[1, 2, 5]", 0, "")).replace(", damping: {ratio: 0}", ""), encoding="utf-8")
+        self.assertRegex(" ".join(run("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout.split()),
+                         r"most - unbounded at 3\.1831 Hz, where nothing damps it; give damping")
+
+
 class HarmonicTest(ProgramTest):
 
     def scene(self, text):
