@@ -66,8 +66,9 @@ int names_number(const void *context, const char *text, int *at, double *out,
     return known->word == NULL && !isnan(*out); /* its error is already reported */
 }
 
-int expression_part(const document_node *n, int from, int length, const scope *names, mistakes *m,
-                    double *out)
+/* As expression_number, for `length` bytes of the text from `from`. */
+static int expression_part(const document_node *n, int from, int length, const scope *names,
+                           mistakes *m, double *out)
 {
     const name_context context = {names, 0};
     expression_mistake why;

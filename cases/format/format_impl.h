@@ -232,9 +232,6 @@ int names_number(const void *context, const char *text, int *at, double *out, ex
 
 /* Returns 1 and the value, or 0 after an error. */
 int expression_number(const document_node *n, const scope *names, mistakes *m, double *out);
-/* As expression_number, for `length` bytes of the text from `from`. */
-int expression_part(const document_node *n, int from, int length, const scope *names, mistakes *m,
-                    double *out);
 /* Exactly `count` numbers of a list. */
 int expression_vector(const document_node *n, int count, const scope *names, mistakes *m,
                       double out[]);

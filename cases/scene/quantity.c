@@ -46,11 +46,6 @@ scene_extract scene_frequency(int order, scene_family family)
     return EXTRACT(frequency, .mode = {.order = order, .family = family});
 }
 
-scene_extract scene_frequency_of(int order, scene_family family, int half_waves)
-{
-    return EXTRACT(frequency, .mode = {.order = order, .family = family, .half_waves = half_waves});
-}
-
 scene_extract scene_factor_at(void)
 {
     return (scene_extract){.kind = SCENE_FACTOR_AT, .type = &quantity_factor_at};
@@ -218,12 +213,6 @@ const scene_relative *scene_relative_of(const scene_quantity *q)
 {
     assert(q->what.kind == SCENE_RELATIVE);
     return &q->what.of.relative;
-}
-
-scene_balance scene_balance_in(const scene_quantity *q)
-{
-    assert(q->what.kind == SCENE_BALANCE);
-    return q->what.of.balance;
 }
 
 int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind)

@@ -339,7 +339,8 @@ scene_load *scene_load_at(scene *s, int i)
     return i >= 0 && i < s->loads ? &s->load[i] : &s->scrap.load;
 }
 
-int scene_member_is_free(const scene_member *m)
+/* Has the member a stress-free elongation or curvature? */
+static int scene_member_is_free(const scene_member *m)
 {
     return m->pretension != 0 || m->unstressed_length != 0 || m->free_curvature[0] != 0 ||
            m->free_curvature[1] != 0;

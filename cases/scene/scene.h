@@ -532,7 +532,6 @@ scene_extract scene_critical_factor(int sign, int order);
 scene_extract scene_growth(void);
 /* scene_frequency: any number of half-waves. */
 scene_extract scene_frequency(int order, scene_family family);
-scene_extract scene_frequency_of(int order, scene_family family, int half_waves);
 scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
 scene_extract scene_driver_value(int driver);
@@ -613,7 +612,6 @@ const scene_mode *scene_mode_of(const scene_quantity *q);
 const scene_point *scene_point_of(const scene_quantity *q);
 int scene_driver_of(const scene_quantity *q);
 const scene_relative *scene_relative_of(const scene_quantity *q);
-scene_balance scene_balance_in(const scene_quantity *q);
 const scene_internal *scene_internal_of(const scene_quantity *q);
 const scene_stress *scene_stress_of(const scene_quantity *q);
 /* Does it belong to this kind and this analysis? */
@@ -887,8 +885,6 @@ int scene_add_member(scene *s, int p, int q, int profile,
 /* Stress-free elongation of a member of that length [m], from its pretension or its unstressed
  * length. REFUSED: the section does not determine an elongation for the pretension. */
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
-/* Has the member a stress-free elongation or curvature? */
-int scene_member_is_free(const scene_member *m);
 /* Has the scene such a member, or a temperature? who: describes it; may be NULL. */
 int scene_is_free(const scene *s, scene_words *who);
 /* Is the member tapered? The second function: is any? */

@@ -6,10 +6,6 @@
 
 /* Requirements on transient analyses, and on the functions of time that they contain. */
 
-/* REFUSED: names the cause. The nodes, members, drivers and loads must be valid. */
-status scene_validate_motion(const scene *s, int analysis, fault *f);
-/* REFUSED: no moving part has inertia in a transient analysis. */
-status scene_validate_mass(const scene *s, int analysis, fault *f);
 /* Checks the functions of drivers and loads, also without a transient analysis. */
 status scene_validate_functions(const scene *s, fault *f);
 

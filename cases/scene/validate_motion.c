@@ -66,7 +66,8 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
     return STATUS_OK;
 }
 
-status scene_validate_mass(const scene *s, int i, fault *f)
+/* REFUSED: no moving part has inertia in a transient analysis. */
+static status scene_validate_mass(const scene *s, int i, fault *f)
 {
     if (scene_has_mass(s))
         return STATUS_OK;
@@ -204,7 +205,8 @@ static status check_load(const scene *s, int l, int i, fault *f)
     return load->kind == SCENE_TEMPERATURE ? check_temperature(s, l, i, f) : STATUS_OK;
 }
 
-status scene_validate_motion(const scene *s, int i, fault *f)
+/* REFUSED: names the cause. The nodes, members, drivers and loads must be valid. */
+static status scene_validate_motion(const scene *s, int i, fault *f)
 {
     const scene_motion *m = scene_motion_of(&s->analysis[i]);
     TRY(check_steps(s, m, i, f));

@@ -50,9 +50,6 @@ status collect_systems(const analysis_context *, system_matrices *, fault *);
 /* Compliance and stiffness of a node in a deformed state. */
 
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* The analysis at a state that Newton's method has just reached, with its last tangent if valid. */
-status compliance_take(analysis_context *, int analysis, const newton_run *, node_tangent *,
-                       station_matrices *out, fault *);
 
 /* Compliances along a path, taken while it is walked: where Newton's last correction changes the
  * tangent by less than its rounding, the last tangent is that of the station, and no other one is
@@ -173,7 +170,6 @@ status flutter_judge_state(flutter_judge *, analysis_context *, const model_stat
 /* The same of the state that j->n has; negative_pivots of the record become those of the state, -1:
  * not symmetric, or singular. */
 status flutter_judge_begin(flutter_judge *, analysis_context *, fault *);
-status flutter_judge_here(flutter_judge *, step_record *, fault *);
 void flutter_judge_free(flutter_judge *);
 
 /* Replacement of the count of negative pivots where a tangent K is not symmetric: the eigenvalues

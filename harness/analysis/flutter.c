@@ -149,7 +149,7 @@ static status count_passed(flutter_judge *j, step_record *record, fault *f)
     return STATUS_OK;
 }
 
-status flutter_judge_here(flutter_judge *j, step_record *record, fault *f)
+static status flutter_judge_here(flutter_judge *j, step_record *record, fault *f)
 {
     step_record at = {0};
     fault why = {""};

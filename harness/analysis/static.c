@@ -265,8 +265,9 @@ static status compliance_at(analysis_context *c, const scene_compliance *what, c
     return matrices_of(c, what, reaction, t, wanted, out, f);
 }
 
-status compliance_take(analysis_context *c, int analysis, const newton_run *n, node_tangent *t,
-                       station_matrices *out, fault *f)
+/* The analysis at a state that Newton's method has just reached, with its last tangent if valid. */
+static status compliance_take(analysis_context *c, int analysis, const newton_run *n,
+                              node_tangent *t, station_matrices *out, fault *f)
 {
     const scene_compliance *what = scene_compliance_of(&c->scene->analysis[analysis]);
     double reaction[6];

@@ -4,14 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-int cells_runs(const sweep *s, int index)
+/* Returns 1 when the cells of the series are run here. */
+static int cells_runs(const sweep *s, int index)
 {
     const series *one = &s->series[index];
     return one->missing[0] == '\0' && one->imported == NULL &&
            s->point[one->point].status == STATUS_OK;
 }
 
-double cells_expense(const sweep *s, int index)
+/* Cost of the cells of a series, in evaluations of an element. */
+static double cells_expense(const sweep *s, int index)
 {
     double all = 0;
     for (int k = 0; k < s->series[index].meshes; k++)

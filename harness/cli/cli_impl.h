@@ -13,10 +13,6 @@
 
 /* Cells as bytes of a batch, and the part that must be equal when they are computed again. */
 
-/* Returns 1 when the cells of the series are run here. */
-int cells_runs(const sweep *s, int series);
-/* Cost of the cells of a series, in evaluations of an element. */
-double cells_expense(const sweep *s, int series);
 /* Writes the cells of a series, the scatter of its finest mesh and its times, as far as measured.
  */
 status cells_write(FILE *to, const sweep *s, int series, digest *content, fault *f);

@@ -409,7 +409,7 @@ status against_run(against_lap *lap, void *a, void *b, double budget, contest_cl
     return STATUS_OK;
 }
 
-section_spec profiles_matrices(double unit)
+static section_spec profiles_matrices(double unit)
 {
     static const double stiff[6] = {5e6, 2e6, 1.7e6, 90, 130, 480},
                         part[15] = {0.2,  -0.1, 0.3, 0.15, -0.2, 0.1,  -0.15, 0.2,

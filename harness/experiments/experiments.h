@@ -324,7 +324,6 @@ typedef enum profiles_form {
 
 /* Lengths in units of `unit` metres, force in newtons, time in seconds for the same mass. */
 status profiles_section(profiles_form form, double unit, section *out, fault *f);
-section_spec profiles_matrices(double unit);
 
 /* One element under test: sections, options and features that it supports, states of its nodes, its
  * calls. */
@@ -631,10 +630,6 @@ typedef struct extreme_sweep {
 /* Cell of an outcome; its quantity in the scene; its value on the first mesh (refinement 0) or a
  * neighbouring one (NAN: none). */
 const cell_result *extreme_sweep_cell(const extreme_sweep *s, const extreme_outcome *o);
-const scene_quantity *extreme_sweep_quantity(const extreme_sweep *s, const extreme_outcome *o);
-const quantity_result *extreme_sweep_result(const extreme_sweep *s, const extreme_outcome *o,
-                                            const cell_result *cell);
-double extreme_sweep_value(const extreme_sweep *s, const extreme_outcome *o, int refinement);
 /* Outcome of the same formulation and quantity at the x that others are compared with, or NULL. */
 extreme_outcome *extreme_sweep_base(const extreme_sweep *s, const extreme_outcome *o);
 /* Exit status: 0 as expected, 1 an outcome differs, 3 nothing was run. */
@@ -808,8 +803,6 @@ typedef struct pace_verdicts {
     pace_verdict *verdict;
 } pace_verdicts;
 
-/* Does it agree with the table? */
-int pace_verdict_is_expected(const pace_verdict *);
 /* Reads the table and plans its motions. REFUSED: the first error, with its line. */
 status pace_verdict_plan(const char *path, pace *, pace_verdicts *, fault *);
 /* After pace_judge. */
@@ -957,8 +950,6 @@ typedef struct parameter_ranges {
 status ranges_make(const ranges_request *request, parameter_ranges *out, fault *f);
 void ranges_free(parameter_ranges *);
 rows_shape ranges_shape(const parameter_ranges *);
-/* Points of a batch: *first; returns their number. */
-int ranges_batch(const parameter_ranges *, int batch, long *first);
 
 /* One shard of a work: its batches, each computed by a process and written to a file when it is
  * finished. */

@@ -219,8 +219,6 @@ int pace_reach_methods(const pace *, const char *name[PACE_METHODS_MOST]);
 
 extern const record_type record_pace_all, record_pace_run;
 extern const record_type *const pace_records[]; /* all except the first; NULL-terminated */
-/* found: motions. */
-void pace_gather(const void *found, const record_type *type, subjects *out);
 
 /* Motions and their evaluation as text. */
 
@@ -251,10 +249,6 @@ void ranges_points_values(const parameter_ranges *, const double at[],
 void ranges_points_text(const parameter_ranges *, const double at[], char *text, int size);
 
 /* Solves and measures the cells of some points of a sweep. */
-
-/* Stores all points of a batch in rows, which the caller frees, also after a failure. The failure
- * of a point, a cell or a reference value counts as a result. FAULT: memory or processes. */
-status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f);
 
 /* Inside of the table of a sweep. */
 

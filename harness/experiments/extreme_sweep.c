@@ -9,7 +9,8 @@ const cell_result *extreme_sweep_cell(const extreme_sweep *s, const extreme_outc
     return &s->first.series[o->series].cell[0];
 }
 
-const scene_quantity *extreme_sweep_quantity(const extreme_sweep *s, const extreme_outcome *o)
+static const scene_quantity *extreme_sweep_quantity(const extreme_sweep *s,
+                                                    const extreme_outcome *o)
 {
     const scene *all = &s->first.point[o->point].scene;
     for (int i = 0; i < all->quantities; i++)
@@ -18,14 +19,14 @@ const scene_quantity *extreme_sweep_quantity(const extreme_sweep *s, const extre
     return NULL;
 }
 
-const quantity_result *extreme_sweep_result(const extreme_sweep *s, const extreme_outcome *o,
-                                            const cell_result *cell)
+static const quantity_result *extreme_sweep_result(const extreme_sweep *s, const extreme_outcome *o,
+                                                   const cell_result *cell)
 {
     const ptrdiff_t index = extreme_sweep_quantity(s, o) - s->first.point[o->point].scene.quantity;
     return index < cell->solve.quantities ? &cell->solve.quantity[index] : NULL;
 }
 
-double extreme_sweep_value(const extreme_sweep *s, const extreme_outcome *o, int refinement)
+static double extreme_sweep_value(const extreme_sweep *s, const extreme_outcome *o, int refinement)
 {
     if (refinement > 0 && o->neighbours < 0)
         return NAN;

@@ -322,7 +322,8 @@ static void gather_group(const pace *p, const pace_group *g, const record_type *
         gather_reached(p, g, out);
 }
 
-void pace_gather(const void *found, const record_type *type, subjects *out)
+/* found: motions. */
+static void pace_gather(const void *found, const record_type *type, subjects *out)
 {
     const motions *m = found;
     if (type == &record_pace_all)

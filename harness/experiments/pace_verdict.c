@@ -86,7 +86,8 @@ static int is_near(const char *a, const char *b)
     return *a == *b;
 }
 
-int pace_verdict_is_expected(const pace_verdict *v)
+/* Does it agree with the table? */
+static int pace_verdict_is_expected(const pace_verdict *v)
 {
     return v->kind == PACE_TOLERANCE ? v->found[0] != '\0' && is_near(v->found, v->expected)
                                      : strcmp(v->found, v->expected) == 0;

@@ -81,7 +81,8 @@ rows_shape ranges_shape(const parameter_ranges *r)
     return (rows_shape){r->formulations, r->meshes, r->quantities};
 }
 
-int ranges_batch(const parameter_ranges *r, int batch, long *first)
+/* Points of a batch: *first; returns their number. */
+static int ranges_batch(const parameter_ranges *r, int batch, long *first)
 {
     *first = batch * r->points_in_batch;
     const long left = r->design.points - *first;
@@ -253,7 +254,9 @@ static status solve(const parameter_ranges *r, int batch, sweep *s, rows *out, f
     return STATUS_OK;
 }
 
-status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f)
+/* Stores all points of a batch in rows, which the caller frees, also after a failure. The failure
+ * of a point, a cell or a reference value counts as a result. FAULT: memory or processes. */
+static status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f)
 {
     sweep s = {.values_only = 1};
     memset(out, 0, sizeof *out);

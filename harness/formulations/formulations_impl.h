@@ -28,21 +28,10 @@ typedef enum child_event {
     CHILD_SPOKE  /* the child wrote before it had received the whole request */
 } child_event;
 
-/* REFUSED: no such command, which is named; FAULT: pipe or process could not be created. */
-status child_start(char *const words[], child *out, fault *f);
-/* Does it still run? */
-int child_runs(const child *);
 /* Ends a child of this process: immediately (now 1), or after a short time in which it may exit by
  * itself. Returns its status from waitpid, or -1 if it was killed here. For a child of another
  * process only the channels are closed. */
 int child_end(child *, int now);
-
-/* limit: time limit [s]; 0: none. */
-child_event child_write(const child *, const void *bytes, size_t count, int limit);
-/* Reads at least `least` and at most `most` bytes; *count: number of bytes read, also when the
- * child ended. */
-child_event child_read(const child *, void *bytes, size_t least, size_t most, size_t *count,
-                       int limit);
 
 /* Description that a process sends of its formulation: the JSON line of the protocol (protocol.md).
  */

@@ -61,7 +61,8 @@ static status no_process(const char *command, fault *f)
     return fault_set(f, STATUS_FAULT, "cannot start '%.100s': %s", command, strerror(errno));
 }
 
-status child_start(char *const words[], child *out, fault *f)
+/* REFUSED: no such command, which is named; FAULT: pipe or process could not be created. */
+static status child_start(char *const words[], child *out, fault *f)
 {
     int in[2], from[2], why[2], number = 0;
     const pid_t parent = getpid();
@@ -97,7 +98,8 @@ status child_start(char *const words[], child *out, fault *f)
                      strerror(number));
 }
 
-int child_runs(const child *c)
+/* Does it still run? */
+static int child_runs(const child *c)
 {
     siginfo_t how = {.si_pid = 0};
     return c->process > 0 && c->owner == getpid() &&
@@ -167,7 +169,8 @@ static ssize_t write_quietly(int to, const void *bytes, size_t count)
     return written;
 }
 
-child_event child_write(const child *c, const void *bytes, size_t count, int limit)
+/* limit: time limit [s]; 0: none. */
+static child_event child_write(const child *c, const void *bytes, size_t count, int limit)
 {
     const char *from = bytes;
     const double end = end_of(limit);
@@ -189,8 +192,10 @@ child_event child_write(const child *c, const void *bytes, size_t count, int lim
     return CHILD_DONE;
 }
 
-child_event child_read(const child *c, void *bytes, size_t least, size_t most, size_t *count,
-                       int limit)
+/* Reads at least `least` and at most `most` bytes; *count: number of bytes read, also when the
+ * child ended. */
+static child_event child_read(const child *c, void *bytes, size_t least, size_t most, size_t *count,
+                              int limit)
 {
     char *to = bytes;
     const double end = end_of(limit);

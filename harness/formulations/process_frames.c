@@ -7,7 +7,7 @@
 
 enum { FRAME = 1 << 23 }; /* approximate bytes of an answer and its request */
 
-channel *frame_channel(const frame_question *q)
+static channel *frame_channel(const frame_question *q)
 {
     return &q->data[0]->of->to;
 }
@@ -35,13 +35,15 @@ void frame_put(char **to, const void *from, size_t bytes)
     *to += bytes;
 }
 
-void frame_take(const char **from, double to[], size_t count)
+static void frame_take(const char **from, double to[], size_t count)
 {
     memcpy(to, *from, count * sizeof(double));
     *from += count * sizeof(double);
 }
 
-status frame_begin(const frame_question *q, size_t each, char **to, fault *f)
+/* Begins a request: writes the kinds of the elements; *to: space for `each` bytes of every element.
+ * FAULT: the process has been restarted and has not prepared these elements; out of memory. */
+static status frame_begin(const frame_question *q, size_t each, char **to, fault *f)
 {
     TRY(known(q, f));
     channel_begin(frame_channel(q));
@@ -55,19 +57,22 @@ status frame_begin(const frame_question *q, size_t each, char **to, fault *f)
     return STATUS_OK;
 }
 
-status frame_ask(const frame_question *q, const char **body, fault *f)
+/* Sends the request and waits; *body: count x answer bytes of the reply. */
+static status frame_ask(const frame_question *q, const char **body, fault *f)
 {
     const size_t bytes = (size_t)q->count * q->answer;
     size_t count;
     return channel_ask(frame_channel(q), q->what, q->mask, q->count, bytes, bytes, body, &count, f);
 }
 
-int frame_fitting(size_t each)
+/* Returns the number of elements, of `each` bytes, that one request takes; larger sets are sent in
+ * several requests. At least 1. */
+static int frame_fitting(size_t each)
 {
     return (int)(FRAME / each) + 1;
 }
 
-int frame_nodes(const element_data *d)
+static int frame_nodes(const element_data *d)
 {
     return d->coordinates / NODE_COORDINATES;
 }

@@ -37,18 +37,7 @@ typedef struct frame_question {
     size_t answer; /* bytes for each element */
 } frame_question;
 
-channel *frame_channel(const frame_question *);
-int frame_nodes(const element_data *);
-/* Returns the number of elements, of `each` bytes, that one request takes; larger sets are sent in
- * several requests. At least 1. */
-int frame_fitting(size_t each);
-/* Begins a request: writes the kinds of the elements; *to: space for `each` bytes of every element.
- * FAULT: the process has been restarted and has not prepared these elements; out of memory. */
-status frame_begin(const frame_question *, size_t each, char **to, fault *f);
 /* Append `bytes` to a request, and read `count` doubles of an answer; both advance the pointer. */
 void frame_put(char **to, const void *from, size_t bytes);
-void frame_take(const char **from, double to[], size_t count);
-/* Sends the request and waits; *body: count x answer bytes of the reply. */
-status frame_ask(const frame_question *, const char **body, fault *f);
 
 #endif

@@ -40,13 +40,9 @@ enum { CONTESTANTS_MOST = 64 };
 status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
                          int *named, fault *f);
 int contestants_jobs(void); /* default number of processes */
-/* TIME_LIMIT: the caller stopped the run before all cells were finished. */
-status contestants_finished(const sweep *, fault *);
 
 /* The packed reference values. HDF5 allows only one thread at a time to read them. */
 
-/* Sets their location for later calls; NULL: the default. Reads them as a check. */
-status known_place(const char *path, fault *f);
 /* Reads the reference values of a case and the known deviations; type NULL: only the known
  * deviations. */
 status known_read(const case_type *type, truths *out, fault *f);
@@ -57,8 +53,6 @@ status known_read_all(truths *out, fault *f);
  * forked during the reading. */
 void known_hold(void);
 void known_let_go(void);
-/* As known_read, for a thread that holds the lock. */
-status known_read_held(const case_type *type, truths *out, fault *f);
 /* Lock for all other calls of HDF5; known_unlock restores the host's error handling. */
 void known_lock(void);
 void known_unlock(void);

@@ -247,7 +247,8 @@ int contestants_jobs(void)
     return processors < 1 ? 1 : processors < WORKERS_MOST ? (int)processors : WORKERS_MOST;
 }
 
-status contestants_finished(const sweep *s, fault *f)
+/* TIME_LIMIT: the caller stopped the run before all cells were finished. */
+static status contestants_finished(const sweep *s, fault *f)
 {
     return s->unfinished == 0 ? STATUS_OK
                               : fault_set(f, STATUS_TIME_LIMIT, "stopped before %d cells were done",

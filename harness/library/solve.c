@@ -315,7 +315,8 @@ static void place_now(char path[PATH_MAX])
         data_place_truths(path);
 }
 
-status known_read_held(const case_type *type, truths *out, fault *f)
+/* As known_read, for a thread that holds the lock. */
+static status known_read_held(const case_type *type, truths *out, fault *f)
 {
     char path[PATH_MAX];
     place_now(path);
@@ -344,7 +345,8 @@ status known_read_all(truths *out, fault *f)
     return outcome;
 }
 
-status known_place(const char *path, fault *f)
+/* Sets their location for later calls; NULL: the default. Reads them as a check. */
+static status known_place(const char *path, fault *f)
 {
     truths t;
     const size_t length = path != NULL ? strlen(path) : 0;

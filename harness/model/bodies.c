@@ -104,8 +104,11 @@ static double centrifugal(double mass, const double I[9], const double x[3], con
     return -(mass * vec3_dot(speed, speed) + vec3_dot(omega, h)) / 2;
 }
 
-void body_inertia(const scene_body *b, const node_state *x, const element_rotating_frame *frame,
-                  inertia_output *out)
+/* Inertia of a body by its node's coordinates [7: translation, spatial rotation, warping (not
+ * moved)]; x has the position, and in R the rotation since the undeformed state. frame NULL: the
+ * frame is at rest. */
+static void body_inertia(const scene_body *b, const node_state *x,
+                         const element_rotating_frame *frame, inertia_output *out)
 {
     static const element_rotating_frame none = {{0, 0, 0}, {0, 0, 0}};
     const element_rotating_frame *s = frame != NULL ? frame : &none;

@@ -300,11 +300,6 @@ double model_length(const model *m)
     return m->size;
 }
 
-unsigned model_omits(const model *m)
-{
-    return m->omits;
-}
-
 unsigned model_features(const model *m)
 {
     return m->features;

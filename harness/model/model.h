@@ -68,8 +68,6 @@ int model_is_released(const model *, int vertex);
 /* Longest member [m]: the size that displacements are compared with. */
 double model_length(const model *);
 
-/* Physics of the scene that it does not have: FEATURE_* and OMIT_* bits. */
-unsigned model_omits(const model *);
 /* Physics of the scene that it has: FEATURE_* bits. */
 unsigned model_features(const model *);
 /* Eliminated coordinates, omitted physics: one line each ("warping coordinates of 12 ends: nothing
@@ -854,11 +852,6 @@ void supports_add_springs(const model *, const int part[], int root, const doubl
  * springs (their ends against each other), and of nodes against other nodes where quantities read
  * them. */
 status turns_build(model *, fault *);
-
-/* The rotation vector [rad] of q that continues `before`: of all vectors of q, and of all
- * quaternions of its sign, the next one. On a full turn, where they have no direction of their own,
- * it keeps that of `before`. */
-void turns_continue(const double q[4], const double before[3], double out[3]);
 
 /* Message: why the rotation vector of a turn is NaN. */
 extern const char turns_lost[];

@@ -8,12 +8,6 @@
 
 /* Inertia of a rigid body that moves with a node. */
 
-/* Inertia of a body by its node's coordinates [7: translation, spatial rotation, warping (not
- * moved)]; x has the position, and in R the rotation since the undeformed state. frame NULL: the
- * frame is at rest. */
-void body_inertia(const scene_body *, const node_state *x, const element_rotating_frame *frame,
-                  inertia_output *);
-
 /* The undeformed axis of a member. */
 
 /* An arc of constant torsion and curvature between two points (straight when these are zero). */

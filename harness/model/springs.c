@@ -65,7 +65,10 @@ static int keeps_direction(const double more[3], const double before[3], double 
     return vec3_norm(more) < near && vec3_norm(aside) < round_off * length;
 }
 
-void turns_continue(const double q[4], const double before[3], double out[3])
+/* The rotation vector [rad] of q that continues `before`: of all vectors of q, and of all
+ * quaternions of its sign, the next one. On a full turn, where they have no direction of their own,
+ * it keeps that of `before`. */
+static void turns_continue(const double q[4], const double before[3], double out[3])
 {
     const double sine = vec3_norm(q + 1), length = vec3_norm(before);
     double along[3] = {0};

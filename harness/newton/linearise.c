@@ -361,8 +361,10 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
 /* relative to the moments at a node; a smaller sum is rounding */
 static const double least_moment = 1e-12;
 
-double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
-                             double path, int node, int axis)
+/* Reaction moment [N m] about the axis of a node that is fixed about one axis only
+ * (sigma: as for internal_state); 0 if it is rounding. */
+static double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
+                                    double path, int node, int axis)
 {
     const model *m = eq->m;
     double F[6], load[6];

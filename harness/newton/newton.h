@@ -195,10 +195,6 @@ typedef struct arrival {
  * convergence, so that the first small correction is the last. elements: with many elements
  * rounding of the positions limits the size of corrections. */
 void arrival_start(double criterion, int differences, int elements, arrival *);
-/* Records a correction and the change of stresses; `first`: first one of its step. */
-void arrival_take(double correction, const advance_stress *, int first, arrival *);
-/* Returns 1 when a further correction would change nothing. */
-int arrival_reached(const arrival *);
 /* Returns 1 when the state has moved so little since the last linearisation that the tangent is
  * valid for the state, up to rounding. */
 int arrival_tangent_stands(const arrival *);
@@ -889,10 +885,6 @@ void loads_subtract_stiffness(const equations *eq, const model_state *s, double 
  */
 status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);
 
-/* linearise.c: reaction moment [N m] about the axis of a node that is fixed about one axis only
- * (sigma: as for internal_state); 0 if it is rounding. */
-double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
-                             double path, int node, int axis);
 /* Elements and loads give the derivatives of work in the exponential chart of a node's rotation. At
  * a node fixed about one axis h, equilibrium is that of the moments about the two others, and its
  * derivatives differ by the reaction moment R: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic

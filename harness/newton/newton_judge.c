@@ -36,9 +36,10 @@ void arrival_start(double criterion, int differences, int elements, arrival *a)
                    .remaining = NAN};
 }
 
-/* Updates the history by a correction. Changes of stresses are relative to the largest stress of
- * the path so far, since stresses may pass through zero. */
-void arrival_take(double correction, const advance_stress *stress, int first, arrival *a)
+/* Records a correction and the change of stresses; `first`: first one of its step. Updates the
+ * history by a correction. Changes of stresses are relative to the largest stress of the path so
+ * far, since stresses may pass through zero. */
+static void arrival_take(double correction, const advance_stress *stress, int first, arrival *a)
 {
     a->before = first ? INFINITY : a->correction;
     a->correction = correction;
@@ -49,7 +50,8 @@ void arrival_take(double correction, const advance_stress *stress, int first, ar
     a->remaining = a->contraction * correction * correction;
 }
 
-int arrival_reached(const arrival *a)
+/* Returns 1 when a further correction would change nothing. */
+static int arrival_reached(const arrival *a)
 {
     if (a->criterion > 0)
         return a->correction <= a->criterion;

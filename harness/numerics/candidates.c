@@ -150,7 +150,8 @@ static void refine(candidates *p, const double x[], double y[])
         y[i] += r[i];
 }
 
-void candidates_apply(candidates *p, const double x[], double y[])
+/* y = K^-1 s A x. */
+static void candidates_apply(candidates *p, const double x[], double y[])
 {
     sparse_mul(p->problem->A, x, y);
     for (int i = 0; i < p->n; i++)

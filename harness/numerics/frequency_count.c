@@ -39,7 +39,8 @@ void subspace_free(subspace *b)
     free(b->Gp);
 }
 
-void subspace_skew_mul(const sparse *G, const double x[], double y[])
+/* y = G x for a skew G with its upper triangle stored. */
+static void subspace_skew_mul(const sparse *G, const double x[], double y[])
 {
     if (!G->symmetric) {
         sparse_mul(G, x, y);

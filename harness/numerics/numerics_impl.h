@@ -39,8 +39,6 @@ double candidates_departure(const candidates *p, int count);
 /* From now on K^-1 A x uses K_product, with iterative refinement until the present departure is
  * reduced to 1e-6 of itself. */
 status candidates_refine(candidates *p, int count, fault *f);
-/* y = K^-1 s A x. */
-void candidates_apply(candidates *p, const double x[], double y[]);
 /* Threshold below which values are rounding errors of the largest value `scale`: n^(3/2) of them
  * add up in a slender structure of n unknowns. */
 double candidates_least(int n, double scale);
@@ -89,8 +87,6 @@ void subspace_free(subspace *b);
 /* Adds the component of x that is orthogonal to the basis. Returns 1 if there was one and the basis
  * was not full. */
 int subspace_add(subspace *b, const double x[]);
-/* y = G x for a skew G with its upper triangle stored. */
-void subspace_skew_mul(const sparse *G, const double x[], double y[]);
 
 /* Approximate eigenpairs of (lambda^2 M + lambda G + K) x = 0 in a subspace: dense problems of
  * twice its size (LAPACK). */

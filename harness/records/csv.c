@@ -98,7 +98,8 @@ static void csv_field(FILE *to, const char *text)
     fputc('"', to);
 }
 
-void csv_record_text(FILE *to, const char *text)
+/* Writes a field, in quotes if necessary. */
+static void csv_record_text(FILE *to, const char *text)
 {
     if (text[strcspn(text, "\",\r\n")] == '\0')
         fputs(text, to);
@@ -162,7 +163,8 @@ void csv_record_line(FILE *to, int parts, const csv_part part[])
     fputc('\n', to);
 }
 
-void matrix_market_write(FILE *to, const triplets *t, const char *comment)
+/* comment: one line, or NULL. */
+static void matrix_market_write(FILE *to, const triplets *t, const char *comment)
 {
     static const char *const kind[] = {"general", "symmetric", "skew-symmetric"};
     fprintf(to, "%%%%MatrixMarket matrix coordinate real %s\n", kind[t->kind]);

@@ -36,7 +36,7 @@ static void remember(const char *path)
     }
 }
 
-void output_forget(const char *path)
+static void output_forget(const char *path)
 {
     for (int i = 0; i < MOST_OPEN; i++)
         if (atomic_load(&unfinished[i].owner) == getpid() && strcmp(unfinished[i].path, path) == 0)
@@ -80,7 +80,8 @@ static void remove_all(int at, const char *name)
     unlinkat(at, name, AT_REMOVEDIR);
 }
 
-void output_remove(const char *temporary)
+/* Removes a file, or a folder with its contents. */
+static void output_remove(const char *temporary)
 {
     remove_all(AT_FDCWD, temporary);
 }

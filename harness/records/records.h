@@ -140,9 +140,6 @@ void results_free(stored_results *r);
 
 /* Appends a zeroed cell; NULL: out of memory. */
 result_cell *results_add(stored_results *r);
-result_series *results_add_series(stored_results *r);
-result_mesh *results_add_mesh(result_series *s);
-result_limit *results_add_limit(result_series *s);
 
 int results_order(const result_cell *a,
                   const result_cell *b); /* compares by name, then by elements */
@@ -350,9 +347,6 @@ typedef struct csv_part {
 void csv_record_head(FILE *to, int parts, const csv_part part[]);
 void csv_record_line(FILE *to, int parts, const csv_part part[]);
 
-/* Writes a field, in quotes if necessary. */
-void csv_record_text(FILE *to, const char *text);
-
 /* SHA-256 (FIPS 180-4) of consecutive bytes. */
 
 enum { DIGEST_TEXT = 65 }; /* 64 hexadecimal digits and the terminating zero */
@@ -546,9 +540,6 @@ void output_abandon(void);
 /* Calls `make` with an unpredictable name next to `path` and returns its result (-1 with errno:
  * failed). The file counts as incomplete until output_forget. */
 int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX]);
-void output_forget(const char *temporary);
-/* Removes a file, or a folder with its contents. */
-void output_remove(const char *temporary);
 /* Name of the partial result of an interrupted run: "results.partial.h5" for "results.h5". A stream
  * keeps its name. */
 status output_partial(const char *path, char partial[PATH_MAX], fault *f);

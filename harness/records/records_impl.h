@@ -43,9 +43,6 @@ void comparison_sweeps(const listing *l, const char *select);
 /* Matrices as text that other programs read: Matrix Market, coordinate format (R. F. Boisvert,
  * R. Pozo, K. A. Remington, NISTIR 5935, 1996), 17 digits. */
 
-/* comment: one line, or NULL. */
-void matrix_market_write(FILE *to, const triplets *, const char *comment);
-
 /* Outline of a section, for pictures: straight walls in the principal axes. */
 
 typedef struct outline {
@@ -68,9 +65,6 @@ void outline_between(const outline *near, const outline *far, double x, outline 
 
 /* One case of a stored run. */
 
-/* Adds the cells of a case. at: its group; the name of the case is given. */
-status results_case_read(const char *path, hid_t at, const char *name, stored_results *out,
-                         fault *f);
 /* FAULT: names the damaged part of a file. */
 status results_case_damaged(const char *path, const char *where, const char *what, fault *f);
 

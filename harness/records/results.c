@@ -29,17 +29,17 @@ result_cell *results_add(stored_results *r)
     return add(&r->cell, &r->cells, 1024, sizeof *r->cell);
 }
 
-result_series *results_add_series(stored_results *r)
+static result_series *results_add_series(stored_results *r)
 {
     return add(&r->series, &r->seriess, 1024, sizeof *r->series);
 }
 
-result_mesh *results_add_mesh(result_series *s)
+static result_mesh *results_add_mesh(result_series *s)
 {
     return add(&s->mesh, &s->meshes, 8, sizeof *s->mesh);
 }
 
-result_limit *results_add_limit(result_series *s)
+static result_limit *results_add_limit(result_series *s)
 {
     return add(&s->limit, &s->limits, 8, sizeof *s->limit);
 }

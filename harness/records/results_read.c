@@ -320,8 +320,9 @@ static status take_case(const char *path, hid_t at, const char *name, case_table
     return take_limits(path, name, t, out->cells > first ? &out->cell[first] : NULL, f);
 }
 
-status results_case_read(const char *path, hid_t at, const char *name, stored_results *out,
-                         fault *f)
+/* Adds the cells of a case. at: its group; the name of the case is given. */
+static status results_case_read(const char *path, hid_t at, const char *name, stored_results *out,
+                                fault *f)
 {
     case_tables t;
     const status outcome = take_case(path, at, name, &t, out, f);

@@ -52,7 +52,8 @@ static status first(const state_matrices *s, follow_shapes *out, double work[])
     return STATUS_OK;
 }
 
-status follow_match_first(const state_matrices *s, int modes, follow_shapes *out, fault *f)
+/* The first `modes` of a state. */
+static status follow_match_first(const state_matrices *s, int modes, follow_shapes *out, fault *f)
 {
     double *work = malloc(((size_t)s->M.rows + 1) * sizeof *work);
     status outcome = allocate(modes, s->M.rows, out, f);

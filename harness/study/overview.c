@@ -39,11 +39,6 @@ static const struct {
     [OVERVIEW_FLAW] = {"c", "c", "contradicts its stored value, or itself"},
 };
 
-overview_mark overview_mark_of(verdict_kind kind)
-{
-    return marks[kind];
-}
-
 const char *overview_words(overview_mark mark)
 {
     return signs[mark].words;
@@ -176,7 +171,8 @@ const overview_cell *overview_at(const overview *o, int row, int column)
     return &o->cell[row * o->columns + column];
 }
 
-int overview_passes(const overview *o, int row)
+/* Returns 1 when the row contains only passes and runs that are not evaluated. */
+static int overview_passes(const overview *o, int row)
 {
     int passes = 1;
     for (int i = 0; i < o->columns; i++) {

@@ -1044,13 +1044,10 @@ typedef struct overview {
 
 enum { OVERVIEW_TEXT = 24 };
 
-overview_mark overview_mark_of(verdict_kind kind);
 /* FAULT: out of memory. */
 status overview_make(const sweep *s, const judgement *j, overview *out, fault *f);
 void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
-/* Returns 1 when the row contains only passes and runs that are not evaluated. */
-int overview_passes(const overview *, int row);
 /* Returns 1 when the row has an evaluated run. */
 int overview_judged(const overview *, int row);
 /* Does the row get its own line? All do if there are few; otherwise passing cases share lines, so
@@ -1112,8 +1109,6 @@ status plan_add(sweep *s, const case_type *type, const double value[], const sce
                 const int mesh[], int meshes, fault *f);
 /* Adds a series to the last point, with the meshes of its scene. */
 status plan_extend(sweep *s, const formulation those[], int count, fault *f);
-/* Determines the omissions of the series of a point again, after its quantities have changed. */
-void plan_omissions(sweep *s, int point_index);
 
 /* Default formulation and mesh: a formulation that, as far as is known without a solution, is right
  * for the scene, and a number of elements with which its values have converged. */

@@ -35,8 +35,6 @@ typedef struct follow_shapes {
     double *shape;     /* [modes x rows] normalised to unit mass */
 } follow_shapes;
 
-/* The first `modes` of a state. */
-status follow_match_first(const state_matrices *, int modes, follow_shapes *out, fault *);
 /* Matches the modes of `before` with those of a state. *least: the worst match; 0 if two would be
  * matched with the same mode. */
 status follow_match_next(const follow_shapes *before, const state_matrices *, follow_shapes *out,

@@ -218,7 +218,8 @@ static void find_omission(const sweep *s, int index)
     omission_of(here, one->formulation.type, &one->without);
 }
 
-void plan_omissions(sweep *s, int point_index)
+/* Determines the omissions of the series of a point again, after its quantities have changed. */
+static void plan_omissions(sweep *s, int point_index)
 {
     const sweep_point *p = &s->point[point_index];
     for (int i = 0; i < s->seriess && p->status == STATUS_OK; i++)

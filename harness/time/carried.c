@@ -286,7 +286,7 @@ double account_size(const account *a)
 /* Returns 1 when the request explains a loss of energy: fixed steps, or generalized-alpha with more
  * damping than rho_inf = 0.9. For all its parameters alpha_f - alpha_m = (1 - rho)/(1 + rho), where
  * rho is the spectral radius. */
-int account_loses(const scene_motion *how)
+static int account_loses(const scene_motion *how)
 {
     const double usual = 0.9, most = (1 - usual) / (1 + usual) * (1 + 1e-9);
     return how->tolerance <= 0 ||

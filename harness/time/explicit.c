@@ -124,8 +124,11 @@ static int block(const model *m, const carried_masses *masses, int index, const 
     return count;
 }
 
-status explicit_accelerate(const model *m, const carried_masses *masses, const model_state *s,
-                           const double v[], const double residual[], double a[], fault *f)
+/* a[free] = M^-1 times the residual, which includes the effect of the driven
+ * accelerations in a. SINGULAR: two axes of a sequence of angles coincide. */
+static status explicit_accelerate(const model *m, const carried_masses *masses,
+                                  const model_state *s, const double v[], const double residual[],
+                                  double a[], fault *f)
 {
     for (int k = 0; k < masses->masses; k++) {
         int of[6], pivot[6];

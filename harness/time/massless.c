@@ -143,8 +143,9 @@ status massless_motion(const model *m, const carried_masses *all, const model_st
     return walk(m, all, s, &of, &count, f);
 }
 
-status massless_stiffest(const model *m, const carried_masses *all, const model_state *s,
-                         const double diagonal[], double *out, fault *f)
+/* The largest ratio of stiffness to inertia [1/s^2]; diagonal[free]: of a stiffness. */
+static status massless_stiffest(const model *m, const carried_masses *all, const model_state *s,
+                                const double diagonal[], double *out, fault *f)
 {
     wish of = {.task = STIFFEST, .given = diagonal};
     int count;
@@ -175,7 +176,8 @@ static void turn_axes(const model *m, const model_state *s, int own_to_space, do
     }
 }
 
-void massless_own_axes(const model *m, const model_state *s, double a[])
+/* Converts spatial rotations of bodies in a[free] to the axes of forms_rates. */
+static void massless_own_axes(const model *m, const model_state *s, double a[])
 {
     turn_axes(m, s, 0, a);
 }

@@ -198,7 +198,8 @@ static void blend_elements(const step_between *b, double s, model_state *at)
     blend(inner, s, from->inner, to->inner, at->inner);
 }
 
-void between_places(const step_between *b, double time, instant *at)
+/* Positions and rates at a time inside the step or near it [s]. */
+static void between_places(const step_between *b, double time, instant *at)
 {
     const model *m = b->m;
     const int all = model_all_coordinates(m);

@@ -60,8 +60,6 @@ status between_alloc(const equations *, step_between *, fault *);
 void between_free(step_between *);
 /* Sets the step; both instants must not change while the polynomial is in use. */
 void between_take(step_between *, between_degree, const instant *from, const instant *to);
-/* Positions and rates at a time inside the step or near it [s]. */
-void between_places(const step_between *, double time, instant *at);
 /* A kinematic quantity at a time of the step; `at`: work space. A jerk is the slope of a polynomial
  * of fourth degree through five accelerations of the step. */
 double between_reading(const step_between *, const scene_quantity *, double time, instant *at);
@@ -172,10 +170,6 @@ void account_take(account *, int steps, const double balance[SCENE_BALANCES]);
 double account_size(const account *);
 /* [J] allowed energy-balance error: the given fraction of account_size, plus rounding. */
 double account_most(const account *, double part, double rounding);
-
-/* Is numerical damping intended: by alpha with a spectral radius below 0.9, or by prescribed steps?
- */
-int account_loses(const scene_motion *);
 
 /* NOT_CONVERGED: the motion gained more energy than account_gained without cause, or lost more than
  * account_lost although the scene does not request numerical damping. rounding [J]: see

@@ -490,10 +490,6 @@ typedef struct explicit_scheme {
 /* explicit.c: dydt at t [s] and y in GSL's order; leaves the motion there in `at`. */
 int explicit_rates(double t, const double y[], double dydt[], void *context);
 
-/* explicit.c: a[free] = M^-1 times the residual, which includes the effect of the driven
- * accelerations in a. SINGULAR: two axes of a sequence of angles coincide. */
-status explicit_accelerate(const model *, const carried_masses *, const model_state *,
-                           const double v[], const double residual[], double a[], fault *);
 /* REFUSED: a coordinate of the undeformed model has no inertia. */
 status explicit_check(const model *, const carried_masses *, fault *);
 
@@ -649,11 +645,6 @@ status massless_readings(const model *, const carried_masses *, const model_stat
 /* Removes the motion without inertia from a[free], given in the coordinates of forms_rates. */
 status massless_drop(const model *, const carried_masses *, const model_state *, double a[],
                      fault *);
-/* Converts spatial rotations of bodies in a[free] to the axes of forms_rates. */
-void massless_own_axes(const model *, const model_state *, double a[]);
-/* The largest ratio of stiffness to inertia [1/s^2]; diagonal[free]: of a stiffness. */
-status massless_stiffest(const model *, const carried_masses *, const model_state *,
-                         const double diagonal[], double *, fault *);
 /* Acceleration a[free] due to forces, in the coordinates of forms_rates; 0 for coordinates without
  * inertia. */
 status massless_accelerate(const model *, const carried_masses *, const model_state *,
