@@ -339,7 +339,7 @@ typedef struct writer {
 
 /* Functions that write an entry in a special form: its key, and everything after it. */
 typedef struct write_own {
-    const char *key; /* NULL ends a list */
+    const char *key; /* "where": of any map; "stress.where": of that map; NULL ends a list */
     void (*write)(writer *, const void *entry);
 } write_own;
 

@@ -44,10 +44,19 @@ static void write_value(writer *w, const entry_field *k, const void *entry)
     }
 }
 
-static const write_own *find_own(const write_own own[], const char *key)
+static int is_key(const char *own, const char *of, const char *key)
+{
+    const char *dot = strchr(own, '.');
+    const size_t size = dot != NULL ? (size_t)(dot - own) : 0;
+    return dot == NULL
+               ? strcmp(own, key) == 0
+               : strcmp(dot + 1, key) == 0 && strncmp(own, of, size) == 0 && of[size] == '\0';
+}
+
+static const write_own *find_own(const write_own own[], const char *of, const char *key)
 {
     for (; own != NULL && own->key != NULL; own++)
-        if (strcmp(own->key, key) == 0)
+        if (is_key(own->key, of, key))
             return own;
     return NULL;
 }
@@ -59,24 +68,31 @@ static int is_due(const entry_field *k, const void *entry)
     return (must && (k->kind != ENTRY_NAME || k->size > 0)) || !entry_is_usual(k, entry);
 }
 
-void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[])
+/* of: key of the map. */
+static void write_map(writer *w, const entry_field *table, const void *entry, const write_own own[],
+                      const char *of)
 {
     w->begun = 0;
     fputc('{', w->to);
     for (const entry_field *k = table; k->name != NULL; k++) {
-        const write_own *by_hand = find_own(own, k->name);
+        const write_own *by_hand = find_own(own, of, k->name);
         if (by_hand != NULL)
             by_hand->write(w, entry);
         else if ((k->size > 0 || k->kind == ENTRY_MAP) && is_due(k, entry)) {
             write_values_key(w, k->name);
             if (k->kind == ENTRY_MAP)
-                write_entry(w, entry_below(k), entry, own);
+                write_map(w, entry_below(k), entry, own, k->name);
             else
                 write_value(w, k, entry);
         }
     }
     fputc('}', w->to);
     w->begun = 1;
+}
+
+void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[])
+{
+    write_map(w, table, entry, own, "");
 }
 
 /* Numbers, texts and names of a scene file. */
@@ -419,9 +435,11 @@ static void write_prediction(writer *w, const void *entry)
 
 void write_quantities(writer *w)
 {
-    static const write_own own[] = {{"end", write_end},
-                                    {"where", write_where},
-                                    {"side", write_side},
+    static const write_own own[] = {{"internal.end", write_end},
+                                    {"internal.where", write_where},
+                                    {"stress.where", write_where},
+                                    {"internal.side", write_side},
+                                    {"stress.side", write_side},
                                     {"at", write_taken},
                                     {"unit", write_unit},
                                     {"x", write_abscissa},
