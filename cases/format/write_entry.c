@@ -347,15 +347,22 @@ void write_analyses(writer *w)
 /* Writes the position of a resultant, unless it refers to the whole member. */
 static void write_end(writer *w, const void *entry)
 {
-    const scene_internal *c = scene_internal_of(entry);
-    if (c->along != SCENE_ALONG_PLACE)
+    const scene_quantity *q = entry;
+    double place = 0;
+    if (q->what.kind == SCENE_INTERNAL && scene_internal_of(q)->along != SCENE_ALONG_PLACE)
         return;
-    if (c->place == 0 || c->place == 1) {
+    if (q->what.kind == SCENE_INTERNAL)
+        place = scene_internal_of(q)->place;
+    else if (q->what.kind == SCENE_DEFLECTION)
+        place = q->what.of.deflection.place;
+    else
+        place = q->what.of.reading.component[1]; /* of a hinge */
+    if (place == 0 || place == 1) {
         write_values_key(w, "end");
-        write_values_word(w, "from|to", c->place == 1);
+        write_values_word(w, "from|to", place == 1);
     } else {
         write_values_key(w, "where");
-        write_values_number(w, c->place);
+        write_values_number(w, place);
     }
 }
 

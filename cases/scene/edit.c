@@ -5,6 +5,8 @@
 
 #include "elements/section/section.h"
 
+extern const quantity_type quantity_hinge;
+
 /* The section seen from the other end, rotated by pi about z: y' = -y, z' = z, and sectorial
  * coordinates change sign with x. Face and axis rotate together, so that Qy and Mw keep their signs
  * and Qz does not. */
@@ -117,6 +119,13 @@ static status reverse(scene *s, fault *f)
             reverse_internal(q);
         else if (q->what.kind == SCENE_STRESS)
             reverse_stress(q);
+        else if (q->what.kind == SCENE_DEFLECTION)
+            q->what.of.deflection.place = 1 - q->what.of.deflection.place;
+        else if (quantity_type_of(q) == &quantity_hinge)
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: of a released end, whose axes turn where its member is "
+                             "reversed; remove it",
+                             q->name);
     }
     return STATUS_OK;
 }
@@ -145,6 +154,12 @@ static status split_quantity(scene_quantity *q, double fraction, int second, fau
         const double place = split_place(what.place, what.before, fraction, second, &member);
         replace(q, scene_beside(scene_internal_at(member, place, what.resultant), what.before));
     }
+    if (q->what.kind == SCENE_DEFLECTION && q->what.of.deflection.member == 0)
+        q->what.of.deflection.place = split_place(q->what.of.deflection.place, 1, fraction, second,
+                                                  &q->what.of.deflection.member);
+    if (quantity_type_of(q) == &quantity_hinge && q->what.of.reading.node[0] == 0 &&
+        q->what.of.reading.component[1] == 1)
+        q->what.of.reading.node[0] = second;
     if (stress) {
         const scene_stress what = *scene_stress_of(q);
         const double place = split_place(what.place, what.before, fraction, second, &member);

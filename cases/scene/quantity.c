@@ -223,7 +223,7 @@ int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind)
 int scene_reads_forces(const scene_quantity *q)
 {
     return q->what.kind == SCENE_REACTION || q->what.kind == SCENE_INTERNAL ||
-           q->what.kind == SCENE_STRESS;
+           q->what.kind == SCENE_STRESS || q->what.kind == SCENE_DEFLECTION;
 }
 
 int scene_reads(const scene *s, int analysis)

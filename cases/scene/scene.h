@@ -297,6 +297,7 @@ typedef enum scene_quantity_kind {
     SCENE_RELATIVE,      /* displacement or rotation of a node in the axes of another */
     SCENE_RESPONSE,      /* of a harmonic analysis */
     SCENE_DAMPING_RATIO, /* damping ratio of a damped mode, or its decay rate */
+    SCENE_DEFLECTION,    /* displacement or rotation of a section of a member */
     SCENE_READING        /* of nodes, of which nothing outside its file knows more */
 } scene_quantity_kind;
 
@@ -409,6 +410,12 @@ typedef struct scene_internal {
     int before;   /* at a discontinuity: 1 on the side of p, 0 on that of q */
 } scene_internal;
 
+/* Of the centroid, or of the section, in fixed axes. */
+typedef struct scene_deflection {
+    int member, component;
+    double place; /* 0 at p .. 1 at q, of the initial length */
+} scene_deflection;
+
 /* Measures over all points of a section (elements/section/stress.h) [Pa]. */
 typedef enum scene_stress_measure {
     SCENE_VON_MISES,
@@ -517,6 +524,7 @@ typedef struct scene_extract {
         int driver;
         scene_internal internal;
         scene_stress stress;
+        scene_deflection deflection;
         scene_balance balance;
         scene_relative relative;
         scene_response response;
@@ -1277,11 +1285,15 @@ typedef struct quantity_state {
     /* its derivative: acceleration [m/s^2], or angular acceleration in the node's axes [rad/s^2] */
     double (*acceleration)(const struct quantity_state *, int node, int component);
     double (*driver)(const struct quantity_state *, int driver);
+    /* what an end of a member (0 at p, 1 at q) has turned or shifted against its node, of a
+     * component that is released there */
+    double (*released)(const struct quantity_state *, int member, int end, int component);
     double path; /* parameter, load factor or time */
-    /* SCENE_REACTION, SCENE_INTERNAL, SCENE_STRESS: any of these */
+    /* SCENE_REACTION, SCENE_INTERNAL, SCENE_STRESS, SCENE_DEFLECTION: any of these */
     double (*reaction)(const struct quantity_state *, int node, int component);
     double (*internal)(const struct quantity_state *, const scene_internal *);
     double (*stress)(const struct quantity_state *, const scene_stress *);
+    double (*deflection)(const struct quantity_state *, const scene_deflection *);
     /* SCENE_BALANCE */
     double (*balance)(const struct quantity_state *, scene_balance);
     /* SCENE_COMPLIANCE_ENTRY, SCENE_STIFFNESS_ENTRY: in the column of its entry */

@@ -218,6 +218,8 @@ int extract_path_wants(const analysis_context *c, int analysis, int stations, co
     return !c->options->values_only || extract_path_asks(c, analysis, stations, path, station);
 }
 
+extern const quantity_type quantity_hinge; /* angles of releases are kept with elements */
+
 /* Does an analysis that follows the path begin with the state? */
 static int begins_with(const analysis_context *c, int analysis, int path, int station)
 {
@@ -241,7 +243,8 @@ int extract_path_whole(const analysis_context *c, int analysis, int station)
     const scene_path *along = scene_path_of(&s->analysis[analysis]);
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *q = &s->quantity[i];
-        if (q->analysis == analysis && scene_reads_forces(q) &&
+        if (q->analysis == analysis &&
+            (scene_reads_forces(q) || quantity_type_of(q) == &quantity_hinge) &&
             (q->reduction == SCENE_CURVE ||
              takes_station(q, along->stations, along->value, station)))
             return 1;

@@ -204,6 +204,7 @@ typedef struct mesh_release {
     int node; /* of the scene, from which it is released */
     int turns, slides;
     double turn[3][3], slide[3][3]; /* undeformed axes, unit vectors */
+    int turn_of[3], slide_of[3];    /* the components, SCENE_UX .. SCENE_RZ */
 } mesh_release;
 
 /* A warping amplitude, shared by the element ends that meet there. */
@@ -771,6 +772,9 @@ void release_add_local(const model *, const model_state *, int vertex, const dou
  * `own` on. */
 void release_jacobian(const model *, const model_state *, int vertex, int count, int own,
                       double T[]);
+/* What an end of a member (0 at p, 1 at q) has turned or shifted by a component against its node;
+ * 0: it is not released; of three turns their rotation vector, NAN beyond 3 rad. */
+double release_value(const model *, const model_state *, int member, int end, int component);
 /* Own coordinates move by dx; returns the largest change [1, rad]. */
 double release_advance(const model *, model_state *, int vertex, const double dx[]);
 /* Position and orientation, after those of all nodes. */

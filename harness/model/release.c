@@ -151,6 +151,7 @@ static void add_end(model *m, int member, int end, const double R[9])
         const int across = normal != SCENE_NONE && fabs(R[3 * normal + c % 3]) > 0.5;
         if (normal != SCENE_NONE && across != (c >= SCENE_RX))
             continue; /* it would leave the plane */
+        *(c < SCENE_RX ? &r->slide_of[r->slides] : &r->turn_of[r->turns]) = c;
         double *axis = c < SCENE_RX ? r->slide[r->slides++] : r->turn[r->turns++];
         for (int i = 0; i < 3; i++)
             axis[i] = R[3 * i + c % 3];
@@ -255,6 +256,33 @@ void release_jacobian(const model *m, const model_state *s, int vertex, int coun
     for (int k = 0; k < r->slides; k++)
         for (int i = 0; i < 3; i++)
             T[i * count + own + r->turns + k] = along[k][i];
+}
+
+double release_value(const model *m, const model_state *s, int member, int end, int component)
+{
+    const double most = 3;
+    const mesh_element *el =
+        &m->mesh
+             .element[end ? m->mesh.first_element[member + 1] - 1 : m->mesh.first_element[member]];
+    const int vertex = el->vertex[end ? el->nodes - 1 : 0];
+    const mesh_release *r = release_of(m, vertex);
+    double back[4], q[4], t[3];
+    if (r == NULL)
+        return 0;
+    for (int k = 0; k < r->slides; k++)
+        if (r->slide_of[k] == component)
+            return s->shift[3 * (vertex - m->mesh.first_release) + k];
+    for (int k = 0; k < r->turns; k++) {
+        if (r->turn_of[k] != component)
+            continue;
+        if (r->turns < BALL)
+            return s->angle[3 * vertex + k];
+        rotation_conjugate(&s->q[4 * m->mesh.vertex[vertex].body], back);
+        rotation_compose(back, &s->q[4 * vertex], q);
+        rotation_log(q, t);
+        return vec3_norm(t) <= most ? vec3_dot(t, r->turn[k]) : NAN;
+    }
+    return 0;
 }
 
 double release_advance(const model *m, model_state *s, int vertex, const double dx[])

@@ -4,6 +4,7 @@
 
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
+#include "elements/math/rotation.h"
 #include "elements/section/section.h"
 
 /* Subtracts the loads along the member that are lumped at its vertices. */
@@ -218,8 +219,39 @@ static void between_at(void *context, double x, const span_frame *at, span_load 
         }
 }
 
-static status recover(const equations *eq, const internal_state *s, int i, const span_grid *g,
-                      span_fields *out, fault *f)
+/* What the ends have moved by since the undeformed state, where they were then. */
+static void moves_of(const equations *eq, const internal_state *s, int i, span_frame begin[2],
+                     span_move end[2])
+{
+    const model *m = eq->m;
+    const mesh_element *el = model_element(m, i);
+    node_state now[ELEMENT_MAX_NODES], rest[ELEMENT_MAX_NODES];
+    double moved[ELEMENT_MAX_COORDINATES] = {0};
+    kinematics_gather(m, s->s, el, now);
+    kinematics_gather(m, kinematics_rest(m), el, rest);
+    if (s->x != NULL)
+        kinematics_local(m, s->s, el, s->x, moved);
+    for (int e = 0; e < 2; e++) {
+        const int k = e ? model_nodes(m) - 1 : 0;
+        memcpy(begin[e].r, rest[k].r, sizeof begin[e].r);
+        memcpy(begin[e].R, rest[k].R, sizeof begin[e].R);
+        double q[4], back[4];
+        rotation_from_matrix(now[k].R, q);
+        rotation_from_matrix(rest[k].R, back);
+        rotation_conjugate(back, back);
+        rotation_compose(q, back, q);
+        rotation_log(q, end[e].turn);
+        for (int c = 0; c < 3; c++) {
+            const double *by = &moved[NODE_COORDINATES * k];
+            end[e].displacement[c] = s->x != NULL ? by[c] : now[k].u[c];
+            end[e].turn[c] = s->x != NULL ? by[3 + c] : end[e].turn[c];
+        }
+    }
+}
+
+/* moved NULL, or what the section at x has moved by. */
+static status recover_moved(const equations *eq, const internal_state *s, int i, const span_grid *g,
+                            double x, span_move *moved, span_fields *out, fault *f)
 {
     const model *m = eq->m;
     const mesh_kind *kind = model_kind_of(m, i);
@@ -250,7 +282,44 @@ static status recover(const equations *eq, const internal_state *s, int i, const
     if (loads.acts || loads.nodes > 0)
         problem.load = between_at;
     take_ends(eq, s, i, problem.end);
-    return span_recover(g, &problem, out, f);
+    TRY(span_recover(g, &problem, out, f));
+    if (moved != NULL) {
+        span_frame begin[2];
+        span_move end[2];
+        moves_of(eq, s, i, begin, end);
+        span_moved(g, &problem, out, begin, kind->curvature, end, x, moved);
+    }
+    return STATUS_OK;
+}
+
+static status recover(const equations *eq, const internal_state *s, int i, const span_grid *g,
+                      span_fields *out, fault *f)
+{
+    return recover_moved(eq, s, i, g, 0, NULL, out, f);
+}
+
+status internal_moved(const equations *eq, const internal_state *s, int member, double place,
+                      double out[6], fault *f)
+{
+    const double most = 3;
+    const model *m = eq->m;
+    double x;
+    const int i =
+        model_first_element(m, member) + division_at(model_division(m), member, place, 0, &x);
+    span_grid g;
+    span_fields fields;
+    span_move moved;
+    span_grid_make(&g);
+    TRY(recover_moved(eq, s, i, &g, x, &moved, &fields, f));
+    memcpy(out, moved.displacement, sizeof moved.displacement);
+    memcpy(out + 3, moved.turn, sizeof moved.turn);
+    if (s->x == NULL && vec3_norm(moved.turn) > most)
+        return fault_set(f, STATUS_NO_VALUE,
+                         "%s has turned by %.3g rad there, and its rotation vector is read up to "
+                         "%g rad; ask for the rotation of a node",
+                         scene_called(model_scene(m), SCENE_MEMBERS, member).text,
+                         vec3_norm(moved.turn), most);
+    return STATUS_OK;
 }
 
 status internal_at(const equations *eq, const internal_state *s, const internal_place *at,

@@ -1154,6 +1154,12 @@ typedef struct internal_place {
 status internal_at(const equations *, const internal_state *, const internal_place *, double out[],
                    fault *);
 
+/* Displacement of the centroid and rotation vector of the section since the undeformed state, at a
+ * place: out[6], in fixed axes, along the line of section_forces.h. NO_VALUE: a rotation beyond 3
+ * rad; else as internal_at. */
+status internal_moved(const equations *, const internal_state *, int member, double place,
+                      double out[6], fault *);
+
 /* Largest value of the function `of` over a member; `of` computes it for the section at x in [0, 1]
  * of an element, numbered along the member, from its resultants [SPAN_VALUES]. */
 typedef double (*internal_measure)(void *context, int element, double x, const double resultants[]);

@@ -96,10 +96,24 @@ typedef struct span_problem {
 
 typedef struct span_fields {
     double value[SPAN_GRID_POINTS][SPAN_VALUES];
+    span_curve curve; /* in lengths of the element, from p */
+    double shear[SPAN_GRID_POINTS][3], bend[SPAN_GRID_POINTS][3]; /* strains, of that length */
 } span_fields;
+
+/* Since the undeformed state, in fixed axes. */
+typedef struct span_move {
+    double displacement[3]; /* [m] */
+    double turn[3];         /* rotation vector [rad] */
+} span_move;
 
 /* NOT_CONVERGED: no line between the ends was found. */
 status span_recover(const span_grid *g, const span_problem *problem, span_fields *out, fault *f);
+
+/* Displacement and turn of the section at x, from those of the ends. begin: the undeformed frames
+ * of the ends, with the initial curvature between. */
+void span_moved(const span_grid *, const span_problem *, const span_fields *,
+                const span_frame begin[2], const double curvature[3], const span_move end[2],
+                double x, span_move *out);
 
 /* out[SPAN_VALUES] at x in [0, 1]. */
 void span_at(const span_grid *g, const span_fields *fields, double x, double out[]);

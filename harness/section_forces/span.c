@@ -171,8 +171,11 @@ static int again(void *context, const double strains[], double out[])
     return 0;
 }
 
-static void take(const span_work *w, span_fields *out)
+static void take(const span_work *w, const double strains[], span_fields *out)
 {
+    out->curve = w->curve;
+    memcpy(out->bend, &strains[KAPPA], sizeof out->bend);
+    memcpy(out->shear, &strains[GAMMA], sizeof out->shear);
     for (int j = 0; j < N; j++) {
         double *v = out->value[j];
         const double k = w->twist.rate[j];
@@ -207,7 +210,7 @@ status span_recover(const span_grid *g, const span_problem *problem, span_fields
     } else {
         again(&w, strains, made); /* for the best strains found */
     }
-    take(&w, out);
+    take(&w, made, out);
     return STATUS_OK;
 }
 
@@ -220,6 +223,100 @@ void span_at(const span_grid *g, const span_fields *fields, double x, double out
         for (int j = 0; j < N; j++)
             out[i] += share[j] * fields->value[j][i];
     }
+}
+
+/* Adds the difference at the end, in proportion to x. */
+static void close_gap(const span_grid *g, const double end[3], double at[N][3])
+{
+    double missing[3];
+    for (int i = 0; i < 3; i++)
+        missing[i] = end[i] - at[N - 1][i];
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < 3; i++)
+            at[j][i] += g->x[j] * missing[i];
+}
+
+/* theta' = R kappa, u' = theta x R e_x + R gamma, in units of the length. */
+static void moved_linearly(const span_grid *g, double length, const span_fields *of,
+                           const span_move end[2], double u[N][3], double turn[N][3])
+{
+    static const double along[3] = {1, 0, 0};
+    double rate[N][3], tangent[3], sheared[3];
+    for (int j = 0; j < N; j++)
+        mat3_mul_vec(of->curve.R[j], of->bend[j], rate[j]);
+    span_grid_integrate(g, 3, rate[0], turn[0]);
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < 3; i++)
+            turn[j][i] += end[0].turn[i];
+    close_gap(g, end[1].turn, turn);
+    for (int j = 0; j < N; j++) {
+        mat3_mul_vec(of->curve.R[j], along, tangent);
+        mat3_mul_vec(of->curve.R[j], of->shear[j], sheared);
+        vec3_cross(turn[j], tangent, rate[j]);
+        for (int i = 0; i < 3; i++)
+            rate[j][i] = length * (rate[j][i] + sheared[i]);
+    }
+    span_grid_integrate(g, 3, rate[0], u[0]);
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < 3; i++)
+            u[j][i] += end[0].displacement[i];
+    close_gap(g, end[1].displacement, u);
+}
+
+/* By the curve less the undeformed one; turns of the sections against that at p. */
+static void moved_far(const span_grid *g, double length, const span_fields *of,
+                      const span_frame begin[2], const double curvature[3], const span_move end[2],
+                      double u[N][3], double turn[N][3])
+{
+    double kappa[N][3], gamma[N][3] = {{0}}, first[4], back[4];
+    span_curve rest;
+    span_frame from[2] = {begin[0], begin[1]};
+    for (int i = 0; i < 3; i++) {
+        from[0].r[i] = 0;
+        from[1].r[i] = (begin[1].r[i] - begin[0].r[i]) / length;
+        for (int j = 0; j < N; j++)
+            kappa[j][i] = length * curvature[i];
+    }
+    span_curve_between(g, &from[0], &from[1], kappa[0], gamma[0], &rest);
+    rotation_exp(end[0].turn, first);
+    rotation_conjugate(first, back);
+    for (int j = 0; j < N; j++) {
+        double now[4], then[4], q[4];
+        rotation_from_matrix(of->curve.R[j], now);
+        rotation_from_matrix(rest.R[j], then);
+        rotation_conjugate(then, then);
+        rotation_compose(now, then, q);
+        rotation_compose(back, q, q);
+        rotation_log(q, turn[j]);
+        for (int i = 0; i < 3; i++)
+            u[j][i] = end[0].displacement[i] + length * (of->curve.r[j][i] - rest.r[j][i]);
+    }
+    close_gap(g, end[1].displacement, u);
+}
+
+void span_moved(const span_grid *g, const span_problem *problem, const span_fields *of,
+                const span_frame begin[2], const double curvature[3], const span_move end[2],
+                double x, span_move *out)
+{
+    double u[N][3], turn[N][3], share[N], q[4], step[4];
+    const double length = problem->request->length;
+    if (problem->linear)
+        moved_linearly(g, length, of, end, u, turn);
+    else
+        moved_far(g, length, of, begin, curvature, end, u, turn);
+    memset(out, 0, sizeof *out);
+    span_grid_at(g, x, share);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < N; j++) {
+            out->displacement[i] += share[j] * u[j][i];
+            out->turn[i] += share[j] * turn[j][i];
+        }
+    if (problem->linear)
+        return;
+    rotation_exp(end[0].turn, q);
+    rotation_exp(out->turn, step);
+    rotation_compose(q, step, q);
+    rotation_log(q, out->turn);
 }
 
 enum { CURVE_N = SPAN_GRID_POINTS };

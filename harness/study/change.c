@@ -78,6 +78,8 @@ static double physical_scale(const scene *s, const scene_quantity *q)
     switch (q->what.kind) {
     case SCENE_COORDINATE:
         return scene_component_of(q)->component < SCENE_RX ? small_part * size_of(s) : small_part;
+    case SCENE_DEFLECTION:
+        return q->what.of.deflection.component < SCENE_RX ? small_part * size_of(s) : small_part;
     case SCENE_RELATIVE:
         return scene_relative_of(q)->component < SCENE_RX ? small_part * size_of(s) : small_part;
     case SCENE_REACTION:

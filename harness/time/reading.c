@@ -81,6 +81,11 @@ static double driver_of(const quantity_state *s, int driver)
     return kinematics_driver_value(model_of(s), of(s)->from->state, driver);
 }
 
+static double released_of(const quantity_state *s, int member, int end, int component)
+{
+    return release_value(model_of(s), of(s)->from->state, member, end, component);
+}
+
 /* Of linear statics. */
 static double linear_component(const quantity_state *s, int node, int component)
 {
@@ -189,6 +194,14 @@ static double stress_in(const quantity_state *s, const scene_stress *what)
     return known(s, outcome, &out);
 }
 
+static double deflection_in(const quantity_state *s, const scene_deflection *what)
+{
+    double moved[6];
+    const status outcome = internal_moved(of(s)->from->eq, &of(s)->section, what->member,
+                                          what->place, moved, of(s)->f);
+    return known(s, outcome, &moved[what->component]);
+}
+
 static double balance_in(const quantity_state *s, scene_balance what)
 {
     return of(s)->from->balance[what];
@@ -230,7 +243,8 @@ static quantity_state places_of(const reading *from)
                             .frame = linear ? NULL : frame_of,
                             .rate = moves ? rate_of : NULL,
                             .acceleration = moves ? acceleration_of : NULL,
-                            .driver = driver_of};
+                            .driver = driver_of,
+                            .released = linear ? NULL : released_of};
 }
 
 double reading_of(const model *m, const scene_quantity *q, const model_state *s, const double v[],
@@ -261,6 +275,7 @@ status reading_whole(const reading *from, const scene_quantity *q, double *out, 
     s.as.reaction = scene_reads_forces(q) ? reaction_of : NULL;
     s.as.internal = scene_reads_forces(q) ? internal_in : NULL;
     s.as.stress = scene_reads_forces(q) ? stress_in : NULL;
+    s.as.deflection = scene_reads_forces(q) ? deflection_in : NULL;
     s.as.balance = from->balance != NULL ? balance_in : NULL;
     s.as.compliance = from->compliance != NULL ? compliance_in : NULL;
     *out = quantity_type_of(q)->read(q, &s.as);

@@ -1,0 +1,51 @@
+/* Displacement of the line of centroids of a member at a place, or rotation of its section there.
+ */
+#include "cases/scene/scene.h"
+
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    {"member", ENTRY_NAME, .needed = 1, .summary = "member",
+     ENTRY_IN(scene_quantity, what.of.deflection.member), .of = SCENE_MEMBERS},
+    /* before the end, which is a place, too */
+    {"where", ENTRY_NUMBER, .needed = 1, .group = 2, .summary = "0 'from' to 1 'to', of its length",
+     ENTRY_IN(scene_quantity, what.of.deflection.place), .most = 1,
+     .range = "a part of the member's length, from 0 to 1"},
+    {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to",
+     .summary = "of the member: with what a release adds to the node",
+     ENTRY_IN(scene_quantity, what.of.deflection.place)},
+    QUANTITY_COMPONENT("along or about a fixed axis", deflection.component),
+    QUANTITY_TAKEN,
+    {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    return q->what.of.deflection.component <= SCENE_UZ ? "m" : "rad";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    const scene_deflection *what = &q->what.of.deflection;
+    fputs(what->component <= SCENE_UZ ? "displacement" : "rotation", to);
+    meaning_place(to, what->place, 0);
+    meaning_member(to, s, what->member);
+    fprintf(to, " %s %c", what->component <= SCENE_UZ ? "along" : "about",
+            meaning_axis(what->component));
+}
+
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    return state->deflection(state, &q->what.of.deflection);
+}
+
+const quantity_type quantity_deflection = {.key = "deflection",
+                                           .summary =
+                                               "displacement or rotation within a member, or of "
+                                               "its end beside a release",
+                                           .kind = SCENE_DEFLECTION,
+                                           .field = fields,
+                                           .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
+                                           .passing = QUANTITY_EXTREMES,
+                                           .unit = unit,
+                                           .meaning = meaning,
+                                           .read = read};
