@@ -375,10 +375,18 @@ static status reacting(const vibration *v, const scene_response *r, int *out, fa
     double T[6 * KINEMATICS_MOST];
     const int count =
         kinematics_node_jacobian(v->c->model, v->state, r->node, KINEMATICS_MOST, index, T);
+    const int first = r->component - r->component % 3;
+    const double rounding = 1e-12;
+    double R[9];
+    scene_node_axes(&s->node[r->node], R);
     *out = -1;
-    for (int k = 0; k < count; k++)
-        if (T[r->component * count + k] != 0)
+    for (int k = 0; k < count; k++) {
+        double moved = 0; /* along the axes of its supports */
+        for (int i = 0; i < 3; i++)
+            moved += R[3 * i + r->component % 3] * T[(first + i) * count + k];
+        if (fabs(moved) > rounding)
             *out = *out == -1 && index[k] >= v->free ? index[k] : -2;
+    }
     for (int i = 0; i < s->drivers && *out >= 0; i++)
         if (model_driver_coordinate(v->c->model, i) == *out)
             driver = i;

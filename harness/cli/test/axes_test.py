@@ -51,6 +51,31 @@ quantities:
 """
 
 
+AXES = "axes: {x: [0.6, 0.8, 0], z: [0, 0, 1]}"
+GUIDED = AXES + ", hold: [uy, uz, rx, ry, rz]"
+MIRRORED = HEAD + """nodes:
+  a: {at: [0, 0, 0], GUIDED}
+  m: {at: [0.6, 0.8, 0], MIDDLE}
+END
+members:
+  l: {from: a, to: m, section: s, y: [-0.8, 0.6, 0], warping: fixed}
+RIGHT
+loads:
+  p: {force: [0.6, 0.8, 0], on: a}
+  q: {distributed: [-4, 3, 2], on: l}
+MORE
+analyses:
+  bent: {static: {stations: [20]}}
+  buckled: {buckling: {}}
+  modes: {modal: {}}
+quantities:
+  u: {displacement: {analysis: bent, node: m, component: ux}}
+  w: {displacement: {analysis: bent, node: m, component: uz}}
+  c: {critical_factor: {analysis: buckled}}
+  f: {frequency: {analysis: modes}}
+"""
+
+
 class Axes(ProgramTest):
     def values(self, text, *options, formulation="collocation"):
         path = self.folder / "scene.yaml"
@@ -96,6 +121,35 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
             self.assertAlmostEqual(found["x"], -fall * math.cos(0.5), delta=1e-6)
             self.assertAlmostEqual(found["y"], -fall * math.sin(0.5), delta=1e-6)
             self.assertAlmostEqual(found["t"], 0, delta=1e-6)
+
+    def test_symmetry(self):
+        """Half of a beam, held as its plane of symmetry is, is the whole one: a path, buckling, a mode."""
+        half = MIRRORED.replace("GUIDED", GUIDED).replace("MIDDLE", AXES + ", hold: [ux, ry, rz]")
+        whole = MIRRORED.replace("GUIDED", GUIDED).replace("MIDDLE", AXES + ", hold: [ux]")
+        for name, more in (("END", f"  b: {{at: [1.2, 1.6, 0], {GUIDED}}}"),
+                           ("RIGHT", "  r: {from: m, to: b, section: s, y: [-0.8, 0.6, 0], warping: fixed}"),
+                           ("MORE", "  o: {force: [-0.6, -0.8, 0], on: b}\n  t: {distributed: [-4, 3, 2], on: r}")):
+            whole, half = whole.replace(name, more), half.replace(name, "")
+        a, b = self.values(whole), self.values(half)
+        self.assertGreater(abs(a["u"]), 0.01)
+        for name, value in a.items():
+            self.assertLess(abs(b[name] / value - 1), 1e-7, name)
+
+    def test_harmonic_reaction(self):
+        """Along the axes of the node: of the motion that drives it, and of no other component."""
+        text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], axes: {x: [1, 1, 0], z: [0, 0, 1]}, hold: [uy], drive: {ux: go}}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+analyses: {h: {harmonic: {frequencies: [0]}}}
+quantities: {r: {response: {analysis: h, node: b, component: ux, of: reaction, drive: go}, unit: N/m}}
+"""
+        stiff = 2e9 * 0.02 * 0.03 + 3 * 2e9 * 0.03**3 * 0.02 / 12  # along and across, at 45 degrees
+        found = self.values(text + "omit: [shear]\n")
+        self.assertAlmostEqual(found["r"] / (stiff / 2), 1, delta=1e-6)
+        path = self.folder / "across.yaml"
+        path.write_text(text.replace("component: ux", "component: uy"))
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
+        self.assertIn("none drives the component alone", done.stdout + done.stderr)
 
     def test_written_again(self):
         """By z, and by a member: what is written gives the same."""
