@@ -317,3 +317,101 @@ void builder_springs(builder *b)
         fields_read(&f, entry_spring, &b->scene->spring[index]);
     }
 }
+
+/* Load cases and combinations. */
+
+/* One that a load or a motion names and none before it. */
+static void add_case(builder *b, const unrolled *entry)
+{
+    const fields f = fields_of(b, entry);
+    const document_node *n = document_find(f.map, "case");
+    unrolled **list = &b->list[SCENE_CASES].entry;
+    int *count = &b->list[SCENE_CASES].count;
+    if (n == NULL || n->kind != DOCUMENT_TEXT || fields_names(&f, "case", SCENE_CASES))
+        return;
+    *list = arena_grow(b->arena, *list, *count, sizeof **list);
+    if (*list == NULL) {
+        *count = 0; /* memory ran out, which the arena knows */
+        return;
+    }
+    (*list)[(*count)++] = (unrolled){fields_called(&f, n), n, n, n, b->names, NULL};
+}
+
+void builder_cases(builder *b)
+{
+    static const scene_list from[] = {SCENE_LOADS, SCENE_DRIVERS};
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < b->list[from[k]].count; i++)
+            add_case(b, &b->list[from[k]].entry[i]);
+    for (int i = 0; i < b->list[SCENE_CASES].count; i++)
+        scene_add_case(b->scene, b->list[SCENE_CASES].entry[i].name);
+}
+
+/* Does an entry of the map have this case, whether its conditions hold or not? */
+static int names_case(const document_node *entries, const char *name)
+{
+    for (int i = 0; entries != NULL && entries->kind == DOCUMENT_MAP && i < entries->count; i++) {
+        const document_node *n = document_find(entries->item[i], "case");
+        if (n != NULL && n->kind == DOCUMENT_TEXT && strcmp(n->text, name) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+static int is_conditional(const builder *b, const char *name)
+{
+    const document_node *parts = document_find(b->root, "parts");
+    int left = names_case(document_find(b->root, "loads"), name) ||
+               names_case(document_find(b->root, "motions"), name);
+    for (int i = 0; parts != NULL && i < parts->count && !left; i++)
+        left = names_case(document_find(parts->item[i], "loads"), name);
+    return left;
+}
+
+void builder_combinations(builder *b)
+{
+    for (int i = 0; i < b->list[SCENE_COMBINATIONS].count; i++) {
+        const unrolled *entry = &b->list[SCENE_COMBINATIONS].entry[i];
+        const fields f = fields_of(b, entry);
+        const int index = scene_add_combination(b->scene, entry->name);
+        for (int k = 0; k < f.map->count; k++) {
+            const document_node *key = f.map->key[k];
+            double factor;
+            if (keys_is_loop(key->text) ||
+                (!fields_names_entry(&f, key, SCENE_CASES) && is_conditional(b, key->text)) ||
+                !expression_number(f.map->item[k], f.names, b->mistakes, &factor))
+                continue;
+            const int load_case = fields_entry_of(&f, key, SCENE_CASES);
+            if (load_case >= 0)
+                scene_add_term(b->scene, index, load_case, factor);
+        }
+    }
+}
+
+/* In a combination, or what an analysis or a quantity is of. */
+static int is_read(const scene *s, int load_case)
+{
+    for (int i = 0; i < s->combinations; i++)
+        for (int k = 0; k < s->combination[i].terms; k++)
+            if (s->combination[i].term[k].load_case == load_case)
+                return 1;
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].acting.load_case == load_case)
+            return 1;
+    for (int i = 0; i < s->quantities; i++)
+        if (s->quantity[i].acting.load_case == load_case ||
+            (s->quantity[i].envelope != SCENE_ENVELOPE_NONE && s->combinations == 0))
+            return 1;
+    return 0;
+}
+
+void builder_read_cases(builder *b)
+{
+    const scene *s = b->scene;
+    for (int i = 0; i < s->cases && s->quantities > 0; i++)
+        if (!is_read(s, i))
+            document_mistake(b->mistakes, b->list[SCENE_CASES].entry[i].place, 0,
+                             "load case '%.40s' acts nowhere: no combination, analysis or quantity "
+                             "has it; correct the name, or give it a factor of 0",
+                             s->load_case[i].name);
+}

@@ -180,6 +180,8 @@ void builder_motions(builder *b)
                                    ? scene_add_driver(b->scene, entry->name, stations, path, value)
                                    : scene_add_moving_driver(b->scene, entry->name);
             builder_function(&f, driver, scene_drive_piece, 1);
+            if (driver >= 0)
+                b->scene->driver[driver].load_case = fields_entry(&f, "case", SCENE_CASES);
             check_given(&f);
             continue;
         }

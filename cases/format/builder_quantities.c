@@ -161,6 +161,24 @@ static void check_wanted(builder *b)
     }
 }
 
+/* Combinations of an envelope: one name, or a list of them. */
+static void read_overs(const fields *what, scene_quantity *q)
+{
+    const document_node *n = document_find(what->map, "combinations");
+    const int count = n == NULL ? 0 : n->kind == DOCUMENT_LIST ? n->count : 1;
+    if (n != NULL && (q->envelope == SCENE_ENVELOPE_NONE || count == 0))
+        document_mistake(what->b->mistakes, n, 0, "combinations: of an envelope, one at least; %s",
+                         count == 0 ? "name one, or remove it for all"
+                                    : "add envelope: max, min or largest, or write combination:");
+    for (int i = 0; i < count; i++) {
+        const int over =
+            fields_entry_of(what, n->kind == DOCUMENT_LIST ? n->item[i] : n, SCENE_COMBINATIONS);
+        const int at = scene_grow(what->b->scene, &q->over, &q->overs, sizeof *q->over);
+        if (at >= 0)
+            q->over[at] = over;
+    }
+}
+
 /* Sets members of a quantity that the table of keys of its kind does not describe. */
 static void settle(const fields *what, const quantity_type *type, scene_quantity *q)
 {
@@ -187,6 +205,7 @@ void builder_quantities(builder *b)
         const quantity_type *type = quantity_type_of(q);
         const fields what = fields_below(&f, type->key);
         settle(&what, type, q);
+        read_overs(&what, q);
         read_stations(&f, &what, q);
         read_unit(&f, q);
         read_prediction(&f, entry, q);
@@ -252,16 +271,21 @@ static void add_displacements(builder *b, int analysis, int node, int prefixed)
     }
 }
 
-/* Adds translations of the nodes that are loaded or driven; of all free nodes if there is none. */
+/* Adds translations of the nodes that are loaded or driven; of all free nodes if there is none. Of
+ * a linear analysis that solves all load cases and combinations it adds their largest magnitudes.
+ */
 static void add_states(builder *b, int analysis, int prefixed)
 {
     const scene *s = b->scene;
+    const int first = s->quantities;
     int asked = 0;
     for (int i = 0; i < s->nodes; i++)
         asked += is_asked(s, i);
     for (int i = 0; i < s->nodes; i++)
         if (asked > 0 ? is_asked(s, i) : s->node[i].attached == SCENE_NONE)
             add_displacements(b, analysis, i, prefixed);
+    for (int i = first; i < s->quantities && scene_solves_all(s, analysis); i++)
+        s->quantity[i].envelope = SCENE_ENVELOPE_LARGEST;
 }
 
 /* Adds the energies of a motion. */

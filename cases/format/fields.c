@@ -174,7 +174,11 @@ static const char *name_of(const fields *f, const document_node *n, scene_list l
 
 int fields_names(const fields *f, const char *key, scene_list list)
 {
-    const document_node *n = document_find(f->map, key);
+    return fields_names_entry(f, document_find(f->map, key), list);
+}
+
+int fields_names_entry(const fields *f, const document_node *n, scene_list list)
+{
     int port;
     if (n == NULL || n->kind != DOCUMENT_TEXT)
         return 0;
@@ -184,8 +188,9 @@ int fields_names(const fields *f, const char *key, scene_list list)
 
 int fields_entry_of(const fields *f, const document_node *n, scene_list list)
 {
-    static const char *const what[] = {"section", "node", "member",   "spring",
-                                       "motion",  "load", "analysis", "quantity"};
+    static const char *const what[] = {"section",   "node",       "member",   "spring",
+                                       "motion",    "load",       "analysis", "quantity",
+                                       "load case", "combination"};
     const named_list those = {f->b, list};
     char remedy[FAULT_TEXT];
     if (n->kind != DOCUMENT_TEXT) {
@@ -200,8 +205,17 @@ int fields_entry_of(const fields *f, const document_node *n, scene_list list)
     if (!substitute_is_left(text) && !f->b->list[list].incomplete) /* else it is already reported */
         document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
                          mistakes_remedy(choice_nearest(text, entry_at, &those),
-                                         "; add it, or correct the name", remedy));
+                                         list == SCENE_CASES
+                                             ? "; no load has it: give one case: NAME"
+                                             : "; add it, or correct the name",
+                                         remedy));
     return SCENE_NONE;
+}
+
+const char *fields_called(const fields *f, const document_node *n)
+{
+    int port;
+    return name_of(f, n, SCENE_CASES, &port);
 }
 
 int fields_entry(const fields *f, const char *key, scene_list list)

@@ -171,8 +171,11 @@ unsigned fields_words(const fields *f, const char *key, const char *choices);
 /* Index of the named entry; SCENE_NONE: none. */
 int fields_entry(const fields *f, const char *key, scene_list list);
 int fields_entry_of(const fields *f, const document_node *name, scene_list list);
+/* The name that a text says: itself, or the word of a name. */
+const char *fields_called(const fields *f, const document_node *name);
 /* Returns 1 when there is an entry of that name. Reports nothing. */
 int fields_names(const fields *f, const char *key, scene_list list);
+int fields_names_entry(const fields *f, const document_node *name, scene_list list);
 /* "ux|uy|uz|rx|ry|rz" */
 extern const char fields_components[];
 
@@ -186,6 +189,11 @@ void builder_axes(builder *b);
 void builder_members(builder *b);
 void builder_springs(builder *b);
 void builder_motions(builder *b);
+/* Names of load cases, which loads and motions have; then the combinations. */
+void builder_cases(builder *b);
+void builder_combinations(builder *b);
+/* Load cases that nothing reads are mistakes. */
+void builder_read_cases(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
@@ -246,6 +254,11 @@ extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], 
 extern const entry_field keys_loop[];
 /* May its entries have loops? */
 int keys_loops(const entry_field *table);
+/* Is it one of them? */
+int keys_is_loop(const char *name);
+/* Of a table whose entries have any names as keys: that of their values; NULL: it is another one.
+ */
+const entry_field *keys_any(const entry_field *table);
 
 /* Checks the whole tree for unknown, missing and misplaced keys and values of the wrong form.
  * Returns 1 when there are none. */

@@ -16,7 +16,7 @@ static const char *form_of(const entry_field *k, char text[32])
     case ENTRY_FLAG:
         return "WORD";
     case ENTRY_WORDS:
-        return "[WORD, ...]";
+        return k->words != NULL ? "[WORD, ...]" : "[NAME, ...]";
     case ENTRY_NUMBER:
     case ENTRY_WHOLE:
         return "EXPR";
@@ -71,7 +71,8 @@ static void walk(const entry_field *table, int depth, key_list_take *take, void 
         if (table->kind == ENTRY_LATER)
             continue;
         describe(table, text);
-        take(context, depth, table->name, form_of(table, form), text);
+        take(context, depth, keys_any(table) != NULL ? "NAME" : table->name, form_of(table, form),
+             text);
         if (table->kind == ENTRY_MAP || table->kind == ENTRY_ENTRIES || table->kind == ENTRY_LIST)
             walk(entry_below(table), depth + 1, take, context);
     }
@@ -142,6 +143,8 @@ static json_t *words_of(const char *words)
 
 static json_t *word(const entry_field *k)
 {
+    if (k->words == NULL) /* names of the file */
+        return json_pack("{s:s}", "type", "string");
     return json_pack("{s:s, s:o}", "type", "string", "examples", words_of(k->words));
 }
 
@@ -216,10 +219,11 @@ static void add_keys(json_t *properties, json_t *required, const entry_field *ta
 static json_t *map_of(const entry_field *table, const entry_field *loop)
 {
     json_t *properties = json_object(), *required = json_array();
-    add_keys(properties, required, table);
+    const entry_field *any = keys_any(table);
+    add_keys(properties, required, any == NULL ? table : NULL);
     add_keys(properties, required, loop);
-    return json_pack("{s:s, s:o, s:o, s:b}", "type", "object", "properties", properties, "required",
-                     required, "additionalProperties", 0);
+    return json_pack("{s:s, s:o, s:o, s:o}", "type", "object", "properties", properties, "required",
+                     required, "additionalProperties", any != NULL ? value_of(any) : json_false());
 }
 
 status schema_file_write(FILE *to, fault *f)

@@ -125,6 +125,8 @@ const entry_field keys_root[] = {
      .left_out = "none"},
     {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "forces and moments",
      .left_out = "none"},
+    {"combinations", ENTRY_ENTRIES, .below = entry_combination,
+     .summary = "{CASE: FACTOR, ...}: load cases that act together", .left_out = "none"},
     {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "what is computed",
      .left_out = "static to the end of the motions' paths, without these linear"},
     {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "results requested of it",
@@ -193,6 +195,16 @@ static void tell_kind(const document_node *n, const document_node *name, const c
 int keys_loops(const entry_field *table)
 {
     return table != keys_parameter && table != keys_part && table != keys_refusal;
+}
+
+int keys_is_loop(const char *name)
+{
+    return find(keys_loop, name) != NULL;
+}
+
+const entry_field *keys_any(const entry_field *table)
+{
+    return table != NULL && table->name != NULL && table->name[0] == '\0' ? table : NULL;
 }
 
 static void check_entries(const document_node *n, const entry_field *k, const document_node *name,
@@ -276,6 +288,13 @@ static const char *elsewhere(const entry_field *table, const char *name)
     for (size_t i = 0; table == entry_section && i < sizeof poisson / sizeof poisson[0]; i++)
         if (strcmp(name, poisson[i]) == 0)
             return "; give shear_modulus: E/(2*(1 + nu))";
+    static const char *const acting[] = {"combination", "case", "envelope"};
+    for (size_t i = 0; i < sizeof acting / sizeof acting[0]; i++)
+        if (strcmp(name, acting[i]) == 0 && (table == entry_analysis || table == entry_quantity))
+            return table == entry_analysis
+                       ? "; write it within the kind: {static: {combination: NAME}}"
+                       : "; write it beside analysis: {analysis: NAME, "
+                         "combination: NAME}";
     return NULL;
 }
 
@@ -359,6 +378,8 @@ static void check_map(const document_node *map, const known_keys *known, const d
         const entry_field *k = find(known->table, text);
         if (k == NULL && known->loop != NULL)
             k = find(known->loop, text);
+        if (k == NULL)
+            k = keys_any(known->table);
         char remedy[FAULT_TEXT];
         if (k != NULL)
             check_value(map->item[i], k, map->key[i], m);

@@ -305,6 +305,25 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
     }
 }
 
+/* Writes which loads act, where they have cases. */
+static void acting(FILE *to, const scene *s, const scene_quantity *q)
+{
+    static const char *const of[] = {"", "largest of", "least of", "largest magnitude of"};
+    const int own = scene_acting_of(s, q->analysis);
+    if (q->envelope == SCENE_ENVELOPE_NONE) {
+        const int number = own != 0 ? own : scene_acting_in(s, q, 0);
+        if (number != 0)
+            fprintf(to, ", %s", scene_acting_called(s, number).text);
+        return;
+    }
+    fprintf(to, ", %s ", of[q->envelope]);
+    if (q->overs == 0)
+        fputs(s->combinations > 0 ? "all combinations" : "all load cases", to);
+    for (int i = 0; i < q->overs; i++)
+        fprintf(to, "%s%s", i == 0 ? "combinations " : ", ",
+                scene_name(s, SCENE_COMBINATIONS, q->over[i]).text);
+}
+
 void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
 {
     const scene_analysis *a = &s->analysis[q->analysis], *path = path_of(s, a);
@@ -320,4 +339,5 @@ void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
         fprintf(to, ", while the axes rotate at %.10g rad/s", speed(path));
     if (a->kind == SCENE_COMPLIANCE && scene_compliance_of(a)->moments != SCENE_MOMENTS_SPATIAL)
         fprintf(to, ", moments %s", scene_moments_name(scene_compliance_of(a)->moments));
+    acting(to, s, q);
 }

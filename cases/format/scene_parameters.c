@@ -136,8 +136,9 @@ const scope *parameter_table_names(const parameter_type *p, const double value[]
     return names;
 }
 
-static const char *const list_name[SCENE_LISTS] = {"sections", "nodes", "members",  "springs",
-                                                   "motions",  "loads", "analyses", "quantities"};
+static const char *const list_name[SCENE_LISTS] = {
+    "sections", "nodes",    "members",    "springs", "motions",
+    "loads",    "analyses", "quantities", "",        "combinations"};
 
 /* Checks a name of an entry that others can refer to. */
 static void check_name(const builder *b, scene_list list, int i)
@@ -191,6 +192,7 @@ static void list_entries(builder *b)
         b->list[placed[k]].count = count[k];
         b->list[placed[k]].incomplete |= incomplete;
     }
+    builder_cases(b);
     for (int i = 0; i < SCENE_LISTS; i++)
         for (int k = 0; k < b->list[i].count; k++)
             check_name(b, (scene_list)i, k);
@@ -307,8 +309,9 @@ static void read_meshes(builder *b)
 /* Finds the entry that a refusal names ("node tip: ..."), and its text. */
 static void tell_refusal(const builder *b, const char *text)
 {
-    static const char *const word[SCENE_LISTS] = {"section ", "node ", "member ",   "spring ",
-                                                  "driver ",  "load ", "analysis ", "quantity "};
+    static const char *const word[SCENE_LISTS] = {
+        "section ", "node ",     "member ",   "spring ", "driver ",
+        "load ",    "analysis ", "quantity ", "case ",   "combination "};
     for (int k = 0; k < SCENE_LISTS; k++) {
         const size_t length = strlen(word[k]);
         if (strncmp(text, word[k], length) != 0)
@@ -366,11 +369,12 @@ static void hold_warping(builder *b)
  * the file. */
 static int build_lists(builder *b)
 {
-    static void (*const own[])(builder *) = {builder_nodes,   builder_members,  builder_axes,
-                                             builder_springs, hold_warping,     builder_motions,
-                                             builder_loads,   builder_analyses, builder_quantities},
-                                       (*const whole[])(builder *) = {builder_defaults, read_plane,
-                                                                      read_physics, read_meshes};
+    static void (*const own[])(
+        builder *) = {builder_nodes,    builder_members,    builder_axes,      builder_springs,
+                      hold_warping,     builder_motions,    builder_loads,     builder_combinations,
+                      builder_analyses, builder_quantities, builder_read_cases},
+                (*const whole[])(builder *) = {builder_defaults, read_plane, read_physics,
+                                               read_meshes};
     for (size_t i = 0; i < sizeof own / sizeof own[0] && !b->scene->out_of_memory; i++)
         own[i](b);
     const int quantities = b->scene->quantities;

@@ -152,11 +152,13 @@ static void write_list(writer *w, const char *key, scene_list list, const entry_
         int count;
         size_t size;
         const void *first;
-    } all[SCENE_LISTS] = {[SCENE_NODES] = {s->nodes, sizeof *s->node, s->node},
-                          [SCENE_MEMBERS] = {s->members, sizeof *s->member, s->member},
-                          [SCENE_SPRINGS] = {s->springs, sizeof *s->spring, s->spring},
-                          [SCENE_DRIVERS] = {s->drivers, sizeof *s->driver, s->driver},
-                          [SCENE_LOADS] = {s->loads, sizeof *s->load, s->load}};
+    } all[SCENE_LISTS] = {
+        [SCENE_NODES] = {s->nodes, sizeof *s->node, s->node},
+        [SCENE_MEMBERS] = {s->members, sizeof *s->member, s->member},
+        [SCENE_SPRINGS] = {s->springs, sizeof *s->spring, s->spring},
+        [SCENE_DRIVERS] = {s->drivers, sizeof *s->driver, s->driver},
+        [SCENE_LOADS] = {s->loads, sizeof *s->load, s->load},
+        [SCENE_COMBINATIONS] = {s->combinations, sizeof *s->combination, s->combination}};
     for (int i = 0; i < all[list].count; i++) {
         if (i == 0)
             fprintf(w->to, "%s:\n", key);
@@ -335,6 +337,16 @@ static void write_factor(writer *w, const void *entry)
     write_pieces(w, &load->function);
 }
 
+static void write_terms(writer *w, const void *entry)
+{
+    const scene_combination *c = entry;
+    for (int i = 0; i < c->terms; i++) {
+        write_values_named(w, i > 0 ? ", " : "", SCENE_CASES, c->term[i].load_case);
+        fputs(": ", w->to);
+        write_values_number(w, c->term[i].factor);
+    }
+}
+
 void write_structure(writer *w)
 {
     static const write_own node[] = {
@@ -349,9 +361,11 @@ void write_structure(writer *w)
     static const write_own load[] = {{"force", write_vector}, {"temperature", write_temperature},
                                      {"on", write_on},        {"where", write_range},
                                      {"path", write_factor},  {NULL, NULL}};
+    static const write_own combination[] = {{"", write_terms}, {NULL, NULL}};
     write_list(w, "nodes", SCENE_NODES, entry_node, node);
     write_list(w, "members", SCENE_MEMBERS, entry_member, member);
     write_list(w, "springs", SCENE_SPRINGS, entry_spring, spring);
     write_list(w, "motions", SCENE_DRIVERS, entry_driver, driver);
     write_list(w, "loads", SCENE_LOADS, entry_load, load);
+    write_list(w, "combinations", SCENE_COMBINATIONS, entry_combination, combination);
 }

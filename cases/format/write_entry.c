@@ -404,6 +404,17 @@ static void write_taken(writer *w, const void *entry)
                               : (int)q->reduction - (q->reduction > SCENE_AT));
 }
 
+static void write_overs(writer *w, const void *entry)
+{
+    const scene_quantity *q = entry;
+    if (q->overs == 0)
+        return;
+    write_values_key(w, "combinations");
+    for (int i = 0; i < q->overs; i++)
+        write_values_named(w, i > 0 ? ", " : "[", SCENE_COMBINATIONS, q->over[i]);
+    fputc(']', w->to);
+}
+
 static void write_unit(writer *w, const void *entry)
 {
     write_values_key(w, "unit");
@@ -447,6 +458,7 @@ void write_quantities(writer *w)
                                     {"stress.where", write_where},
                                     {"internal.side", write_side},
                                     {"stress.side", write_side},
+                                    {"combinations", write_overs},
                                     {"at", write_taken},
                                     {"unit", write_unit},
                                     {"x", write_abscissa},

@@ -14,6 +14,7 @@ static const entry_field fields[] = {
      .summary = "of the member: with what a release adds to the node",
      ENTRY_IN(scene_quantity, what.of.deflection.place)},
     QUANTITY_COMPONENT("along or about a fixed axis", deflection.component),
+    QUANTITY_ACTING,
     QUANTITY_TAKEN,
     {.name = NULL}};
 

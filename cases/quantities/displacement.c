@@ -4,6 +4,7 @@
 static const entry_field fields[] = {QUANTITY_ANALYSIS,
                                      QUANTITY_NODE(component.node),
                                      QUANTITY_COMPONENT("of its coordinates", component.component),
+                                     QUANTITY_ACTING,
                                      QUANTITY_TAKEN,
                                      {.name = NULL}};
 

@@ -18,6 +18,7 @@ static const entry_field fields[] = {
     {"resultant", ENTRY_WORD, .needed = 1, .words = SCENE_RESULTANT_CHOICES,
      .summary = "of what lies towards 'to', in the turned section's principal axes",
      ENTRY_IN(scene_quantity, what.of.internal.resultant)},
+    QUANTITY_ACTING,
     QUANTITY_TAKEN,
     {.name = NULL}};
 

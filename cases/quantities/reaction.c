@@ -7,6 +7,7 @@ static const entry_field fields[] = {
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS "|turn_1",
      .summary = "of its coordinates; turn_1: about the first axis of its sequence",
      ENTRY_IN(scene_quantity, what.of.component.component), .turns = ENTRY_COMPONENT},
+    QUANTITY_ACTING,
     QUANTITY_TAKEN,
     {.name = NULL}};
 

@@ -13,6 +13,7 @@ static const entry_field fields[] = {
     QUANTITY_SIDE(stress.before),
     {"measure", ENTRY_WORD, .words = SCENE_STRESS_CHOICES, .summary = "over the section's points",
      .usual = "von_mises", ENTRY_IN(scene_quantity, what.of.stress.measure), .always = 1},
+    QUANTITY_ACTING,
     QUANTITY_TAKEN,
     {.name = NULL}};
 

@@ -55,13 +55,13 @@ static void add_changes(int stations, const double path[], const double value[],
     }
 }
 
-along_path_words along_path_end(const scene *s)
+along_path_words along_path_end(const scene *s, int acting)
 {
     along_path_words out = {""};
     changes c = {.begin = INFINITY, .end = -INFINITY};
     for (int i = 0; i < s->loads; i++) {
         const scene_load *load = &s->load[i];
-        if (!scene_load_acts(load))
+        if (!scene_load_acts(load) || scene_acting_factor(s, acting, load->load_case) == 0)
             continue;
         if (load->stations == 0)
             return out;
@@ -71,6 +71,8 @@ along_path_words along_path_end(const scene *s)
         const scene_driver *driver = &s->driver[d];
         if (driver->value == NULL)
             return out;
+        if (scene_acting_factor(s, acting, driver->load_case) == 0)
+            continue;
         add_changes(driver->stations, driver->path, driver->value,
                     scene_called(s, SCENE_DRIVERS, d), &c);
     }
@@ -100,20 +102,22 @@ static int is_straight(int stations, const double path[], const double value[])
     return 1;
 }
 
-status along_path_proportional(const scene *s, fault *f)
+status along_path_proportional(const scene *s, int acting, fault *f)
 {
     static const char words[] =
         "from path 0 to 1 its values are not on a line: the critical load of "
         "a linear prestress has no sense; follow a static path";
     for (int i = 0; i < s->loads; i++) {
         const scene_load *load = &s->load[i];
-        if (load->stations > 0 && !is_straight(load->stations, load->path, load->factor))
+        if (load->stations > 0 && !is_straight(load->stations, load->path, load->factor) &&
+            scene_acting_factor(s, acting, load->load_case) != 0)
             return fault_set(f, STATUS_REFUSED, "%s: %s", scene_called(s, SCENE_LOADS, i).text,
                              words);
     }
     for (int d = 0; d < s->drivers; d++) {
         const scene_driver *driver = &s->driver[d];
-        if (driver->value != NULL && !is_straight(driver->stations, driver->path, driver->value))
+        if (driver->value != NULL && !is_straight(driver->stations, driver->path, driver->value) &&
+            scene_acting_factor(s, acting, driver->load_case) != 0)
             return fault_set(f, STATUS_REFUSED, "driver %s: %s", driver->name, words);
     }
     return STATUS_OK;
@@ -139,11 +143,13 @@ static int called(const scene *s, scene_list list, int i, char *who, int size)
     return 1;
 }
 
-/* The first load for which `is` is true. */
-static int load_that(const scene *s, int (*is)(const scene_load *), char *who, int size)
+/* The first load for which `is` is true, of those that act in the analysis. */
+static int load_that(const scene *s, int analysis, int (*is)(const scene_load *), char *who,
+                     int size)
 {
     for (int i = 0; i < s->loads; i++)
-        if (is(&s->load[i]))
+        if (is(&s->load[i]) &&
+            scene_acting_factor(s, scene_acting_of(s, analysis), s->load[i].load_case) != 0)
             return called(s, SCENE_LOADS, i, who, size);
     return 0;
 }
@@ -155,8 +161,7 @@ static int load_that(const scene *s, int (*is)(const scene_load *), char *who, i
     }                                                                                              \
     static int has_##name(const scene *s, int analysis, char *who, int size)                       \
     {                                                                                              \
-        (void)analysis;                                                                            \
-        return load_that(s, is_##name, who, size);                                                 \
+        return load_that(s, analysis, is_##name, who, size);                                       \
     }
 LOAD(force, l->kind == SCENE_FORCE && !l->follower && vec3_norm(l->at) == 0)
 LOAD(following_force, l->kind == SCENE_FORCE && l->follower)
@@ -176,6 +181,7 @@ LOAD(gravity, l->kind == SCENE_GRAVITY)
 LOAD(weight, l->kind == SCENE_WEIGHT)
 LOAD(temperature, l->kind == SCENE_TEMPERATURE)
 LOAD(staying, along_path_factor(l, 0) != 0)
+LOAD(of_case, l->load_case != SCENE_NONE)
 
 #define MEMBER(name, condition)                                                                    \
     static int has_##name(const scene *s, int analysis, char *who, int size)                       \
@@ -289,6 +295,15 @@ static int has_drive(const scene *s, int analysis, char *who, int size)
     return s->drivers > 0 && called(s, SCENE_DRIVERS, 0, who, size);
 }
 
+static int has_drive_of_case(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    for (int i = 0; i < s->drivers; i++)
+        if (s->driver[i].load_case != SCENE_NONE)
+            return called(s, SCENE_DRIVERS, i, who, size);
+    return 0;
+}
+
 /* Does the analysis, or its base analysis, have a rotating frame? *who names that one. */
 static int has_spin(const scene *s, int analysis, char *who, int size)
 {
@@ -337,6 +352,7 @@ const scene_input scene_inputs[] = {
     {"pretension", "uuuuuuuuuuuu", NULL, has_pretension},
     {"unstressed length", "uuuuuuuuuuuu", NULL, has_unstressed_length},
     {"free curvature", "uuuuuuuuuuuu", NULL, has_free_curvature},
+    {"load of a case", "uuuuu-uu-uuu", NULL, has_of_case},
     {"initial curvature", "uuuuuuuuuuuu", NULL, has_curvature},
     {"imperfection", "uuuuuuuuuuuu", NULL, has_imperfection},
     {"taper", "uuuuuuuuuuuu", NULL, has_taper},
@@ -354,6 +370,7 @@ const scene_input scene_inputs[] = {
     {"fork", "uuuuuuuuuuuu", NULL, has_fork},
     {"mass of a node", "-ii-iuuu-iuu", NULL, has_mass},
     {"inertia of a node", "-ii-iuuu-iuu", NULL, has_inertia},
+    {"motion of a case", "uuxuu-uu-uuu", no_drive, has_drive_of_case},
     {"motion of a node", "uuxuu-uu-uuu", no_drive, has_drive},
     {"velocity at the start", "-----------u", NULL, has_start},
     {"axes that turn", "-uu-u--x-uuu", no_spin, has_spin},
@@ -392,6 +409,9 @@ int scene_inputs_flutter(const scene *s, int analysis)
 {
     if (s->analysis[analysis].follows == SCENE_NONE)
         return 0;
+    for (int i = 0; i < s->loads; i++) /* tangents are stored whole for all analyses */
+        if (s->load[i].load_case != SCENE_NONE && scene_load_unsymmetric(&s->load[i]))
+            return 1;
     for (const scene_input *i = scene_inputs; i->name != NULL; i++)
         if ((i->part[SCENE_OF_BUCKLING] == SCENE_PART_STATE ||
              i->part[SCENE_OF_BUCKLING] == SCENE_PART_REFUSED) &&

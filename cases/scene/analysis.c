@@ -15,6 +15,7 @@ const char *scene_moments_name(scene_moments moments)
 static int add(scene *s, scene_analysis analysis)
 {
     const int i = scene_grow(s, &s->analysis, &s->analyses, sizeof *s->analysis);
+    analysis.acting = (scene_acting){SCENE_NONE, SCENE_NONE};
     if (i >= 0)
         s->analysis[i] = analysis;
     return i;

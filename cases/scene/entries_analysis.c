@@ -3,7 +3,25 @@
 
 #include <math.h>
 
-static const entry_field nothing[] = {{.name = NULL}};
+/* Which loads act. */
+#define ACTING(otherwise)                                                                          \
+    {"case",                                                                                       \
+     ENTRY_NAME,                                                                                   \
+     .group = 3,                                                                                   \
+     .summary = "load case that acts",                                                             \
+     .left_out = (otherwise),                                                                      \
+     ENTRY_IN(scene_analysis, acting.load_case),                                                   \
+     .of = SCENE_CASES},                                                                           \
+    {                                                                                              \
+        "combination", ENTRY_NAME, .group = 3, .summary = "of load cases that acts",               \
+            .left_out = (otherwise), ENTRY_IN(scene_analysis, acting.combination),                 \
+            .of = SCENE_COMBINATIONS                                                               \
+    }
+static const char all_loads[] = "all loads; needed where they have cases";
+
+static const entry_field linear[] = {
+    ACTING("all loads; where they have cases each one is solved, and quantities say which"),
+    {.name = NULL}};
 
 #define OMEGA(member)                                                                              \
     {"omega",                                                                                      \
@@ -47,6 +65,7 @@ static const entry_field path[] = {
      ENTRY_IN(scene_analysis, of.walk.path)},
     STEPS,
     {"spin", ENTRY_MAP, .below = spin, .summary = "the axes turn", .left_out = "they do not"},
+    ACTING(all_loads),
     {.name = NULL}};
 
 #define RAYLEIGH                                                                                   \
@@ -87,6 +106,7 @@ static const entry_field modes[] = {
 static const entry_field buckling[] = {
     {"wanted", ENTRY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
     ABOUT("static analysis about whose last state"),
+    ACTING(all_loads),
     {.name = "sign", .kind = ENTRY_LATER},
     {.name = NULL}};
 
@@ -122,6 +142,7 @@ static const entry_field continuation[] = {
      ENTRY_IN(scene_analysis, of.continuation.control.constant_steps)},
     {"spin", ENTRY_MAP, .below = spin_followed, .summary = "the axes turn",
      .left_out = "they do not"},
+    ACTING(all_loads),
     {.name = NULL}};
 
 static const entry_field rotation[] = {
@@ -131,6 +152,7 @@ static const entry_field rotation[] = {
     STEPS,
     {"wanted", ENTRY_WHOLE, .summary = "modes to look for at first, of all families", .usual = "0",
      ENTRY_IN(scene_analysis, of.walk.modes), .most = 1000},
+    ACTING(all_loads),
     {.name = NULL}};
 
 static const entry_field start[] = {
@@ -178,6 +200,7 @@ static const entry_field in_time[] = {
           "continues, with its rates and its time"),
     {"start", ENTRY_MAP, .below = start, .summary = "velocities at the start",
      .left_out = "at rest, or as about has it"},
+    ACTING(all_loads),
     {.name = NULL}};
 
 static const entry_field harmonic[] = {
@@ -197,7 +220,7 @@ static const entry_field harmonic[] = {
     {.name = NULL}};
 
 const entry_field entry_analysis[] = {
-    {"linear", ENTRY_MAP, .needed = 1, .group = 1, .below = nothing, .summary = "loads at factor 1",
+    {"linear", ENTRY_MAP, .needed = 1, .group = 1, .below = linear, .summary = "loads at factor 1",
      ENTRY_IN(scene_analysis, kind), .first = SCENE_LINEAR},
     {"static", ENTRY_MAP, .needed = 1, .group = 1, .below = path, .summary = "along a path",
      ENTRY_IN(scene_analysis, kind), .first = SCENE_STATIC},

@@ -234,6 +234,9 @@ const entry_field entry_driver[] = {
     {"table", ENTRY_MAP, .group = 1, .below = table,
      .summary = "likewise, a cubic spline that begins and ends at rest",
      .left_out = "it is along a path"},
+    {"case", ENTRY_NAME, .summary = "load case that it belongs to",
+     .left_out = "none: it moves in all of them", ENTRY_IN(scene_driver, load_case),
+     .of = SCENE_CASES},
     {.name = NULL}};
 
 const entry_field entry_load[] = {
@@ -288,6 +291,13 @@ const entry_field entry_load[] = {
      .left_out = "likewise"},
     {"table", ENTRY_MAP, .group = 2, .below = table, .summary = "likewise, linear between",
      .left_out = "likewise"},
+    {"case", ENTRY_NAME, .summary = "load case that it belongs to: any name; of all loads or none",
+     .left_out = "no load has one", ENTRY_IN(scene_load, load_case), .of = SCENE_CASES},
+    {.name = NULL}};
+
+/* Any load case. */
+const entry_field entry_combination[] = {
+    {"", ENTRY_NUMBER, .summary = "a load case: its factor", .left_out = "it does not act"},
     {.name = NULL}};
 
 const entry_field *entry_of_load(scene_load_kind kind)

@@ -5,16 +5,19 @@
 #include <string.h>
 
 static const char *const word_of[] = {
-    [SCENE_SECTIONS] = "section",  [SCENE_NODES] = "node",         [SCENE_MEMBERS] = "member",
-    [SCENE_SPRINGS] = "spring",    [SCENE_DRIVERS] = "driver",     [SCENE_LOADS] = "load",
-    [SCENE_ANALYSES] = "analysis", [SCENE_QUANTITIES] = "quantity"};
+    [SCENE_SECTIONS] = "section",  [SCENE_NODES] = "node",
+    [SCENE_MEMBERS] = "member",    [SCENE_SPRINGS] = "spring",
+    [SCENE_DRIVERS] = "driver",    [SCENE_LOADS] = "load",
+    [SCENE_ANALYSES] = "analysis", [SCENE_QUANTITIES] = "quantity",
+    [SCENE_CASES] = "case",        [SCENE_COMBINATIONS] = "combination"};
 
 int scene_count(const scene *s, scene_list list)
 {
     const int count[] = {[SCENE_SECTIONS] = s->sections, [SCENE_NODES] = s->nodes,
                          [SCENE_MEMBERS] = s->members,   [SCENE_SPRINGS] = s->springs,
                          [SCENE_DRIVERS] = s->drivers,   [SCENE_LOADS] = s->loads,
-                         [SCENE_ANALYSES] = s->analyses, [SCENE_QUANTITIES] = s->quantities};
+                         [SCENE_ANALYSES] = s->analyses, [SCENE_QUANTITIES] = s->quantities,
+                         [SCENE_CASES] = s->cases,       [SCENE_COMBINATIONS] = s->combinations};
     return count[list];
 }
 
@@ -45,6 +48,10 @@ static char *room_of(const scene *s, scene_list list, int i)
         return s->analysis[i].name;
     case SCENE_QUANTITIES:
         return s->quantity[i].name;
+    case SCENE_CASES:
+        return s->load_case[i].name;
+    case SCENE_COMBINATIONS:
+        return s->combination[i].name;
     }
     return NULL;
 }

@@ -1,6 +1,7 @@
 #include "cases/scene/scene.h"
 
 #include <assert.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "quantities.h" /* by the build: QUANTITY_TYPES, a word for each file of cases/quantities */
@@ -87,6 +88,7 @@ scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit,
     const int i = scene_grow(s, &s->quantity, &s->quantities, sizeof *s->quantity);
     scene_quantity *q = i >= 0 ? &s->quantity[i] : &s->scrap.quantity;
     *q = (scene_quantity){.analysis = analysis,
+                          .acting = {SCENE_NONE, SCENE_NONE},
                           .what = what,
                           .x = {.factor = 1},
                           .factor = 1,
@@ -250,5 +252,7 @@ void scene_keep_quantities(scene *s, const scene *of)
     for (int i = 0; i < s->quantities; i++)
         if (has_quantity(of, s->quantity[i].name))
             s->quantity[kept++] = s->quantity[i];
+        else
+            free(s->quantity[i].over);
     s->quantities = kept;
 }

@@ -30,6 +30,12 @@ void scene_free(scene *s)
             free(scene_path_of(&s->analysis[i])->value);
         free(s->analysis[i].damping.ratios.value);
     }
+    for (int i = 0; i < s->quantities; i++)
+        free(s->quantity[i].over);
+    for (int i = 0; i < s->combinations; i++)
+        free(s->combination[i].term);
+    free(s->load_case);
+    free(s->combination);
     free(s->section);
     free(s->computed);
     free(s->node);
@@ -264,6 +270,7 @@ static int add_driver(scene *s, const char *name)
     if (i >= 0) {
         snprintf(s->driver[i].name, SCENE_NAME, "%s", name);
         s->driver[i].condition_node = s->driver[i].condition_driver = SCENE_NONE;
+        s->driver[i].load_case = SCENE_NONE;
     }
     return i;
 }
@@ -312,7 +319,7 @@ int scene_add_unknown_driver(scene *s, const char *name, int node, int component
 
 scene_load scene_load_of(scene_load_kind kind, int where, double x, double y, double z)
 {
-    scene_load load = {.kind = kind, .where = where, .vector = {x, y, z}};
+    scene_load load = {.kind = kind, .where = where, .vector = {x, y, z}, .load_case = SCENE_NONE};
     load.range[1] = scene_load_along(&load) && !scene_load_within(&load);
     return load;
 }

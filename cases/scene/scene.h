@@ -144,9 +144,16 @@ typedef struct scene_proportional {
     scene_path ratios;      /* ... the first ones, which have these ratios */
 } scene_proportional;
 
+/* Loads that act: those of a load case, or of a combination, each with its factor; SCENE_NONE both:
+ * see scene_acting_of. */
+typedef struct scene_acting {
+    int load_case, combination;
+} scene_acting;
+
 typedef struct scene_analysis {
     scene_analysis_kind kind;
     int follows; /* analysis whose states this one is about, or SCENE_NONE: the undeformed state */
+    scene_acting acting;
     union {
         scene_walk walk;
         scene_compliance compliance;
@@ -574,9 +581,22 @@ typedef struct scene_prediction {
     const char *source; /* NULL: no prediction */
 } scene_prediction;
 
+/* What is taken over load cases or combinations. */
+typedef enum scene_envelope {
+    SCENE_ENVELOPE_NONE,
+    SCENE_ENVELOPE_MAX,
+    SCENE_ENVELOPE_MIN,
+    SCENE_ENVELOPE_LARGEST /* the largest magnitude */
+} scene_envelope;
+#define SCENE_ENVELOPE_CHOICES "max|min|largest"
+
 typedef struct scene_quantity {
     char name[SCENE_NAME], unit[SCENE_UNIT];
     int analysis;
+    scene_acting acting; /* of a linear analysis that solves all: one, or */
+    scene_envelope envelope;
+    int overs;
+    int *over; /* [overs] combinations of the envelope; 0: all, where there are none all cases */
     scene_extract what;
     scene_reduction reduction; /* statistic over the stations of a path */
     scene_transform transform; /* of a curve */
@@ -779,6 +799,7 @@ typedef struct scene_driver {
     int condition_node,
         condition_component; /* unknown driver: this coordinate is prescribed instead, by ... */
     int condition_driver;    /* ... the value of this driver; SCENE_NONE for a known driver */
+    int load_case;           /* SCENE_NONE: it moves in all of them */
 } scene_driver;
 
 typedef enum scene_load_kind {
@@ -818,8 +839,26 @@ typedef struct scene_load {
     int stations; /* 0: proportional to the path parameter (factor = path) */
     double *path, *factor;
     scene_function function; /* factor as a function of time instead of these; no pieces: none */
+    int load_case;           /* SCENE_NONE: the scene has none */
     char name[SCENE_NAME];
 } scene_load;
+
+/* What loads belong to, by a name alone. */
+typedef struct scene_load_case {
+    char name[SCENE_NAME];
+} scene_load_case;
+
+/* Load cases with factors; a case that is not among them does not act. */
+typedef struct scene_term {
+    int load_case;
+    double factor;
+} scene_term;
+
+typedef struct scene_combination {
+    int terms;
+    scene_term *term; /* [terms] */
+    char name[SCENE_NAME];
+} scene_combination;
 
 /* Name and computed constants of a section, with the description from which they were computed. */
 typedef struct scene_computed {
@@ -851,7 +890,8 @@ typedef struct scene_words {
 
 struct scene {
     char name[SCENE_NAME];
-    int sections, nodes, members, springs, drivers, loads, analyses, quantities;
+    int sections, nodes, members, springs, drivers, loads, analyses, quantities, cases,
+        combinations;
     section_spec *section;
     int computeds;
     scene_computed *computed; /* [computeds] filled by scene_constants */
@@ -860,6 +900,8 @@ struct scene {
     scene_spring *spring;
     scene_driver *driver;
     scene_load *load;
+    scene_load_case *load_case;
+    scene_combination *combination;
     scene_analysis *analysis;
     scene_quantity *quantity;
     scene_plane plane; /* plane to which everything is restricted; SCENE_SPACE: none */
@@ -951,6 +993,24 @@ int scene_load_acts(const scene_load *load);
 int scene_load_unsymmetric(const scene_load *load);
 /* The load is its vector times a factor that is piecewise linear in the path parameter. */
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[]);
+int scene_add_case(scene *s, const char *name);
+int scene_add_combination(scene *s, const char *name);
+/* A load case more in a combination. */
+void scene_add_term(scene *s, int combination, int load_case, double factor);
+/* What acts, as a number: 0: everything, in scenes without load cases; from 1 the combinations, and
+ * after them the load cases. */
+int scene_acting_number(const scene *s, scene_acting what);
+/* Of an analysis, or of that whose state it is about; 0 too: all of them, one after the other
+ * (scene_solves_all), or none, of the structure without loads. */
+int scene_acting_of(const scene *s, int analysis);
+/* Is it linear, and solves every load case and combination? */
+int scene_solves_all(const scene *s, int analysis);
+/* The i-th of those that a quantity is of, i from 0; 0: there are no more, or all act. */
+int scene_acting_in(const scene *s, const scene_quantity *q, int i);
+/* Factor of what belongs to a load case, where a number acts. */
+double scene_acting_factor(const scene *s, int number, int load_case);
+/* "combination ULS", "case dead"; "" of 0. */
+scene_words scene_acting_called(const scene *s, int number);
 /* Entry of a list, to be completed; never NULL. */
 scene_node *scene_node_at(scene *s, int index);
 scene_member *scene_member_at(scene *s, int index);
@@ -1015,9 +1075,9 @@ double along_path_value(const scene_driver *, double path);
 typedef struct along_path_words {
     char text[256];
 } along_path_words;
-along_path_words along_path_end(const scene *);
+along_path_words along_path_end(const scene *, int acting);
 /* REFUSED: a value is not proportional to the path parameter from path 0 to 1. */
-status along_path_proportional(const scene *, fault *);
+status along_path_proportional(const scene *, int acting, fault *);
 
 /* Changes of a scene that must not change its results: for checks without reference values. */
 
@@ -1047,9 +1107,11 @@ typedef enum scene_list {
     SCENE_DRIVERS,
     SCENE_LOADS,
     SCENE_ANALYSES,
-    SCENE_QUANTITIES
+    SCENE_QUANTITIES,
+    SCENE_CASES,
+    SCENE_COMBINATIONS
 } scene_list;
-enum { SCENE_LISTS = SCENE_QUANTITIES + 1 };
+enum { SCENE_LISTS = SCENE_COMBINATIONS + 1 };
 
 /* Number of entries of a list; its singular, "node". */
 int scene_count(const scene *s, scene_list list);
@@ -1140,7 +1202,7 @@ typedef struct entry_field {
 #define ENTRY_COMPONENTS "ux|uy|uz|rx|ry|rz"
 
 extern const entry_field entry_section[], entry_node[], entry_member[], entry_spring[],
-    entry_driver[], entry_load[], entry_analysis[], entry_quantity[];
+    entry_driver[], entry_load[], entry_combination[], entry_analysis[], entry_quantity[];
 
 /* The key of the vector of a load: "force", with its unit. */
 const entry_field *entry_of_load(scene_load_kind);
@@ -1392,6 +1454,32 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
      .summary = (text),                                                                            \
      ENTRY_IN(scene_quantity, what.of.member),                                                     \
      .turns = ENTRY_COMPONENT}
+/* Of a linear analysis that solves every load case and combination: which. */
+#define QUANTITY_ACTING                                                                            \
+    {"case",                                                                                       \
+     ENTRY_NAME,                                                                                   \
+     .group = 3,                                                                                   \
+     .summary = "load case, of a linear analysis that solves all",                                 \
+     .left_out = "as the analysis says",                                                           \
+     ENTRY_IN(scene_quantity, acting.load_case),                                                   \
+     .of = SCENE_CASES},                                                                           \
+        {"combination",                                                                            \
+         ENTRY_NAME,                                                                               \
+         .group = 3,                                                                               \
+         .summary = "of load cases, likewise",                                                     \
+         .left_out = "as the analysis says",                                                       \
+         ENTRY_IN(scene_quantity, acting.combination),                                             \
+         .of = SCENE_COMBINATIONS},                                                                \
+        {"envelope",                                                                               \
+         ENTRY_WORD,                                                                               \
+         .group = 3,                                                                               \
+         .words = SCENE_ENVELOPE_CHOICES,                                                          \
+         .summary = "over combinations: largest and least value, or largest magnitude",            \
+         .left_out = "of one",                                                                     \
+         ENTRY_IN(scene_quantity, envelope),                                                       \
+         .first = SCENE_ENVELOPE_MAX},                                                             \
+        {"combinations", ENTRY_WORDS, .summary = "of the envelope",                                \
+         .left_out = "all; without combinations all load cases"}
 /* A position on a member, and its side. */
 #define QUANTITY_SIDE(member)                                                                      \
     {"side",                                                                                       \

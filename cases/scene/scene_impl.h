@@ -27,6 +27,12 @@ status scene_validate_release(const scene *s, int member, fault *f);
 /* Checks that something resists the rotations of a node: a member, a support or a spring. */
 status scene_validate_turns(const scene *s, int node, fault *f);
 
+/* Requirements on load cases and combinations, and on what says which of them act. */
+
+status scene_validate_cases(const scene *s, fault *f);
+status scene_validate_acting(const scene *s, int analysis, fault *f);
+status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f);
+
 /* Requirements on the analyses and quantities of a scene. */
 
 /* REFUSED: names the cause and the remedy, for analysis or quantity i. */

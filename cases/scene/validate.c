@@ -351,6 +351,7 @@ status scene_validate(const scene *s, fault *f)
         return fault_set(f, STATUS_FAULT, "%s: out of memory while the scene was built", s->name);
     TRY(check_numbers(s, f));
     TRY(scene_validate_functions(s, f));
+    TRY(scene_validate_cases(s, f));
     for (size_t k = 0; k < sizeof count / sizeof count[0]; k++)
         for (int i = 0; i < count[k]; i++) {
             TRY(check[k](s, i, f));

@@ -215,7 +215,8 @@ static status scene_validate_motion(const scene *s, int i, fault *f)
     for (int d = 0; d < s->drivers; d++)
         TRY(check_driver(s, d, i, f));
     for (int l = 0; l < s->loads; l++)
-        TRY(check_load(s, l, i, f));
+        if (scene_acting_factor(s, scene_acting_of(s, i), s->load[l].load_case) != 0)
+            TRY(check_load(s, l, i, f));
     return STATUS_OK;
 }
 
@@ -362,6 +363,7 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
                          "%s: it is about a motion, whose forces are not in balance without those "
                          "of inertia; follow a static path",
                          scene_called(s, SCENE_ANALYSES, i).text);
+    TRY(scene_validate_acting(s, i, f));
     if (a->follows != SCENE_NONE &&
         (a->kind == SCENE_BUCKLING || a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC))
         TRY(check_about(s, a, i, f));
@@ -521,6 +523,7 @@ status scene_validate_quantity(const scene *s, int i, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: an analysis of this kind does not have it; name another one",
                          q->name);
+    TRY(scene_validate_case_of(s, q, f));
     TRY(check_passing(s, q, f));
     TRY(check_spectrum(s, q, f));
     TRY(check_abscissa(s, q, f));

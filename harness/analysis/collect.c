@@ -20,7 +20,7 @@ static int count_of(const analysis_outcome *o, int most)
     if (outcome_has_path(o))
         return outcome_path_of(o)->state != NULL ? least(outcome_path_of(o)->reached, most) : 0;
     if (!outcome_has_spectrum(o))
-        return outcome_displacements(o) != NULL;
+        return outcome_linear_of(o)->x != NULL ? outcome_linear_of(o)->solutions : 0;
     const outcome_side *positive = &outcome_spectrum_of(o)->positive,
                        *negative = &outcome_spectrum_of(o)->negative;
     return least(positive->count, SHAPES_MODES) * (positive->mode != NULL) +
@@ -76,10 +76,15 @@ static status keep_displaced(const analysis_context *c, shape_state *what, const
 static status keep_displacements(const analysis_context *c, int analysis, double sigma[], shapes *s,
                                  fault *f)
 {
-    const double *x = outcome_displacements(&c->outcomes[analysis]);
-    shape_state what = {SHAPE_LINEAR, analysis, 1, 1};
-    TRY(linear_whole_stresses(&c->eq, x, 1, sigma, f));
-    return keep_displaced(c, &what, x, sigma, s, f);
+    const outcome_linear *l = outcome_linear_of(&c->outcomes[analysis]);
+    for (int i = 0; i < l->solutions; i++) {
+        const analysis_context one = context_under(c, l->acting[i]);
+        const double *x = l->x + (size_t)i * l->coordinates;
+        shape_state what = {SHAPE_LINEAR, analysis, i + 1, 1};
+        TRY(linear_whole_stresses(&one.eq, x, 1, sigma, f));
+        TRY(keep_displaced(&one, &what, x, sigma, s, f));
+    }
+    return STATUS_OK;
 }
 
 static status keep_linear(const analysis_context *c, int analysis, shapes *s, fault *f)
@@ -139,7 +144,7 @@ static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
         } else if (outcome_has_spectrum(o)) {
             TRY(keep_modes(&own, i, &outcome_spectrum_of(o)->positive, s, f));
             TRY(keep_modes(&own, i, &outcome_spectrum_of(o)->negative, s, f));
-        } else if (outcome_displacements(o) != NULL) {
+        } else if (count_of(o, most) > 0) {
             TRY(keep_linear(&own, i, s, f));
         }
     }
@@ -319,8 +324,9 @@ static status keep_about(const analysis_context *c, int analysis, workspace *w, 
     if (follows == SCENE_NONE)
         return keep_unloaded(c, analysis, w, s, f);
     if (c->scene->analysis[follows].kind == SCENE_LINEAR)
-        return systems_keep_linear(c, analysis, outcome_displacements(&c->outcomes[follows]), 1, w,
-                                   s, f);
+        return systems_keep_linear(
+            c, analysis, outcome_displacements(&c->outcomes[follows], c->eq.loading.acting), 1, w,
+            s, f);
     const outcome_path *path = outcome_path_of(&c->outcomes[follows]);
     return keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f);
 }

@@ -118,7 +118,8 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     if (!isfinite(more))
         return fault_set(f, STATUS_NOT_CONVERGED,
                          "the load does not move the control coordinate at factor %g%s",
-                         kinematics_state_path(n->state), along_path_end(n->c->scene).text);
+                         kinematics_state_path(n->state),
+                         along_path_end(n->c->scene, n->c->eq.loading.acting).text);
     double energy = 0;
     for (int k = 0; k < n->free; k++) {
         n->dx[k] += more * p->response[k];

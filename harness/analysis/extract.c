@@ -39,19 +39,22 @@ static int is_defined(const scene *s, const scene_quantity *q, fault *f)
     return 1;
 }
 
-/* At full load, about the undeformed state. */
-static void from_linear(const analysis_context *c, const scene_quantity *q,
-                        const analysis_outcome *o, quantity_result *r)
+/* At full load, about the undeformed state, under one load case or combination. */
+static void under_one(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
+                      int acting, quantity_result *r)
 {
+    const analysis_context own = context_under(c, acting);
     double *sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *sigma), value = NAN;
-    const reading from = {.eq = &c->eq,
+    const reading from = {.eq = &own.eq,
                           .state = kinematics_rest(c->model),
-                          .x = outcome_displacements(o),
+                          .x = outcome_displacements(o, acting),
                           .sigma = sigma};
     fault f = {"out of memory for stresses"};
     status outcome = sigma != NULL ? STATUS_OK : STATUS_FAULT;
+    if (outcome == STATUS_OK && from.x == NULL)
+        outcome = fault_set(&f, STATUS_FAULT, "its load case was not solved");
     if (outcome == STATUS_OK && scene_reads_forces(q))
-        outcome = linear_whole_stresses(&c->eq, from.x, 1, sigma, &f);
+        outcome = linear_whole_stresses(&own.eq, from.x, 1, sigma, &f);
     if (outcome == STATUS_OK)
         outcome = reading_whole(&from, q, &value, &f);
     if (outcome == STATUS_OK)
@@ -59,6 +62,47 @@ static void from_linear(const analysis_context *c, const scene_quantity *q,
     else
         quantity_no_value(r, outcome, f.text);
     free(sigma);
+}
+
+static double measured(const scene_quantity *q, double value)
+{
+    return q->envelope == SCENE_ENVELOPE_MIN       ? -value
+           : q->envelope == SCENE_ENVELOPE_LARGEST ? fabs(value)
+                                                   : value;
+}
+
+/* Value of the load case or combination that governs, which it names. */
+static void from_envelope(const analysis_context *c, const scene_quantity *q,
+                          const analysis_outcome *o, quantity_result *r)
+{
+    quantity_result best = {.status = STATUS_OK};
+    int acting;
+    for (int i = 0; (acting = scene_acting_in(c->scene, q, i)) != 0; i++) {
+        quantity_result one = {.status = STATUS_OK};
+        under_one(c, q, o, acting, &one);
+        if (one.status == STATUS_OK && i > 0 && !(measured(q, one.value) > measured(q, best.value)))
+            continue;
+        best = one;
+        snprintf(best.meaning, sizeof best.meaning, "%s",
+                 scene_acting_called(c->scene, acting).text);
+        if (one.status != STATUS_OK)
+            break;
+    }
+    if (q->envelope == SCENE_ENVELOPE_LARGEST)
+        best.value = fabs(best.value);
+    *r = best;
+}
+
+static void from_linear(const analysis_context *c, const scene_quantity *q,
+                        const analysis_outcome *o, quantity_result *r)
+{
+    if (q->envelope != SCENE_ENVELOPE_NONE)
+        from_envelope(c, q, o, r);
+    else
+        under_one(c, q, o,
+                  scene_solves_all(c->scene, q->analysis) ? scene_acting_in(c->scene, q, 0)
+                                                          : c->eq.loading.acting,
+                  r);
 }
 
 /* Did it leave something, though it failed? */

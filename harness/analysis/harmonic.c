@@ -81,7 +81,7 @@ static status matrices(vibration *v, int whole, fault *f)
         const analysis_outcome *o = &c->outcomes[follows];
         if (o->status != STATUS_OK)
             return fault_set(f, o->status, "the analysis that it is about: %.150s", o->reason);
-        TRY(linear_system_of(v, outcome_displacements(o), f));
+        TRY(linear_system_of(v, outcome_displacements(o, c->eq.loading.acting), f));
     } else {
         TRY(tangent_of(v, &c->outcomes[follows], f));
     }

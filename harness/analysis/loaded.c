@@ -582,7 +582,7 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
     if (result == STATUS_NOT_CONVERGED && !isfinite(s.estimate)) {
         const fault why = *f;
         (void)fault_set(f, result, "%.*s%s", FAULT_TEXT / 2, why.text,
-                        along_path_end(c->scene).text);
+                        along_path_end(c->scene, c->eq.loading.acting).text);
     }
     search_free(&s);
     return result;

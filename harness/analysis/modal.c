@@ -161,7 +161,7 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
 {
     const model_size size = model_sizes(c->model);
     const double *x = c->scene->analysis[follows].kind == SCENE_LINEAR
-                          ? outcome_displacements(&c->outcomes[follows])
+                          ? outcome_displacements(&c->outcomes[follows], c->eq.loading.acting)
                           : NULL;
     if (x == NULL)
         return fault_set(

@@ -190,24 +190,61 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
     return result->status;
 }
 
-/* Linear statics about the undeformed state. */
+/* Linear statics about the undeformed state: one factorisation, and a right-hand side for each load
+ * case and combination that is read. What members have by themselves is in all of them, once, so
+ * that combinations are no sums of solutions. */
 
-/* The caller, linear_analysis, frees *s, also after a failure. */
-static status displace(analysis_context *c, linear_system *s, analysis_outcome *o, fault *f)
+/* Does a quantity of the analysis read it?  Where there is none, all are. */
+static int is_read(const scene *s, int analysis, int acting)
+{
+    int any = 0;
+    for (int k = 0; k < s->quantities; k++) {
+        const scene_quantity *q = &s->quantity[k];
+        int one;
+        any |= q->analysis == analysis;
+        for (int i = 0; q->analysis == analysis && (one = scene_acting_in(s, q, i)) != 0; i++)
+            if (one == acting)
+                return 1;
+    }
+    return !any;
+}
+
+static status solutions_alloc(const analysis_context *c, int analysis, outcome_linear *l, fault *f)
 {
     const model_size size = model_sizes(c->model);
-    o->left.x = calloc((size_t)(size.free + size.driven) + 1, sizeof *o->left.x);
-    if (o->left.x == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
+    const scene *s = c->scene;
+    const int all = scene_solves_all(s, analysis), most = all ? s->combinations + s->cases : 1;
+    l->coordinates = (size_t)(size.free + size.driven);
+    l->acting = calloc((size_t)most, sizeof *l->acting);
+    if (l->acting == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for load cases");
+    for (int number = 1; all && number <= most; number++)
+        if (is_read(s, analysis, number))
+            l->acting[l->solutions++] = number;
+    if (!all)
+        l->acting[l->solutions++] = c->eq.loading.acting;
+    l->x = calloc((size_t)l->solutions * l->coordinates + 1, sizeof *l->x);
+    return l->x != NULL ? STATUS_OK
+                        : fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
+}
+
+/* The caller, linear_analysis, frees *s, also after a failure. */
+static status displace(analysis_context *c, int analysis, linear_system *s, outcome_linear *l,
+                       fault *f)
+{
+    TRY(solutions_alloc(c, analysis, l, f));
     TRY(linear_system_alloc(c, s, f));
-    return linear_system_solve(c, s, 1, o->left.x, f);
+    for (int i = 0; i < l->solutions; i++) {
+        analysis_context one = context_under(c, l->acting[i]);
+        TRY(linear_system_solve(&one, s, 1, l->x + (size_t)i * l->coordinates, f));
+    }
+    return STATUS_OK;
 }
 
 status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
-    (void)analysis;
     linear_system s = {0};
-    const status result = displace(c, &s, o, f);
+    const status result = displace(c, analysis, &s, &o->left.linear, f);
     linear_system_free(&s);
     return result;
 }
@@ -325,7 +362,7 @@ static status prestress(analysis_context *c, linear_system *s, prestresses *p, f
 {
     if (!s->K.symmetric)
         return fault_set(f, STATUS_REFUSED, "linear buckling needs a symmetric stiffness matrix");
-    TRY(along_path_proportional(c->scene, f));
+    TRY(along_path_proportional(c->scene, c->eq.loading.acting, f));
     TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->growing, f));
     TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));
     if (loads_begin(&c->eq) || linear_initial(c->model) > 0)

@@ -114,9 +114,9 @@ static int begins_loaded(const analysis_context *c)
     const scene *s = c->scene;
     int acts = model_frees(c->model);
     for (int i = 0; i < s->loads; i++)
-        acts |= along_path_factor(&s->load[i], 0) != 0;
+        acts |= applied_factor(&c->eq, &s->load[i], 0) != 0;
     for (int i = 0; i < s->drivers; i++)
-        acts |= s->driver[i].value != NULL && along_path_value(&s->driver[i], 0) != 0;
+        acts |= s->driver[i].value != NULL && loads_driver_value(&c->eq, &s->driver[i], 0) != 0;
     for (int i = 0; i < s->members; i++)
         acts |= vec3_norm(s->member[i].strain) > 0;
     return acts;

@@ -254,6 +254,11 @@ static status check_quantity(const scene *s, const scene_quantity *q, fault *f)
                       "the largest and least of a path are not written for solids; ask at a "
                       "value of it",
                       f);
+    if (q->envelope != SCENE_ENVELOPE_NONE)
+        return refuse(q,
+                      "an envelope is not written for solids; ask for each combination that may "
+                      "govern",
+                      f);
     if (scene_abscissa_of(s, q) != SCENE_NONE)
         return refuse(q, "a curve over another quantity is not written for solids; remove x", f);
     switch (q->what.kind) {

@@ -129,7 +129,7 @@ typedef struct answers_writer {
 } answers_writer;
 
 /* Loads on the same coordinate are combined to one card. */
-static void write_structure_loads(const answers_writer *w, double path)
+static void write_structure_loads(const answers_writer *w, int acting, double path)
 {
     fputs("*CLOAD,OP=NEW\n", w->to);
     for (int node = 0; node < w->s->nodes; node++)
@@ -138,7 +138,8 @@ static void write_structure_loads(const answers_writer *w, double path)
             for (int i = 0; i < w->s->loads; i++) {
                 const scene_load *l = &w->s->load[i];
                 if (l->where == node && (l->kind == SCENE_MOMENT) == (k >= TRANSLATIONS))
-                    sum += along_path_factor(l, path) * l->vector[k % TRANSLATIONS];
+                    sum += scene_acting_factor(w->s, acting, l->load_case) *
+                           along_path_factor(l, path) * l->vector[k % TRANSLATIONS];
             }
             if (sum != 0)
                 fprintf(w->to, "%d,%d,%.12e\n", body_node(w->bodies, node, k), body_direction(k),
@@ -147,15 +148,15 @@ static void write_structure_loads(const answers_writer *w, double path)
 }
 
 /* increments: first trial of the step; 0: linear. */
-static void write_state(answers_writer *w, double path, int increments)
+static void write_state(answers_writer *w, int acting, double path, int increments)
 {
     if (increments > 0)
         fprintf(w->to, "*STEP,NLGEOM,INC=1000\n*STATIC,SOLVER=SPOOLES\n%.6g,1.,1e-5,1.\n" CONTROLS,
                 1.0 / increments);
     else
         fputs("*STEP\n*STATIC,SOLVER=SPOOLES\n", w->to);
-    body_write_state(w->bodies, w->s, path, w->to);
-    write_structure_loads(w, path);
+    body_write_state(w->bodies, w->s, acting, path, w->to);
+    write_structure_loads(w, acting, path);
     fputs(PRINTS, w->to);
     w->steps++;
 }
@@ -219,11 +220,13 @@ static int is_entry(const scene_quantity *q)
 static void write_undeformed(answers_writer *w)
 {
     for (int i = 0; i < w->s->analyses; i++) {
-        const int linear = w->s->analysis[i].kind == SCENE_LINEAR;
-        if (linear)
-            write_state(w, 1, 0);
+        const int linear = w->s->analysis[i].kind == SCENE_LINEAR, all = scene_solves_all(w->s, i);
+        if (linear && !all)
+            write_state(w, scene_acting_of(w->s, i), 1, 0);
         for (int k = 0; k < w->s->quantities; k++) {
             const scene_quantity *q = &w->s->quantity[k];
+            if (q->analysis == i && all)
+                write_state(w, scene_acting_in(w->s, q, 0), 1, 0);
             if (q->analysis == i && linear)
                 answer_component(w, q, 1);
             else if (q->analysis == i && is_entry(q) && w->s->analysis[i].follows == SCENE_NONE)
@@ -235,7 +238,7 @@ static void write_undeformed(answers_writer *w)
 static void write_point(answers_writer *w, int analysis, double point)
 {
     const int increments = scene_walk_of(&w->s->analysis[analysis])->steps_between;
-    write_state(w, point, increments);
+    write_state(w, scene_acting_of(w->s, analysis), point, increments);
     for (int k = 0; k < w->s->quantities; k++)
         if (w->s->quantity[k].analysis == analysis &&
             path_points_asked(w->s, analysis, &w->s->quantity[k], point))
@@ -321,8 +324,8 @@ static int mover(const scene_node *n, int component)
 }
 
 /* path NULL: a small motion, in which prescribed coordinates do not move. */
-static void write_boundary(const body_numbers *b, const scene *s, const double *path, int node,
-                           unsigned released, FILE *to)
+static void write_boundary(const body_numbers *b, const scene *s, int acting, const double *path,
+                           int node, unsigned released, FILE *to)
 {
     fputs("*BOUNDARY,OP=NEW\n", to);
     for (int i = 0; i < s->nodes; i++)
@@ -333,18 +336,20 @@ static void write_boundary(const body_numbers *b, const scene *s, const double *
                     continue;
                 const int stays = by == SCENE_HELD || path == NULL;
                 fprintf(to, "%d,%d,%d,%.12e\n", body_node(b, i, k), direction, direction,
-                        stays ? 0 : along_path_value(&s->driver[by], *path));
+                        stays ? 0
+                              : scene_acting_factor(s, acting, s->driver[by].load_case) *
+                                    along_path_value(&s->driver[by], *path));
             }
 }
 
-void body_write_state(const body_numbers *b, const scene *s, double path, FILE *to)
+void body_write_state(const body_numbers *b, const scene *s, int acting, double path, FILE *to)
 {
-    write_boundary(b, s, &path, SCENE_NONE, 0, to);
+    write_boundary(b, s, acting, &path, SCENE_NONE, 0, to);
 }
 
 void body_write_held(const body_numbers *b, const scene *s, int node, unsigned released, FILE *to)
 {
-    write_boundary(b, s, NULL, node, released, to);
+    write_boundary(b, s, 0, NULL, node, released, to);
 }
 
 /* Inserts a value in order, without duplicates; ignores values outside path 0 to the last station.

@@ -80,7 +80,7 @@ void body_write_nodes(const body_numbers *, const scene *s, FILE *to);
 /* Writes sets of faces, the bodies, and the set BODIES of all their nodes. bricks: [members]. */
 void body_write(const body_numbers *, const scene *s, const brick bricks[], FILE *to);
 /* Writes the prescribed coordinates at `path`, below *BOUNDARY. */
-void body_write_state(const body_numbers *, const scene *s, double path, FILE *to);
+void body_write_state(const body_numbers *, const scene *s, int acting, double path, FILE *to);
 /* As body_write_state for a small motion, in which they do not move. released: components of `node`
  * (bit i) that are free. */
 void body_write_held(const body_numbers *, const scene *s, int node, unsigned released, FILE *to);

@@ -9,17 +9,38 @@
 #include "elements/section/section.h"
 #include "elements/shared/masses.h"
 
+/* Times that of its load case. */
+static double combined(const equations *eq, const scene_load *load, double factor)
+{
+    return load->load_case == SCENE_NONE
+               ? factor
+               : scene_acting_factor(model_scene(eq->m), eq->loading.acting, load->load_case) *
+                     factor;
+}
+
 double applied_factor(const equations *eq, const scene_load *load, double path)
 {
     double at[3];
     if (eq->loading.unloaded)
         return 0;
     if (!eq->loading.in_time)
-        return along_path_factor(load, path);
+        return combined(eq, load, along_path_factor(load, path));
     if (load->function.pieces == 0)
-        return along_path_factor(load, eq->loading.held_path);
+        return combined(eq, load, along_path_factor(load, eq->loading.held_path));
     function_at(&load->function, path, at);
-    return at[0];
+    return combined(eq, load, at[0]);
+}
+
+double applied_rate(const equations *eq, const scene_load *load, double path)
+{
+    double at[3] = {0};
+    if (eq->loading.unloaded)
+        return 0;
+    if (!eq->loading.in_time)
+        return combined(eq, load, along_path_rate(load, path));
+    if (load->function.pieces > 0)
+        function_at(&load->function, path, at);
+    return combined(eq, load, at[1]);
 }
 
 void applied_member_axes(const double triad[9], const section *of, double R[9])

@@ -70,14 +70,8 @@ static void rates_at(const equations *eq, int element, double path, double out[A
     memset(out, 0, AMOUNTS * sizeof *out);
     for (int i = 0; i < s->loads; i++) {
         const scene_load *load = &s->load[i];
-        double at[3] = {0};
-        if (load->kind != SCENE_TEMPERATURE || eq->loading.unloaded)
-            continue;
-        if (eq->loading.in_time && load->function.pieces > 0)
-            function_at(&load->function, path, at);
-        else if (!eq->loading.in_time)
-            at[1] = along_path_rate(load, path);
-        add_amounts(eq->m, element, load, at[1], out);
+        if (load->kind == SCENE_TEMPERATURE)
+            add_amounts(eq->m, element, load, applied_rate(eq, load, path), out);
     }
 }
 

@@ -36,7 +36,9 @@ loading loading_of(const model *m, int analysis)
                                   ? own
                                   : &s->analysis[own->follows];
     const scene_rotating_frame *frame = scene_rotating_frame_of(a);
-    loading l = {.in_time = own->kind == SCENE_MOTION, .held_path = 1};
+    loading l = {.in_time = own->kind == SCENE_MOTION,
+                 .held_path = 1,
+                 .acting = scene_acting_of(s, analysis)};
     l.lumps = lumps_of(m, analysis);
     l.rotation_follows_path = a->kind == SCENE_ROTATION;
     if (frame == NULL)
@@ -65,6 +67,8 @@ void loads_driver_rates(const equations *eq, const scene_driver *d, double path,
         function_at(&d->function, path, out);
     else
         out[0] = along_path_value(d, eq->loading.held_path);
+    for (int i = 0; d->load_case != SCENE_NONE && i < 3; i++)
+        out[i] *= scene_acting_factor(model_scene(eq->m), eq->loading.acting, d->load_case);
 }
 
 /* Sum of one load's forces on vertices. */
@@ -191,8 +195,8 @@ void loads_rate(const equations *eq, const model_state *s, double path, double o
     memset(out, 0, (size_t)model_all_coordinates(m) * sizeof *out);
     for (int i = 0; i < model_scene(m)->loads; i++) {
         const scene_load *load = &model_scene(m)->load[i];
-        loads_add_one(eq, s, load, along_path_rate(load, path), out);
-        loads_add_temperature(eq, s, load, along_path_rate(load, path), out);
+        loads_add_one(eq, s, load, applied_rate(eq, load, path), out);
+        loads_add_temperature(eq, s, load, applied_rate(eq, load, path), out);
     }
 }
 

@@ -285,6 +285,13 @@ analysis_context context_of(const analysis_context *c, int analysis)
     return of;
 }
 
+analysis_context context_under(const analysis_context *c, int acting)
+{
+    analysis_context under = *c;
+    under.eq.loading.acting = acting;
+    return under;
+}
+
 analysis_context context_unloaded(const analysis_context *c)
 {
     analysis_context none = *c;

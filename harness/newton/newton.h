@@ -60,6 +60,7 @@ typedef struct loading {
     int in_time; /* the path parameter is the time, and loads and drivers are functions of it */
     double held_path; /* path parameter for loads and drivers that are not functions of time */
     int unloaded;     /* no loads, and drivers at zero */
+    int acting;       /* number of the load case or combination (scene_acting_number) */
     int lumps;        /* LUMPS_* */
     element_rotating_frame
         frame; /* for a path of rotation its velocity is multiplied by the path parameter */
@@ -146,8 +147,10 @@ typedef struct applied {
     double arm[3]; /* from the vertex to the point of application; it rotates with the vertex [m] */
 } applied;
 
-/* Factor of the load at `path`, or at a time (loading_of). */
+/* Factor of the load at `path`, or at a time (loading_of), with the factor of its load case; and
+ * its derivative. */
 double applied_factor(const equations *, const scene_load *load, double path);
+double applied_rate(const equations *, const scene_load *load, double path);
 /* Is the load along the whole of a member distributed to nodes by the shares of the mass of a
  * motion, instead of its own option? */
 int applied_with_mass(const scene_load *);
@@ -388,6 +391,13 @@ typedef struct outcome_harmonic {
     outcome_peak *peak; /* [quantities of the scene] of those that take the largest or the least */
 } outcome_harmonic;
 
+/* Displacements under each of the load cases and combinations that are read. */
+typedef struct outcome_linear {
+    int solutions, *acting; /* [solutions] their numbers */
+    size_t coordinates;
+    double *x; /* [solutions x coordinates] of all coordinates; NULL: none */
+} outcome_linear;
+
 typedef struct outcome_continuation {
     outcome_path path;
     int points;               /* number of points of the path, the first without load */
@@ -404,8 +414,8 @@ typedef struct analysis_outcome {
     scene_analysis_kind kind;
     status status;
     char reason[FAULT_TEXT];
-    union {        /* written by the analysis; use the functions below to read it */
-        double *x; /* linear analysis: displacements of all coordinates */
+    union { /* written by the analysis; use the functions below to read it */
+        outcome_linear linear;
         outcome_spectrum spectrum;
         outcome_path path; /* static */
         outcome_compliance compliance;
@@ -417,7 +427,9 @@ typedef struct analysis_outcome {
 } analysis_outcome;
 
 /* Return the results of an analysis of that kind; another kind ends the program. */
-const double *outcome_displacements(const analysis_outcome *);
+const outcome_linear *outcome_linear_of(const analysis_outcome *);
+/* Displacements of a linear solution under that load case or combination; NULL: there is none. */
+const double *outcome_displacements(const analysis_outcome *, int acting);
 const outcome_spectrum *outcome_spectrum_of(const analysis_outcome *);
 /* Returns the path of any analysis along a path. */
 const outcome_path *outcome_path_of(const analysis_outcome *);
@@ -702,6 +714,8 @@ int context_runs(const analysis_context *, int analysis);
 /* Returns the context of an analysis, with its loading. In a motion, loads without a function of
  * time keep the value of the initial state. */
 analysis_context context_of(const analysis_context *, int analysis);
+/* As context_of, under a load case or a combination. */
+analysis_context context_under(const analysis_context *, int acting);
 /* As context_of, with no loads and drivers at zero: only initial strains of members remain. */
 analysis_context context_unloaded(const analysis_context *);
 /* Factors K numerically, and records whether the factors exist. */

@@ -62,10 +62,19 @@ int outcome_has_spectrum(const analysis_outcome *o)
     return o->kind == SCENE_BUCKLING || o->kind == SCENE_MODAL;
 }
 
-const double *outcome_displacements(const analysis_outcome *o)
+const outcome_linear *outcome_linear_of(const analysis_outcome *o)
 {
     assert(o->kind == SCENE_LINEAR);
-    return o->left.x;
+    return &o->left.linear;
+}
+
+const double *outcome_displacements(const analysis_outcome *o, int acting)
+{
+    const outcome_linear *l = outcome_linear_of(o);
+    for (int i = 0; l->x != NULL && i < l->solutions; i++)
+        if (l->acting[i] == acting)
+            return l->x + (size_t)i * l->coordinates;
+    return NULL;
 }
 
 const outcome_spectrum *outcome_spectrum_of(const analysis_outcome *o)
@@ -144,7 +153,8 @@ void outcome_free(analysis_outcome *o)
 {
     switch (o->kind) {
     case SCENE_LINEAR:
-        free(o->left.x);
+        free(o->left.linear.acting);
+        free(o->left.linear.x);
         break;
     case SCENE_MOTION:
         for (int i = 0; o->left.motion.instant != NULL && i < o->left.motion.path.stations; i++)

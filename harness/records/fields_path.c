@@ -58,8 +58,8 @@ static const schema_field fields_of_quantity[] = {
     {"reason", "", FIELD_TEXT, "why there is none", VALUE(reason)},
     {"value", OWN_UNIT, FIELD_DOUBLE, "the value", VALUE(value)},
     {"meaning", "", FIELD_TEXT,
-     "of a frequency, whether damped; of a critical load of loads without a "
-     "potential, how stability is lost",
+     "of an envelope, which combination governs; of a frequency, whether damped; of a critical "
+     "load of loads without a potential, how stability is lost",
      VALUE(meaning)},
     {"not_modelled", "", FIELD_TEXT, "physics that the formulation leaves out where that matters",
      .get = get_not_modelled},

@@ -117,6 +117,27 @@ static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
                     s->quantity[i].name, r->quantity[i].rounding);
 }
 
+/* "ULS = 1.35 dead + 1.5 wind; ...": what acts where loads have cases. */
+static void combinations(FILE *to, const scene *s)
+{
+    if (s->combinations == 0)
+        return;
+    const int at = fprintf(to, "combinations: ");
+    paragraph words;
+    FILE *text = paragraph_begin(&words, to);
+    for (int i = 0; i < s->combinations; i++) {
+        const scene_combination *c = &s->combination[i];
+        fprintf(text, "%s%s =", i > 0 ? "; " : "", c->name);
+        for (int k = 0; k < c->terms; k++)
+            fprintf(text, " %s%.6g %s",
+                    c->term[k].factor < 0 ? (k > 0 ? "- " : "-")
+                    : k > 0               ? "+ "
+                                          : "",
+                    fabs(c->term[k].factor), s->load_case[c->term[k].load_case].name);
+    }
+    paragraph_end(&words, at, INDENT);
+}
+
 void table_solution(FILE *to, const sweep *s, const truths *t)
 {
     const series *one = &s->series[0];
@@ -141,6 +162,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     on_nodes(&p->scene, one->formulation.type, one->formulation.option, ends, sizeof ends);
     if (ends[0] != '\0')
         paragraph_write(to, fprintf(to, "lumped: "), INDENT, ends);
+    combinations(to, &p->scene);
     table_omitted(to, p);
     table_theory(to, &p->scene, one->formulation.type);
     table_path_events(to, &c->solve);
@@ -391,12 +413,13 @@ static void momentum_line(FILE *to, const motion_extent *e)
 
 /* Reports a load whose factor at the end of the preceding path differs from that at the start of
  * the motion. */
-static void jump_lines(FILE *to, const scene *s, double path)
+static void jump_lines(FILE *to, const scene *s, int analysis, double path)
 {
     for (int i = 0; i < s->loads && isfinite(path); i++) {
         const scene_load *load = &s->load[i];
         double value[3];
-        if (load->function.pieces == 0)
+        if (load->function.pieces == 0 ||
+            scene_acting_factor(s, scene_acting_of(s, analysis), load->load_case) == 0)
             continue;
         function_at(&load->function, 0, value);
         const double held = along_path_factor(load, path);
@@ -418,7 +441,7 @@ void table_motion(FILE *to, const scene *s, const solve_result *r)
             e.end++;
         const int analysis = r->motion[e.first].analysis;
         steps_line(to, &e, scene_motion_of(&s->analysis[analysis]));
-        jump_lines(to, s, r->motion[e.first].path);
+        jump_lines(to, s, analysis, r->motion[e.first].path);
         energy_line(to, &e);
         damping_line(to, &e);
         momentum_line(to, &e);

@@ -114,12 +114,29 @@ static inline int same_analysis(const scene_analysis *a, const scene_analysis *b
             same_numbers(1, &scene_motion_of(a)->alpha.force, &scene_motion_of(b)->alpha.force));
 }
 
+static inline int same_combination(const scene_combination *a, const scene_combination *b)
+{
+    int same = a->terms == b->terms;
+    for (int i = 0; same && i < a->terms; i++)
+        same = a->term[i].load_case == b->term[i].load_case &&
+               same_numbers(1, &a->term[i].factor, &b->term[i].factor);
+    return same;
+}
+
+static inline int same_overs(const scene_quantity *a, const scene_quantity *b)
+{
+    int same = a->overs == b->overs;
+    for (int i = 0; same && i < a->overs; i++)
+        same = a->over[i] == b->over[i];
+    return same;
+}
+
 static inline int same_quantity(const scene_quantity *a, const scene_quantity *b)
 {
     const double x[] = {a->at, a->x.factor, a->x.offset, a->prediction.value},
                  y[] = {b->at, b->x.factor, b->x.offset, b->prediction.value};
     const char *one = a->prediction.source, *two = b->prediction.source;
-    return entry_same(entry_quantity, a, b) && strcmp(a->name, b->name) == 0 &&
+    return entry_same(entry_quantity, a, b) && same_overs(a, b) && strcmp(a->name, b->name) == 0 &&
            strcmp(a->unit, b->unit) == 0 && a->reduction == b->reduction &&
            a->transform == b->transform && strcmp(a->x.name, b->x.name) == 0 &&
            strcmp(a->x.unit, b->x.unit) == 0 && same_numbers(4, x, y) &&
@@ -132,7 +149,8 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
     *index = 0;
     if (a->sections != b->sections || a->nodes != b->nodes || a->members != b->members ||
         a->springs != b->springs || a->drivers != b->drivers || a->loads != b->loads ||
-        a->analyses != b->analyses || a->quantities != b->quantities)
+        a->analyses != b->analyses || a->quantities != b->quantities || a->cases != b->cases ||
+        a->combinations != b->combinations)
         return "counts";
 #define EACH(list, count, same)                                                                    \
     for (*index = 0; *index < a->count; (*index)++)                                                \
@@ -144,6 +162,7 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
     EACH(spring, springs, same_spring)
     EACH(driver, drivers, same_driver)
     EACH(load, loads, same_load)
+    EACH(combination, combinations, same_combination)
     EACH(analysis, analyses, same_analysis)
     EACH(quantity, quantities, same_quantity)
 #undef EACH

@@ -142,6 +142,11 @@ static int is_called(const scene_input *in, const char *name)
     return strcmp(in->name, name) == 0;
 }
 
+static int is_motion(const scene_input *in)
+{
+    return is_called(in, "motion of a node") || is_called(in, "motion of a case");
+}
+
 /* Largest difference of values of the same names from `first` on, over the largest of them. */
 static double largest_apart(const answer *a, const answer *b, const char *const name[])
 {
@@ -291,7 +296,7 @@ static void law_of_buckling(const scene_input *in, const element_type *e, const 
     const double load = answer_of(with, "factor");
     posed p = pose(in->name, SCENE_OF_MODAL_LINEAR, 1);
     p.turns = 0;
-    if (is_called(in, "motion of a node") || isnan(load))
+    if (is_motion(in) || isnan(load))
         return;
     p.grown = 0.9995 * load;
     solve(&p, e, &near);
@@ -436,11 +441,9 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     const char *where = scene_column_name[column];
     /* a motion needs loads over time, and turns away with what it is fixed to */
     if (column == SCENE_OF_MOTION &&
-        (is_called(in, "load that stays") || is_called(in, "motion of a node") ||
-         is_called(in, "axes that turn")))
+        (is_called(in, "load that stays") || is_motion(in) || is_called(in, "axes that turn")))
         return;
-    posed p = pose(in->name, column,
-                   is_called(in, "motion of a node") /* or held there */ || divides(in->name));
+    posed p = pose(in->name, column, is_motion(in) /* or held there */ || divides(in->name));
     p.times = 0;
     solve(&p, e, &without);
     p = pose(in->name, column, 1);

@@ -95,6 +95,14 @@ static double length_of(const scene *s, int member)
                 (q[2] - p[2]) * (q[2] - p[2]));
 }
 
+/* Load cases 0 and 1, and what an analysis has of them. */
+static void combine(scene *s)
+{
+    const int all = scene_add_combination(s, "all");
+    scene_add_term(s, all, scene_add_case(s, "dead"), 1);
+    scene_add_term(s, all, scene_add_case(s, "live"), -1.5);
+}
+
 /* What the base is without, so that the input has something to act on; then the input. */
 static void add(scene *s, const char *name)
 {
@@ -232,7 +240,16 @@ static void add(scene *s, const char *name)
         scene_drive(
             s, TIP, SCENE_UX,
             scene_add_driver(s, "push", 2, (const double[]){0, 1}, (const double[]){0, -1e-6}));
-    else if (IS("damping"))
+    else if (IS("motion of a case")) {
+        combine(s);
+        scene_drive(
+            s, TIP, SCENE_UX,
+            scene_add_driver(s, "push", 2, (const double[]){0, 1}, (const double[]){0, 1e-6}));
+        s->driver[0].load_case = 1;
+    } else if (IS("load of a case")) {
+        combine(s);
+        scene_load_at(s, scene_add_load(s, SCENE_FORCE, MIDDLE, 20, 50, -30))->load_case = 1;
+    } else if (IS("damping"))
         for (int i = 0; i < s->members; i++)
             scene_member_at(s, i)->damping = 1e-4;
     else if (!IS("velocity at the start") && !IS("axes that turn")) /* which are the analysis's */
@@ -444,9 +461,23 @@ static void structure(const posed *p, scene *s)
         follow(s, scene_add_load(s, SCENE_FORCE, TIP, -3000, 0, 0));
 }
 
+/* The rest of the loads is of the first case, and analyses of loads are of the combination. */
+static void act(scene *s)
+{
+    const unsigned unloaded = 1u << SCENE_MODAL | 1u << SCENE_COMPLIANCE | 1u << SCENE_HARMONIC;
+    for (int i = 0; i < s->loads; i++)
+        if (s->load[i].load_case == SCENE_NONE)
+            s->load[i].load_case = 0;
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].follows == SCENE_NONE && !(unloaded >> s->analysis[i].kind & 1u))
+            s->analysis[i].acting.combination = 0;
+}
+
 static void answer_to(scene *s, const posed *p, const element_type *e, answer *a)
 {
     fault f = {""};
+    if (s->cases > 0)
+        act(s);
     gsl_test(scene_validate(s, &f) != STATUS_OK, "%s: %s is a scene (%s)",
              scene_column_name[p->column], p->name, f.text);
     ask_scene(s, e, NULL, divides(p->name) ? 2 : 4, a);
