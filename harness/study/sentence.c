@@ -44,6 +44,23 @@ static void undecided(const verdict *v, char *text, size_t size)
              100 * v->error, doubt, limit_kind_name(v->fit.kind), v->fit.meshes);
 }
 
+/* A limit that is neither the reference value nor the one that was derived for the formulation is
+ * likely none: elements longer than a layer is thick seem to converge. */
+static void biased(const verdict *v, char *text, size_t size)
+{
+    char doubt[2 * ROUNDING_TEXT];
+    if (v->predicted == NULL) {
+        snprintf(text, size, "has a different limit within the tolerance: %+.3g %%",
+                 100 * v->error);
+        return;
+    }
+    doubt_of(v, doubt);
+    snprintf(text, size,
+             "seems to have a different limit within the tolerance, %+.3g %% off and known to %s, "
+             "which is not the %.10g that was derived for it either: finer meshes show which",
+             100 * v->error, doubt, v->predicted->value);
+}
+
 static void unjudged(const verdict *v, char *text, size_t size)
 {
     if (v->model_truth != NULL && v->model_truth->theory[0] != '\0')
@@ -77,8 +94,7 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
         passed(v, text, size);
         return;
     case VERDICT_BIASED:
-        snprintf(text, size, "has a different limit within the tolerance: %+.3g %%",
-                 100 * v->error);
+        biased(v, text, size);
         return;
     case VERDICT_WRONG_LIMIT:
         snprintf(text, size, "converges to a wrong limit: %+.3g %%", 100 * v->error);

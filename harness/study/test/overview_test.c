@@ -543,6 +543,12 @@ static void biases(void)
         b.row[1].uncertainty = 1e-6;
         const double doubt = bench_judge(&b)->fit.limit_uncertainty;
         edges(&b, 3 * doubt + 1e-6, VERDICT_BIASED, "within the tolerance");
+        b.row[1].value = 3 + 2 * error[i];
+        char sentence[2 * FAULT_TEXT];
+        sentence_of_verdict(bench_judge(&b), 2, sentence, sizeof sentence);
+        gsl_test(strstr(sentence, i == 0 ? "not the 3.0004 that was derived for it either"
+                                         : "not the 2.9996 that was derived for it either") == NULL,
+                 "says '%s'", sentence);
         b.row[1].value = 3 + error[i];
         bench_fill(&b, 3, 0.7, 2);
         bench_expect(&b, VERDICT_PASS, 0,
