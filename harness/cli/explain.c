@@ -127,7 +127,10 @@ static int explain_rule(const dictionary *d, const char *word)
         paragraph_write(stdout, printf("  quantities: "), INDENT, r->quantities);
         list_further("verdicts:", r->verdicts);
         if (isfinite(r->largest_error))
-            printf("  largest error that it explains: %g %%\n", 100 * r->largest_error);
+            printf("  largest distance from the derived limit (without one: from the reference "
+                   "value): "
+                   "%g %%\n",
+                   100 * r->largest_error);
         paragraph_write(stdout, printf("  proof: "), INDENT, r->proof);
         return 1;
     }

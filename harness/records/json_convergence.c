@@ -356,7 +356,10 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
 {
     const int count = reach_ranking(q, list), known = write_asked(to, q);
     if (count == 0)
-        fputs(known > 0 ? "no formulation on these meshes" : "nothing to measure by", to);
+        fputs(known > 0
+                  ? "no formulation on these meshes"
+                  : "no ranking, give truths of the scene, or formulations of other families (-f)",
+              to);
     else
         write_ranking(to, q, list, count);
     write_unpriced(to, q->s, list, count);

@@ -339,7 +339,8 @@ static void choose(const scene *s, runner of[], int count, preference *out)
     keep(s, first != NULL ? first : calmest(of, count), out);
     if (first != NULL && count > 1) {
         const size_t used = strlen(out->why_formulation);
-        snprintf(out->why_formulation + used, FAULT_TEXT - used, ", converged first of %d", count);
+        snprintf(out->why_formulation + used, FAULT_TEXT - used,
+                 ", settled at the lowest cost of %d", count);
     }
 }
 

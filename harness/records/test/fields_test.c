@@ -416,10 +416,9 @@ static void not_every_quantity(void)
         "green n = 4; without cost coefficients of its own: red, blue, green\n");
     b.s.seriess = 1;
     b.t.rows--;
-    line_expect(
-        &b, 0.01,
-        "for 1 % in no quantity (without a reference: load, sway, tilt): nothing to measure "
-        "by\n");
+    line_expect(&b, 0.01,
+                "for 1 % in no quantity (without a reference: load, sway, tilt): no ranking, give "
+                "truths of the scene, or formulations of other families (-f)\n");
     b.t.rows++;
     finish(&b);
 }
