@@ -164,6 +164,12 @@ static const entry_field start[] = {
      .usual = "[0, 0, 0]", ENTRY_IN(scene_analysis, of.motion.start.centre)},
     {.name = NULL}};
 
+static const entry_field of_masses[] = {
+    {"mass", ENTRY_NUMBER, .needed = 1, .unit = "1/s",
+     .summary = "force by momentum of all masses, in fixed axes; not by conserving",
+     ENTRY_IN(scene_analysis, damping.mass), .most = INFINITY},
+    {.name = NULL}};
+
 static const entry_field in_time[] = {
     {"stations", ENTRY_NUMBERS, .needed = 1, .unit = "s",
      .summary = "instants at which quantities are read, ascending; it begins at 0",
@@ -198,6 +204,9 @@ static const entry_field in_time[] = {
      ENTRY_IN(scene_analysis, of.motion.mass), .first = SCENE_LUMPED},
     ABOUT("static analysis, continuation or rotation from whose last state, or motion that "
           "continues, with its rates and its time"),
+    {"damping", ENTRY_MAP, .below = of_masses,
+     .summary = "mass-proportional damping; of stiffness: damping of members and springs",
+     .left_out = "none"},
     {"start", ENTRY_MAP, .below = start, .summary = "velocities at the start",
      .left_out = "at rest, or as about has it"},
     ACTING(all_loads),

@@ -211,6 +211,11 @@ static status scene_validate_motion(const scene *s, int i, fault *f)
     const scene_motion *m = scene_motion_of(&s->analysis[i]);
     TRY(check_steps(s, m, i, f));
     TRY(check_scheme(s, m, i, f));
+    if (s->analysis[i].damping.mass > 0 && m->scheme == SCENE_CONSERVING)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the integrator conserving has no damping of masses; give integrator: "
+                         "radau, alpha or explicit, or dashpots in its place",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     TRY(check_follows(s, i, f));
     for (int d = 0; d < s->drivers; d++)
         TRY(check_driver(s, d, i, f));

@@ -65,7 +65,12 @@ static void relate_strains(alpha *s, const instant *from, double h, instant *to)
 static void damp(alpha *s, const instant *from, double h, instant *to)
 {
     const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);
-    to->dissipated = from->dissipated;
+    const model *m = s->stage.c->model;
+    const carried_masses *masses = s->stage.masses;
+    to->dissipated =
+        from->dissipated + h / 2 *
+                               (inertia_damping_power(m, masses, from->state, from->v) +
+                                inertia_damping_power(m, masses, to->state, to->v));
     if (s->strains == 0)
         return;
     const double *e0 = s->stage.c->run->damping->from, *e1 = s->mean;

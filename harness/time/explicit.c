@@ -337,7 +337,8 @@ int explicit_rates(double t, const double y[], double dydt[], void *context)
     memcpy(dydt + s->free, s->at->a, (size_t)s->free * sizeof *dydt);
     dydt[2 * s->free] = work_power(s->of.work, s->at->state, s->at->v, s->at->a, time, s->at->v) +
                         free_strain_power(&s->of.c->eq, s->at->state, time);
-    dydt[2 * s->free + 1] = s->power;
+    dydt[2 * s->free + 1] =
+        s->power + inertia_damping_power(m, s->of.masses, s->at->state, s->at->v);
     return GSL_SUCCESS;
 }
 

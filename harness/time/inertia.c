@@ -45,6 +45,17 @@ void inertia_force_at(const carried_mass *one, const frame_rates *r, double F[6]
     }
 }
 
+/* Rates of a frame whose acceleration includes what its damping takes: M (a + damping v). */
+static void damped_rates(const model *m, const carried_masses *all, int index, const model_state *s,
+                         const double v[], const double a[], frame_rates *r)
+{
+    inertia_rates(m, s, all->mass[index].frame, v, a, r);
+    for (int i = 0; i < 3; i++) {
+        r->a[i] += all->damping * r->v[i];
+        r->wd[i] += all->damping * r->w[i];
+    }
+}
+
 void inertia_force(const model *m, const carried_mass *one, const model_state *s, const double v[],
                    const double a[], double F[6])
 {
@@ -57,10 +68,12 @@ void inertia_subtract(const model *m, const carried_masses *all, const model_sta
                       const double v[], const double a[], double out[])
 {
     if (all->spread)
-        spread_subtract(m, s, v, a, out);
+        spread_subtract(m, s, v, a, all->damping, out);
     for (int k = 0; k < all->masses; k++) {
         double F[6];
-        inertia_force(m, &all->mass[k], s, v, a, F);
+        frame_rates r;
+        damped_rates(m, all, k, s, v, a, &r);
+        inertia_force_at(&all->mass[k], &r, F);
         for (int i = 0; i < 6; i++)
             F[i] = -F[i];
         if (all->mass[k].frame >= model_first_release(m))
@@ -68,8 +81,10 @@ void inertia_subtract(const model *m, const carried_masses *all, const model_sta
         else
             forms_add_force(m, s, all->mass[k].frame, F, out);
     }
-    for (int i = 0; i < model_warps(m) && a != NULL; i++)
-        out[model_warp(m, i)] -= all->warping[model_warp(m, i)] * a[model_warp(m, i)];
+    for (int i = 0; i < model_warps(m); i++) {
+        const int c = model_warp(m, i);
+        out[c] -= all->warping[c] * ((a != NULL ? a[c] : 0) + all->damping * v[c]);
+    }
 }
 
 static void skew(const double v[3], double A[9])
@@ -134,9 +149,11 @@ void inertia_frame(const model *m, const carried_masses *all, int index, const m
     const carried_mass *one = &all->mass[index];
     frame_rates r;
     double F[6];
-    inertia_rates(m, s, one->frame, v, a, &r);
+    damped_rates(m, all, index, s, v, a, &r);
     inertia_force_at(one, &r, F);
     parts_of(one, &r, F, out);
+    for (int i = 0; i < 36; i++)
+        out->velocity[i] += all->damping * out->acceleration[i];
     inertia_turns(m, s, one->frame, out->turn, out->rate);
 }
 
@@ -192,7 +209,7 @@ void inertia_add_tangent(const equations *eq, const carried_masses *all, const m
 {
     const model *m = eq->m;
     if (all->spread)
-        spread_add_tangent(eq, s, v, a, with, S);
+        spread_add_tangent(eq, s, v, a, all->damping, with, S);
     for (int k = 0; k < all->masses; k++) {
         const int vertex = all->mass[k].frame;
         const int *at = model_vertex(m, vertex)->coordinate;
@@ -219,7 +236,7 @@ void inertia_add_tangent(const equations *eq, const carried_masses *all, const m
     }
     for (int i = 0; i < model_warps(m); i++) {
         const int c = model_warp(m, i);
-        assemble_subtract(S, c, c, -with->b * all->warping[c]);
+        assemble_subtract(S, c, c, -(with->b + with->g * all->damping) * all->warping[c]);
     }
 }
 
@@ -256,6 +273,16 @@ void inertia_of(const model *m, const carried_masses *all, const model_state *s,
         const int c = model_warp(m, i);
         out->kinetic += all->warping[c] * v[c] * v[c] / 2;
     }
+}
+
+double inertia_damping_power(const model *m, const carried_masses *all, const model_state *s,
+                             const double v[])
+{
+    inertia_balance moving;
+    if (all->damping == 0)
+        return 0;
+    inertia_of(m, all, s, v, NULL, &moving);
+    return 2 * all->damping * moving.kinetic;
 }
 
 static status stored(const equations *eq, const model_state *s, double time, double *out, fault *f)

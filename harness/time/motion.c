@@ -295,6 +295,7 @@ static status solve(motion_course *w, fault *f)
     TRY(checks_of(w->c, w->analysis, f));
     TRY(model_spreads(m, w->analysis) ? carried_alloc_spread(m, &w->masses, f)
                                       : carried_alloc(m, &w->masses, f));
+    w->masses.damping = w->c->scene->analysis[w->analysis].damping.mass;
     TRY(damping_begin(&w->c->eq, &w->damping, f));
     TRY(work_alloc(&w->c->eq, &w->masses, &w->work, f));
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};

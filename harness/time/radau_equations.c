@@ -84,7 +84,8 @@ static void add_warps(radau *r, double h)
         for (int x = 0; x < STAGES * STAGES; x++)
             if (r->of.masses->warping[c] > 0)
                 stages_add(&r->S, x / STAGES, x % STAGES, c, c,
-                           r->of.masses->warping[c] * B2[x] / (h * h));
+                           r->of.masses->warping[c] *
+                               (B2[x] / (h * h) + r->of.masses->damping * r->B[x] / h));
     }
 }
 
@@ -410,6 +411,10 @@ static void sum_strains(const radau *r, const instant *from, const double weight
 double radau_dissipated(const radau *r, const instant *from, double h, double room[])
 {
     double sum = 0;
+    for (int i = 0; i < STAGES; i++)
+        sum +=
+            h * r->weights[i] *
+            inertia_damping_power(r->of.c->model, r->of.masses, r->stage[i].state, r->stage[i].v);
     for (int i = 0; i < STAGES && r->of.c->run->damping != NULL; i++) {
         double weight[STAGES];
         for (int j = 0; j < STAGES; j++)
@@ -463,7 +468,8 @@ static void add_element(radau *r, int element, double h, int i)
     spread_parts p;
     spread_motion rates[ELEMENT_MAX_NODES], accelerations[ELEMENT_MAX_NODES],
         place[ELEMENT_MAX_NODES];
-    spread_element(m, element, r->stage[i].state, r->stage[i].v, r->stage[i].a, &p);
+    spread_element(m, element, r->stage[i].state, r->stage[i].v, r->stage[i].a,
+                   r->of.masses->damping, &p);
     spread_place(m, &p, place);
     for (int k = 0; k < STAGES; k++) {
         double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];

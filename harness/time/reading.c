@@ -2,6 +2,7 @@
 #include "harness/time/time_impl.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "cases/scene/scene.h"
 #include "elements/math/rotation.h"
@@ -256,7 +257,9 @@ double reading_of(const model *m, const scene_quantity *q, const model_state *s,
     return quantity_type_of(q)->read(q, &state.as);
 }
 
-status reading_whole(const reading *from, const scene_quantity *q, double *out, fault *f)
+/* a: accelerations with what mass-proportional damping adds to the forces of masses. */
+static status read_whole(const reading *from, const scene_quantity *q, const double a[],
+                         double *out, fault *f)
 {
     status outcome = STATUS_OK;
     const int moves = from->v != NULL;
@@ -265,7 +268,7 @@ status reading_whole(const reading *from, const scene_quantity *q, double *out, 
                                               : NAN;
     read_state s = {.as = places_of(from),
                     .from = from,
-                    .motion = {from->v, from->a, moves && model_spreads(from->eq->m, q->analysis)},
+                    .motion = {from->v, a, moves && model_spreads(from->eq->m, q->analysis)},
                     .section = {from->state, from->sigma, from->x, path, NULL},
                     .outcome = &outcome,
                     .f = f};
@@ -279,5 +282,22 @@ status reading_whole(const reading *from, const scene_quantity *q, double *out, 
     s.as.balance = from->balance != NULL ? balance_in : NULL;
     s.as.compliance = from->compliance != NULL ? compliance_in : NULL;
     *out = quantity_type_of(q)->read(q, &s.as);
+    return outcome;
+}
+
+status reading_whole(const reading *from, const scene_quantity *q, double *out, fault *f)
+{
+    const model *m = from->eq->m;
+    const double damping = model_scene(m)->analysis[q->analysis].damping.mass;
+    if (from->v == NULL || from->a == NULL || damping == 0 || !scene_reads_forces(q))
+        return read_whole(from, q, from->a, out, f);
+    const int all = model_all_coordinates(m);
+    double *a = malloc(((size_t)all + 1) * sizeof *a);
+    if (a == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a force of a motion");
+    for (int k = 0; k < all; k++)
+        a[k] = from->a[k] + damping * from->v[k];
+    const status outcome = read_whole(from, q, a, out, f);
+    free(a);
     return outcome;
 }

@@ -15,8 +15,9 @@ typedef struct moving_element {
     double rate[MOST], acceleration[MOST];
 } moving_element;
 
+/* The acceleration includes damping x the rates. */
 static void gather(const model *m, const mesh_element *el, const model_state *s, const double v[],
-                   const double a[], moving_element *out)
+                   const double a[], double damping, moving_element *out)
 {
     kinematics_gather(m, s, el, out->x);
     for (int k = 0; k < el->nodes; k++) {
@@ -31,6 +32,8 @@ static void gather(const model *m, const mesh_element *el, const model_state *s,
         memcpy(acceleration + 3, r.wd, sizeof r.wd);
         rate[6] = warp != NONE ? v[warp] : 0;
         acceleration[6] = warp != NONE && a != NULL ? a[warp] : 0;
+        for (int i = 0; i < NODE_COORDINATES; i++)
+            acceleration[i] += damping * rate[i];
     }
 }
 
@@ -51,21 +54,27 @@ static void evaluate(const model *m, int element, const node_state x[], inertia_
     nothing_known(n * n, out->K);
 }
 
-void spread_force(const model *m, int element, const model_state *s, const double v[],
-                  const double a[], double F[])
+static void force_of(const model *m, int element, const model_state *s, const double v[],
+                     const double a[], double damping, double F[])
 {
     moving_element e;
-    gather(m, model_element(m, element), s, v, a, &e);
+    gather(m, model_element(m, element), s, v, a, damping, &e);
     evaluate(m, element, e.x,
              &(inertia_output){.rate = e.rate, .acceleration = e.acceleration, .taken = F});
 }
 
+void spread_force(const model *m, int element, const model_state *s, const double v[],
+                  const double a[], double F[])
+{
+    force_of(m, element, s, v, a, 0, F);
+}
+
 void spread_subtract(const model *m, const model_state *s, const double v[], const double a[],
-                     double out[])
+                     double damping, double out[])
 {
     for (int i = 0; i < model_elements(m); i++) {
         double F[MODEL_MAX_COORDINATES];
-        spread_force(m, i, s, v, a, F);
+        force_of(m, i, s, v, a, damping, F);
         for (int k = 0; k < model_own_coordinates(m); k++)
             F[k] = -F[k];
         eliminate_forces(m, s, model_element(m, i), F);
@@ -170,12 +179,13 @@ static void begin_parts(const model *m, const mesh_element *el, const model_stat
 }
 
 void spread_element(const model *m, int element, const model_state *s, const double v[],
-                    const double a[], spread_parts *out)
+                    const double a[], double damping, spread_parts *out)
 {
     const mesh_element *el = model_element(m, element);
+    const int all = NODE_COORDINATES * el->nodes;
     moving_element e;
     double F[MOST];
-    gather(m, el, s, v, a, &e);
+    gather(m, el, s, v, a, damping, &e);
     begin_parts(m, el, s, out);
     evaluate(m, element, e.x,
              &(inertia_output){.M = out->acceleration,
@@ -184,6 +194,10 @@ void spread_element(const model *m, int element, const model_state *s, const dou
                                .taken = F,
                                .C = out->velocity,
                                .K = out->place});
+    for (int i = 0; i < all; i++) /* the part of the rates is that of the velocity */
+        e.acceleration[i] -= damping * e.rate[i];
+    for (int i = 0; i < all * all && damping != 0; i++)
+        out->velocity[i] += damping * out->acceleration[i];
     to_bodies(m, el, s, &e, F, out);
     set_turns(m, el, s, out);
 }
@@ -324,7 +338,7 @@ static void motions_of(const model *m, const mesh_element *el, const inertia_rel
 }
 
 void spread_add_tangent(const equations *eq, const model_state *s, const double v[],
-                        const double a[], const inertia_relation *with, sparse *S)
+                        const double a[], double damping, const inertia_relation *with, sparse *S)
 {
     const model *m = eq->m;
     const mesh_pattern *pattern = assemble_of(eq->run->patterns, S);
@@ -333,7 +347,7 @@ void spread_add_tangent(const equations *eq, const model_state *s, const double 
         spread_parts p;
         spread_motion place[ELEMENT_MAX_NODES], rates[ELEMENT_MAX_NODES];
         double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
-        spread_element(m, i, s, v, a, &p);
+        spread_element(m, i, s, v, a, damping, &p);
         const int all = model_own_coordinates(m) * model_own_coordinates(m);
         for (int k = 0; k < all; k++)
             p.acceleration[k] = with->b * p.acceleration[k] + with->g * p.velocity[k];
@@ -353,7 +367,7 @@ void spread_add_balance(const model *m, const model_state *s, const double v[], 
         const mesh_element *el = model_element(m, i);
         moving_element e;
         double M[MOST * MOST], p[MOST];
-        gather(m, el, s, v, NULL, &e);
+        gather(m, el, s, v, NULL, 0, &e);
         evaluate(m, i, e.x, &(inertia_output){.M = M, .rate = e.rate});
         dense_mul_vec(model_own_coordinates(m), model_own_coordinates(m), M, e.rate, p);
         *kinetic += dense_dot(model_own_coordinates(m), e.rate, p) / 2;

@@ -86,6 +86,7 @@ typedef struct carried_masses {
     double total;       /* [kg] total mass */
     int spread; /* 1: the elements have a consistent mass (time_impl.h), which is not included here
                  */
+    double damping; /* [1/s] mass-proportional: force by momentum, of the elements too */
 } carried_masses;
 
 /* Lumps half of the mass of a two-node element at each node, and Simpson's weights for three nodes

@@ -223,6 +223,10 @@ typedef struct inertia_balance {
 void inertia_of(const model *, const carried_masses *, const model_state *, const double v[],
                 const double ends[], inertia_balance *out);
 
+/* [W] that mass-proportional damping takes, with the rates v. */
+double inertia_damping_power(const model *, const carried_masses *, const model_state *,
+                             const double v[]);
+
 /* Errors of coordinates with inertia. An error estimate must not use the accelerations of massless
  * coordinates, which are their positions divided by the square of the step. */
 
@@ -921,9 +925,9 @@ void spread_force(const model *, int element, const model_state *, const double 
                   const double a[], double F[]);
 /* As inertia_subtract, inertia_add_tangent and inertia_of for masses at frames. */
 void spread_subtract(const model *, const model_state *, const double v[], const double a[],
-                     double out[]);
+                     double damping, double out[]);
 void spread_add_tangent(const equations *, const model_state *, const double v[], const double a[],
-                        const inertia_relation *, sparse *S);
+                        double damping, const inertia_relation *, sparse *S);
 void spread_add_balance(const model *, const model_state *, const double v[], double *kinetic,
                         double momentum[3], double angular[3]);
 
@@ -940,7 +944,7 @@ typedef struct spread_parts {
     double turn[ELEMENT_MAX_NODES][9], rate[ELEMENT_MAX_NODES][9];
 } spread_parts;
 void spread_element(const model *, int element, const model_state *, const double v[],
-                    const double a[], spread_parts *);
+                    const double a[], double damping, spread_parts *);
 /* The masses alone, in the undeformed state. */
 void spread_masses(const model *, int element, const model_state *, spread_parts *);
 /* Motion of a body as a function of the coordinates: a factor for translations and warping, a

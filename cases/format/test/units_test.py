@@ -64,7 +64,7 @@ quantities:
 truths:
   - {quantity: uy, value: 1, kind: exact, source: here}
 """, """analyses:
-  swing: {motion: {stations: [1], step: 0.01, start: {}}}
+  swing: {motion: {stations: [1], step: 0.01, start: {}, damping: {mass: 0}}}
 quantities:
   uy: {displacement: {analysis: swing, node: b, component: uy, take: crossing}, when: {}}
   over: {displacement: {analysis: swing, node: b, component: uy, take: curve}, x: {}}

@@ -1,0 +1,82 @@
+"""Mass-proportional damping of motions: momenta and energy of a free structure, and an oscillator."""
+import math
+import unittest
+
+from harness.tools.kit.program import ProgramTest, run
+
+FREE = """beamwork: 1
+sections: {s: {rectangle: {width: 0.02, thickness: 0.02}, young: 70e9, shear_modulus: 26e9, density: 2700}}
+nodes:
+  a: {at: [0, 0, 0]}
+  b: {at: [1, 0, 0], mass: 2, centre: [0.1, 0.05, 0], inertia: [0.1, 0.2, 0.25, 0.01, 0, 0]}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+analyses: {go: {motion: {stations: [0.1], %s, damping: {mass: %g}, start: {velocity: [1, 2, 0.5], spin: [0, 0, 2]}}}}
+quantities:
+  px: {momentum: {analysis: go, component: px}}
+  py: {momentum: {analysis: go, component: py}}
+  pz: {momentum: {analysis: go, component: pz}}
+  lz: {momentum: {analysis: go, component: lz}}
+  lost: {energy: {analysis: go, of: dissipated}}
+  drift: {energy: {analysis: go, of: drift}}
+omit: [trapeze, wagner_moments, wagner_torque]
+"""
+# Two masses and a bar without mass on a spring of 200 N/m.
+MASS = """beamwork: 1
+sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
+nodes:
+  b: {at: [1, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 2}
+  c: {at: [2, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 3}
+members: {m: {from: b, to: c, section: s, y: [0, 1, 0]}}
+springs: {k: {to: b, stiffness: [200, 0, 0, 0, 0, 0]}}
+analyses: {go: {motion: {stations: [0.7], %s, damping: {mass: 3}, start: {velocity: [0.1, 0, 0]}}}}
+quantities:
+  x: {displacement: {analysis: go, node: b, component: ux}}
+  v: {rate: {analysis: go, node: b, component: ux}}
+  between: {internal: {analysis: go, member: m, end: to, resultant: N}}
+omit: [trapeze, wagner_moments, wagner_torque]
+"""
+HOW = (("integrator: radau", 1e-6), ("integrator: alpha, rho: 1, step: 5e-4", 2e-6),
+       ("integrator: explicit, step: 1e-5, mass: lumped", 1e-7))
+
+
+class MassDampingTest(ProgramTest):
+
+    def values(self, text, formulation):
+        path = self.folder/"scene.yaml"
+        path.write_text(text, encoding="utf-8")
+        record = self.record("solve", "--scene", path, "-f", formulation, "-n", 2)
+        for q in record["quantities"]:
+            self.assertEqual(q["status"], "ok", q)
+        return {q["quantity"]: q["value"] for q in record["quantities"]}
+
+    def test_free(self):
+        """Momenta decay as exp(-a t), whatever the structure does; the energy is accounted for."""
+        for how, most in HOW:
+            for formulation in ("collocation", "sheet_third") if how[12] != "e" else ("sheet_third",):
+                plain, damped = (self.values(FREE % (how, a), formulation) for a in (0, 3))
+                for name in ("px", "py", "pz", "lz"):
+                    self.assertAlmostEqual(damped[name]/plain[name]/math.exp(-0.3), 1, delta=most, msg=(how, formulation, name))
+                self.assertGreater(damped["lost"], 5)
+                self.assertLess(abs(damped["drift"]), 1e-5*damped["lost"], (how, formulation))
+
+    def test_oscillator(self):
+        w, a, t = math.sqrt(200/5), 3, 0.7
+        d = math.sqrt(w*w - a*a/4)
+        x = 0.1*math.exp(-a*t/2)*math.sin(d*t)/d
+        v = 0.1*math.exp(-a*t/2)*(math.cos(d*t) - a/2*math.sin(d*t)/d)
+        accelerates = -a*v - w*w*x
+        for how in ("integrator: radau, tolerance: 1e-9", "integrator: alpha, rho: 0.9, step: 1e-4"):
+            got = self.values(MASS % how, "collocation")
+            self.assertAlmostEqual(got["x"]/x, 1, delta=2e-4, msg=how)
+            self.assertAlmostEqual(got["v"]/v, 1, delta=2e-4, msg=how)
+            self.assertAlmostEqual(got["between"]/(-3*(accelerates + a*v)), 1, delta=1e-3, msg=how)
+
+    def test_refused(self):
+        path = self.folder/"scene.yaml"
+        path.write_text(FREE % ("integrator: conserving", 3), encoding="utf-8")
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", 1)
+        self.assertRegex(done.stdout + done.stderr, "conserving has no damping of masses")
+
+
+if __name__ == "__main__":
+    unittest.main()
