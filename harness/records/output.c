@@ -158,7 +158,7 @@ static status check_form(const char *path, const file_place *to, output_form for
     if (form == OUTPUT_TEXT && output_is_hdf5(path))
         return fault_set(f, STATUS_REFUSED,
                          "%.200s: this command writes text there, not HDF5; give it a name that "
-                         "does not end in %s",
+                         "does not end in %s ('solve' writes HDF5 with --shapes)",
                          path, strrchr(path, '.'));
     if (to->kind == PLACE_STREAM && form == OUTPUT_WHOLE_FILE)
         return fault_set(f, STATUS_REFUSED,

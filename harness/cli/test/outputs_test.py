@@ -59,7 +59,7 @@ class Places(Folder):
         for verb, options in TEXT.items():
             for option in options:
                 for name in ("a.h5", "a.HDF5") if (verb, option) not in BOTH else ():
-                    self.refused(2, "writes text there, not HDF5", verb, *WORK[verb], option, self.folder / name)
+                    self.refused(2, ("writes text there, not HDF5", "with --shapes"), verb, *WORK[verb], option, self.folder / name)
         self.assertEqual(os.listdir(self.folder), [])
         for verb, option in BOTH:
             path = self.folder / f"{verb}.HDF5"
