@@ -28,6 +28,14 @@ static void make_density(char unit[SCENE_UNIT])
         snprintf(unit, SCENE_UNIT, "%s%.8s%s^2/Hz", plain ? "" : "(", of, plain ? "" : ")");
 }
 
+/* Is the unit the same in the units of the scene: of neither lengths nor forces? */
+static int is_kept(const unit_system *u, const char *unit)
+{
+    char own[SCENE_UNIT];
+    units_translate(u, unit, sizeof own, own);
+    return strcmp(own, unit) == 0 && (strcmp(unit, "K") == 0 || strcmp(unit, "rad") == 0);
+}
+
 static void read_unit(const fields *f, scene_quantity *q)
 {
     const document_node *unit = document_find(f->map, "unit");
@@ -40,12 +48,14 @@ static void read_unit(const fields *f, scene_quantity *q)
         if (!f->b->units.given)
             units_check(unit, f->b->mistakes);
         /* a load factor may have the unit of its load */
-        if (strcmp(unit->text, own) != 0 && (f->b->units.given || strcmp(own, "1") != 0))
+        const int factor = strcmp(own, "1") == 0,
+                  kept = factor && is_kept(&f->b->units, unit->text);
+        if (strcmp(unit->text, own) != 0 && !kept && (f->b->units.given || !factor))
             document_mistake(f->b->mistakes, unit, 0,
-                             "unit '%.40s': %sthe value is in %s; write that, remove it, or give "
-                             "a factor",
+                             "unit '%.40s': %sthe value is in %s; write that, remove it, or %s%s%s",
                              unit->text, f->b->units.given ? "with the units of this scene " : "",
-                             own);
+                             own, factor ? "'unit: " : "give a factor", factor ? unit->text : "",
+                             factor ? ", factor: 1' if a load of 1 is 1 of it" : "");
     }
     if (unit != NULL && strlen(unit->text) >= sizeof q->unit)
         document_mistake(f->b->mistakes, unit, 0, "a unit of more than %zu characters; shorten it",

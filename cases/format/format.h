@@ -177,9 +177,6 @@ const char *scene_file_path(const case_type *type);
 const struct document_node *scene_file_document(const scene_file *);
 /* Does the file contain this key? */
 int scene_file_states(const scene_file *, const char *key);
-/* The scene as earlier versions read it: ends without specified warping are free. The caller frees
- * it in any case. */
-status scene_file_build_before(const scene_file *, const double value[], scene *, fault *);
 /* Passes the reference values that apply at a point of the parameters to `taker`, with their values
  * there. */
 status scene_file_truths(const scene_file *, const double value[], scene_truth_taker *, void *to,

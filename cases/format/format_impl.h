@@ -39,14 +39,9 @@ int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 
 /* Builds a scene from a checked tree and values of its parameters. */
 
-/* Warping of ends for which the file does not specify it: from their supports, or free as in
- * earlier versions. */
-typedef enum build_ends { BUILD_BY_SUPPORTS, BUILD_FREE } build_ends;
-
 /* names: the parameters. The scene is valid if no error was found. The caller frees it in any case.
  */
-void build_scene(const document_node *root, const scope *names, build_ends ends, arena *a,
-                 mistakes *m, scene *out);
+void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out);
 
 /* Reads only the sections, with their constants as names, into a builder with root and names. */
 struct builder;

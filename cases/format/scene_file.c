@@ -55,11 +55,10 @@ static const char *line_of(const scene_file *file, const char *key)
 }
 
 /* Builds the scene in separate memory; errors are reported in m. */
-static void build_at(const scene_file *file, const double value[], build_ends ends, scene *s,
-                     mistakes *m)
+static void build_at(const scene_file *file, const double value[], scene *s, mistakes *m)
 {
     arena a = {0};
-    build_scene(file->root, parameter_table_names(file->parameter, value, &a), ends, &a, m, s);
+    build_scene(file->root, parameter_table_names(file->parameter, value, &a), &a, m, s);
     arena_free(&a);
 }
 
@@ -67,15 +66,7 @@ static status build_from(const void *context, const double value[], scene *s, fa
 {
     const scene_file *file = context;
     mistakes m = {.file = file->path};
-    build_at(file, value, BUILD_BY_SUPPORTS, s, &m);
-    return mistakes_status(&m, f);
-}
-
-status scene_file_build_before(const scene_file *file, const double value[], scene *s, fault *f)
-{
-    mistakes m = {.file = file->path};
-    scene_init(s, file->type.name);
-    build_at(file, value, BUILD_FREE, s, &m);
+    build_at(file, value, s, &m);
     return mistakes_status(&m, f);
 }
 
@@ -97,7 +88,7 @@ static void check_at(const scene_file *file, const double value[], mistakes *m)
 {
     scene s;
     scene_init(&s, file->type.name);
-    build_at(file, value, BUILD_BY_SUPPORTS, &s, m);
+    build_at(file, value, &s, m);
     if (m->count == 0)
         scene_file_truths_check(file, &s, value, m);
     scene_free(&s);

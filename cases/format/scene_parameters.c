@@ -383,10 +383,9 @@ static int build_lists(builder *b)
     return quantities;
 }
 
-void build_scene(const document_node *root, const scope *names, build_ends ends, arena *a,
-                 mistakes *m, scene *out)
+void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out)
 {
-    builder b = {.unsaid_warping = ends == BUILD_FREE ? SCENE_WARP_FREE : SCENE_WARP_BY_SUPPORT,
+    builder b = {.unsaid_warping = SCENE_WARP_BY_SUPPORT,
                  .arena = a,
                  .mistakes = m,
                  .scene = out,
@@ -441,8 +440,7 @@ status scene_packed_build(const void *context, const double value[], scene *s, f
     mistakes m = {.file = p->file};
     const document_node *root = unpack(p, &a);
     if (root != NULL)
-        build_scene(root, parameter_table_names(p->parameters, value, &a), BUILD_BY_SUPPORTS, &a,
-                    &m, s);
+        build_scene(root, parameter_table_names(p->parameters, value, &a), &a, &m, s);
     m.out_of_memory |= a.failed;
     arena_free(&a);
     /* of a case of the program it says more by itself than with the place in a file */

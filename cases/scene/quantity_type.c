@@ -45,7 +45,8 @@ static const entry_field prediction[] = {
      ENTRY_IN(scene_quantity, what.kind)},
 const entry_field entry_quantity[] = {
     QUANTITY_TYPES(KIND) /* one of them */
-    {"unit", ENTRY_TEXT, .summary = "SI unit", .left_out = "that of the kind"},
+    {"unit", ENTRY_TEXT, .summary = "SI unit, or that of the scene's 'units'",
+     .left_out = "that of the kind"},
     {"factor", ENTRY_NUMBER, .summary = "reported value = factor value + offset", .usual = "1",
      ENTRY_IN(scene_quantity, factor), .always = 1},
     {"offset", ENTRY_NUMBER, .summary = "in the same unit", .usual = "0",

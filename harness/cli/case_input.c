@@ -170,14 +170,15 @@ void case_input_tell_units(const scene_file *file, const double parameter[])
 {
     char words[FAULT_TEXT];
     scene s;
-    if (file == NULL || scene_file_states(file, "units"))
+    if (file == NULL)
         return;
+    const int given = scene_file_states(file, "units");
     if (cell_scene(scene_file_case(file), parameter, NULL, &s, NULL) == STATUS_OK &&
         scene_looks_foreign(&s, words))
-        fprintf(stderr,
-                "beamwork: warning: %s; numbers are in m, N, Pa and kg, else the scene says units: "
-                "mm, N, MPa\n",
-                words);
+        fprintf(stderr, "beamwork: warning: %s; %s\n", words,
+                given ? "numbers are in the 'units' of the scene: with mm, N, MPa densities are in "
+                        "t/mm^3, as 7.85e-9"
+                      : "numbers are in m, N, Pa and kg, else the scene says units: mm, N, MPa");
     scene_free(&s);
 }
 

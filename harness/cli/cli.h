@@ -139,6 +139,7 @@ status errors_parse(const char *text, int most, double level[], int *count, faul
 extern const option_group options_output;  /* const char *: -o FILE, text */
 extern const option_group options_results; /* const char *: -o FILE, text or HDF5 results */
 extern const option_group options_format;  /* const char *: text, json or csv */
+extern const option_group options_record;  /* const char *: text or json */
 extern const option_group options_select;  /* const char * */
 extern const option_group options_jobs;    /* int, initially the number of processors */
 extern const option_group options_json;    /* const char * */
@@ -238,12 +239,6 @@ void scenes_free(scenes *);
 /* Reads the built-in reference values if those cases are requested, the list of known deviations,
  * the reference values of each file, and user tables. */
 status scenes_truths(const scenes *, const scenes_options *, truths *t, fault *f);
-
-/* For one minor version: prints a line if members now fix warping at ends where it was free before,
- * and results of this formulation depend on it, as a mesh of two elements per member shows. Does
- * nothing for built-in cases. */
-void supports_told(const scene_file *, const double parameter[], const formulation *,
-                   const scene *);
 
 /* Reads and runs the command line of a verb; exit statuses. */
 

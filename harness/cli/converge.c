@@ -15,22 +15,11 @@ typedef struct converge_request {
     int jobs, verbose;
 } converge_request;
 
-/* Reports changed supports for the first formulation that runs. */
-static void tell_supports(const converge_request *r, const sweep *s)
-{
-    int i = 0;
-    while (i < s->seriess - 1 && s->series[i].missing[0] != '\0')
-        i++;
-    if (s->seriess > 0)
-        supports_told(r->of.scene, r->of.parameter, &s->series[i].formulation, &s->point[0].scene);
-}
-
 static void tell(const converge_request *r, const sweep *s)
 {
     if (s->points == 0)
         return;
     case_input_tell_analysis(&r->of, &s->point[0].scene);
-    tell_supports(r, s);
 }
 
 /* The caller, answer, frees *c, also after a failure. */

@@ -91,8 +91,6 @@ static status import(const command_line *l, const import_request *r, import_set 
 {
     if (l->arguments == 0 || r->output == NULL)
         return fault_set(f, STATUS_REFUSED, "give files to import, and -o FILE.h5");
-    if (strcmp(r->format, "csv") == 0)
-        return fault_set(f, STATUS_REFUSED, "--format: give text or json");
     TRY(files_check(l, 1, NULL, f));
     TRY(r->map != NULL ? read_mapped(l, r, set, f) : read_files(l, r, set, f));
     TRY(check_again(&set->sweep, f));
@@ -117,7 +115,7 @@ static const verb_option own[] = {{"map", 0, "FILE.yaml",
                                    "which columns of files without a header are which quantities",
                                    IN(map), .traits = OPTION_INPUT},
                                   {0}};
-static const verb_group shared[] = {SHARED(output, output), SHARED(format, format), {NULL, 0}};
+static const verb_group shared[] = {SHARED(output, output), SHARED(record, format), {NULL, 0}};
 const verb verb_import = {
     "import",
     "FILE...",

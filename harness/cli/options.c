@@ -264,6 +264,13 @@ static status read_format(const verb_option *o, void *member, const char *value,
                : fault_set(f, STATUS_REFUSED, "--format: give text, json or csv");
 }
 
+static status read_record(const verb_option *o, void *member, const char *value, fault *f)
+{
+    if (strcmp(value, "text") != 0 && strcmp(value, "json") != 0)
+        return fault_set(f, STATUS_REFUSED, "--format: give text or json");
+    return read_format(o, member, value, f);
+}
+
 static status read_meshes(const verb_option *o, void *member, const char *value, fault *f)
 {
     (void)o;
@@ -295,6 +302,9 @@ static const verb_option cli_options_results[] = {
 static const verb_option format[] = {{"format", 0, "text|json|csv",
                                       "form of the output (default text)", .traits = OPTION_ASIDE,
                                       .read = read_format},
+                                     {0}};
+static const verb_option record[] = {{"format", 0, "text|json", "form of the output (default text)",
+                                      .traits = OPTION_ASIDE, .read = read_record},
                                      {0}};
 static const verb_option selection[] = {
     {"select", 'k', "EXPRESSION",
@@ -333,6 +343,7 @@ static const verb_option solver[] = {
 const option_group options_output = {output_option, NULL, NULL, NULL};
 const option_group options_results = {cli_options_results, NULL, NULL, NULL};
 const option_group options_format = {format, begin_format, NULL, NULL};
+const option_group options_record = {record, begin_format, NULL, NULL};
 const option_group options_select = {selection, NULL, NULL, NULL};
 const option_group options_jobs = {jobs, begin_jobs, NULL, NULL};
 const option_group options_json = {json, NULL, NULL, NULL};

@@ -252,6 +252,25 @@ static int tell_missing(status solved, const cell_result *cell, const fault *f)
     return refused ? message_fail(STATUS_NO_VALUE, f->text) : message_exit(solved, f);
 }
 
+/* Warns of a linear displacement that is larger than the structure. */
+static void tell_large(const scene *s, const solve_result *r)
+{
+    const double size = change_size(s);
+    for (int i = 0; i < r->quantities; i++) {
+        const scene_quantity *q = &s->quantity[i];
+        const double moved = fabs((r->quantity[i].value - q->offset) / q->factor);
+        if (q->what.kind != SCENE_COORDINATE || scene_component_of(q)->component >= SCENE_RX ||
+            s->analysis[q->analysis].kind != SCENE_LINEAR || q->reduction == SCENE_CURVE ||
+            r->quantity[i].status != STATUS_OK || !(moved > size && size > 0))
+            continue;
+        fprintf(stderr,
+                "beamwork: warning: %s: a linear analysis gives a displacement of %.3g times the "
+                "size of the structure; check units, loads and supports\n",
+                q->name, moved / size);
+        return;
+    }
+}
+
 /* Solves in this process. */
 static int solve_and_write(const solve_request *r, solve_work *w)
 {
@@ -259,11 +278,11 @@ static int solve_and_write(const solve_request *r, solve_work *w)
     const scene *s = &w->s.point[0].scene;
     case_input_tell_analysis(&r->of, s);
     guard_formulation(&w->what.formulation, r->chosen.time_limit);
-    supports_told(r->of.scene, r->of.parameter, &w->what.formulation, s);
     const status solved = solution_run(&w->what, &w->why, &w->s, &f);
     const cell_result *cell = &w->s.series[0].cell[0];
     if (solved == STATUS_FAULT || (solved == STATUS_REFUSED && cell_values(cell) == 0))
         return message_fail(solved, f.text);
+    tell_large(s, &cell->solve);
     const status written = write_all(r, w, &unwritten);
     return written != STATUS_OK ? message_fail(written, unwritten.text)
                                 : tell_missing(solved, cell, &f);
@@ -331,7 +350,8 @@ const verb verb_solve = {
     "Solves one case with one formulation and one mesh and shows every quantity with its error. "
     "Without -n elements are refined until no value changes by more than 0.1 % (--error) from the "
     "mesh before: on the case's meshes, then doubled, up to 1024 or to 2 s of counted work; where "
-    "values change still, the status is not_converged. Digits end where values change. Without -f "
+    "values change still, the status is not_converged. Values are printed to the second digit of "
+    "their last change from mesh to mesh; that is no bound of their error. Without -f "
     "as well it is done with up to five formulations that offer what the case needs and have no "
     "known defect there, the cheapest next mesh first, and the first that settles is taken; with "
     "-n the one of the highest order. The output says which, and why. An analysis that no quantity "

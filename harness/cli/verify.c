@@ -134,8 +134,8 @@ static status add_all_imported(const verify_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Prints the supports of each scene file as the first formulation that runs it interprets them. */
-static void tell_supports(const scenes *own, const sweep *s)
+/* Warns of units of each scene file that look like others. */
+static void tell_units(const scenes *own, const sweep *s)
 {
     for (int k = 0; k < own->count; k++)
         for (int i = 0; i < s->seriess; i++) {
@@ -143,7 +143,6 @@ static void tell_supports(const scenes *own, const sweep *s)
             if (p->type != scene_file_case(own->file[k]) || s->series[i].missing[0] != '\0')
                 continue;
             case_input_tell_units(own->file[k], p->parameter);
-            supports_told(own->file[k], p->parameter, &s->series[i].formulation, &p->scene);
             break;
         }
 }
@@ -158,7 +157,7 @@ static status run_and_judge(const verify_request *r, const scenes *own,
     int asked;
     TRY(spread_asked(&r->shards, &asked, f));
     TRY(plan_sweep(request, &v->truths, &v->sweep, f));
-    tell_supports(own, &v->sweep);
+    tell_units(own, &v->sweep);
     if (asked)
         TRY(verification_work_run(&r->shards, request, &v->truths, &v->sweep, &v->end, f));
     if (v->end.ended)

@@ -43,6 +43,8 @@ static void make_scene(support of, scene *s)
     const double y[3] = {0, 1, 0};
     section_spec spec = section_spec_rectangle(70e3, 27e3, 0.3, 0.2);
     spec.given.Iw = 0;
+    spec.shear_factor[0] = 5.0 / 6;
+    spec.shear_factor[1] = 0.4; /* another one: swapped ones show */
     scene_init(s, "along");
     const int profile = scene_add_section(s, &spec), from = scene_add_node(s, 0, 0, 0),
               to = scene_add_node(s, L, 0, 0);
@@ -215,10 +217,9 @@ static void compare(const formulation *chosen, support of, const softness *soft,
         char words[SPECIMEN_WORDS];
         claims_departs(
             one, fabs(a - b) / size_of(soft, c, reaction),
-            "strain, stress: one element %s has under a load along it %.9g, not %.9g, as "
-            "%s%s; what is right under forces at the nodes is so under loads between "
-            "them where the strains are those of r and R of node_state, and at rest of "
-            "x axes along the element",
+            "loads along it: one element %s has %.9g, not %.9g, as %s%s; if 'measured' names a "
+            "stiffness, correct that first; else the strains: of r and R of node_state, and at "
+            "rest of x axes along the element",
             support_name[of], a, b, reaction ? "reaction to the " : "",
             specimen_coordinate(NODE_COORDINATES * node + c, words));
     }

@@ -232,9 +232,12 @@ static void put_mark(FILE *to, screen look, claim_outcome outcome)
 
 static claim_outcome outcome_of(const claims *c)
 {
+    int held = 0;
     if (claims_counted(c, CLAIM_BROKEN) > 0)
         return CLAIM_BROKEN;
-    return claims_counted(c, CLAIM_HOLDS) > 0 ? CLAIM_HOLDS : CLAIM_NOT_CLAIMED;
+    for (int i = 0; i < c->count; i++) /* that an element is made is no answer yet */
+        held |= c->claim[i].outcome == CLAIM_HOLDS && strcmp(c->claim[i].name, "prepare") != 0;
+    return held ? CLAIM_HOLDS : CLAIM_NOT_CLAIMED;
 }
 
 /* A line for each claim that is broken, or all of them. */
@@ -270,7 +273,7 @@ static void write_family(FILE *to, screen look, const certificate *c, int part, 
         paragraph_write(to, INDENT, INDENT, own->claim[0].sentence);
     else if (outcome == CLAIM_NOT_CLAIMED)
         paragraph_say(to, INDENT, INDENT, "not applicable: %s",
-                      own->count > 0 ? own->claim[0].sentence : "nothing to look at");
+                      own->count > 0 ? own->claim[own->count - 1].sentence : "nothing to look at");
     else
         paragraph_say(to, INDENT, INDENT, "%s (%d compared)", certificate_part_words(part),
                       claims_compared(own));
@@ -328,17 +331,15 @@ static void write_measures(FILE *to, screen look, const certificate *c, int part
         first = own->measures.measure[i].points > first->points ? &own->measures.measure[i] : first;
     for (int i = 0; i < first->points; i++)
         fprintf(to, part == CHECKS_FAMILIES + 1 ? " %*.0e" : " %*.0f", COLUMN - 1, first->at[i]);
-    fprintf(to, "%s\n", part == CHECKS_FAMILIES + 2 ? "  order" : "");
+    fprintf(to, "%s\n", part == CHECKS_FAMILIES + 2 ? "  order (declared)" : "");
     if (own->measures.count == 0 && own->claims.count == 1 && c->late != NULL)
         paragraph_write(to, fprintf(to, "    "), 4, own->claims.claim[0].sentence);
     for (int i = 0; i < own->measures.count; i++)
         write_measure(to, &own->measures.measure[i], verbose);
-    if (own->measures.words[0] != '\0')
-        paragraph_write(to, fprintf(to, "    "), 6, own->measures.words);
-    for (int i = 0; i < own->measures.count && own->measures.words[0] == '\0'; i++)
-        if (own->measures.measure[i].astray)
-            paragraph_say(to, fprintf(to, "    "), 6, "%s: %s", own->measures.measure[i].name,
-                          own->measures.measure[i].words);
+    if (part == CHECKS_FAMILIES + 2 && c->chosen.type->inertia == NULL)
+        fputs(
+            "    vibration: with the mass that beamwork computes; the element gives no 'inertia'\n",
+            to);
     write_claims(to, look, &own->claims, verbose);
 }
 

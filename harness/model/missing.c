@@ -371,7 +371,6 @@ typedef struct ends_tally {
 
 typedef struct held_ends {
     const scene *scene;
-    const scene *other; /* NULL: all; else those that this one leaves free and the scene does not */
     ends_tally *node;
 } held_ends;
 
@@ -393,9 +392,7 @@ static int warps(const scene *s, int member, int end)
 static int state_of(const held_ends *e, int member, int end)
 {
     const int warp = warp_of(e->scene, member, end);
-    if (!warps(e->scene, member, end) ||
-        (e->other != NULL &&
-         (warp == SCENE_WARP_FREE || warp_of(e->other, member, end) != SCENE_WARP_FREE)))
+    if (!warps(e->scene, member, end))
         return STATES;
     return warp == SCENE_WARP_FIXED ? HELD : warp >= 0 ? SHARED : FREE;
 }
@@ -463,9 +460,9 @@ static void write_ends(const held_ends *e, ends_words *out)
     }
 }
 
-static void tell(const scene *s, const scene *other, char *text, size_t room)
+void warping_ends(const scene *s, char *text, size_t room)
 {
-    held_ends e = {s, other, NULL};
+    held_ends e = {s, NULL};
     ends_words out = {text, room, 0, 0};
     text[0] = '\0';
     if (!(features_needed(s) & FEATURE_WARPING))
@@ -484,16 +481,4 @@ static void tell(const scene *s, const scene *other, char *text, size_t room)
     }
     write_ends(&e, &out);
     free(e.node);
-}
-
-void warping_ends(const scene *s, char *text, size_t room)
-{
-    tell(s, NULL, text, room);
-}
-
-void warping_ends_freed(const scene *s, const scene *other, char *text, size_t room)
-{
-    text[0] = '\0';
-    if (s->members == other->members)
-        tell(s, other, text, room);
 }

@@ -890,7 +890,5 @@ void turns_lose(const model *, const model_state *from, model_state *);
  * at tip", by nodes, or "leaf at base" where ends at one node differ. Of many the first ones are
  * named. "": nothing warps. */
 void warping_ends(const scene *s, char *text, size_t room);
-/* The same of those that the other scene, of the same members, leaves free. */
-void warping_ends_freed(const scene *s, const scene *other, char *text, size_t room);
 
 #endif

@@ -173,6 +173,15 @@ static void write_overview(FILE *to, const overview *o)
     write_legend(to, o);
 }
 
+/* Was anything computed there? */
+static int is_run(const sweep *s, int point)
+{
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].point == point && s->series[i].missing[0] == '\0')
+            return 1;
+    return 0;
+}
+
 /* Writes the omitted physics: a line for each case, and for each point that differs from it. */
 static void write_omitted(FILE *to, const sweep *s)
 {
@@ -182,7 +191,7 @@ static void write_omitted(FILE *to, const sweep *s)
     for (int i = 0; i < s->points; i++) {
         const sweep_point *p = &s->point[i];
         char words[SCENE_OMISSION_WORDS] = "";
-        if (p->status == STATUS_OK)
+        if (p->status == STATUS_OK && is_run(s, i))
             scene_omission_words(features_omitted(&p->scene), words);
         const int again = strcmp(p->type->name, before) == 0 && strcmp(words, last) == 0;
         before = p->type->name;
@@ -207,7 +216,7 @@ static void write_assumed(FILE *to, const sweep *s)
     for (int i = 0; i < s->points; i++) {
         const sweep_point *p = &s->point[i];
         assumption a;
-        for (int k = 0; assumptions_at(p, k, &a); k++) {
+        for (int k = 0; is_run(s, i) && assumptions_at(p, k, &a); k++) {
             if (lines++ == 0)
                 fprintf(to, "\n<details><summary>Assumed of sections</summary>\n\n");
             fprintf(to, "- %s", p->type->name);

@@ -10,8 +10,7 @@
  * values. */
 static const double small_strain = 1e-14, small_part = 1e-12, small_beside = 1e-9;
 
-/* Largest extent of the positions of nodes [m]. */
-static double size_of(const scene *s)
+double change_size(const scene *s)
 {
     double sum = 0;
     for (int k = 0; k < 3; k++) {
@@ -47,7 +46,7 @@ static double youngs_of(const scene *s)
 
 static double of_compliance(const scene *s, const scene_entry *e)
 {
-    const double size = size_of(s), EA = stiffness_of(s);
+    const double size = change_size(s), EA = stiffness_of(s);
     double out = EA > 0 ? small_part / EA : 0;
     if (e->row < SCENE_RX && e->column < SCENE_RX)
         out *= size;
@@ -58,7 +57,7 @@ static double of_compliance(const scene *s, const scene_entry *e)
 
 static double of_resultant(const scene *s, scene_resultant which)
 {
-    const double force = small_strain * stiffness_of(s), size = size_of(s);
+    const double force = small_strain * stiffness_of(s), size = change_size(s);
     if (which == SCENE_BIMOMENT)
         return force * size * size;
     return which <= SCENE_QZ ? force : force * size;
@@ -68,7 +67,7 @@ static double of_resultant(const scene *s, scene_resultant which)
 static double of_reading(const scene *s, const char *unit)
 {
     if (strcmp(unit, "m") == 0)
-        return small_part * size_of(s);
+        return small_part * change_size(s);
     return strcmp(unit, "rad") == 0 || strcmp(unit, "1") == 0 ? small_part : 0;
 }
 
@@ -77,11 +76,14 @@ static double physical_scale(const scene *s, const scene_quantity *q)
 {
     switch (q->what.kind) {
     case SCENE_COORDINATE:
-        return scene_component_of(q)->component < SCENE_RX ? small_part * size_of(s) : small_part;
+        return scene_component_of(q)->component < SCENE_RX ? small_part * change_size(s)
+                                                           : small_part;
     case SCENE_DEFLECTION:
-        return q->what.of.deflection.component < SCENE_RX ? small_part * size_of(s) : small_part;
+        return q->what.of.deflection.component < SCENE_RX ? small_part * change_size(s)
+                                                          : small_part;
     case SCENE_RELATIVE:
-        return scene_relative_of(q)->component < SCENE_RX ? small_part * size_of(s) : small_part;
+        return scene_relative_of(q)->component < SCENE_RX ? small_part * change_size(s)
+                                                          : small_part;
     case SCENE_REACTION:
         return of_resultant(s, scene_component_of(q)->component < SCENE_RX ? SCENE_N : SCENE_MX);
     case SCENE_INTERNAL:

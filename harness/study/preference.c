@@ -191,9 +191,11 @@ static int met_unstable(const solve_result *r)
 typedef struct runner {
     cell_request request;
     formulation chosen;
-    cell_result cell[2];         /* results of the last two meshes, alternating */
-    double asked;                /* relative change that counts as converged */
-    value_change last;           /* change between the last two meshes */
+    cell_result cell[2];  /* results of the last two meshes, alternating */
+    double asked;         /* relative change that counts as converged */
+    value_change last;    /* expected change from the last mesh on */
+    double *former, *raw; /* [quantities] changes before, and between the last two meshes */
+    double slow;          /* largest change between the last two, where more is expected; 0: no */
     int tried, before, elements; /* number of meshes; elements of the last two */
     int unstable;      /* 1: a mesh had unstable states, which finer meshes may not have */
     double cost, next; /* cost of the last mesh; estimated cost of the next one [s] */
@@ -210,7 +212,9 @@ static status begin(runner *r, const cell_request *request, const formulation *c
     cell_formulation(&r->request, chosen);
     r->last = (value_change){.largest = INFINITY, .which = -1};
     r->last.of_each = malloc(((size_t)quantities + 1) * sizeof *r->last.of_each);
-    if (r->last.of_each == NULL)
+    r->former = calloc((size_t)quantities + 1, sizeof *r->former);
+    r->raw = calloc((size_t)quantities + 1, sizeof *r->raw);
+    if (r->last.of_each == NULL || r->former == NULL || r->raw == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a choice");
     for (int i = 0; i < quantities; i++)
         r->last.of_each[i] = NAN;
@@ -220,6 +224,8 @@ static status begin(runner *r, const cell_request *request, const formulation *c
 static void end(runner *r)
 {
     free(r->last.of_each);
+    free(r->former);
+    free(r->raw);
     cell_result_free(&r->cell[0]);
     cell_result_free(&r->cell[1]);
 }
@@ -245,8 +251,28 @@ static int exhausted(const scene *s, const runner *r)
            (!tells || r->next > PREFERENCE_COST || r->elements >= PREFERENCE_FINEST);
 }
 
+/* Below first order more change follows than the last one: c (q + q^2 + ...), q = c / former c. */
+static void expect_more(const scene *s, runner *r)
+{
+    const double seen = 1e-6, most = 9; /* relative change below which no order shows; multiple */
+    const double largest = r->last.largest;
+    for (int i = 0; i < s->quantities; i++) {
+        const double now = r->last.of_each[i], rate = now / r->former[i];
+        r->raw[i] = now;
+        if (!(now > seen && r->former[i] > seen && rate > 0.5 && rate < 1))
+            continue;
+        r->last.of_each[i] = now * fmin(rate / (1 - rate), most);
+        if (r->last.of_each[i] > r->last.largest) {
+            r->last.largest = r->last.of_each[i];
+            r->last.which = i;
+        }
+    }
+    r->slow = r->last.largest > largest ? largest : 0;
+}
+
 static void refine(const scene *s, runner *r)
 {
+    const int halved = r->tried > 1 && r->elements == 2 * r->before;
     cell_result *now = &r->cell[r->tried % 2];
     fault f;
     cell_result_free(now);
@@ -254,8 +280,13 @@ static void refine(const scene *s, runner *r)
     r->before = r->elements;
     r->request.elements = r->elements = next_mesh(s, r);
     cell_run(&r->request, now, &f); /* a mesh that fails has not converged */
-    if (r->tried > 0)
+    if (r->tried > 0) {
+        memcpy(r->former, r->raw, (size_t)s->quantities * sizeof *r->raw);
         change_between(s, &r->cell[(r->tried + 1) % 2], now, &r->last);
+        if (!halved || r->elements != 2 * r->before)
+            memset(r->former, 0, (size_t)s->quantities * sizeof *r->former);
+        expect_more(s, r);
+    }
     r->unstable |= met_unstable(&now->solve);
     r->cost = price_cost(&r->chosen, now);
     r->next = 2 * r->cost;
@@ -281,7 +312,12 @@ static runner *race(const scene *s, runner of[], int count)
 
 static void tell_elements(const scene *s, const runner *r, char why[FAULT_TEXT])
 {
-    if (settled(s, r))
+    if (settled(s, r) && r->slow > 0)
+        snprintf(why, FAULT_TEXT,
+                 "no value is expected to change by more than %.2g %%: it converges slowly, by "
+                 "%.2g %% from n = %d",
+                 100 * r->last.largest, 100 * r->slow, r->before);
+    else if (settled(s, r))
         snprintf(why, FAULT_TEXT, "no value changed by more than %.2g %% from n = %d",
                  100 * r->last.largest, r->before);
     else if (isfinite(r->last.largest) && r->last.which >= 0)

@@ -97,7 +97,11 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
         biased(v, text, size);
         return;
     case VERDICT_WRONG_LIMIT:
-        snprintf(text, size, "converges to a wrong limit: %+.3g %%", 100 * v->error);
+        snprintf(text, size,
+                 3 * v->fit.limit_uncertainty > fabs(v->fit.limit - v->truth->value)
+                     ? "does not converge on these meshes, and is wrong: %+.3g %%"
+                     : "converges to a wrong limit: %+.3g %%",
+                 100 * v->error);
         return;
     case VERDICT_BIASED_AS_PREDICTED:
     case VERDICT_WRONG_AS_PREDICTED:

@@ -584,6 +584,8 @@ typedef struct value_change {
  * of a solution (the energy-balance error). */
 void change_between(const scene *s, const cell_result *before, const cell_result *now,
                     value_change *out);
+/* Largest extent of the positions of nodes [m]. */
+double change_size(const scene *);
 /* Scale of a quantity [its unit], such that round-off is small compared with it: strains of 1e-14,
  * rotations and fractions of the size of the structure of 1e-12, fractions of 1e-9 of other values
  * in the same unit. */

@@ -38,6 +38,12 @@ static int is_told(const solve_result *r, int index)
            strcmp(r->quantity[index - 1].reason, r->quantity[index].reason) == 0;
 }
 
+/* Is it nothing but round-off? */
+static int is_zero(const scene *s, int index, const solve_result *r)
+{
+    return fabs(r->quantity[index].value) < change_scale(s, index, r) * noise;
+}
+
 /* Bound of the change of a value by round-off and by refinement of the mesh. */
 static double uncertainty_of(const scene *s, int index, const solve_result *r)
 {
@@ -64,7 +70,9 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
                         is_told(&one->cell[0].solve, index) ? "likewise" : v->reason);
         return;
     }
-    table_known(to, VALUE, v->value, uncertainty_of(&p->scene, index, &one->cell[0].solve));
+    const int zero = is_zero(&p->scene, index, &one->cell[0].solve);
+    table_known(to, VALUE, zero ? 0 : v->value,
+                uncertainty_of(&p->scene, index, &one->cell[0].solve));
     fprintf(to, " %-*s", UNIT, q->unit);
     table_percent(to, row != NULL ? verdict_error(q, v->value, row->value) : NAN);
     fprintf(to, "%s%s", row != NULL ? " against " : "", row != NULL ? row->kind : "");

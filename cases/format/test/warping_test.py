@@ -243,20 +243,16 @@ instances:
                         delta=1e-9)
 
     def test_told(self):
-        """Text and JSON name the ends; one line on stderr where the answer was another one before."""
+        """Text and JSON name the ends; nothing is on stderr."""
         torsion = HEAD + "nodes:\n  base: {at: [0, 0, 0], hold: all}\n" + TIP + "}\n" + CANTILEVER
         ends = "held at base; free at tip"
-        told = "warping is held at base, as supports say"
         scene = self.scene(torsion + TWIST)
-        for verb in ("solve", "converge"):
-            self.assertIn(told, run(verb, "--scene", scene, "-f", "collocation", "-n", 2).stderr)
-        self.assertIn(told, run("verify", "--scene", scene, "-f", "beamw", "-o", self.folder / "v.h5").stderr)
         done = run("solve", "--scene", scene)
         self.assertIn(f"\nwarping: {ends}\n", done.stdout)
-        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertEqual(done.stderr, "")
         record = json.loads(run("solve", "--scene", scene, "--format", "json").stdout)
         self.assertEqual(record["cell"]["warping"], ends)
-        # neither where the word is there, nor where it changes nothing, nor where nothing warps
+        # where the word is there, where it changes nothing, where nothing warps
         for text, words in ((torsion.replace("]}", "], warping: [fixed, free]}", 3) + TWIST, ends),
                             (torsion + TWIST.replace(f"[{TORQUE}, 0, 0]", "[0, 0, 0]"), ends),
                             (torsion + TWIST.replace("moment", "force"), ends),

@@ -146,6 +146,31 @@ FORCE_FAULTS = {
         "of the undeformed element is", "not zero"),
 }
 
+# What authors of elements get wrong: all of it is consistent, and shows in structures.
+CLASSIC = {
+    "swapped bending": (
+        ("c->young * c->Iy, c->young * c->Iz}", "c->young * c->Iz, c->young * c->Iy}"),
+        "pure bending about y:", "(E Iy?)"),
+    "swapped shear": (
+        ("c->F[i == 1 ? 4 : 0]", "c->F[i == 1 ? 0 : 4]"),
+        "constant shear along y, short:", "(G A with its shear factor, E Iz?)"),
+    "coupling about y": (
+        ("? -1 : (2 - phi)", "? -1 : (i == 1 ? -1 : 1) * (2 - phi)"),
+        "tip force along z: exact with one element and not with four", "a coupling of its nodes, or its sign"),
+    "coupling about z": (
+        ("? -1 : (2 - phi)", "? -1 : (i == 2 ? -1 : 1) * (2 - phi)"),
+        "tip force along y: exact with one element and not with four", "a coupling of its nodes, or its sign"),
+    "torsion": (
+        ("GI = c->shear_modulus", "GI = 1.01 * c->shear_modulus"),
+        "pure torsion: 0.99 % with one element and 0.99 % with four", "(G It?)"),
+    "no shear": (
+        ("? 12 : 0;", "? 0 : 0;"),
+        "constant shear along y, short:", "(G A with its shear factor, E Iz?)"),
+    "length": (
+        ("c->young * c->A / l;", "c->young * c->A * l;"),
+        "stretch:", "(E A?)"),
+}
+
 # Declares more than it has, where it is asked for.
 FOURTH = """static element_order fourth(element_analysis a, const double options[])
 {
@@ -201,6 +226,13 @@ class Planted(Tested):
     def test_each_of_a_force_is_told(self):
         self.told("corotational.c", FORCE_FAULTS)
 
+    def test_each_that_structures_show_is_told(self):
+        self.told("corotational.c", CLASSIC)
+        out = " ".join(self.answered("element-test", "-q", "--element", self.folder / "mine.so", code=1).stdout.split())
+        self.assertIn("VIOLATED", out)
+        self.assertIn("measured: 1 state with a wrong limit", out)
+        self.assertIn("stretch: 1", out)
+
 
     def test_linear(self):
         """A formulation is asked for what it offers: strains of first order are right where no large rotations are."""
@@ -224,7 +256,7 @@ class Planted(Tested):
 
 
 class Measured(Tested):
-    """What comes out of whole structures is printed as it is, and breaks nothing."""
+    """What comes out of whole structures is printed as it is; a wrong limit is a violation."""
 
     def measured(self, *changes, code=0):
         one = self.certificate(self.compiled("timoshenko.c", *changes), code)
@@ -243,14 +275,15 @@ class Measured(Tested):
         self.assertIn("not offered: warping", found["torsion, warping held"]["words"])
 
     def test_torsion_constant(self):
-        found = self.measured(("c->shear_modulus * c->It / l3", "c->shear_modulus * c->Ip / l3"))
+        found = self.measured(("c->shear_modulus * c->It / l3", "c->shear_modulus * c->Ip / l3"), code=1)
         wrong = [name for name, m in found.items() if m["error"] if abs(m["error"][0]) > 0.2
                  and m["name"].startswith("pure")]
         self.assertEqual(wrong, ["pure torsion"])
         self.assertEqual([name for name, m in found.items() if m["wrong_limit"]], wrong)
         self.assertIn("a stiffness of the section is wrong (G It?)", found[wrong[0]]["words"])
-        out = self.answered("element-test", "--element", self.folder / "mine.so").stdout
+        out = self.answered("element-test", "--element", self.folder / "mine.so", code=1).stdout
         self.assertIn("measured: 1 state with a wrong limit", out)
+        self.assertIn("a stiffness of the section is wrong (G It?)", " ".join(out.split()))
 
     def test_units(self):
         made = self.compiled("timoshenko.c", ("out->stiffness, one, sizeof one);",
@@ -271,7 +304,7 @@ class Measured(Tested):
 
     def test_constant_shear(self):
         """Half of the shear flexibility along y."""
-        found = self.measured(("shear * c->F[0]", "shear / 2 * c->F[0]"))
+        found = self.measured(("shear * c->F[0]", "shear / 2 * c->F[0]"), code=1)
         self.assertLess(found["constant shear along y, short"]["error"][0], -0.05)
         self.assertLess(abs(found["constant shear along z, short"]["error"][0]), 1e-9)
 
