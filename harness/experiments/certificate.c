@@ -331,7 +331,7 @@ static void write_measures(FILE *to, screen look, const certificate *c, int part
         first = own->measures.measure[i].points > first->points ? &own->measures.measure[i] : first;
     for (int i = 0; i < first->points; i++)
         fprintf(to, part == CHECKS_FAMILIES + 1 ? " %*.0e" : " %*.0f", COLUMN - 1, first->at[i]);
-    fprintf(to, "%s\n", part == CHECKS_FAMILIES + 2 ? "  order (declared)" : "");
+    fprintf(to, "%s\n", part == CHECKS_FAMILIES + 2 ? "  order (decl.)" : "");
     if (own->measures.count == 0 && own->claims.count == 1 && c->late != NULL)
         paragraph_write(to, fprintf(to, "    "), 4, own->claims.claim[0].sentence);
     for (int i = 0; i < own->measures.count; i++)
