@@ -251,3 +251,13 @@ status coordinates_number(model *m, fault *f)
         index_element(m, &m->mesh.discrete[i].el);
     return note_left_out(m, &of, f);
 }
+
+void model_words_put(model_words *w, const char *format, ...)
+{
+    va_list arguments;
+    if (w->used >= w->room)
+        return;
+    va_start(arguments, format);
+    w->used += (size_t)vsnprintf(w->text + w->used, w->room - w->used, format, arguments);
+    va_end(arguments);
+}

@@ -1,7 +1,6 @@
 #include "harness/model/model_impl.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -134,39 +133,25 @@ int division_at(const division *d, int member, double place, int before, double 
 
 enum { MOST_NAMES = 4, MOST_PLACES = 8 };
 
-typedef struct words {
-    char *text;
-    size_t room, used;
-} words;
-
-__attribute__((format(printf, 2, 3))) static void put(words *w, const char *format, ...)
-{
-    va_list arguments;
-    if (w->used >= w->room)
-        return;
-    va_start(arguments, format);
-    w->used += (size_t)vsnprintf(w->text + w->used, w->room - w->used, format, arguments);
-    va_end(arguments);
-}
-
-static void put_member(words *w, const scene *s, const division *d, int member)
+static void put_member(model_words *w, const scene *s, const division *d, int member)
 {
     const int pieces = division_pieces(d, member);
     const double *place = &d->place[d->first[member] + member];
-    put(w, "%s%s has ", w->used > 0 ? "; " : "", scene_name(s, SCENE_MEMBERS, member).text);
+    model_words_put(w, "%s%s has ", w->used > 0 ? "; " : "",
+                    scene_name(s, SCENE_MEMBERS, member).text);
     if (d->each[member] == 0)
-        put(w, "n elements ");
+        model_words_put(w, "n elements ");
     else
-        put(w, "%d elements, %d ", division_elements(d, member), d->each[member]);
-    put(w, "in each of %d pieces: its loads begin, end or act at", pieces);
+        model_words_put(w, "%d elements, %d ", division_elements(d, member), d->each[member]);
+    model_words_put(w, "in each of %d pieces: its loads begin, end or act at", pieces);
     for (int i = 1; i < pieces && i <= MOST_PLACES; i++)
-        put(w, "%s %.6g", i > 1 ? "," : "", place[i]);
-    put(w, "%s of its length", pieces - 1 > MOST_PLACES ? ", .." : "");
+        model_words_put(w, "%s %.6g", i > 1 ? "," : "", place[i]);
+    model_words_put(w, "%s of its length", pieces - 1 > MOST_PLACES ? ", .." : "");
 }
 
 void division_words(const scene *s, int elements, char *text, size_t room)
 {
-    words w = {text, room, 0};
+    model_words w = {text, room, 0};
     division d = {0};
     int more = 0;
     text[0] = '\0';
@@ -180,7 +165,7 @@ void division_words(const scene *s, int elements, char *text, size_t room)
                 more++;
         }
     if (more > 0)
-        put(&w, "; and %d more members", more);
+        model_words_put(&w, "; and %d more members", more);
     division_free(&d);
 }
 

@@ -2,7 +2,6 @@
 #include "harness/model/model_impl.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -254,29 +253,14 @@ void missing_omit(section *c, unsigned omits)
 
 enum { MOST_NAMES = 6 };
 
-typedef struct nodes_words {
-    char *text;
-    size_t room, used;
-} nodes_words;
-
-__attribute__((format(printf, 2, 3))) static void put(nodes_words *w, const char *format, ...)
-{
-    va_list arguments;
-    if (w->used >= w->room)
-        return;
-    va_start(arguments, format);
-    w->used += (size_t)vsnprintf(w->text + w->used, w->room - w->used, format, arguments);
-    va_end(arguments);
-}
-
-static void put_loads(nodes_words *w, const scene *s)
+static void put_loads(model_words *w, const scene *s)
 {
     int count = 0;
     for (int i = 0; i < s->loads; i++)
         if (s->load[i].lumped && ++count <= MOST_NAMES)
-            put(w, "%s%s", count > 1 ? ", " : "", scene_called(s, SCENE_LOADS, i).text);
+            model_words_put(w, "%s%s", count > 1 ? ", " : "", scene_called(s, SCENE_LOADS, i).text);
     if (count > MOST_NAMES)
-        put(w, " and %d more", count - MOST_NAMES);
+        model_words_put(w, " and %d more", count - MOST_NAMES);
 }
 
 static int is_heavy(const scene *s)
@@ -310,7 +294,7 @@ static int is_lumped(const scene *s, const scene_analysis *a)
                          a->kind == SCENE_ROTATION || scene_rotates(a));
 }
 
-static int put_masses(nodes_words *w, const scene *s, const element_type *type,
+static int put_masses(model_words *w, const scene *s, const element_type *type,
                       const double options[])
 {
     int count = 0;
@@ -319,44 +303,47 @@ static int put_masses(nodes_words *w, const scene *s, const element_type *type,
         const int motion = a->kind == SCENE_MOTION && !features_spreads(s, i, type, options);
         if (!motion && !is_lumped(s, a))
             continue;
-        put(w, "%smass%s of %s",
-            count++ > 0   ? ", "
-            : w->used > 0 ? "; "
-                          : "",
-            motion ? goes_with(s, scene_motion_of(a)) : "",
-            scene_called(s, SCENE_ANALYSES, i).text);
+        model_words_put(w, "%smass%s of %s",
+                        count++ > 0   ? ", "
+                        : w->used > 0 ? "; "
+                                      : "",
+                        motion ? goes_with(s, scene_motion_of(a)) : "",
+                        scene_called(s, SCENE_ANALYSES, i).text);
     }
     return count;
 }
 
-static void put_foundations(nodes_words *w, const scene *s)
+static void put_foundations(model_words *w, const scene *s)
 {
     int count = 0;
     for (int i = 0; i < s->members; i++)
         if (scene_is_founded(&s->member[i]) && ++count <= MOST_NAMES)
-            put(w, "%s%s",
-                count > 1     ? ", "
-                : w->used > 0 ? "; foundation of "
-                              : "foundation of ",
-                scene_called(s, SCENE_MEMBERS, i).text);
+            model_words_put(w, "%s%s",
+                            count > 1     ? ", "
+                            : w->used > 0 ? "; foundation of "
+                                          : "foundation of ",
+                            scene_called(s, SCENE_MEMBERS, i).text);
     if (count > MOST_NAMES)
-        put(w, " and %d more", count - MOST_NAMES);
+        model_words_put(w, " and %d more", count - MOST_NAMES);
     if (count > 0)
-        put(w, ": springs at nodes, weighted along each member, of order 4 in bending from 6 "
+        model_words_put(
+            w, ": springs at nodes, weighted along each member, of order 4 in bending from 6 "
                "elements on, of 2 below; internal forces jump there");
 }
 
 void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
               size_t room)
 {
-    nodes_words w = {text, room, 0};
+    model_words w = {text, room, 0};
     text[0] = '\0';
     put_loads(&w, s);
     if (w.used > 0)
-        put(&w, ": half of an element's at both its nodes, of order 2 in its length (at three "
+        model_words_put(
+            &w, ": half of an element's at both its nodes, of order 2 in its length (at three "
                 "nodes 1/6, 4/6, 1/6, of order 4)");
     if (is_heavy(s) && put_masses(&w, s, type, options) > 0)
-        put(&w, ": at nodes, weighted along each member, of order 4 in slender bending from 6 "
+        model_words_put(
+            &w, ": at nodes, weighted along each member, of order 4 in slender bending from 6 "
                 "elements on, of 2 with shear, stretch and twist (at three nodes 1/6, 4/6, 1/6, "
                 "of order 4)");
     put_foundations(&w, s);

@@ -64,6 +64,11 @@ status coordinates_number(model *m, fault *f);
 status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* matrix_pattern.c */
+/* coordinates.c: text with room for that many characters; what does not fit is cut off. */
+typedef struct model_words {
+    char *text;
+    size_t room, used;
+} model_words;
+void model_words_put(model_words *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif
