@@ -348,15 +348,10 @@ void write_analyses(writer *w)
 static void write_end(writer *w, const void *entry)
 {
     const scene_quantity *q = entry;
-    double place = 0;
-    if (q->what.kind == SCENE_INTERNAL && scene_internal_of(q)->along != SCENE_ALONG_PLACE)
+    const int internal = q->what.kind == SCENE_INTERNAL;
+    if (internal && scene_internal_of(q)->along != SCENE_ALONG_PLACE)
         return;
-    if (q->what.kind == SCENE_INTERNAL)
-        place = scene_internal_of(q)->place;
-    else if (q->what.kind == SCENE_DEFLECTION)
-        place = q->what.of.deflection.place;
-    else
-        place = q->what.of.reading.component[1]; /* of a hinge */
+    const double place = internal ? scene_internal_of(q)->place : q->what.of.deflection.place;
     if (place == 0 || place == 1) {
         write_values_key(w, "end");
         write_values_word(w, "from|to", place == 1);
@@ -455,6 +450,8 @@ void write_quantities(writer *w)
 {
     static const write_own own[] = {{"internal.end", write_end},
                                     {"internal.where", write_where},
+                                    {"deflection.end", write_end},
+                                    {"deflection.where", write_where},
                                     {"stress.where", write_where},
                                     {"internal.side", write_side},
                                     {"stress.side", write_side},

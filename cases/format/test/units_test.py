@@ -57,6 +57,7 @@ quantities:
   there: {stress: {analysis: path, member: ab, where: 0.5}}
   force: {reaction: {analysis: path, node: a, component: ux}}
   within: {internal: {analysis: path, member: ab, end: from, resultant: N}}
+  bent: {deflection: {analysis: path, member: ab, end: from, component: rz}}
   turned: {hinge: {analysis: path, member: bc, end: from, component: rz}}
   k: {stiffness: {analysis: still, component: ux}}
   c: {compliance: {analysis: still, row: ux, column: ux}}
