@@ -10,8 +10,8 @@
 #include "harness/numerics/numerics.h"
 
 /* Eigenpairs of largest size of a real operator without symmetry: the operator projected on a
- * growing orthonormal basis (Arnoldi).  No inertia counts them: when the wanted ones
- * have converged, start vectors are added until one brings no value that is as large. */
+ * growing orthonormal basis (Arnoldi). Their number is not known from an inertia. Therefore, after
+ * the wanted ones have converged, start vectors are added until one gives no value of that size. */
 
 typedef struct arnoldi_problem {
     int n, wanted;
@@ -20,8 +20,8 @@ typedef struct arnoldi_problem {
 } arnoldi_problem;
 
 typedef struct arnoldi_result {
-    int count; /* fewer than wanted when no more are larger than rounding; one more where
-                  the last one is the first of a conjugate pair */
+    int count; /* fewer than wanted if no others are larger than round-off; one more if the last one
+                  is the first of a conjugate pair */
     double complex *theta; /* [count] largest size first, conjugates one after the other */
     double complex *mode;  /* [count x n] of length 1 */
     double *residual;      /* [count] |T x - theta x|/|theta| */
@@ -43,25 +43,25 @@ status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 
 /* Matrices of small motions about all solutions. */
 
-/* Matrices about the undeformed structure, every station that was reached of every path, and the
- * loaded states of modal analyses. */
+/* Matrices about the undeformed structure, every computed station of every path, and the loaded
+ * states of modal analyses. */
 status collect_systems(const analysis_context *, system_matrices *, fault *);
 
 /* Compliance and stiffness of a node in a deformed state. */
 
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
-/* Compliances along a path, taken while it is walked: where Newton's last correction changes the
- * tangent by less than its rounding, the last tangent is that of the station, and no other one is
- * made; one is made at once where members are condensed. */
+/* Compliances along a path, computed during the path. If Newton's last correction changes the
+ * tangent by less than its round-off, the last tangent is used for the station and no other one is
+ * computed. If members are condensed, one is computed immediately. */
 
 typedef struct compliance_walk compliance_walk;
 
-/* Begins the compliances of all analyses about states of `path`; *out NULL: no analysis follows it.
- */
+/* Starts the compliances of all analyses about states of `path`; *out NULL: no analysis follows the
+ * path. */
 status compliance_walk_begin(newton_run *, int path, compliance_walk **out, fault *);
-/* Newton's method has reached the station. The analysis itself computes what is not available now.
- * w NULL: no analysis follows. FAULT: out of memory. */
+/* To be called when Newton's method has reached the station. The analysis computes later what is
+ * not available now. w NULL: no analysis follows. FAULT: out of memory. */
 status compliance_walk_take(compliance_walk *w, const newton_run *, int station, fault *);
 void compliance_walk_end(compliance_walk *);
 
@@ -71,69 +71,69 @@ status continuation_analysis(analysis_context *, int analysis, analysis_outcome 
 
 /* Quantities of a continued path. */
 
-/* Curves and critical points; 0: the quantity is something else. */
+/* Curves and critical points; 0: another quantity. */
 int continuation_extract(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                          quantity_result *);
-/* A curve of coordinates is wanted: the states of all points are kept for it. */
+/* 1: a curve of coordinates is requested, so the states of all points are kept. */
 int continuation_extract_keeps_states(const scene *, int analysis);
 
 /* Small motions x exp(s t) about a state whose stiffness is not symmetric: (s^2 M + s C + K) x = 0,
  * M symmetric and positive semidefinite, C of damping or absent.
  *
  * The least s are the largest 1/s^2 of -K^-1 M, or with C the largest 1/s of its companion with the
- * rates of coordinates with mass.  Massless coordinates are zeros of these and no motion. */
+ * rates of coordinates with mass. Massless coordinates give zero values, which are not motions. */
 
 typedef struct unsymmetric_problem {
-    const sparse *K, *M, *C; /* same pattern; C NULL: nothing is damped */
+    const sparse *K, *M, *C; /* same pattern; C NULL: no damping */
     matrix_factor *K_factor; /* factor_numeric done */
     int wanted;              /* least motions */
-    int estimate;            /* 1: errors are wanted: twice the work */
-    int decaying;            /* 1: with C also motions that decay without oscillation */
-    const sparse *B;         /* of what moves inside the elements, with C; NULL: nothing does */
-    double mass, stiffness;  /* proportional damping of C, which that has too [1/s], [s] */
+    int estimate;            /* 1: estimate errors, which doubles the work */
+    int decaying;            /* 1: with C, also motions that decay without oscillation */
+    const sparse *B;         /* mass of internal motions of the elements, with C; NULL: none */
+    double mass, stiffness;  /* proportional damping that C contains [1/s], [s] */
 } unsymmetric_problem;
 
-/* s = growth + i frequency, ascending in size.  Without damping both motions of a flutter are
- * there, which have one frequency and opposite rates; of a divergence the growing one.  With
- * damping every motion that oscillates, and those that grow without. */
+/* s = growth + i frequency, ascending in size. Without damping it contains both motions of a
+ * flutter (same frequency, opposite growth rates) and the growing motion of a divergence; with
+ * damping every oscillating motion, and every growing one. */
 typedef struct unsymmetric_result {
     int n, count;
-    double *frequency, *growth; /* [count] [rad/s], [1/s]; growth 0: below what rounding makes of a
-                                   double value */
+    double *frequency,
+        *growth;   /* [count] [rad/s], [1/s]; growth 0: below the round-off of a double value */
     double *split; /* [count] imaginary part of s^2 relative to its size; 1: divergence */
     double *error; /* [count] estimate of the rounding error, relative to |s| */
     double *mode;  /* [count x n] real */
     long solutions;
 } unsymmetric_result;
 
-/* A smaller imaginary part of s^2, relative to it, is rounding of a double value. */
+/* A smaller relative imaginary part of s^2 is round-off of a double value. */
 static const double unsymmetric_same = 1e-6;
 
 status unsymmetric_solve(const unsymmetric_problem *, unsymmetric_result *, fault *);
 void unsymmetric_free(unsymmetric_result *);
 
-/* Small motions and stability about states whose tangent is not symmetric: loads that follow, and
- * moments about fixed axes.  There stability is lost by divergence, where the tangent is singular,
- * or by flutter, where two frequencies meet; with damping of members where a motion grows. */
+/* Small motions and stability about states with an unsymmetric tangent (follower loads, moments
+ * about fixed axes). Stability is lost by divergence, where the tangent is singular, or by flutter,
+ * where two frequencies coincide; with damping of members, where a motion grows. */
 
 typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES } flutter_kind;
 
-/* Matrices of small motions about Newton's present state, whose K is factored. */
+/* Matrices of small motions about the current state of Newton's method; K is factored. */
 typedef struct flutter_system {
     sparse M, C;
-    int damped;   /* 1: C is that of members; else motions are those without damping */
-    int massless; /* 1: the structure has no mass; M is the metric, which knows no direction, so
-                     that double values stay real: only what diverges has a meaning */
+    int damped;   /* 1: C is the damping of members; 0: motions without damping */
+    int massless; /* 1: the structure has no mass, and M is the isotropic metric, which keeps double
+                     values real; only divergence is meaningful */
 } flutter_system;
 
 status flutter_system_alloc(const newton_run *, flutter_system *, fault *);
 void flutter_system_free(flutter_system *);
-/* The least `wanted` motions about the state. */
+/* The `wanted` smallest motions about the state. */
 status flutter_motions(const newton_run *, flutter_system *, int wanted, int estimate,
                        unsymmetric_result *, fault *);
 /* Moves frequencies, modes and errors to an outcome; values without digits become NaN. */
 void flutter_take(unsymmetric_result *from, outcome_side *to);
-/* Damping of the motions: "", "undamped" where members are damped and damped is 0, or "with the
+/* Damping of the motions: "", "undamped" if members have damping and damped is 0, or "with the
  * members' damping". */
 const char *flutter_damping(const scene *, int damped);
 /* Kind of the fastest growing motion, number *mode. */
@@ -149,34 +149,34 @@ typedef struct flutter_point {
     int massless;
     double *mode;
 } flutter_point;
-/* From the present path to `target`: static_walk. */
+/* From the current path to `target`: static_walk. */
 typedef status flutter_walk(newton_run *, double target, double *increment, fault *);
 status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *, fault *);
 
-/* Stability of states whose tangent is not symmetric: with mass by the frequencies of small motions
- * about them, without mass by the number of eigenvalues of the tangent that have passed zero. */
+/* Stability of states with an unsymmetric tangent: with mass from the frequencies of small motions,
+ * without mass from the number of eigenvalues of the tangent that have passed zero. */
 
-/* Workspace of one analysis; all members are zero at first. */
+/* Workspace of one analysis; initially all members are zero. */
 typedef struct flutter_judge {
     int begun;
-    newton_run n; /* with a tangent of all coordinates, which that of a path need not have */
+    newton_run n; /* with a tangent of all coordinates, which the tangent of a path may not have */
     flutter_system of;
 } flutter_judge;
 
-/* Writes the stability into the record of the step that ended at the state; unknown: STEP_OPEN. The
- * work is not counted. */
+/* Stores the stability in the record of the step that ended at the state; unknown: STEP_OPEN. Not
+ * counted as work. */
 status flutter_judge_state(flutter_judge *, analysis_context *, const model_state *, step_record *,
                            fault *);
-/* The same of the state that j->n has; negative_pivots of the record become those of the state, -1:
- * not symmetric, or singular. */
+/* The same for the state of j->n; negative_pivots of the record become those of the state, -1: not
+ * symmetric, or singular. */
 status flutter_judge_begin(flutter_judge *, analysis_context *, fault *);
 void flutter_judge_free(flutter_judge *);
 
-/* Replacement of the count of negative pivots where a tangent K is not symmetric: the eigenvalues
- * next to zero of D^-1 K, D the metric, and the number of those left of the imaginary axis. That
- * number changes where one passes zero, which is a critical point, and where a pair crosses the
- * imaginary axis away from zero, which is not one. Pairs that meet on the real axis do not change
- * it, nor does rounding that turns a double value into a pair. A symmetric K has as many of them as
+/* Replaces the count of negative pivots for an unsymmetric tangent K: the eigenvalues of D^-1 K
+ * nearest to zero (D: the metric), and the number of those left of the imaginary axis. This number
+ * changes at a critical point, where one passes zero, and where a pair crosses the imaginary axis
+ * away from zero, which is not a critical point. Pairs that meet on the real axis do not change it,
+ * nor does rounding that turns a double value into a pair. A symmetric K has as many of them as
  * negative pivots. */
 
 enum { LEFT_NEAREST = 6 };
@@ -184,21 +184,23 @@ enum { LEFT_NEAREST = 6 };
 typedef struct left_of_axis {
     int count; /* -1: not known */
     int nearest;
-    double complex mu[LEFT_NEAREST]; /* [nearest] next to zero, least size first */
+    double complex mu[LEFT_NEAREST]; /* [nearest] nearest to zero, smallest first */
     long solutions;
 } left_of_axis;
 
 /* K factored, [n]; weight [n] of the metric. */
 status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *, fault *);
 
-/* Continuation of equilibrium paths under proportional loads, inside of its files.
+/* Continuation of equilibrium paths under proportional loads: private declarations.
  *
- * The load factor is one more unknown and one coordinate, or the arc, is given instead:
+ * The load factor is an additional unknown, and one coordinate or the arc length is prescribed
+ * instead:
  *   K dx = r + f' dl,  g . dx = c,  hence dx = K^-1 r + dl K^-1 f',
  *   dl = (c - g . K^-1 r)/(g . K^-1 f').
- * K as it was factored last on the way to a point gives the tangent of the path there, the first
- * direction of the next step and, where K is symmetric, the number of its negative eigenvalues: the
- * last correction is at most the criterion, and so is, but for a factor, what K has changed by. */
+ * The last factored K before a point gives the tangent of the path there, the first
+ * direction of the next step and, if K is symmetric, the number of its negative eigenvalues. This
+ * is accurate enough, because the last correction is at most the criterion, and the change of K is
+ * proportional to it. */
 
 /* A point of the path. */
 typedef struct path_point {
@@ -206,14 +208,13 @@ typedef struct path_point {
     double rate;            /* dfactor/ds with s in the model's metric */
     double *tangent;        /* [free + driven] dx/ds */
     int symmetric;
-    int negative; /* negative pivots of K, or what left_count counts in their place; -1: not known
-                   */
+    int negative;    /* negative pivots of K, or the replacement from left_count; -1: not known */
     int determinant; /* sign of det K */
-    double least;    /* eigenvalue of K of least size, its real part where K is not
-                        symmetric; NAN: not needed */
+    double
+        least; /* smallest eigenvalue of K, its real part if K is not symmetric; NAN: not needed */
     int nearest;
-    double complex mu[LEFT_NEAREST]; /* [nearest] eigenvalues next to zero, least size first, where
-                                        K is not symmetric */
+    double complex mu[LEFT_NEAREST]; /* [nearest] eigenvalues nearest to zero, smallest first, if K
+                                        is not symmetric */
 } path_point;
 
 /* Goal of a step: a value of the control coordinate, or an arc length. */
@@ -227,23 +228,24 @@ typedef struct continuation {
     const scene_control *by;
     const scene_path *path;
     outcome_continuation *o;
-    int analysis, room; /* room: for points in the outcome */
-    int asks_critical;  /* 1: a quantity asks for critical points */
+    int analysis, room; /* room: capacity for points in the outcome */
+    int asks_critical;  /* 1: a quantity requests critical points */
     int keeps_states;   /* 1: the outcome keeps the state of every point */
     newton_run n;       /* n.backup: state at the start of the step */
     flutter_judge judge;
-    model_state *end; /* of the step, while a critical point inside it is sought */
+    model_state
+        *end; /* state at the end of the step, during the search for a critical point within it */
     double *weight;   /* [free + driven] the metric */
     double *load;     /* [free + driven] f' */
     double *response; /* [free + driven] K^-1 f' */
     double *moved;    /* [free + driven] sum of the increments of the step */
     double *mode;     /* [free + driven] null vector */
-    path_goal goal;   /* of the step that is iterated */
+    path_goal goal;   /* of the current step */
     path_point here, next, trial;
     int first;    /* negative pivots at the start */
-    int narrow;   /* 1: a change of stability was located as closely as possible */
-    int doubtful; /* 1: not known whether the step has critical points */
-    int looked;   /* 1: n.dx, response and the factors belong to the present state */
+    int narrow;   /* 1: a change of stability has been located as closely as possible */
+    int doubtful; /* 1: it is not known whether the step has critical points */
+    int looked;   /* 1: n.dx, response and the factors belong to the current state */
 } continuation;
 
 status continuation_step_alloc(analysis_context *, int analysis, outcome_continuation *,
@@ -255,21 +257,21 @@ double continuation_step_dot(const continuation *, const double a[],
 /* Newton's method to the goal from n.backup = the state of `here`; the arc is measured along its
  * tangent. */
 status continuation_step_correct(continuation *, path_goal, step_record *, fault *);
-/* The same from the present state, to which the last one led. */
+/* The same from the current state, the result of the previous iteration. */
 status continuation_step_go_on(continuation *, path_goal, step_record *, fault *);
-/* Factors K in the present state and fills the point; its tangent goes the way of along[free +
+/* Factors K in the current state and fills the point; the direction of its tangent is along[free +
  * driven] (NULL: to a larger load). */
 status continuation_step_look(continuation *, const double along[], path_point *, step_record *,
                               fault *);
-/* After a correction that has converged: the point from the last factors, which belong to a state
- * that is away by the last correction; nothing is left to correct. */
+/* After a converged correction: fills the point from the last factors, which belong to the state
+ * before this correction; no further correction is made. */
 status continuation_step_end(continuation *, path_point *, const step_record *, fault *);
 /* Restores the state of `here`. */
 void continuation_step_go_back(continuation *);
 
-/* continuation.c: why the step from `here` to `next` is too long or led to another branch;
- * NULL: sound. *swing: how much it turns relative to what is allowed. last_resort: several critical
- * points may lie in one step, as it cannot be shorter. */
+/* continuation.c: reason why the step from `here` to `next` is too long or led to another branch;
+ * NULL: valid. *swing: rotation of the path relative to its limit. last_resort: the step cannot be
+ * shorter, so several critical points may lie in it. */
 const char *continuation_sound_doubt(const continuation *, int last_resort, double *swing);
 
 /* End of a step that may lie on another branch. */
@@ -278,42 +280,41 @@ typedef struct rival {
     double factor;
 } rival;
 
-/* Reports a jump: the step from the control coordinate `from` had led to the rival, but the path
- * leads to `here`. With constant steps the path ends. */
+/* Reports a jump: the step from the control coordinate `from` led to the rival, but the path leads
+ * to `here`. With constant steps the path ends there. */
 status continuation_sound_report_jump(continuation *, const rival *, double from, fault *);
 
 /* continuation_critical.c: the critical points between `here` and `next`, if any, become events.
  * The step was found with the goal. *jump: 1 when the tangent stiffness changes its inertia without
  * a critical point, which is another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
-/* Where critical points are requested: *hidden 1 when something changes within the step and back,
- * as far as that lasts a fifth of it. */
+/* If critical points are requested: *hidden 1 if something changes and changes back within the
+ * step, provided that this interval is at least a fifth of the step. */
 status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
 /* Quantities of a scene from the outcomes of its analyses. */
 
 void extract_quantity(const analysis_context *, const scene_quantity *, quantity_result *);
 
-/* Quantities of a path: at a station, the largest or least of all, or as a curve. */
+/* Quantities of a path: at a station, the maximum or minimum over all stations, or a curve. */
 
-/* No value: the path ends before the stations that the quantity needs. */
+/* Sets no value: the path ends before the stations that the quantity needs. */
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                   quantity_result *);
 
-/* The spectrum that the quantity is, of count values a step apart [s] in its units. */
+/* The spectrum for the quantity, from `count` values at constant steps [s] in its units. */
 void spectrum_take(const scene_quantity *, int count, double step, const double value[],
                    quantity_result *);
 
-/* Is a station of the path[stations] of an analysis one that some quantity other than a curve is
- * taken at? */
+/* 1: some quantity other than a curve is evaluated at this station of the path[stations]. */
 int extract_path_asks(const analysis_context *, int analysis, int stations, const double path[],
                       int station);
-/* The same, or are all stations wanted? */
+/* The same, or 1 if all stations are needed. */
 int extract_path_wants(const analysis_context *, int analysis, int stations, const double path[],
                        int station);
-/* Is more of the state at a station read than the motion of nodes: resultants, reactions, shapes,
- * matrices, or what an analysis that follows begins with? Compliances that were taken on the way
- * ask for nothing more. */
+/* 1: more of the state at a station is needed than the motion of nodes: resultants, reactions,
+ * shapes, matrices, or the start of a following analysis. Compliances that were computed during the
+ * path do not need more. */
 int extract_path_whole(const analysis_context *, int analysis, int station);
 
 /* Quantities of eigenvalues: critical loads and frequencies. */
@@ -327,9 +328,8 @@ void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
 /* Checks whether stability is lost and regained within a step of a static path: the state is
  * examined after every sixth of the step, so that an interval of a fifth of it is noticed. */
 
-/* The step led from one state to the other. *found: path of a part of it whose stability is not
- * between those of the ends; INFINITY: there is none that could be reached. It is not counted as
- * work. */
+/* The step led from one state to the other. *found: a path value within the step with a stability
+ * that is not between those of the ends; INFINITY: none was found. Not counted as work. */
 status within_step(flutter_judge *, analysis_context *, const model_state *from,
                    const model_state *to, double *found, fault *);
 
@@ -337,8 +337,8 @@ status within_step(flutter_judge *, analysis_context *, const model_state *from,
 
 status linear_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
-/* Small motions and stability about a loaded, deformed state: the last one of the static path that
- * an analysis follows. */
+/* Small motions and stability about a loaded, deformed state: the last state of the followed static
+ * path. */
 
 /* Natural frequencies: M x = (1/omega^2) K x with tangent K and mass M of the deformed state. */
 status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
@@ -350,7 +350,7 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
 /* Natural frequencies about the undeformed state. */
 
 status modal_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* How many modes the quantities of an analysis ask for. */
+/* Number of modes that the quantities of an analysis request. */
 int modal_wanted(const analysis_context *, int analysis);
 
 /* Steady vibration by frequency: D(w) x = f with the dynamic stiffness D (harmonic.c). */
@@ -373,7 +373,7 @@ typedef struct vibration {
     double complex *found, *left;  /* [quantities x all], [quantities x free] */
     double complex *output, *dual; /* [all] */
     double *room;                  /* [model_stresses + all] */
-    harmonic_modes *modes; /* NULL: the solution is direct, and no mode has a damping ratio */
+    harmonic_modes *modes;         /* NULL: direct solution without modal damping */
 } vibration;
 
 /* Entry k of K, M, ... in D. */
@@ -383,17 +383,17 @@ double complex harmonic_dynamic(const vibration *, double w, int k);
 
 status harmonic_modes_find(vibration *, fault *);
 void harmonic_modes_free(harmonic_modes *);
-/* Modes that damping ratios damp: C + U U^T with U [count x free]. */
+/* Modes with damping ratios: C + U U^T with U [count x free]. */
 int harmonic_modes_damped(const harmonic_modes *, const double **U);
-/* U^T of the displacements that a unit motion of the driven coordinate makes at rest, [count]. */
+/* U^T of the displacements due to a unit displacement of the driven coordinate at rest, [count]. */
 void harmonic_modes_carried(const vibration *, int driven, double out[]);
 /* The static shapes of inputs and outputs, and the projected matrices. f: [count x free] forces. */
 status harmonic_modes_project(vibration *, int count, const double f[], fault *);
-/* Factors D at a frequency; SINGULAR as a direct solution. */
+/* Factors D at a frequency; SINGULAR as for a direct solution. */
 status harmonic_modes_factor(vibration *, double w, fault *);
-/* x [free] for the forces there; x becomes the solution, f what it leaves of the forces. */
+/* x [free]: forces, replaced by the solution; f: residual of the forces. */
 void harmonic_modes_solve(vibration *, double complex f[], double complex x[]);
-/* Bound of |o^T (x - D^-1 f)|, from what the solutions for f and o leave; INFINITY: none. */
+/* Bound of |o^T (x - D^-1 f)| from the residuals of the solutions for f and o; INFINITY: none. */
 double harmonic_modes_bound(vibration *, const double complex left_of_f[],
                             const double complex left_of_o[]);
 
@@ -404,15 +404,14 @@ status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault 
 /* Stationary rotation and small motions about it. */
 
 status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Enters the stability of the stations, as the modes found show it, after the steps have been
- * evaluated. */
+/* Sets the stability of the stations from the modes found, after the steps have been evaluated. */
 void rotation_judge_stations(analysis_context *, int analysis, const analysis_outcome *);
 
 /* Nonlinear equilibrium along a path. */
 
 status static_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* From the present path to `target` in steps that halve when Newton fails and double when it is
- * easy; *increment: the first one, then the next. */
+/* From the current path to `target` in steps that are halved if Newton's method fails and doubled
+ * if it converges easily; *increment: the first step, then the next. */
 status static_walk(newton_run *, double target, double *increment, fault *);
 
 #endif

@@ -10,24 +10,25 @@
 
 enum { FIRST = 16, MORE = 12, MAX_STARTS = 5, MAX_VECTORS = 400 };
 
-/* Bounds of a residual: relative to the value, and to the largest one, whose rounding is in all. */
+/* Bounds of a residual: relative to the value, and to the largest one, whose round-off affects all.
+ */
 static const double good_residual = 1e-12, rounding_residual = 1e-14, stalled_residual = 1e-8,
                     bearable_residual = 1e-5;
-/* Relative distance below which values are the same. */
+/* Values with a smaller relative distance are equal. */
 static const double same = 1e-6;
-/* Relative size of what orthogonalisation leaves of a vector that lies in the basis. */
+/* Relative size of the remainder when a vector in the basis is orthogonalised. */
 static const double nothing = 1e-14;
 
 typedef struct solver {
     const arnoldi_problem *p;
     arnoldi_result *out;
-    int room, count, chain; /* vectors; the last one is of the present start when chain is 1 */
+    int room, count, chain; /* vectors; if chain is 1, the last one belongs to the current start */
     double *Q, *TQ, *H;     /* [room x n], [room x n], [room x room] Q^T T Q */
     double *work, *A, *z, *re, *im;
     int *order;
     unsigned long long seed;
-    int found;         /* of the Ritz values in order[] those that are no rounding */
-    double *last;      /* [wanted] sizes when they had converged the last time */
+    int found;         /* number of the Ritz values in order[] that are not round-off */
+    double *last;      /* [wanted] sizes when they last converged */
     double complex *x; /* [n] */
 } solver;
 
@@ -47,7 +48,7 @@ static void fill_start(solver *s, double x[])
     }
 }
 
-/* x less its part in the basis; the length of the rest by that of x. */
+/* Subtracts from x its part in the basis; returns the relative length of the remainder. */
 static double orthogonalise(const solver *s, double x[])
 {
     const int n = s->p->n;
@@ -61,7 +62,7 @@ static double orthogonalise(const solver *s, double x[])
     return before > 0 ? sqrt(dense_dot(n, x, x)) / before : 0;
 }
 
-/* Takes in x, which is orthogonal to the basis. */
+/* Adds x, which is orthogonal to the basis. */
 static void take(solver *s, double x[])
 {
     const int n = s->p->n, k = s->count++;
@@ -77,7 +78,8 @@ static void take(solver *s, double x[])
     }
 }
 
-/* One more vector: of the present chain, or where that ends a new start; 0: there is none. */
+/* Adds one vector: of the current chain, or a new start if the chain ends; 0: no other vector
+ * exists. */
 static int grow(solver *s)
 {
     const int n = s->p->n;
@@ -103,7 +105,7 @@ static double size_of(const solver *s, int i)
     return hypot(s->re[s->order[i]], s->im[s->order[i]]);
 }
 
-/* Largest first; conjugates stay neighbours, as LAPACK has them. */
+/* Sorts by decreasing size; conjugates stay neighbours, as in LAPACK. */
 static void sort(solver *s)
 {
     const int k = s->count;
@@ -173,7 +175,7 @@ static int converged(solver *s, double *worst)
     return good;
 }
 
-/* Did the last start bring a value that is as large as those wanted? */
+/* Did the last start give a value as large as those wanted? */
 static int changed(solver *s)
 {
     int different = 0;
@@ -185,7 +187,7 @@ static int changed(solver *s)
     return different;
 }
 
-/* Vectors until the pairs wanted have converged, or there are no more of use. */
+/* Adds vectors until the wanted pairs have converged, or no further vector is useful. */
 static status iterate(solver *s, int vectors, fault *f)
 {
     for (double best = INFINITY, worst;; vectors = s->count / 3 > MORE ? s->count / 3 : MORE) {

@@ -12,7 +12,7 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-/* States of one analysis that are kept; most: of a path. */
+/* Number of kept states of one analysis; most: limit per path. */
 static int count_of(const analysis_outcome *o, int most)
 {
     if (o->kind == SCENE_MOTION)
@@ -53,7 +53,7 @@ static void keep_motion(const analysis_context *c, int analysis, shapes *s)
         keep(c, s, &(shape_state){SHAPE_MOTION, analysis, o->value[i], 1}, o->state[i]);
 }
 
-/* x[free + driven]; the state the analysis is about is the last of the path it follows. */
+/* x[free + driven]; the analysis is about the last state of the path it follows. */
 static status keep_displaced(const analysis_context *c, shape_state *what, const double x[],
                              const double sigma[], shapes *s, fault *f)
 {
@@ -205,7 +205,7 @@ static void workspace_free(workspace *w)
     kinematics_state_free(w->state);
 }
 
-/* The next entry, which system_matrices_free frees whatever becomes of it. */
+/* The next entry; system_matrices_free frees it in every case. */
 static status next(system_matrices *s, state_matrices **out, fault *f)
 {
     if (s->states == s->room) {
@@ -221,7 +221,7 @@ static status next(system_matrices *s, state_matrices **out, fault *f)
     return STATUS_OK;
 }
 
-/* B: each load at factor 1, as it acts in the state. */
+/* B: each load at factor 1, as it acts in this state. */
 static status inputs(const analysis_context *c, const model_state *state, workspace *w,
                      triplets *out, fault *f)
 {
@@ -256,7 +256,7 @@ static status systems_keep(const analysis_context *c, const model_state *state, 
 }
 
 /* Stores the matrices of the undeformed structure. displaced: displacements of the linear solution
- * whose stresses count, under the loads at `path`; NULL: none. */
+ * that gives the stresses, under the loads at `path`; NULL: none. */
 static status systems_keep_linear(const analysis_context *c, int analysis, const double displaced[],
                                   double path, workspace *w, system_matrices *s, fault *f)
 {
@@ -307,7 +307,7 @@ static status systems_keep_path(const analysis_context *c, int analysis, workspa
     return STATUS_OK;
 }
 
-/* Without loads; strains that members have by themselves remain. */
+/* Without loads; strains without stress remain. */
 static status keep_unloaded(const analysis_context *c, int analysis, workspace *w,
                             system_matrices *s, fault *f)
 {
@@ -316,7 +316,7 @@ static status keep_unloaded(const analysis_context *c, int analysis, workspace *
     return systems_keep_linear(&unloaded, analysis, strained, 0, w, s, f);
 }
 
-/* About what the modal analysis follows. */
+/* About the state that the modal analysis follows. */
 static status keep_about(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {
@@ -331,7 +331,7 @@ static status keep_about(const analysis_context *c, int analysis, workspace *w, 
     return keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f);
 }
 
-/* Stores the matrices of a modal analysis and its modes; nothing where it failed. */
+/* Stores the matrices of a modal analysis and its modes; nothing if it failed. */
 static status keep_modal(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {

@@ -1,6 +1,6 @@
-/* Continuation of an equilibrium path by displacement or arc length. A step that turns too far, or
- * whose tangent stiffness changes more than one critical point explains, is walked again in smaller
- * ones; where that ends elsewhere, the step had jumped. */
+/* Continuation of an equilibrium path by displacement or arc length. A step is repeated in smaller
+ * ones if its rotation is too large, or if the tangent stiffness changes by more than one critical
+ * point. If the smaller steps end at another point, the step had jumped. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -9,14 +9,14 @@
 #include "harness/model/model.h"
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
-/* Swing that the next step is to have, of the largest allowed: the longest steps of which hardly
- * one in a hundred is rejected (measured on c_cantilever: 0.5 costs a tenth more, 0.85 as much). */
+/* Target rotation of the next step relative to its limit: the longest steps with a rejection rate
+ * below one in a hundred (measured on c_cantilever: 0.5 costs a tenth more, 0.85 as much). */
 static const double aim = 0.7;
 
-/* How an attempt ended. */
+/* Result of an attempt. */
 typedef struct attempt {
     const char *doubt; /* NULL: sound */
-    double swing;      /* relative to what is allowed */
+    double swing;      /* relative to its limit */
     step_record record;
 } attempt;
 
@@ -47,8 +47,8 @@ static status add_point(continuation *p, fault *f)
     return STATUS_OK;
 }
 
-/* Records whether the critical points of the step from `before` to `here` are decided, and the
- * eigenvalues that have passed zero so far where no inertia counts them. */
+/* Records whether the critical points of the step from `before` to `here` are decided and, without
+ * an inertia, the number of eigenvalues that have passed zero. */
 static void judge(continuation *p, const path_point *before, step_record *record)
 {
     outcome_continuation *o = p->o;
@@ -84,7 +84,7 @@ static status accept(continuation *p, step_record *record, fault *f)
     return history_add_step(p->c->result, record, f);
 }
 
-/* The first step goes where the control coordinate goes, with or against the load. */
+/* The first step follows the control coordinate, with or against the load. */
 static void turn_start(continuation *p)
 {
     if (p->o->points > 1 || continuation_step_dot(p, p->here.tangent, p->moved) >= 0)
@@ -94,8 +94,8 @@ static void turn_start(continuation *p)
         p->here.tangent[k] = -p->here.tangent[k];
 }
 
-/* Corrects the state and evaluates the point. Not sound: the state found may lie on another branch.
- * A step along the arc ends at the station that it would pass. */
+/* Corrects the state and evaluates the point. Not valid: the state found may be on another branch.
+ * A step along the arc ends at the next station. */
 static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
                        fault *f)
 {
@@ -148,8 +148,8 @@ static double length_left(const continuation *p, path_goal goal, double gone)
     return goal.by_arc ? goal.value - gone : fabs(goal.value - p->here.control);
 }
 
-/* The arc to a point depends on the steps to it: a rival that was not met so far may lie farther
- * along it. */
+/* The arc length to a point depends on the steps: a rival that has not been reached may be farther
+ * along the arc. */
 static int arrived(const continuation *p, path_goal goal, double station, const rival *r,
                    double gone, double nearest)
 {
@@ -159,7 +159,7 @@ static int arrived(const continuation *p, path_goal goal, double station, const 
                                                nearest <= goal.value / 2 || gone >= 3 * goal.value);
 }
 
-/* The next part of the way from the control coordinate `from` to the goal. */
+/* The next part of the step from the control coordinate `from` to the goal. */
 static path_goal part_of(const continuation *p, path_goal goal, double from, double length,
                          int last)
 {
@@ -308,10 +308,10 @@ status continuation_analysis(analysis_context *c, int analysis, analysis_outcome
     return result;
 }
 
-/* Checks whether a step stayed on its branch, and reports where it did not. */
+/* Checks whether a step stayed on its branch, and reports if not. */
 
-/* Between a tangent and the secant, in the metric [rad]: what the tangent misses of a step, as part
- * of it. Steps are chosen by it. */
+/* Limit of the angle between the tangent and the secant [rad] in the metric: the relative error of
+ * the tangent over a step. It controls the step size. */
 static const double largest_swing = 0.3;
 /* largest rotation of any node in one step [rad]: a guard for paths on which few nodes rotate.
  * Steps of a tenth of both limits lead to the same states and events in all runs of `verify`. */
@@ -334,8 +334,8 @@ const char *continuation_sound_doubt(const continuation *p, int last_resort, dou
         return "its direction changes too much";
     if (!(turned <= largest_turn))
         return "a node rotates too far";
-    /* A limit point changes the sign of the rate and of the determinant by one pivot; bifurcations
-     * only the latter, and may be several at one point. */
+    /* A limit point changes the sign of the rate and, by one pivot, of the determinant.
+     * Bifurcations change the determinant only; several may be at one point. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);
     if (!last_resort && reversed && (pivots > 1 || a->determinant == b->determinant))
         return "the pivots of its tangent stiffness change by more than one critical point "

@@ -1,5 +1,5 @@
-/* Critical points inside a step: where the tangent stiffness is singular, and what its null vector
- * phi says.
+/* Critical points within a step: points with a singular tangent stiffness. Its null vector phi
+ * gives their kind.
  *
  * Along a path K x' = f' l', so at a critical point 0 = phi . K x' = (phi . f') l': either the load
  * has an extremum (limit point) or its work on phi is zero (bifurcation). K need not be symmetric:
@@ -13,20 +13,23 @@
 #include "harness/model/model.h"
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 6, CORRECTIONS = 2 };
-static const double least_load_work = 1e-5; /* of a null vector that is not across the load */
-static const double closeness = 1e-10;      /* of a trial, relative to the step */
-static const double near = 1e-3;            /* of a vanishing eigenvalue, beside those before */
-static const double one_point = 1e-6;       /* nearer ones are one, relative to the step */
-static const double touches = 0.02;         /* least value beside those around it */
-static const double aside = 1e-3; /* real part of a pair that passes the axis beside zero */
+static const double least_load_work =
+    1e-5;                              /* of a null vector that is not orthogonal to the load */
+static const double closeness = 1e-10; /* of a trial, relative to the step */
+static const double near = 1e-3;       /* of a vanishing eigenvalue, relative to those before */
+static const double one_point =
+    1e-6; /* points at a smaller distance are one point, relative to the step */
+static const double touches = 0.02; /* smallest value relative to its neighbours */
+static const double aside =
+    1e-3; /* real part of a pair that crosses the imaginary axis near zero */
 
 /* One end of the interval in which the critical point lies. */
 typedef struct bound {
     double at, value; /* part of the step; test function, NAN: unknown */
 } bound;
 
-/* mode: left eigenvector of K with the eigenvalue of least size, which is returned; K is factored
- * in the present state. */
+/* mode: left eigenvector of K with its smallest eigenvalue, which is returned; K is factored in the
+ * current state. */
 static double least_eigenvalue(continuation *p)
 {
     double *x = p->mode, eigenvalue = NAN;
@@ -51,20 +54,20 @@ static double least_eigenvalue(continuation *p)
     return eigenvalue;
 }
 
-/* Returns the least eigenvalue at the point, where K is factored, or the real part of the
- * eigenvalue next to zero. */
+/* Returns the smallest eigenvalue at the point, where K is factored, or the real part of the
+ * eigenvalue nearest to zero. */
 static double least_of(continuation *p, const path_point *at)
 {
     return at->symmetric ? least_eigenvalue(p) : at->least;
 }
 
-/* Is what is next to zero a pair whose real part vanishes beside its size? */
+/* Is the eigenvalue nearest to zero a pair with a negligible real part? */
 static int is_aside(const path_point *at)
 {
     return !at->symmetric && at->nearest > 0 && fabs(creal(at->mu[0])) < aside * cabs(at->mu[0]);
 }
 
-/* |phi . f'|/(|phi| |f'|), the lengths in the metric and in its dual. */
+/* |phi . f'|/(|phi| |f'|), with lengths in the metric and its dual. */
 static double load_work(continuation *p)
 {
     const double *load = p->load;
@@ -89,7 +92,7 @@ typedef struct sought {
     int negative; /* pivots there */
 } sought;
 
-/* Is what changes at the critical point still as it is at its beginning? */
+/* Has the indicator of the critical point still its value at the start? */
 static int is_before(const continuation *p, const sought *s)
 {
     if (s->by_rate)
@@ -99,7 +102,8 @@ static int is_before(const continuation *p, const sought *s)
     return p->trial.negative == s->negative;
 }
 
-/* The point at that part of the step; *before: 1 when it lies before the critical one. */
+/* Evaluates the point at this fraction of the step; *before: 1 if it lies before the critical
+ * point. */
 static status try_at(continuation *p, path_goal goal, const sought *s, bound *b, int *before,
                      fault *f)
 {
@@ -111,7 +115,7 @@ static status try_at(continuation *p, path_goal goal, const sought *s, bound *b,
     TRY(continuation_step_look(p, p->moved, &p->trial, &record, f));
     *before = is_before(p, s);
     b->value = s->by_rate ? p->trial.rate : least_of(p, &p->trial);
-    /* The least eigenvalue may be another one, whose sign does not concern this point. */
+    /* The smallest eigenvalue may be another one, whose sign is irrelevant here. */
     const int falls =
         p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > s->negative;
     if (!s->by_rate && (b->value > 0) != (*before == falls))
@@ -119,7 +123,7 @@ static status try_at(continuation *p, path_goal goal, const sought *s, bound *b,
     return STATUS_OK;
 }
 
-/* Secant with Illinois' weights where both values are known, else the middle. */
+/* Secant with Illinois weights if both values are known, otherwise the midpoint. */
 static double next_part(const bound *low, const bound *high)
 {
     const double width = high->at - low->at;
@@ -127,8 +131,8 @@ static double next_part(const bound *low, const bound *high)
     return isfinite(secant) && secant > low->at && secant < high->at ? secant : low->at + width / 2;
 }
 
-/* Narrows the interval; the state is then the critical point, up to rounding. *gone: the test
- * function has no zero; *after: part of the step after which the point was passed. */
+/* Narrows the interval; the final state is the critical point, up to round-off. *gone: the test
+ * function has no zero; *after: fraction of the step after the point. */
 static status locate(continuation *p, path_goal goal, const sought *s, int *gone, double *behind,
                      fault *f)
 {
@@ -142,7 +146,7 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
         int before = 0;
         const status outcome = try_at(p, goal, s, &trial, &before, f);
         at = trial.at;
-        const int at_it = i > 0 && value <= near * scale; /* where corrections are noise */
+        const int at_it = i > 0 && value <= near * scale; /* where corrections are round-off */
         if (outcome == STATUS_SINGULAR || (outcome == STATUS_NOT_CONVERGED && at_it))
             break;
         TRY(outcome);
@@ -164,13 +168,13 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
     *gone = best > near * scale;
     p->narrow = is_aside(&p->trial) || high.at - low.at <= closeness;
     if (!by_rate && !*gone && is_aside(&p->trial) && value > one_point * scale)
-        p->doubtful = 1; /* a pair beside zero, or a double value at it? */
+        p->doubtful = 1; /* a pair near zero, or a double value at zero? */
     *behind = fmax(high.at < 1 ? high.at : at, at);
     return STATUS_OK;
 }
 
-/* The pivots after the point, where all eigenvalues that vanish at it have passed zero; *at: part
- * of the step there. */
+/* The pivots after the point, where all eigenvalues that vanish there have passed zero; *at:
+ * fraction of the step there. */
 static status count_behind(continuation *p, path_goal goal, const sought *s, double *at,
                            int *negative, fault *f)
 {
@@ -193,8 +197,8 @@ static int is_pair(const continuation *p, const sought *s)
            p->next.negative >= 0;
 }
 
-/* A node that is fixed about some axes and free about others: its tangent has no part of the moment
- * that holds it, so that what passes beside zero may be what passes through it. */
+/* Is a node fixed about some axes and free about others? Its tangent does not contain the moment of
+ * the support, so a pair that passes near zero may really pass through zero. */
 static int holds_some_turns(const model *m)
 {
     const scene *s = model_scene(m);
@@ -208,7 +212,7 @@ static int holds_some_turns(const model *m)
     return 0;
 }
 
-/* Continues the search *s after the pair, which is no critical point. */
+/* Continues the search *s after the pair, which is not a critical point. */
 static status pass_pair(continuation *p, path_goal goal, sought *s, double behind, int *jump,
                         fault *f)
 {
@@ -253,7 +257,7 @@ static status report_critical(continuation *p, path_goal goal, sought *s, int *j
     return *jump ? STATUS_OK : history_add_event(p->c->result, &event, f);
 }
 
-/* All of them, in their order. */
+/* Reports all critical points in their order. */
 static status report_all(continuation *p, path_goal goal, int by_rate, int *jump, fault *f)
 {
     sought s = {by_rate, 0, p->here.negative};
@@ -263,8 +267,8 @@ static status report_all(continuation *p, path_goal goal, int by_rate, int *jump
     return STATUS_OK;
 }
 
-/* The part of the step becomes the trial point; its first one, or the next. Two corrections are
- * near enough to a state that is examined only. */
+/* Makes this fraction of the step the trial point (the first or the next). Two corrections are
+ * accurate enough for a state that is only examined. */
 static status look_at(continuation *p, path_goal goal, double part, int first, fault *f)
 {
     const path_goal to = part_of(p, goal, part);
@@ -281,8 +285,8 @@ static status look_at(continuation *p, path_goal goal, double part, int first, f
     return continuation_step_look(p, p->moved, &p->trial, &unused, f);
 }
 
-/* Does a parabola through three values at equal distances, of one sign, come to zero between
- * them, or so near that it could? */
+/* Does a parabola through three equidistant values of one sign reach zero between them, or nearly?
+ */
 static int dips(const double value[3])
 {
     const double sign = value[1] > 0 ? 1 : -1, bend = value[0] - 2 * value[1] + value[2],
@@ -293,7 +297,7 @@ static int dips(const double value[3])
                touches * fmax(fabs(value[0]), fabs(value[2]));
 }
 
-/* Does what a critical point changes go back on the way from a to b, where the step ends at c? */
+/* Does an indicator of a critical point change back between a and b, in a step that ends at c? */
 static int goes_back(const path_point *a, const path_point *b, const path_point *c)
 {
     const int of_rate = (a->rate < 0) == (c->rate < 0) && (b->rate < 0) != (c->rate < 0);
@@ -303,7 +307,8 @@ static int goes_back(const path_point *a, const path_point *b, const path_point 
            b->negative > (a->negative > c->negative ? a : c)->negative;
 }
 
-/* At every sixth: a loss of stability that lasts as long has one of these within. */
+/* Examines every sixth of the step: a loss of stability over a fifth of the step contains one of
+ * these points. */
 static status look_within(continuation *p, path_goal goal, int *hidden, fault *f)
 {
     double value[PARTS + 1] = {p->here.least, [PARTS] = p->next.least};

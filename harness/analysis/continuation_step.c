@@ -1,4 +1,4 @@
-/* One point of a continued path: Newton under a constraint, and the tangent there. */
+/* One point of a continued path: Newton's method with a constraint, and the tangent there. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -60,7 +60,7 @@ double continuation_step_dot(const continuation *p, const double a[], const doub
     return sum;
 }
 
-/* n.dx = K^-1 r and response = K^-1 f' in the present state. */
+/* n.dx = K^-1 r and response = K^-1 f' in the current state. */
 static status directions(continuation *p, step_record *record, fault *f)
 {
     const double load = kinematics_state_path(p->n.state);

@@ -14,7 +14,7 @@ static const char *const no_frequency = "the mesh has no mode of this kind that 
                                         "from round-off: coordinates without mass, "
                                         "or with hardly any beside the heaviest, have none";
 
-/* Has a node an angle of its own about this component? */
+/* Has a node its own angle about this component? */
 static int is_turned(const scene *s, int node, int component, fault *f)
 {
     double axis[3];
@@ -28,7 +28,7 @@ static int is_turned(const scene *s, int node, int component, fault *f)
     return 0;
 }
 
-/* Is it defined where nodes turn by themselves? */
+/* Is the quantity defined if nodes rotate independently? */
 static int is_defined(const scene *s, const scene_quantity *q, fault *f)
 {
     const quantity_type *type = quantity_type_of(q);
@@ -105,7 +105,7 @@ static void from_linear(const analysis_context *c, const scene_quantity *q,
                   r);
 }
 
-/* Did it leave something, though it failed? */
+/* Did a failed analysis leave results? */
 static int has_anything(const analysis_outcome *o)
 {
     if (o->kind == SCENE_CONTINUATION && outcome_continuation_of(o)->points > 0)
@@ -210,8 +210,7 @@ void extract_spectrum_buckling(const scene_quantity *q, const analysis_outcome *
     quantity_no_value(r, side->status, why);
 }
 
-/* *found: the mode of the kind and order that is requested; -1: there is none. x[free + driven] is
- * work space. */
+/* *found: the requested mode (kind and order); -1: none. x[free + driven] is work space. */
 static status find_mode(const analysis_context *c, const scene_mode *wanted,
                         const outcome_side *side, double x[], int *found, fault *f)
 {

@@ -7,7 +7,7 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
-/* A value with its error, relative to it; NAN with the reason where no digit is left. */
+/* A value with its relative error; NAN with a reason if no digit is significant. */
 static double known(const analysis_context *c, double value, double error, const char *what,
                     quantity_result *r)
 {
@@ -39,7 +39,7 @@ static double eigenvalue_of(const analysis_context *c, const scene_quantity *q,
     return NAN;
 }
 
-/* [1/s]; NAN: there are no modes, or lost in round-off. */
+/* [1/s]; NAN: no modes, or no significant digit. */
 static double growth_of(const analysis_context *c, const rotation_modes *modes, quantity_result *r)
 {
     int largest = 0;
@@ -87,7 +87,7 @@ static double read_at(const analysis_context *c, const scene_quantity *q, const 
     return outcome == STATUS_OK ? value : NAN;
 }
 
-/* Value of a quantity of the path at one station; NAN: r may say why. */
+/* Value of a quantity of the path at one station; NAN: r may give the reason. */
 static double extracted(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, int i, quantity_result *r)
 {
@@ -110,7 +110,7 @@ static double at_station(const analysis_context *c, const scene_quantity *q,
     return quantity_scaled(q, extracted(c, q, o, i, r));
 }
 
-/* Error of a response at a station, at most; 0 of other quantities. */
+/* Error bound of a response at a station; 0 for other quantities. */
 static double bound_at(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, int i)
 {
@@ -121,7 +121,7 @@ static double bound_at(const analysis_context *c, const scene_quantity *q,
                : 0;
 }
 
-/* By the value; a part that is zero by itself has none. */
+/* Relative to the value; 0 if a part is zero. */
 static double relative(double error, double value)
 {
     return value != 0 ? error / fabs(value) : 0;
@@ -144,7 +144,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
 }
 
-/* Over frequency, of the stations of a window. */
+/* Spectrum over frequency, from the stations of a window. */
 static void take_spectrum(const analysis_context *c, const scene_quantity *q,
                           const analysis_outcome *o, quantity_result *r)
 {
@@ -166,7 +166,7 @@ static void take_spectrum(const analysis_context *c, const scene_quantity *q,
     free(value);
 }
 
-/* Why a path ends before a station: the reason of the analysis that is followed. */
+/* Reason why a path ends before a station: that of the followed analysis. */
 static const char *reason_of_path(const analysis_context *c, const scene_quantity *q)
 {
     const int follows = c->scene->analysis[q->analysis].follows;
@@ -184,8 +184,7 @@ static void path_ends(const analysis_context *c, const scene_quantity *q, const 
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason_of_path(c, q));
 }
 
-/* Is the station where the quantity is taken? Those of a largest or least value are all examined.
- */
+/* Is the quantity evaluated at the station? For a maximum or minimum, all stations are examined. */
 static int is_taken_at(const scene_quantity *q, int stations, const double path[], int station)
 {
     if (q->reduction == SCENE_AT)
@@ -193,7 +192,7 @@ static int is_taken_at(const scene_quantity *q, int stations, const double path[
     return station == stations - 1;
 }
 
-/* But for curves. */
+/* Does a quantity other than a curve use the station? */
 static int takes_station(const scene_quantity *q, int stations, const double path[], int station)
 {
     return q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ||
@@ -220,7 +219,7 @@ int extract_path_wants(const analysis_context *c, int analysis, int stations, co
 
 extern const quantity_type quantity_hinge; /* angles of releases are kept with elements */
 
-/* Does an analysis that follows the path begin with the state? */
+/* Does an analysis that follows the path start from this state? */
 static int begins_with(const analysis_context *c, int analysis, int path, int station)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
@@ -255,8 +254,8 @@ int extract_path_whole(const analysis_context *c, int analysis, int station)
     return 0;
 }
 
-/* Reads a quantity of a motion between its stations. A crossing that was found stays valid where
- * the motion stops later. */
+/* Evaluates a quantity of a motion between its stations. A crossing stays valid if the motion fails
+ * later. */
 static void extract_passing(const analysis_context *c, const scene_quantity *q,
                             const analysis_outcome *o, quantity_result *r)
 {

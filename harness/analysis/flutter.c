@@ -49,7 +49,7 @@ status flutter_motions(const newton_run *n, flutter_system *s, int wanted, int e
 
 void flutter_take(unsymmetric_result *from, outcome_side *to)
 {
-    const double largest_error = 1e-2; /* beyond it no digit is worth telling */
+    const double largest_error = 1e-2; /* above it no digit is significant */
     to->count = from->count;
     to->value = from->frequency;
     to->mode = from->mode;
@@ -74,7 +74,7 @@ const char *flutter_damping(const scene *s, int damped)
 
 flutter_kind flutter_of(const flutter_system *s, const unsymmetric_result *r, int *mode)
 {
-    const double rounding = 1e-6; /* of a double value that diverges */
+    const double rounding = 1e-6; /* for a double value that diverges */
     flutter_kind kind = FLUTTER_NONE;
     double largest = 0;
     for (int i = 0; i < r->count; i++) {
@@ -98,9 +98,9 @@ const char *flutter_name(const flutter_system *s, flutter_kind kind)
     return s->damped ? "flutter, growth with the members' damping" : "flutter, undamped";
 }
 
-enum { MOTIONS = 8 };                  /* least ones that are examined */
-static const double most_error = 1e-2; /* beyond it nothing is known of a motion */
-static const double real_part = 1e-6;  /* beside which an imaginary one is rounding */
+enum { MOTIONS = 8 };                  /* number of smallest motions examined */
+static const double most_error = 1e-2; /* above it a motion is unknown */
+static const double real_part = 1e-6;  /* relative to it, a smaller imaginary part is round-off */
 
 status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
 {
@@ -135,7 +135,7 @@ static status ask_motions(flutter_judge *j, step_record *record, fault *f)
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
 
-/* Two of them are known to have passed zero where they are real: a pair may have passed beside. */
+/* If they are real, two of them have passed zero; a pair may have passed near zero. */
 static status count_passed(flutter_judge *j, step_record *record, fault *f)
 {
     left_of_axis left;
@@ -157,7 +157,7 @@ static status flutter_judge_here(flutter_judge *j, step_record *record, fault *f
     record->negative_pivots = -1;
     if (factored == STATUS_FAULT)
         return fault_set(f, factored, "%s", why.text);
-    if (factored != STATUS_OK) /* singular: nothing is decided */
+    if (factored != STATUS_OK) /* singular: undecided */
         return STATUS_OK;
     record->negative_pivots = at.negative_pivots;
     if (at.negative_pivots >= 0)
@@ -191,10 +191,10 @@ void flutter_judge_free(flutter_judge *j)
 }
 
 enum { PARTS = 6 };
-static const double near_enough = 1e-5; /* correction that ends at a state that is examined only */
+static const double near_enough = 1e-5; /* correction for a state that is only examined */
 
-/* How unstable the present state is: negative eigenvalues, or 1 where a motion grows; -1: not
- * known. */
+/* Degree of instability of the current state: number of negative eigenvalues, or 1 if a motion
+ * grows; -1: not known. */
 static status look(flutter_judge *j, int *unstable, fault *f)
 {
     step_record record = {0};
@@ -261,8 +261,8 @@ enum {
     FEWEST = 6,
     MOST = 48,
     SPARE = 3
-}; /* eigenvalues that are examined; beyond the last on the left */
-/* relative to the eigenvalues examined: a smaller one may have the wrong sign. */
+}; /* number of eigenvalues examined; beyond the last one on the left */
+/* relative to the eigenvalues examined: a smaller one may have the wrong sign */
 static const double rounding = 1e-6;
 
 typedef struct metric_inverse {
@@ -282,7 +282,7 @@ static void apply(void *context, const double x[], double y[])
         y[k] *= sqrt(of->weight[k]);
 }
 
-/* How many lie on the left; 0 for *sure: others may, beyond those that were examined. */
+/* Number of eigenvalues on the left; *sure 0: others may exist beyond those examined. */
 static int count_of(const arnoldi_result *r, int wanted, int determinant, int *sure)
 {
     int left = 0;

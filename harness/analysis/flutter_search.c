@@ -1,7 +1,7 @@
-/* Walk from path 0 in steps that change no frequency much; where two come near one another the
- * place between is looked into.  Then halving, and interpolation on the unstable side, where the
- * square of the imaginary part of s^2 (of a flutter), s^2 (of a divergence) or s (with damping) is
- * smooth. */
+/* Path from 0 in steps with small changes of all frequencies. Where two frequencies approach each
+ * other, the interval is examined. Then bisection, and interpolation on the unstable side, where
+ * the square of the imaginary part of s^2 (of a flutter), s^2 (of a divergence) or s (with damping)
+ * is smooth. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -13,15 +13,15 @@
 enum { MOTIONS = 8, WATCHED = 4, MAX_STATIONS = 400, MAX_LOOKS = 8, MAX_CLOSER = 60, POINTS = 3 };
 static const double first_step = 1e-3; /* of the path of the state followed */
 static const double wanted_change = 0.15, largest_change = 0.5; /* of a square of a frequency */
-static const double quickest = 10;                              /* a step by that before it */
+static const double quickest = 10; /* ratio of a step to the previous one */
 static const double farthest =
     1e3; /* of the path of the state followed, unless its loads are small */
-static const double farther = 100;    /* of the path that doubles a square at the first rate */
-static const double rough = 1e-2;     /* bracket that interpolation begins in, of the path */
-static const double near_lost = 1e-2; /* of the path: nearer to where there is no state */
-static const double closer = 0.1;     /* part of the way that is left */
+static const double farther = 100; /* of the path that doubles a square at the first rate */
+static const double rough = 1e-2;  /* bracket at the start of interpolation, relative to the path */
+static const double near_lost = 1e-2; /* of the path: distance to a point without equilibrium */
+static const double closer = 0.1;     /* fraction of the remaining interval */
 static const double closest = 1e-5, wanted_error = 1e-10; /* of the path */
-static const double near_divergence = 1e-4;               /* where Newton still converges */
+static const double near_divergence = 1e-4; /* distance at which Newton's method still converges */
 static const double alike = 1e-10; /* squares of a double value, relative difference squared */
 
 typedef struct station {
@@ -29,7 +29,7 @@ typedef struct station {
     flutter_kind kind;
     int count;
     double square[MOTIONS]; /* of frequencies, ascending; negative: diverges */
-    double measure;         /* of what grows: zero where stability is lost */
+    double measure;         /* of the growing motion: zero where stability is lost */
     double frequency;
 } station;
 
@@ -70,7 +70,7 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
 }
 
 /* The station at `path`, reached from the kept state. STATUS_SINGULAR: the tangent is singular.
- * With the flag set, growth within rounding counts as none. */
+ * With the flag set, growth within round-off counts as none. */
 static status look_closely(search *s, double path, int surely, station *out, fault *f)
 {
     newton_run *n = s->n;
@@ -107,8 +107,8 @@ static void keep(search *s, const station *at)
     kinematics_state_copy(s->n->c->model, s->n->state, s->kept);
 }
 
-/* Largest relative change of a square, of the lowest; of one that falls to zero by what the lowest
- * was at path 0. */
+/* Largest relative change of a square, relative to the lowest; for one that falls to zero relative
+ * to the lowest at path 0. */
 static double change(const station *a, const station *b, double lowest)
 {
     double largest = 0;
@@ -118,15 +118,15 @@ static double change(const station *a, const station *b, double lowest)
     return largest;
 }
 
-/* Relative difference of neighbours, squared: negative beyond a flutter. */
+/* Relative difference of neighbours, squared: negative after a flutter point. */
 static double difference(const station *a, int i)
 {
     const double part = (a->square[i + 1] - a->square[i]) / (a->square[i + 1] + a->square[i]);
     return part * part;
 }
 
-/* Where the parabola through three stations has its least value, which is below zero or small,
- * between the first and the last; NAN: nowhere. */
+/* Position of the minimum of the parabola through three stations, if it is below zero or small and
+ * within their range; NAN: none. */
 static double vertex(const station *a, const station *b, const station *c, int i)
 {
     const double fa = difference(a, i), fb = difference(b, i), fc = difference(c, i);
@@ -139,7 +139,7 @@ static double vertex(const station *a, const station *b, const station *c, int i
     return at > a->path && at < c->path && least < 0.1 * fmin(fa, fmin(fb, fc)) ? at : NAN;
 }
 
-/* Stable at a, b and c; is there a flutter between? Then it is s->next. */
+/* Stable at a, b and c: searches for flutter between them. If found, it is s->next. */
 static status look_between(search *s, station a, station b, station c, int i, fault *f)
 {
     for (int looks = 0; looks < MAX_LOOKS; looks++) {
@@ -175,7 +175,7 @@ static status is_lost(const search *s, const char *why, fault *f)
                      "no critical load from path 0 to %g; from there on %s", s->last.path, why);
 }
 
-/* Is what grows at `next` more than rounding? */
+/* Is the growth at `next` larger than round-off? */
 static status confirm(search *s, fault *f)
 {
     station again;
@@ -185,12 +185,12 @@ static status confirm(search *s, fault *f)
                : is_lost(s, "what grows is lost in round-off of the tangent", f);
 }
 
-/* From the kept state, which is that of `last`, to the first unstable station: s->next. */
+/* From the kept state, which is that of `last`, to the first unstable station s->next. */
 static status walk(search *s, fault *f)
 {
     double step = first_step * s->size, end = farthest * s->size;
     const double lowest = s->last.count > 0 ? s->last.square[0] : 0;
-    double failed = INFINITY; /* least path at which there is no station */
+    double failed = INFINITY; /* smallest path without an equilibrium */
     int stations = 0;
     for (int looks = 0; looks < MAX_STATIONS; looks++) {
         const double path = s->last.path + step;
@@ -241,7 +241,7 @@ static status walk(search *s, fault *f)
                                     : " or flutters there");
 }
 
-/* Where the measure vanishes by those at unstable stations p[0] < p[1] < .. */
+/* Zero of the measure, from the unstable stations p[0] < p[1] < .. */
 static double extrapolate(int points, const double p[], const double g[])
 {
     const double slope = (p[0] - p[1]) / (g[0] - g[1]), line = p[0] - g[0] * slope;
@@ -251,7 +251,7 @@ static double extrapolate(int points, const double p[], const double g[])
     return line + g[0] * g[1] * bend;
 }
 
-/* From the bracket of the last stable and the next, unstable station. */
+/* Starts from the bracket between the last stable and the next, unstable station. */
 static status close_in(search *s, flutter_point *out, fault *f)
 {
     double p[POINTS] = {0}, g[POINTS] = {0}, low = s->last.path, estimate = NAN, apart = INFINITY;

@@ -1,9 +1,10 @@
 /* Steady small vibration about a state, at each frequency by one solution with the dynamic
  * stiffness
  *   D(w) = K + i w C - w^2 M - (w^2 - i a w)^2/(1 + i b w) B,
- * with proportional damping a M + b K in C, and B of what moves inside the elements of an
- * unstressed structure (field/field.h). In real numbers [Re D, -Im D; Im D, Re D] [Re x; Im x] =
- * [Re f; Im f]. Damped modes are the eigenvectors of D at s = i w. */
+ * with proportional damping a M + b K in C, and B the inertia of internal motions of elements of an
+ * unstressed structure (field/field.h). In real numbers
+ *   [Re D, -Im D; Im D, Re D] [Re x; Im x] = [Re f; Im f].
+ * Damped modes are the eigenvectors of D at s = i w. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -21,7 +22,7 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a harmonic analysis");
 }
 
-/* K of the undeformed structure, or of one with the stresses of a linear solution. */
+/* K of the undeformed structure, or with the stresses of a linear solution. */
 static status linear_system_of(vibration *v, const double displaced[], fault *f)
 {
     const equations *eq = &v->c->eq;
@@ -58,7 +59,7 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
     return linearise_state(&c->eq, &c->run->memory, v->state, &lin, f);
 }
 
-/* whole: of driven coordinates too. */
+/* whole: also of driven coordinates. */
 static status matrices(vibration *v, int whole, fault *f)
 {
     analysis_context *c = v->c;
@@ -107,7 +108,7 @@ static void append(vibration *v, int column, int row, int source)
     v->source[at] = source;
 }
 
-/* The free block, whole: first[free + 1] from counts, or its entries. */
+/* The free block as a full matrix: first[free + 1] from counts, or its entries. */
 static void unfold(vibration *v)
 {
     for (int j = 0; j < v->free; j++)
@@ -121,15 +122,15 @@ static void unfold(vibration *v)
         }
 }
 
-/* Modes with a damping ratio, of a direct solution: as many unknowns y = i w U^T (x - r), so that
- * D x + U y = f, r: of driven coordinates that move, at rest. */
+/* Modes with a damping ratio in a direct solution: one unknown y = i w U^T (x - r) for each, so
+ * that D x + U y = f; r: static displacements due to driven coordinates. */
 static int bordering(const vibration *v)
 {
     const double *U;
     return v->c->scene->analysis[v->analysis].by_modes ? 0 : harmonic_modes_damped(v->modes, &U);
 }
 
-/* The entries of column j of one half: rows, and their numbers at w where z is not NULL. */
+/* The entries of column j of one half: rows and, unless z is NULL, their values at w. */
 static int column_of(const vibration *v, int j, double w, int row[], double complex z[])
 {
     const int n = v->free, more = bordering(v);
@@ -155,7 +156,7 @@ static int column_of(const vibration *v, int j, double w, int row[], double comp
     return count;
 }
 
-/* D at the frequency; its pattern where w is 0 too. */
+/* D at the frequency; w = 0 also sets its pattern. */
 static void fill(vibration *v, double w)
 {
     const int n = v->free + bordering(v);
@@ -173,7 +174,8 @@ static void fill(vibration *v, double w)
     v->D.column[2 * n] = at;
 }
 
-/* Counts, then begins of columns at first[column + 1], which end as those of the next ones. */
+/* Counts, then the starts of columns at first[column + 1], which become the starts of the next
+ * ones. */
 static status make_pattern(vibration *v, fault *f)
 {
     const int n = v->free;
@@ -236,7 +238,7 @@ static status factor_at(vibration *v, double hertz, fault *f)
                      hertz);
 }
 
-/* Right-hand side of an input; what moves is 1 itself in x[all]. */
+/* Right-hand side of an input; a prescribed motion is 1 in x[all]. */
 static status input_of(const vibration *v, const scene_response *r, double w, double complex x[],
                        fault *f)
 {
@@ -288,7 +290,7 @@ static int carried_of(const vibration *v, const scene_response *r, double y[])
     return 1;
 }
 
-/* x: forces, then the solution. */
+/* x: forces, replaced by the solution. */
 static void solve_direct(vibration *v, const scene_response *r, double w, double complex x[])
 {
     const int n = v->free, more = bordering(v), N = n + more;
@@ -307,7 +309,7 @@ static void solve_direct(vibration *v, const scene_response *r, double w, double
         x[i] = v->x[i] + I * v->x[N + i];
 }
 
-/* x: forces, then the solution by modes; left[free]: what it leaves of the forces. */
+/* x: forces, replaced by the modal solution; left[free]: residual of the forces. */
 static void solve_by_modes(vibration *v, const scene_response *r, double w, double complex x[],
                            double complex left[])
 {
@@ -337,7 +339,8 @@ static status solve_own_input(vibration *v, int quantity, double w, fault *f)
     return STATUS_OK;
 }
 
-/* The solution for the input of a quantity, of an earlier one where that has the same. */
+/* The solution for the input of a quantity; reuses that of an earlier quantity with the same input.
+ */
 static status solve_input(vibration *v, int quantity, double w, fault *f)
 {
     const scene *s = v->c->scene;
@@ -355,7 +358,7 @@ static status solve_input(vibration *v, int quantity, double w, fault *f)
     return solve_own_input(v, quantity, w, f);
 }
 
-/* o[all] += times the small motion of the component of a node, of all coordinates. */
+/* o[all] += times the small motion of a component of a node, in all coordinates. */
 static void add_motion(const vibration *v, int node, int component, double times,
                        double complex o[])
 {
@@ -438,7 +441,7 @@ static void add_carried(vibration *v, const scene_response *r, int c, double w, 
         o[model_driver_coordinate(v->c->model, r->driver)] += I * w * own[i] * input[i];
 }
 
-/* What a quantity reads, of the displacements: o^T x. */
+/* The linear form o of a quantity's displacements: o^T x. */
 static void output_of(vibration *v, const scene_response *r, double w, double complex o[])
 {
     int c = 0;
@@ -479,7 +482,7 @@ static double part_of(const scene_response *r, double complex z)
     return cimag(z);
 }
 
-/* A phase of z, which is off by `bound` at most, is off by so much. */
+/* Error of the phase of z, whose error is at most `bound`. */
 static double bound_of(const scene_response *r, double complex z, double bound)
 {
     if (r->part != SCENE_PHASE || bound == 0)
@@ -639,8 +642,8 @@ static int shapes_of_motion(const vibration *v, int c, double out[])
     return SHAPES_OF_MOTION;
 }
 
-/* The forces that a quantity's input makes at any frequency, and its output as forces: out[n
- * each]. Returns how many. */
+/* The forces of a quantity's input at any frequency, and its output as forces: out[n each]. Returns
+ * their number. */
 static int shapes_of(vibration *v, const scene_response *r, double out[])
 {
     const size_t n = (size_t)v->free;

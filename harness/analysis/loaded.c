@@ -1,7 +1,7 @@
 /* Critical point: sigma(p), the least eigenvalue of the tangent K(p) by the diagonal of the first
- * K, falls to zero along the path.  Stable states ever closer before it are interpolated; the error
- * of an estimate is the product of their distances. (K is not extrapolated as a whole: turning a
- * stiff structure with the path would make it indefinite long before.) */
+ * K, falls to zero along the path. Interpolation uses stable states that approach it; the error of
+ * an estimate is the product of their distances. (K itself is not extrapolated: the rotation of a
+ * stiff structure along the path would make it indefinite much earlier.) */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -17,17 +17,18 @@ enum { MAX_STATES = 60, POINTS = 3 };
 static const double first_step = 0.1; /* of the path so far */
 static const double growth =
     0.5; /* of the path beyond its beginning, at most, from one state to the next */
-static const double halfway = 0.5;    /* part of the way to what is predicted */
-static const double approached = 0.9; /* part of the way to the estimate */
+static const double halfway = 0.5;    /* fraction of the distance to the predicted point */
+static const double approached = 0.9; /* fraction of the distance to the estimate */
 static const double farthest = 1e3;   /* path at which the search ends, of the path so far */
-static const double alike = 1e-3;     /* estimates one after the other, of the path */
-static const double steepest = 8;     /* rate of a state along the path, of that of the last step */
-static const double at_rest = 1e-9;   /* distance of states, by the size, that is rounding */
+static const double alike = 1e-3;     /* difference of successive estimates, relative to the path */
+static const double steepest =
+    8; /* rate of a state along the path, relative to that of the last step */
+static const double at_rest = 1e-9; /* relative distance of states that is round-off */
 static const double wanted_error = 1e-9;
-static const double closest =
-    1e-5; /* distance from the estimate, of the path: nearer, round-off decides about stability */
+static const double closest = 1e-5; /* distance from the estimate, relative to the path: closer,
+                                       round-off decides about stability */
 
-/* The state that is followed: the end of a static path that was reached. */
+/* The followed state: the end of a computed static path. */
 static status followed_state(const analysis_context *c, int analysis, const model_state **state,
                              fault *f)
 {
@@ -40,7 +41,7 @@ static status followed_state(const analysis_context *c, int analysis, const mode
     return STATUS_OK;
 }
 
-/* Newton at the followed state: its K in n->K, factored, which need not be symmetric. */
+/* Newton's method at the followed state: its K in n->K, factored, possibly unsymmetric. */
 static status start(analysis_context *c, int analysis, const char *what, newton_run *n, fault *f)
 {
     const model_state *state = NULL;
@@ -135,28 +136,28 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
     return result;
 }
 
-/* Stable states on the way, the last ones first. */
+/* Stable states on the path, the last ones first. */
 typedef struct loaded_search {
     newton_run n;
-    predictor guess; /* of the next state, from the stable ones since the last that was not */
+    predictor guess; /* for the next state, from the stable ones since the last unstable one */
     model_state *stable;
     sparse scale; /* diagonal of the first K */
     double begin, shift, p[POINTS],
-        sigma[POINTS]; /* shift: the first sigma; that of K + shift scale is lost in no round-off */
+        sigma[POINTS]; /* shift: the first sigma; K + shift scale is far from singular */
     int points;
     double estimate, change,
-        unstable;     /* unstable: least path known to be beyond the critical point */
-    int wanted;       /* loads */
-    double size;      /* of the path so far */
-    double predicted; /* from the beginning to the first point, by the rate of K there; INFINITY:
-                         none */
-    double farthest;  /* path at which the search ends */
-    double rate;      /* distance of the last stable states over that of their paths */
-    int lost;         /* 1: the path does not lead from the last stable state to the one tried */
+        unstable; /* unstable: smallest path known to be beyond the critical point */
+    int wanted;   /* loads */
+    double size;  /* of the path so far */
+    double
+        predicted; /* from the start to the first point, from the rate of K there; INFINITY: none */
+    double farthest; /* path at which the search ends */
+    double rate;     /* distance of the last stable states divided by that of their paths */
+    int lost;        /* 1: the path does not lead from the last stable state to the trial state */
     eigen_result found;
 } loaded_search;
 
-/* A state beyond a critical point: the search begins at path 0. */
+/* The given state is beyond a critical point: the search starts at path 0. */
 static status begin_at_rest(newton_run *n, fault *f)
 {
     step_record unused = {0};
@@ -217,7 +218,7 @@ static void search_free(loaded_search *s)
     eigen_free(&s->found);
 }
 
-/* Newton's present state, whose K is factored, is the last stable one: its sigma. */
+/* Makes Newton's current state, whose K is factored, the last stable one; computes its sigma. */
 static status take_state(loaded_search *s, fault *f)
 {
     const eigen_problem p = {
@@ -251,14 +252,15 @@ static status tangent_at_path(loaded_search *s, double path, fault *f)
                                                  : newton_direction(&s->n, path, &unused, f);
 }
 
-/* How fast the structure moves from the kept state to Newton's. */
+/* Rate of change of the structure from the kept state to Newton's. */
 static double rate_to(const loaded_search *s, double path)
 {
     return metric_distance(s->n.c->model, s->stable, s->n.state, NULL) / (path - s->p[0]);
 }
 
-/* The structure at `path`; *stable: it was stable there and has been taken. Beyond a limit point
- * there is no state near by: Newton fails, or finds one far away, which may be stable. */
+/* Computes the state at `path`; *stable: it was stable and has become the last stable one. Beyond a
+ * limit point no state is near: Newton's method fails, or finds a distant state, which may be
+ * stable. */
 static status go_to(loaded_search *s, double path, int *stable, fault *f)
 {
     const status outcome = tangent_at_path(s, path, f);
@@ -266,7 +268,7 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
     s->lost = outcome == STATUS_NOT_CONVERGED;
     if (outcome != STATUS_OK && outcome != STATUS_SINGULAR && !s->lost) /* singular: critical */
         return outcome;
-    if (outcome == STATUS_OK) { /* an unstable state far away may lie on another path */
+    if (outcome == STATUS_OK) { /* a distant unstable state may be on another path */
         const double rate = rate_to(s, path);
         s->lost = s->rate > 0 && rate > steepest * s->rate && rate * (path - s->p[0]) > at_rest;
         *stable &= !s->lost;
@@ -282,8 +284,7 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
     return predictor_add(&s->n.c->eq, s->stable, 0, &s->guess, f);
 }
 
-/* Where sigma vanishes, from the inverse interpolation p(sigma); INFINITY while it does not
- * fall. */
+/* Zero of sigma from the inverse interpolation p(sigma); INFINITY if sigma does not fall. */
 static double extrapolate(const loaded_search *s)
 {
     const double *p = s->p, *g = s->sigma;
@@ -297,8 +298,8 @@ static double extrapolate(const loaded_search *s)
     return parabola > p[0] ? parabola : line;
 }
 
-/* How far the first critical point is by (K, -dK): K at the beginning, dK what it changes in a
- * step. A has the pattern of K. */
+/* Distance to the first critical point from (K, -dK): K at the start, dK its change in a step. A
+ * has the pattern of K. */
 static status predict(loaded_search *s, double step, sparse *A, fault *f)
 {
     newton_run *n = &s->n;
@@ -329,7 +330,7 @@ static status predict(loaded_search *s, double step, sparse *A, fault *f)
     return outcome == STATUS_FAULT ? outcome : STATUS_OK;
 }
 
-/* Scale-free: the second step is small beside what the first one has predicted. */
+/* Scale-free: the second step is small relative to the prediction of the first. */
 static status predict_twice(loaded_search *s, fault *f)
 {
     const double small = 1e-3;
@@ -345,8 +346,8 @@ static status predict_twice(loaded_search *s, fault *f)
     return outcome;
 }
 
-/* Is sigma as small as the way that is left makes it, in proportion or, at a limit point, by its
- * root? Else what lies after is another equilibrium. */
+/* Is sigma as small as expected from the remaining distance, proportional to it or, at a limit
+ * point, to its square root? Otherwise the state beyond belongs to another equilibrium. */
 static int falls_to_zero(const loaded_search *s)
 {
     const double noise = 2e-3, steep = 5;
@@ -400,7 +401,8 @@ static status find_critical(loaded_search *s, fault *f)
                            s->begin, s->p[0]);
 }
 
-/* How many eigenvalues are negative at `path`, walked to from the kept state, which it becomes. */
+/* Number of negative eigenvalues at `path`, computed from the kept state, which becomes this state.
+ */
 static status count_at(loaded_search *s, double path, int *negative, fault *f)
 {
     s->p[0] = kinematics_state_path(s->stable);
@@ -410,7 +412,7 @@ static status count_at(loaded_search *s, double path, int *negative, fault *f)
     return STATUS_OK;
 }
 
-/* Loads after the first one, by the inertia on the way: value[] of those that are wanted, up to a
+/* Loads after the first one, from the inertia along the path: value[] of those wanted, up to a
  * thousand times the first. *count: their number. */
 static status find_more(loaded_search *s, double value[], int *count, fault *f)
 {
@@ -453,7 +455,7 @@ static status find_more(loaded_search *s, double value[], int *count, fault *f)
     return STATUS_OK;
 }
 
-/* The first load with its mode; others, which are counted, have none. */
+/* Returns the first load with its mode; the others have no mode. */
 static status hand_over(loaded_search *s, outcome_side *out, fault *f)
 {
     const size_t n = (size_t)s->n.free, wanted = (size_t)s->wanted;
@@ -483,8 +485,8 @@ static status hand_over(loaded_search *s, outcome_side *out, fault *f)
     return more == STATUS_FAULT ? fault_set(f, more, "%s", why.text) : STATUS_OK;
 }
 
-/* The largest N l^2/(pi^2 E I) of an element under thrust N in Newton's state, I the least of its
- * section's: above 1 it buckles by itself, and what diverges may be that alone. */
+/* The largest N l^2/(pi^2 E I) of an element under thrust N in Newton's state; I: smallest of its
+ * section. Above 1 the element buckles by itself, and the divergence may be only that. */
 static double thrust_of_elements(const newton_run *n)
 {
     const model *m = n->c->model;
@@ -497,13 +499,13 @@ static double thrust_of_elements(const newton_run *n)
         for (int k = 0; k < 2; k++)
             internal_at_end(&n->c->eq, &at, model_element(m, i)->member, k, end[k]);
         const double EI = s->young * fmin(s->Iy, s->Iz), thrust = -fmin(end[0][0], end[1][0]);
-        if (EI > 0) /* of a section by matrices: 0 */
+        if (EI > 0) /* for a section given by matrices: 0 */
             most = fmax(most, thrust * kind->length * kind->length / (PI * PI * EI));
     }
     return most;
 }
 
-/* Without a mass flutter is not searched for, and a divergence may be one of the mesh. */
+/* Without mass, flutter is not searched for, and a divergence may be due to the mesh. */
 static status judge_massless(const newton_run *n, const flutter_point *first, fault *f)
 {
     const double most = first->massless ? thrust_of_elements(n) : 0;
@@ -516,7 +518,7 @@ static status judge_massless(const newton_run *n, const flutter_point *first, fa
                            first->path, most);
 }
 
-/* Where the loads have no potential: the first load, and what it is. */
+/* For loads without a potential: the first critical load and its kind. */
 static status find_without_potential(analysis_context *c, loaded_search *s, outcome_spectrum *found,
                                      fault *f)
 {

@@ -1,6 +1,5 @@
-/* Natural frequencies about the undeformed state, with the stresses of a linear analysis where one
- * is followed: M x = (1/omega^2) K x, so that a mass matrix singular in the rotations does no
- * harm. */
+/* Natural frequencies about the undeformed state, with the stresses of a followed linear analysis:
+ * M x = (1/omega^2) K x. In this form a mass matrix may be singular in the rotations. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -12,7 +11,7 @@
 
 int modal_wanted(const analysis_context *c, int analysis)
 {
-    const int others = 6; /* axial modes and other families lie between */
+    const int others = 6; /* margin for axial modes and other families between the wanted ones */
     int wanted = 0;
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
@@ -24,11 +23,11 @@ int modal_wanted(const analysis_context *c, int analysis)
     return wanted + others;
 }
 
-/* K of the modes: of the structure, its prestress and the shift. */
+/* K of the modes: of the structure, the prestress and the shift. */
 typedef struct modal_forms {
     quadratic_forms of;
     int prestressed;
-    sparse M, G;  /* G of the prestress; no values: there is none */
+    sparse M, G;  /* G of the prestress; no values: none */
     double shift; /* [1/s^2] of K in the system and in its forms */
     double *work; /* [free] */
 } modal_forms;
@@ -73,8 +72,8 @@ static void stiffness_product(void *context, const double mode[], double y[])
 
 /* Eigenvalue of a mode x with x^T (K + shift M) x = 1: the positive root of
  *   x^T K x = lambda x^T M x + lambda^2 x^T B x
- * with what is inside of the elements (field/field.h), but not under stress: that acts there
- * too. What is a rounding error of the shift moves as a rigid body. */
+ * including internal motions of the elements (field/field.h), but not under stress, which acts on
+ * these too. A value below the round-off of the shift is a rigid motion. */
 static double eigenvalue(modal_forms *about, double mu, const double mode[])
 {
     const double square = 1 / mu - about->shift;
@@ -96,7 +95,7 @@ static void swap(double *a, double *b, int count)
     }
 }
 
-/* Moves the modes into the outcome with their circular frequencies, lowest first. */
+/* Moves the modes to the outcome with their circular frequencies, lowest first. */
 static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
 {
     const int n = about->of.free;
@@ -123,7 +122,7 @@ static status explain_massless(analysis_context *c, fault *f)
     return singular_mechanism(c, STATUS_SINGULAR, f);
 }
 
-/* A structure that is not held has K singular: K + shift M is not. */
+/* K of a free structure is singular; K + shift M is not. */
 static status shifted_system(analysis_context *c, linear_system *s, const sparse *M, double *shift,
                              fault *f)
 {
@@ -155,7 +154,7 @@ static status add_stresses(analysis_context *c, double path, linear_system *s, m
     return context_factor(c, s->factor, &s->K, f);
 }
 
-/* K += G of the stresses of the linear analysis that is followed. */
+/* K += G of the stresses of the followed linear analysis. */
 static status add_prestress(analysis_context *c, int follows, linear_system *s, modal_forms *about,
                             fault *f)
 {
@@ -171,8 +170,8 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
     return add_stresses(c, 1, s, about, f);
 }
 
-/* K += G of the stresses that initial strains leave in the structure without loads. K may be that
- * of a structure that is not held, with its shift. */
+/* K += G of the stresses due to initial strains without loads. K may be that of a free structure,
+ * with its shift. */
 static status add_strains(const analysis_context *c, linear_system *s, modal_forms *about, fault *f)
 {
     analysis_context unloaded = context_unloaded(c);
@@ -180,7 +179,7 @@ static status add_strains(const analysis_context *c, linear_system *s, modal_for
     return add_stresses(&unloaded, 0, s, about, f);
 }
 
-/* K with its factors, and M; K of a structure that is not held is shifted. */
+/* K with its factors, and M; K of a free structure is shifted. */
 static status assemble(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                        fault *f)
 {

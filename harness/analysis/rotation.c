@@ -1,6 +1,6 @@
-/* Stationary rotation: equilibrium in a frame that turns, at a rising angular velocity, and small
- * motions about it with the gyroscopic, centrifugal and geometric terms (J Eq. 76: K0 + N0 +
- * G0). */
+/* Stationary rotation: equilibrium in a rotating frame at increasing angular velocity, and small
+ * motions about it with the gyroscopic, centrifugal and geometric terms (J Eq. 76: K0 + N0 + G0).
+ */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #include "harness/model/model.h"
 
-enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
+enum { OTHERS = 2 }; /* margin for modes of other families between those wanted */
 
 /* The tangent of the last linearisation through the strains. */
 typedef struct tangent_parts {
@@ -43,7 +43,7 @@ static double tangent_rounding(void *context, const double mode[])
 
 /* Matrices on the pattern of the free coordinates, for all stations. */
 typedef struct matrices {
-    sparse K, M, G, geometric; /* the soft part of K */
+    sparse K, M, G, geometric; /* the geometric part of K */
     matrix_factor *factor;
     double *residual, *x, *y; /* [free + driven] */
 } matrices;
@@ -139,7 +139,7 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
     return outcome;
 }
 
-/* Do quantities of this analysis ask for modes: at all, or elsewhere than at the last station? */
+/* Do quantities of this analysis request modes: at any station, or at one other than the last? */
 static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
@@ -151,7 +151,7 @@ static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere
     return 0;
 }
 
-/* 1: the modes of a station are wanted. Where not only those of the last station are, all are:
+/* 1: the modes of a station are needed. If those of any station but the last are needed, all are:
  * growth is reported at the first station where it occurs. */
 static int are_wanted_at(const analysis_context *c, int analysis, const outcome_path *path,
                          int station)
@@ -161,7 +161,7 @@ static int are_wanted_at(const analysis_context *c, int analysis, const outcome_
     return station == path->stations - 1 || asks_for_modes(c, analysis, 1);
 }
 
-/* How many modes to begin with. */
+/* Initial number of modes. */
 static int modes_wanted(const analysis_context *c, int analysis)
 {
     int wanted = scene_walk_of(&c->scene->analysis[analysis])->modes;
@@ -201,7 +201,7 @@ static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
     return take_modes(c, result, out, f);
 }
 
-/* `wanted` modes, if they exist; *enough: there is one for every quantity, or there are no more. */
+/* `wanted` modes, if they exist; *enough: one exists for every quantity, or no others exist. */
 static status try_modes(analysis_context *c, int analysis, const gyroscopic_problem *problem,
                         rotation_modes *out, int *enough, fault *f)
 {
@@ -212,7 +212,7 @@ static status try_modes(analysis_context *c, int analysis, const gyroscopic_prob
     return outcome;
 }
 
-/* As many modes as it takes, if they exist: those of other families lie between. */
+/* Increases the number of modes until it is sufficient, because other families lie between. */
 static status modes_at(analysis_context *c, int analysis, const model_state *state, matrices *a,
                        rotation_modes *out, fault *f)
 {
@@ -235,13 +235,13 @@ static status modes_at(analysis_context *c, int analysis, const model_state *sta
     return STATUS_OK;
 }
 
-/* Does a motion grow, beyond what rounding leaves of it? */
+/* Does a motion grow by more than round-off? */
 static int grows(const rotation_modes *modes, int i)
 {
     return modes->growth[i] > modes->error[i] * hypot(modes->growth[i], modes->frequency[i]);
 }
 
-/* The first station where a small motion grows is named in the result. */
+/* Reports the first station where a small motion grows. */
 static void note_instability(analysis_context *c, const rotation_modes *modes, double path)
 {
     for (int i = 0; i < modes->count; i++)
@@ -252,7 +252,7 @@ static void note_instability(analysis_context *c, const rotation_modes *modes, d
                      modes->frequency[i] > 0 ? "flutter" : "divergence", modes->growth[i]);
 }
 
-/* So is the first where the modes found do not account for all that is unstable. */
+/* Reports the first station where the modes found do not account for all negative eigenvalues. */
 static void note_unproven(analysis_context *c, const rotation_modes *modes, double path)
 {
     if (modes->unproven > 0 && c->result->reason[0] == '\0')
@@ -281,8 +281,8 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_r
     return STATUS_OK;
 }
 
-/* Without negative eigenvalues nothing grows. Otherwise the modes decide, where they account for
- * all of them and each is known. */
+/* Without negative eigenvalues nothing grows. Otherwise the modes decide, if they account for all
+ * of them and each is known. */
 static step_stability stability_of(const rotation_modes *modes)
 {
     int known = modes->unproven == 0;

@@ -37,7 +37,8 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
     return motion_analysis;
 }
 
-/* Did it fail before it left the undeformed state? In time a structure may be free to move. */
+/* Did the analysis fail before leaving the undeformed state? In a motion the structure may be free.
+ */
 static int is_stuck(const analysis_outcome *o)
 {
     const int failed = o->status == STATUS_SINGULAR || o->status == STATUS_NOT_CONVERGED;
@@ -45,7 +46,7 @@ static int is_stuck(const analysis_outcome *o)
            (!outcome_has_path(o) || outcome_path_of(o)->reached == 0);
 }
 
-/* Is there a step of the analysis whose tangent was indefinite? */
+/* Does the analysis have a step with an indefinite tangent? */
 static int has_negative(const solve_result *r, int from)
 {
     for (int i = from; i < r->steps; i++)
@@ -54,14 +55,14 @@ static int has_negative(const solve_result *r, int from)
     return 0;
 }
 
-/* A path that begins at a stiffness that is indefinite by itself leads nowhere. Asked where the
- * path was unstable or failed, and not counted as work. */
+/* Detects a path from a structure whose stiffness is indefinite at rest. Called if the path was
+ * unstable or failed; not counted as work. */
 static status judge_rest(analysis_context *c, const analysis_outcome *o, int first_step, fault *f)
 {
     if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||
         o->kind == SCENE_HARMONIC ||
         (o->status == STATUS_OK && !has_negative(c->result, first_step)) ||
-        newton_judge_rest(c->model, NULL) != STATUS_OK) /* which is said already */
+        newton_judge_rest(c->model, NULL) != STATUS_OK) /* which has been reported already */
         return o->status;
     fault why = {""};
     linear_system s = {0};
@@ -72,7 +73,7 @@ static status judge_rest(analysis_context *c, const analysis_outcome *o, int fir
     return at_rest == STATUS_NOT_CONVERGED ? fault_set(f, at_rest, "%s", why.text) : o->status;
 }
 
-/* The first failure names the whole. */
+/* The first failure determines the overall status. */
 static void run_analyses(analysis_context *c)
 {
     for (int i = 0; i < c->scene->analyses; i++) {
@@ -116,7 +117,7 @@ static void spoil(solve_result *r, status outcome, const fault *f)
     snprintf(r->reason, sizeof r->reason, "%s", f->text);
 }
 
-/* Shapes and the matrices of all states, where they are wanted. */
+/* Shapes and the matrices of all states, if requested. */
 static void keep_states(analysis_context *c)
 {
     fault f = {""};
@@ -178,7 +179,7 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
     }
     for (int i = 0; i < s->quantities; i++)
         put_over(s, result, i);
-    result->counters = run.counters; /* shapes are drawn, not solved for: they do not count */
+    result->counters = run.counters; /* shapes are drawn, not solved for: not counted */
     keep_states(&c);
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);
@@ -250,14 +251,14 @@ status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
 }
 
 /* Linear buckling about the undeformed state: (K + G_0 + lambda G) x = 0 with G from the stresses
- * of what the loads gain from path 0 to 1, and G_0 of what is there at path 0 and stays, with the
- * strains that members have by themselves. */
+ * due to the change of loads from path 0 to 1, and G_0 from those at path 0, which are constant and
+ * include initial strains. */
 
 /* Quadratic forms of the loads scaled by the load factor (growing) and of the constant loads
  * (staying). */
 typedef struct prestresses {
     quadratic_forms growing, staying;
-    int stays;         /* 0: nothing does */
+    int stays;         /* 0: no constant stress */
     sparse G, of_stay; /* geometric stiffness of both */
     double *product;   /* [free] */
 } prestresses;
@@ -299,7 +300,7 @@ static double geometric_rounding(void *context, const double mode[])
     return quadratic_forms_geometric_rounding(&p->growing, mode);
 }
 
-/* Moves the modes into the outcome, with lambda = 1/mu. */
+/* Moves the modes to the outcome, with lambda = 1/mu. */
 static void keep(eigen_side *side, outcome_side *to)
 {
     for (int i = 0; i < side->count; i++)
@@ -307,7 +308,7 @@ static void keep(eigen_side *side, outcome_side *to)
     outcome_take(side, to);
 }
 
-/* How many eigenvalues of each sign the quantities ask for. */
+/* Number of eigenvalues of each sign that the quantities request. */
 static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
@@ -327,7 +328,7 @@ static void subtract(const sparse *from, sparse *a)
         a->value[i] -= from->value[i];
 }
 
-/* K += G of what stays, which alone must leave the structure stable; the rest grows. */
+/* K += G of the constant stresses, under which the structure must be stable; the rest grows. */
 static status split_stays(analysis_context *c, linear_system *s, prestresses *p, fault *f)
 {
     const model_size size = model_sizes(c->model);
@@ -383,7 +384,7 @@ typedef struct buckling {
     eigen_result found;
 } buckling;
 
-/* All but what was found. */
+/* Frees all but the results. */
 static void buckling_free(buckling *b)
 {
     linear_system_free(&b->system);
@@ -415,8 +416,8 @@ static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
     return result;
 }
 
-/* Nodes that turn where they are, without a displacement: what shortens with the elements can be
- * nothing but their own. */
+/* Nodes rotate without displacement: only local buckling of elements can depend on the element
+ * length here. */
 static int only_turns(const analysis_context *c, const eigen_side *side, int i)
 {
     const double no_shift = 1e-6;
@@ -457,10 +458,9 @@ static status solve_halved(const analysis_context *c, int analysis, eigen_result
     return result;
 }
 
-/* A load that grows with the square of the number of elements is no load of the structure (elements
- * that are rigid in shear bend by themselves, with 12 EI/l^2 for GA): it and what lies beyond it
- * go.
- */
+/* A load that grows with the square of the number of elements is not a load of the structure:
+ * elements that are rigid in shear buckle by themselves (12 EI/l^2 acts as GA). It and all higher
+ * loads are removed. */
 static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
 {
     const double diverging = 2;

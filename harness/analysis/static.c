@@ -13,9 +13,8 @@
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
-/* Stability of the state at the end of a step, where pivots do not decide it. *found: path within
- * the step at which stability differs from that at its ends, or INFINITY; last_resort: the step
- * cannot be shorter. */
+/* Stability at the end of a step if pivots do not decide it. *found: path within the step with a
+ * different stability from both ends, or INFINITY; last_resort: the step cannot be shorter. */
 static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, step_record *record,
                          double *found, fault *f)
 {
@@ -29,7 +28,7 @@ static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, s
                : flutter_judge_state(judge, n->c, n->state, record, f);
 }
 
-/* The step is walked again in shorter ones. */
+/* The step is repeated in shorter ones. */
 static void take_back(newton_run *n, const step_record *record)
 {
     history_drop_step(n->c->result, record);
@@ -77,7 +76,7 @@ static status walk_to(newton_run *n, double target, flutter_judge *judge, double
             rejected = 0;
             continue;
         }
-        /* Shorter steps meet the same matrix, but for the stiffness of the loads. */
+        /* Shorter steps have the same matrix, except for the load stiffness. */
         const int hopeless =
             outcome == STATUS_SINGULAR && record.iterations == 0 && rejected >= SINGULAR_STARTS;
         if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least ||
@@ -97,8 +96,7 @@ status static_walk(newton_run *n, double target, double *increment, fault *f)
     return walk_to(n, target, NULL, increment, f);
 }
 
-/* Iterations from the undeformed state, for their time; nothing moves, so that the next one is the
- * same. */
+/* Repeats iterations from the undeformed state to measure their time; the state does not change. */
 static status sample(newton_run *n, double path, fault *f)
 {
     step_record record = {.path = path};
@@ -107,8 +105,8 @@ static status sample(newton_run *n, double path, fault *f)
     return STATUS_OK;
 }
 
-/* Does something act where the path begins: loads that stay, motions that begin elsewhere, strains
- * without stress? */
+/* Is the start of the path loaded: constant loads, motions with a nonzero start, strains without
+ * stress? */
 static int begins_loaded(const analysis_context *c)
 {
     const scene *s = c->scene;
@@ -139,7 +137,7 @@ static status equilibrate(newton_run *n, flutter_judge *judge, fault *f)
     return STATUS_OK;
 }
 
-/* Steps to every station, whose states are kept: none is shorter than before without need. */
+/* Steps to every station, whose states are kept. Steps are not shortened without need. */
 static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance_walk *on_the_way,
                    outcome_path *o, fault *f)
 {
@@ -196,10 +194,10 @@ status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     return result;
 }
 
-/* Compliance and stiffness of a node in a deformed state.  Prescribed motion that is released is
- * replaced by its reactions: dead forces, and moments of the analysis' convention. */
+/* Compliance and stiffness of a node in a deformed state. A released prescribed motion is replaced
+ * by its reactions: dead forces, and moments by the convention of the analysis. */
 
-/* Loads whose response some quantity asks for. */
+/* Loads for which a quantity requests the response. */
 static unsigned wanted_columns(const analysis_context *c, int analysis)
 {
     unsigned wanted = 0;
@@ -234,8 +232,7 @@ static void reaction_of(const analysis_context *c, const scene_compliance *what,
         memset(reaction + 3, 0, 3 * sizeof *reaction);
 }
 
-/* From the tangent about the node; columns of C that nothing asks for, and with them K, are not
- * numbers. */
+/* Tangent about the node; unneeded columns of C, and with them K, are NaN. */
 static status matrices_of(analysis_context *c, const scene_compliance *what, double reaction[6],
                           node_tangent *t, unsigned wanted, station_matrices *out, fault *f)
 {
@@ -299,7 +296,7 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
                : STATUS_OK;
 }
 
-/* The state without loads: undeformed, but for strains that members have by themselves. */
+/* The state without loads: undeformed except for strains without stress. */
 static status unloaded(analysis_context *c, newton_run *n, const model_state **state, fault *f)
 {
     step_record unused = {0};
@@ -311,8 +308,8 @@ static status unloaded(analysis_context *c, newton_run *n, const model_state **s
     return newton_to(n, 0, &unused, f);
 }
 
-/* Computes the compliances at the stations that the path has reached. The caller,
- * compliance_analysis, frees the workspace, also after a failure. */
+/* Computes the compliances at the stations of the path. The caller, compliance_analysis, frees the
+ * workspace, also after a failure. */
 static status compliance_solve(analysis_context *c, int analysis, node_tangent *t, newton_run *n,
                                outcome_compliance *out, fault *f)
 {

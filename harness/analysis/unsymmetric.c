@@ -7,14 +7,14 @@
 
 #include "elements/math/dense.h"
 
-/* Relative size of eigenvalues that may be rounding of those of massless coordinates. */
+/* Relative size below which eigenvalues may be round-off of those of massless coordinates. */
 static const double nothing = 1e-6;
 
-/* Coordinates are measured by the roots of the diagonal of K, rates times `second`. */
+/* Coordinates are scaled by the square roots of the diagonal of K, rates by `second`. */
 typedef struct unsymmetric_solver {
     const unsymmetric_problem *p;
     unsymmetric_result *out;
-    int n, massive; /* coordinates, and those with a mass */
+    int n, massive; /* coordinates, and those with mass */
     int *of;        /* [massive] */
     double *scale;  /* [n] */
     double *x, *y;  /* [n] work */
@@ -120,7 +120,7 @@ static void measure(unsymmetric_solver *s)
     }
 }
 
-/* The longest time that the undamped structure has, about. */
+/* An estimate of the longest period of the undamped structure. */
 static void find_second(unsymmetric_solver *s, double from[], double to[])
 {
     double size = 0;
@@ -169,7 +169,7 @@ static double complex root(const unsymmetric_solver *s, double complex theta)
     return s->p->C != NULL ? 1 / theta : csqrt(-1 / theta);
 }
 
-/* Work of the estimates, [n] each. */
+/* Workspace of the estimates, [n] each. */
 typedef struct growth_estimate {
     double complex *x, *w, *y, *left; /* left: [left.count x n] */
 } growth_estimate;
@@ -200,8 +200,8 @@ static double slope(const unsymmetric_solver *s, int absolute, double complex at
     return cabs(sum + product(s->n, w, e->y));
 }
 
-/* Rounding of the entries of K changes s by w^T dK x/(w^T (2 s M + C) x); where values meet, by the
- * root of what it does to their difference. */
+/* Round-off in K changes s by w^T dK x/(w^T (2 s M + C) x); for coinciding values, by the square
+ * root of the change of their difference. */
 static double error_of(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const int n = s->n;
@@ -251,8 +251,8 @@ static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
     return STATUS_OK;
 }
 
-/* The phase that makes the real part as large as it can be; of the second of two motions of a
- * flutter its imaginary part. */
+/* Selects the phase with the largest real part; for the second of two flutter motions the imaginary
+ * part. */
 static void take_mode(const unsymmetric_solver *s, int i, int second, double mode[])
 {
     const size_t size = s->p->C != NULL ? (size_t)(s->n + s->massive) : (size_t)s->n;
@@ -267,7 +267,7 @@ static void take_mode(const unsymmetric_solver *s, int i, int second, double mod
     }
 }
 
-/* x^T A x, or where that says little of them, the same of the conjugate: y is work. */
+/* x^T A x or, if it is too small, the form with the conjugate: y is work space. */
 static double complex form(const unsymmetric_solver *s, const sparse *A, int conjugated,
                            const double complex x[], double complex y[])
 {
@@ -300,7 +300,7 @@ static double complex with_inside(const unsymmetric_solver *s, int i, double com
         if (cabs(slope) > 0)
             z -= (c * (z - at) + m * (z * z - at * at) - b * moves * part) / slope;
     }
-    return cabs(z - at) < 0.3 * cabs(at) ? z : at; /* coarse meshes: as without */
+    return cabs(z - at) < 0.3 * cabs(at) ? z : at; /* coarse meshes: unchanged */
 }
 
 static void take(unsymmetric_solver *s, int i, double error, const growth_estimate *e)

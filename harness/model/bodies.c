@@ -1,11 +1,11 @@
 /* A rigid body in a frame that turns with Omega: with its centre at x from a point of the axis, its
  * inertia I = R I_0 R^T about that and h = I Omega,
  *   potential = -1/2 (m |Omega x x|^2 + Omega . h).
- * About the centre, for translations of it and turns in the exponential chart: centrifugal force
+ * About the centre, for its translations and rotations in the exponential chart: centrifugal force
  * -m Omega x (Omega x x) and moment h x Omega, softening m Omega~^2 and
  *   Omega~ I Omega~ - sym(h Omega^T) + (h . Omega) 1,
- * gyroscopic matrix 2 m Omega~ and I Omega~ + Omega~ I - h~ (a body that tumbles in the frame
- * included).  At the node by the rigid offset. */
+ * gyroscopic matrix 2 m Omega~ and I Omega~ + Omega~ I - h~ (also for a body that rotates in the
+ * frame). The rigid offset transforms these to the node. */
 #include "harness/model/model_impl.h"
 
 #include <float.h>
@@ -32,7 +32,7 @@ static void inertia_now(const double given[6], const double R[9], double I[9])
             I[3 * i + j] = vec3_dot(&half[3 * i], &R[3 * j]);
 }
 
-/* A[7 x 7] = translation block, rotation block */
+/* A[7 x 7] = block-diagonal: translations, rotations */
 static void put_blocks(const double translation[9], const double rotation[9], double A[N * N])
 {
     memset(A, 0, N * N * sizeof *A);
@@ -89,7 +89,7 @@ static void softening_matrix(double mass, const double I[9], const double omega[
     put_blocks(translation, rotation, A);
 }
 
-/* Outward force and moment about the centre, and the potential. */
+/* Centrifugal force and moment about the centre, and the potential. */
 static double centrifugal(double mass, const double I[9], const double x[3], const double omega[3],
                           double force[N])
 {
@@ -177,7 +177,7 @@ static int founded_vertices(const model *m)
     return count;
 }
 
-/* K += those of a length of the foundation, whose axes are R. */
+/* Adds the stiffness of a length of foundation to K; R: axes of the foundation. */
 static void add_founded(const double foundation[6], double length, const double R[9], double K[36])
 {
     for (int block = 0; block < 2; block++)
@@ -188,13 +188,14 @@ static void add_founded(const double foundation[6], double length, const double 
                         length * foundation[3 * block + k] * R[3 * i + k] * R[3 * j + k];
 }
 
-/* Weights as those of masses: mesh.c. */
+/* The weights are those of lumped masses: mesh.c. */
 static status found_member(model *m, int member, scene_spring *spring, int *used, fault *f)
 {
     const scene_member *sm = &m->scene->member[member];
     const int first = m->mesh.first_element[member], last = m->mesh.nodes - 1;
     member_arc arc;
-    TRY(member_arc_of(m->scene, member, 0, &arc, f)); /* in the axes of the description */
+    TRY(member_arc_of(m->scene, member, 0, &arc,
+                      f)); /* in the axes in which the section is described */
     for (int i = first; i < m->mesh.first_element[member + 1]; i++) {
         const mesh_element *el = &m->mesh.element[i];
         for (int k = 0; k <= last; k++) {
@@ -284,7 +285,7 @@ static void damp(const scene_spring *p, const double rate[], double sigma[])
         sigma[k] += more[k];
 }
 
-/* r NULL: nothing moves. */
+/* r NULL: no rates. */
 static void spring_at(const model *m, const model_state *s, const mesh_discrete *d,
                       const spring_rates *r, spring_state *out)
 {
@@ -304,7 +305,7 @@ static void spring_at(const model *m, const model_state *s, const mesh_discrete 
     spring_strain(d->el.nodes, x, turn, &(strain_output){.s = out->sigma, .H = out->H});
 }
 
-/* Force and tangent at the nodes themselves; material: with J^T S J of springs. */
+/* Force and tangent at the nodes; material: with J^T S J of springs. */
 static void evaluate(const model *m, const model_state *s, const mesh_discrete *d,
                      const element_rotating_frame *frame, const spring_rates *r, int material,
                      double force[], double K[])
@@ -426,7 +427,7 @@ double discrete_stored(const model *m, const model_state *s)
     return sum;
 }
 
-/* F += the forces at those of its nodes that move with `node`. */
+/* Adds to F the forces at the nodes that move with `node`. */
 static void add_at_node(const model *m, const model_state *s, const mesh_discrete *d,
                         double force[], int node, double F[6])
 {
@@ -562,9 +563,9 @@ void dashpots_stressed(const model *m, const model_state *s, int spring, const d
     eliminate_forces(m, s, &d->el, force);
 }
 
-/* Element coordinates (dr, dphi, da per vertex) -> coordinates of the bodies that move them, in
- * place. Offset: elements/math/rotation.h. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x
- * b_j dt_i dt_j (Baker-Campbell-Hausdorff). */
+/* Transforms element coordinates (dr, dphi, da per vertex) to those of the moving bodies, in place.
+ * Offset: elements/math/rotation.h. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x b_j dt_i
+ * dt_j (Baker-Campbell-Hausdorff). */
 
 static void sequence_force(int angles, double b[3][3], double force[7])
 {

@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-enum { LEAST_PIECES = 12 }; /* of a member, so that one element is a curve */
+enum { LEAST_PIECES = 12 }; /* of a member, so that one element appears curved */
 static const double drawn_part = 0.1, drawn_rotation = 0.5; /* of the size; [rad] */
 
 /* Gaps between the vertices of a member, and pieces of each gap. */
@@ -36,7 +36,7 @@ int centreline_points(const model *m, int first[])
     return count;
 }
 
-/* One element: its nodes' frames and the forces that the outside exerts on them. */
+/* One element: frames of its nodes and external forces on them. */
 typedef struct span {
     int nodes;
     double gap; /* undeformed distance between two nodes [m] */
@@ -72,7 +72,7 @@ static void cubic(const span *e, int k, double t, double r[3], double direction[
     }
 }
 
-/* The shorter way between the two triads, then the shortest rotation of its x axis into the line.
+/* Shortest rotation between the two triads, then the shortest rotation of the x axis to the line.
  */
 static void orientation(const span *e, int k, double t, const double direction[3], double q[4])
 {
@@ -91,7 +91,7 @@ static void orientation(const span *e, int k, double t, const double direction[3
     rotation_compose(step, q, q);
 }
 
-/* Resultants on the part before the point: the forces on the nodes after it. */
+/* Resultants that act on the part before the point: from the forces on the nodes after it. */
 static void resultants(const span *e, int k, double t, centreline_point *p)
 {
     double force[3] = {0}, moment[3] = {0}, R[9];
@@ -143,7 +143,7 @@ void centreline_nodes(const model *m, const model_state *s, double out[])
         kinematics_position(m, s, i, out + 3 * i);
 }
 
-/* A node that released ends may be all that is at. */
+/* The node may consist of released ends only. */
 static void increment_of_node(const model *m, const model_state *s, int node, const double x[],
                               double out[])
 {
@@ -181,7 +181,7 @@ static double visible_scale(const model *m, const double increment[])
     return isfinite(scale) ? scale : 1;
 }
 
-/* s: moved by scale x the increments[vertices x 6]. */
+/* s: state moved by scale x the increments[vertices x 6]. */
 static void displace(const model *m, double scale, const double increment[], model_state *s)
 {
     for (int v = 0; v < m->mesh.vertices; v++) {
@@ -214,7 +214,7 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
     return STATUS_OK;
 }
 
-/* How far apart two states of a model are: what arc length is measured with. */
+/* Distance between two states of a model; the arc length uses it. */
 
 /* Bodies that have a coordinate. */
 static int moving_bodies(const model *m)

@@ -71,7 +71,7 @@ static int conditioned_by(const model *m, int vertex, int component, int known)
     return NONE;
 }
 
-/* A vertex that nothing is connected to must not become a row of zeros. */
+/* An unconnected vertex must not cause a zero row. */
 static void mark_used(const model *m, char *used)
 {
     for (int i = 0; i < m->mesh.elements; i++)
@@ -82,7 +82,7 @@ static void mark_used(const model *m, char *used)
             used[m->mesh.vertex[m->mesh.discrete[i].el.vertex[k]].body] = 1;
 }
 
-/* Numbers the coordinates of a released end: shifts first, then rotations. */
+/* Numbers the coordinates of a released end: displacements first, then rotations. */
 static void number_release(model *m, int index)
 {
     mesh_vertex *v = &m->mesh.vertex[index];
@@ -93,8 +93,8 @@ static void number_release(model *m, int index)
     }
 }
 
-/* How many coordinates are fixed, and how many of them because they leave the plane; vertices that
- * nothing reaches. */
+/* Number of fixed coordinates, of those fixed because they leave the plane, and of unconnected
+ * vertices. */
 typedef struct coordinates_tally {
     int held, across, unused;
 } coordinates_tally;
@@ -136,7 +136,7 @@ static status number_vertices(model *m, coordinates_tally *of, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory");
     mark_used(m, used);
     for (int pass = 0; pass < 2; pass++) {
-        /* The warping amplitudes come between: they are free. */
+        /* The warping amplitudes are numbered between these: they are free. */
         for (int i = 0; i < m->mesh.first_release; i++)
             number_vertex(m, i, pass, used[i], of);
         if (pass > 0)
@@ -182,8 +182,8 @@ static void index_release(const model *m, int node, mesh_element *el)
         el->index[NODE_COORDINATES * node + c] = NONE;
 }
 
-/* Global coordinates of an element's own, after released ends, rigid offsets and sequences have
- * been eliminated. */
+/* Global coordinates of an element's coordinates, after elimination of released ends, rigid offsets
+ * and sequences. */
 static void index_element(model *m, mesh_element *el)
 {
     el->plain = 1;

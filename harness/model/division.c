@@ -8,7 +8,7 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* A place of a member at which pieces meet. */
+/* A position of a member where pieces meet. */
 typedef struct division_cut {
     int member;
     double place;
@@ -22,7 +22,7 @@ static int in_order(const void *a, const void *b)
     return (p->place > q->place) - (p->place < q->place);
 }
 
-/* All of the loads, in order; returns how many. */
+/* Lists all cuts from loads, in order; returns their number. */
 static int list_cuts(const scene *s, division_cut out[])
 {
     int count = 0;
@@ -36,7 +36,7 @@ static int list_cuts(const scene *s, division_cut out[])
     return count;
 }
 
-/* The positions of one member, from its cuts on; returns how many cuts those are. */
+/* Sets the positions of one member from its cuts; returns the number of these cuts. */
 static int place_pieces(int member, const division_cut cuts[], int count, double place[],
                         int *pieces)
 {
@@ -169,10 +169,10 @@ void division_words(const scene *s, int elements, char *text, size_t room)
     division_free(&d);
 }
 
-/* A change from one section of the scene to another in that many steps, from m->section[first] on.
- */
+/* A change from one section of the scene to another in this number of steps, starting at
+ * m->section[first]. */
 typedef struct taper {
-    int p, q, steps, even, first; /* even: of one length */
+    int p, q, steps, even, first; /* even: equal lengths */
 } taper;
 
 status profile_scene(model *m, fault *f)
@@ -233,7 +233,7 @@ static status fill(model *m, int member, const taper *t, fault *f)
     return STATUS_OK;
 }
 
-/* Index of the taper of a member in the list; after its end where it is new. */
+/* Index of a member's taper in the list; the length of the list if it is new. */
 static int find(int tapers, const taper *list, const taper *t)
 {
     for (int i = 0; i < tapers; i++)

@@ -1,4 +1,4 @@
-/* Features of formulations that a scene needs. */
+/* Features of formulations that a scene requires. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ static unsigned needs_of_analyses(const scene *s)
     return needs;
 }
 
-/* The torque of stresses along the fibres is there where they are turned. */
+/* Fibre stresses exert a torque if the fibres are inclined (twisted). */
 unsigned features_of_quantities(const scene *s)
 {
     unsigned needs = 0;
@@ -51,8 +51,8 @@ unsigned features_of_quantities(const scene *s)
     return needs;
 }
 
-/* Do formulations give their own inertia? A motion in time with lumped mass has that of the
- * section, with all of them alike. */
+/* Do formulations provide their own inertia? A motion in time with lumped mass uses that of the
+ * section, the same for all formulations. */
 static int elements_have_mass(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -64,7 +64,7 @@ static int elements_have_mass(const scene *s)
     return 0;
 }
 
-/* Sections that members have. */
+/* Is the section used by a member? */
 static int is_used(const scene *s, int index)
 {
     for (int i = 0; i < s->members; i++)
@@ -73,8 +73,8 @@ static int is_used(const scene *s, int index)
     return 0;
 }
 
-/* Physics that is there for what stresses and turns a section by its constants: what it has of it
- * at all, where the analyses have stresses. */
+/* Physics of sections given by constants, under stress and rotation: what the section has, where
+ * the analyses have stresses. */
 static unsigned needs_of_stresses(const section *c, unsigned needs)
 {
     const double arm = sqrt(c->Ip / c->A), zero = 1e-10;
@@ -83,7 +83,7 @@ static unsigned needs_of_stresses(const section *c, unsigned needs)
         return 0;
     if (hypot(c->wagner_y, c->wagner_z) > zero * c->Ip * arm)
         out |= FEATURE_WAGNER_MOMENTS;
-    /* cubic in the twist rate: nothing about the undeformed state */
+    /* cubic in the twist rate: no effect about the undeformed state */
     if ((needs & FEATURE_LARGE) && fabs(c->wagner_torque) > zero * c->Ip * arm * arm)
         out |= FEATURE_WAGNER_TORQUE;
     return out;
@@ -99,7 +99,7 @@ static unsigned needs_of_constants(const section *c, unsigned needs)
     return out | (needs & FEATURE_MASS && c->density > 0 ? FEATURE_ROTARY_INERTIA : 0);
 }
 
-/* Its matrices have shear, and say nothing of warping, trapeze and Wagner's effects. */
+/* Section matrices have shear, but do not give warping, trapeze and Wagner effects. */
 static unsigned needs_of_matrices(const scene *s, const section *c, unsigned needs, unsigned omits)
 {
     const unsigned rotary = needs & FEATURE_MASS ? FEATURE_ROTARY_INERTIA & ~omits : 0;
@@ -122,7 +122,7 @@ static unsigned needed_without(const scene *s, unsigned omits)
     for (int i = 0; i < s->sections; i++) {
         section c;
         if (!is_used(s, i) || scene_constants(s, i, &c, NULL) != STATUS_OK)
-            continue; /* model_alloc says why */
+            continue; /* model_alloc reports the error */
         all |= c.matrices ? needs_of_matrices(s, &c, needs, omits)
                           : needs_of_constants(&c, needs) & ~omits;
     }
@@ -143,7 +143,7 @@ unsigned features_omitted(const scene *s)
     return needed_without(s, 0) & ~needed_without(s, s->omits) & SCENE_OMITTABLE;
 }
 
-/* Physics that a section by its constants says to be zero, if it has none. */
+/* Physics that a section given by constants declares as zero. */
 static unsigned features_zero(const section_spec *spec)
 {
     const unsigned zeros = spec->zeros, moments = SECTION_ZERO_WAGNER_Y | SECTION_ZERO_WAGNER_Z;
@@ -221,7 +221,7 @@ unsigned features_theory(const scene *s, const element_type *type)
         return SHEAR_OWN;
     if (needs & FEATURE_HARINGX)
         return SHEAR_HARINGX;
-    /* of two, Engesser's where none is requested */
+    /* of two, Engesser's if none is requested */
     return needs & FEATURE_ENGESSER || type->shear_theories & SHEAR_ENGESSER ? SHEAR_ENGESSER
                                                                              : type->shear_theories;
 }
@@ -244,7 +244,7 @@ unsigned features_needed_by_quantity(const scene *s, int quantity)
     return features_needed(s) & (moves ? ~0U : ~inertia);
 }
 
-/* Features that elements with this section need. */
+/* Features that elements with this section require. */
 status features_of_section(const model *m, int index, unsigned *features, fault *f)
 {
     (void)f;
@@ -260,7 +260,7 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
     return STATUS_OK;
 }
 
-/* A mass of its own that says nothing of sections by their matrices. */
+/* An inertia of its own that supports sections given by constants only. */
 static int knows_constants_only(const scene *s, const element_type *type)
 {
     int matrices = 0;

@@ -1,4 +1,4 @@
-/* Frames of vertices and what they do to elements. */
+/* Frames of vertices and their effect on elements. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ void kinematics_offset(const model *m, const model_state *s, int index, double r
     rotation_apply(&s->q[4 * v->body], v->offset, rho);
 }
 
-/* Orientation after a sequence's present angles, and its spatial axes b (NULL: not needed). */
+/* Orientation at the current angles of a sequence, and its spatial axes b (NULL: not needed). */
 static void sequence_orientation(const model *m, const model_state *s, int index, double b[][3],
                                  double q[4])
 {
@@ -162,7 +162,7 @@ double kinematics_component(const model *m, const model_state *s, int node, int 
     if (v->body == node && v->angles == 0 && v->vector_driver[0] == NONE &&
         m->scene->node[node].angle[component - SCENE_RX] != SCENE_FREE)
         return s->angle[3 * node + component -
-                        SCENE_RX]; /* fixed or prescribed about a fixed axis: also beyond pi */
+                        SCENE_RX]; /* fixed or prescribed about a fixed axis: valid beyond pi */
     return turns_of_node(s, node)[component - SCENE_RX];
 }
 
@@ -206,8 +206,8 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
     return vec3_dot(d, axis) / vec3_norm(d);
 }
 
-/* Cosine of half the angle that an element is turned by in itself; less than 0: by more than half a
- * turn, which the signs of quaternions remember. */
+/* Cosine of half the angle between the ends of an element; negative: more than half a revolution,
+ * known from the signs of quaternions. */
 static double half_cosine(const model *m, const model_state *s, const mesh_element *el, int chords)
 {
     double turn = 0, least = 1;
@@ -240,7 +240,7 @@ double kinematics_largest_turn(const model *m, const model_state *s, int chords,
     return 2 * acos(fmax(-1, least));
 }
 
-/* About its axis at rest, of one node as seen from the other. */
+/* Twist about the undeformed axis, of one node relative to the other. */
 static double twist_of(const model *m, const model_state *s, const mesh_element *el)
 {
     double back[4], q[4];
@@ -287,8 +287,8 @@ int kinematics_coordinate(const model *m, int node, int component)
     return m->mesh.vertex[node].body == node ? m->mesh.vertex[node].coordinate[component] : NONE;
 }
 
-/* Coordinates of a released end after those of its body: turns, shifts. Returns their
- * number. */
+/* Appends the coordinates of a released end to those of its body: rotations, displacements. Returns
+ * their number. */
 static int append_own(const model *m, int vertex, int size, int count, int index[])
 {
     const mesh_release *r = release_of(m, vertex);
@@ -344,7 +344,7 @@ int kinematics_node_jacobian(const model *m, const model_state *s, int node, int
     return count;
 }
 
-/* States of a model: one block of numbers each. */
+/* States of a model: one block of numbers for each state. */
 
 const model_state *kinematics_rest(const model *m)
 {

@@ -1,11 +1,11 @@
-/* Patterns, and where every entry of an element goes in them. */
+/* Matrix patterns, and the positions of element entries in them. */
 #include "harness/model/model_impl.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Tangents of dead moments about fixed axes, be they loads or reactions, and of loads that follow
- * are stored whole: whether they are symmetric is a matter of the state. */
+/* Dead moments about fixed axes (loads or reactions) and follower loads: their tangents are stored
+ * as full matrices, because symmetry depends on the state. */
 int assemble_symmetric(const model *m)
 {
     int whole = 0;
@@ -64,8 +64,8 @@ static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t c
     return count;
 }
 
-/* Number of pairs of coordinates that elements couple, with repetitions; their rows and columns
- * into row[] and column[] unless these are NULL. */
+/* Number of pairs of coordinates that elements couple, with repetitions. Stores their rows and
+ * columns in row[] and column[] unless these are NULL. */
 static size_t collect(const model *m, const mesh_pattern *p, int row[], int column[])
 {
     size_t count = 0;
@@ -76,7 +76,7 @@ static size_t collect(const model *m, const mesh_pattern *p, int row[], int colu
     return count;
 }
 
-/* begin[n + 1] of n lists that hold the pairs by their index. */
+/* Sets begin[n + 1] of n lists; the lists contain pairs by their index. */
 static void begin_lists(size_t pairs, const int index[], int n, int begin[])
 {
     memset(begin, 0, ((size_t)n + 1) * sizeof *begin);
@@ -90,11 +90,11 @@ static void begin_lists(size_t pairs, const int index[], int n, int begin[])
 typedef struct pairs {
     size_t count;
     int *row, *column, *by_row; /* [count] */
-    int *begin, *end;           /* [n + 1] of the lists of rows, and of columns */
+    int *begin, *end;           /* [n + 1] starts of the lists of rows, and of columns */
 } pairs;
 
-/* Columns by rows first: then the rows of each column come in ascending order. Squeezed, for a pair
- * is in it once. */
+/* Sorts columns by rows first, so that the rows of each column are in ascending order. Removes
+ * duplicates. */
 static void sort_pairs(const pairs *all, sparse *out)
 {
     const int n = out->n;
@@ -139,7 +139,8 @@ static status compress(const model *m, mesh_pattern *p, fault *f)
                             p->matrix.n);
 }
 
-/* Where the stored entries of an element's matrix stand: entry[columns^2]; returns how many. */
+/* Positions of the stored entries of an element's matrix: entry[columns^2]; returns their number.
+ */
 static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry entry[])
 {
     const sparse *a = &p->matrix;
@@ -157,8 +158,8 @@ static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry 
     return count;
 }
 
-/* The layout that is these entries, or NONE, among the last ones that were made: elements along a
- * member have the same but for those at its ends. */
+/* The layout with these entries among the last ones, or NONE. Elements along a member have the same
+ * layout except at its ends. */
 static int find_layout(const mesh_pattern *p, int entries, const mesh_entry entry[])
 {
     const int looked_at = 16;

@@ -14,7 +14,7 @@
 #include "elements/math/scalar.h"
 #include "elements/shared/masses.h"
 
-/* Adds the axis, of any length, of a sequence's next angle. */
+/* Adds the axis (any length) of the next angle of a sequence. */
 static void add_axis(const double axis[3], mesh_vertex *v)
 {
     const double length = vec3_norm(axis);
@@ -23,8 +23,9 @@ static void add_axis(const double axis[3], mesh_vertex *v)
     v->angles++;
 }
 
-/* A node that turns about an axis by itself is fixed against that: as a plane one against its free
- * angle, else it turns about two axes across, of which the last carries the axis with it. */
+/* A node that can rotate about an idle axis is fixed against this rotation: with one free angle by
+ * fixing it, otherwise by rotation about two axes perpendicular to it, the last of which carries
+ * the axis. */
 static void hold_idle(const scene *s, int node, mesh_vertex *v)
 {
     double axis[3], across[2][3];
@@ -86,7 +87,7 @@ static int same_vector(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Where frequencies are requested. */
+/* If frequencies are requested. */
 static status set_inner(const model *m, const element_request *request, mesh_kind *k, fault *f)
 {
     int modal = 0;
@@ -103,7 +104,7 @@ static status set_inner(const model *m, const element_request *request, mesh_kin
     return STATUS_OK;
 }
 
-/* What an element of a member has without stress: strains of the scene, and `free` of a kind. */
+/* The unstressed state of an element: strains from the scene, and `free` of a kind. */
 typedef struct unstressed {
     double strain[3], free[3];
 } unstressed;
@@ -120,8 +121,8 @@ static status unstressed_of(const model *m, int member, int profile, double leng
     return scene_member_elongation(m->scene, member, length, &out->free[0], f);
 }
 
-/* Index of the kind of element of a member with this section, length and curvature; made when it is
- * new. rounding [m]: of the length. */
+/* Index of the kind of element with this section, length and curvature; a new one is created if
+ * needed. rounding [m]: tolerance of the length. */
 static status kind_of(model *m, const unstressed *own, int profile, double length, double rounding,
                       const double curvature[3], int *out, fault *f)
 {
@@ -156,7 +157,7 @@ static status kind_of(model *m, const unstressed *own, int profile, double lengt
     return m->mesh.type->prepare(&request, k->data, f);
 }
 
-/* Where each element has a section of its own, its axes too. */
+/* If each element has a section of its own, also its axes. */
 static status arc_of_element(const model *m, int member, int profile, const member_arc *along,
                              member_arc *out, fault *f)
 {
@@ -166,7 +167,7 @@ static status arc_of_element(const model *m, int member, int profile, const memb
     return member_arc_of(m->scene, member, m->section[profile].axes_angle, out, f);
 }
 
-/* Where triad[nodes] are kept: with those of the element before where they are the same. */
+/* Storage of triad[nodes]; shared with the previous element if they are equal. */
 static mesh_triad *keep_triads(model *m, mesh_triad triad[])
 {
     const size_t size = (size_t)m->mesh.nodes * sizeof *triad;
@@ -178,8 +179,8 @@ static mesh_triad *keep_triads(model *m, mesh_triad triad[])
     return next;
 }
 
-/* An element between two points of a bow, as the arc that turns as far as it does; chord: between
- * them, and the triad along that.  Of a bow on a straight member. */
+/* An element between two points of a bow, as an arc with the rotation of the bow between these
+ * points; chord: the vector between them and its triad. For a bow on a straight member. */
 static member_arc arc_of_bow(const member_arc *a, const double ends[2], const double start[3],
                              double chord, const double triad[9])
 {
@@ -201,7 +202,7 @@ static member_arc arc_of_bow(const member_arc *a, const double ends[2], const do
     return out;
 }
 
-/* The vertices of one element along an arc: positions, triads, warping comes later. */
+/* Sets the vertices of one element along an arc: positions, triads; warping is set later. */
 static status add_element(model *m, const member_arc *along, int member, int number,
                           int inner_vertex, fault *f)
 {
@@ -220,7 +221,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
               curves = (m->mesh.type->offers & FEATURE_CURVATURE) != 0,
               curved = curves && bends && !bowed, last = m->mesh.nodes - 1;
     mesh_triad triad[ELEMENT_MAX_NODES];
-    double first[3] = {0}; /* where its line begins */
+    double first[3] = {0}; /* start of its line */
     el->member = member;
     el->nodes = m->mesh.nodes;
     for (int k = 0; k <= last; k++) {
@@ -248,7 +249,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
             memcpy(first, position, sizeof first);
         if (k < last || curved)
             continue;
-        /* Not curved, or not all along alike: one triad along the chord. */
+        /* Not curved, or not uniform: one triad along the chord. */
         double y[3];
         for (int i = 0; i < 3; i++) {
             between[i] = position[i] - first[i];
@@ -286,7 +287,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
     return kind_of(m, &own, profile, a->length * (ends[1] - ends[0]) / each, 0, a->k, &el->kind, f);
 }
 
-/* Warping slot of a member's end: shared by name, own, or none. */
+/* Warping slot of a member's end: shared by name, its own, or none. */
 static int end_warp(model *m, int name, int *named)
 {
     if (name == SCENE_WARP_FIXED)
@@ -303,7 +304,8 @@ static void add_warps(model *m, int *named)
     const int last = m->mesh.nodes - 1;
     for (int member = 0; member < m->scene->members; member++) {
         const scene_member *sm = &m->scene->member[member];
-        const int profile = profile_at(m, member, 0); /* warps as the other elements: division.c */
+        const int profile =
+            profile_at(m, member, 0); /* the same warping as the other elements: division.c */
         unsigned features;
         features_of_section(m, profile, &features, NULL);
         const int warps = (features & FEATURE_WARPING) != 0 && m->scene->plane == SCENE_SPACE,
@@ -315,7 +317,7 @@ static void add_warps(model *m, int *named)
                           at_end = i + 1 == m->mesh.first_element[member + 1] && k == last;
                 if (!warps)
                     el->warp[k] = NONE;
-                else if (nothing_warps) /* kept although nothing warps: an amplitude of its own
+                else if (nothing_warps) /* kept although no warping occurs: an amplitude of its own
                                            changes nothing */
                     el->warp[k] = m->mesh.warps++;
                 else if (at_start || at_end)
@@ -326,9 +328,9 @@ static void add_warps(model *m, int *named)
     }
 }
 
-/* Weights of the ends of n equal lengths from the first on, whose sums integrate cubics: masses at
- * nodes then have the order of those along elements in slender bending (Gregory's, from n = 6 on;
- * closed Newton-Cotes below). */
+/* Weights of the end nodes of n equal lengths; the weighted sums integrate cubics. With these,
+ * lumped masses have the order of distributed ones in slender bending (Gregory's rule from n = 6
+ * on, closed Newton-Cotes below). */
 static double weight_of(int n, int node)
 {
     static const double closed[][3] = {{0.5, 0, 0},
@@ -363,8 +365,8 @@ static void set_shares(mesh_element *el, int count)
     }
 }
 
-/* Do two elements of a member follow each other with one length, one section and mass?  The lengths
- * in a bow differ by its slopes, which is less than what the weights leave. */
+/* Are two consecutive elements of a member equal in length, section and mass? The lengths in a bow
+ * differ because of its slope, by less than the error of the weights. */
 static int runs_on(const model *m, int first, int next)
 {
     const mesh_element *a = &m->mesh.element[first], *b = &m->mesh.element[next];
@@ -409,7 +411,7 @@ static status allocate(model *m, fault *f)
     double total = 0;
     for (int i = 0; i < s->members; i++)
         total += (double)division_pieces(&m->division, i) * m->division.each[i];
-    const double per_element = 8e3; /* bytes of an element with its share of matrices and factors,
+    const double per_element = 8e3; /* bytes for an element with its share of matrices and factors,
                                        measured on straight members */
     char what[80];
     snprintf(what, sizeof what, "%.0f elements", total);
@@ -435,7 +437,7 @@ static status allocate(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* The sections of all elements, and no kind of any. */
+/* Computes the sections of all elements; no kinds yet. */
 static status profiles(model *m, fault *f)
 {
     int sections;

@@ -1,4 +1,4 @@
-/* Physics that a scene needs and a formulation does not support, in words. */
+/* Physics that a scene requires and a formulation does not support, in words. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -39,9 +39,9 @@ static int shares_section(const scene_member *a, const scene_member *b)
            a->section_q == b->section_q;
 }
 
-/* Diagonal [m] of the box around a member and those of its section that it is connected with
- * through common nodes: a beam may be described by any number of short members. reached [nodes]:
- * not to be set; what is reached is. */
+/* Diagonal [m] of the box around a member and the connected members of the same section: one beam
+ * may be described by several short members. reached [nodes]: must be cleared before; reached nodes
+ * are set. */
 static double extent_of(const scene *s, int member, char *reached)
 {
     const scene_member *first = &s->member[member];
@@ -73,7 +73,7 @@ static double phi_along_y(const scene *s)
             section c;
             if (scene_constants(s, end[k], &c, NULL) == STATUS_OK)
                 largest = fmax(largest, 12 * c.young * c.Iz * c.F[0] / (c.shear_modulus * l * l));
-        } /* model_alloc says why a section is not one */
+        } /* model_alloc reports why a section is invalid */
         free(reached);
     }
     return largest;
@@ -92,7 +92,7 @@ int lacks_of(const scene *s, const element_type *type, char *words, int size)
     return phi > largest_phi ? 2 : 1;
 }
 
-/* Shear flexibilities off the diagonal, beyond the round-off of those on it. */
+/* Are there off-diagonal shear flexibilities beyond round-off of the diagonal? */
 static int is_coupled(const section *c)
 {
     static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
@@ -126,7 +126,7 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
     return 0;
 }
 
-/* A motion asks for it. */
+/* Is inertia missing that a motion requires? */
 static int mass_lacks(const scene *s, const element_type *type, char *words, int size)
 {
     for (int i = 0; i < s->analyses && !type->spreads; i++)
@@ -135,7 +135,7 @@ static int mass_lacks(const scene *s, const element_type *type, char *words, int
     return 0;
 }
 
-/* Strains that members have without stress, where the places of nodes are the only ones. */
+/* Unstressed strains of members, if the positions of nodes are the only ones. */
 static int strains_lack(const scene *s, const element_type *type, char *words, int size)
 {
     scene_words who;
@@ -145,8 +145,8 @@ static int strains_lack(const scene *s, const element_type *type, char *words, i
     return 1;
 }
 
-/* Curved members can be made of straight elements: what a scene needs of this feature is the strain
- * of its members. */
+/* Curved members can be modelled by straight elements: then the scene requires only the strain of
+ * its members. */
 static void words_of(unsigned missing, char *words, int size)
 {
     const int used = feature_words(missing & ~(unsigned)FEATURE_CURVATURE, words, size);
@@ -171,7 +171,7 @@ int missing_words(const scene *s, const element_type *type, char *words, int siz
     return 0;
 }
 
-/* Features without which a structure is still one: its loads and supports keep their meaning. */
+/* Features that are not essential: without them loads and supports keep their meaning. */
 static unsigned can_be_omitted(const scene *s)
 {
     const unsigned physics = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |
@@ -272,7 +272,8 @@ static int is_heavy(const scene *s)
     return heavy;
 }
 
-/* Names the loads along members that are lumped with the mass of a motion (newton/loads.c). */
+/* Names the loads along members that are lumped together with the mass of a motion
+ * (newton/loads.c). */
 static const char *goes_with(const scene *s, const scene_motion *how)
 {
     int weight = 0, other = 0;
@@ -287,7 +288,7 @@ static const char *goes_with(const scene *s, const scene_motion *how)
     return weight ? " and weight" : "";
 }
 
-/* Analyses but motions that have a mass. */
+/* Analyses with mass, except motions. */
 static int is_lumped(const scene *s, const scene_analysis *a)
 {
     return s->lumped && (a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC ||
@@ -384,11 +385,11 @@ static int state_of(const held_ends *e, int member, int end)
     return warp == SCENE_WARP_FIXED ? HELD : warp >= 0 ? SHARED : FREE;
 }
 
-/* The names of one state after the other. */
+/* Names of the ends, one state after the other. */
 typedef struct ends_words {
     char *text;
     size_t room, used;
-    int names; /* of the state */
+    int names; /* with this state */
 } ends_words;
 
 static void ends_put(ends_words *w, const char *before, const char *text)
@@ -406,7 +407,7 @@ static void add(ends_words *w, const char *text)
     w->names++;
 }
 
-/* The node where all of its ends are in this state, else each of them. */
+/* Adds the node if all of its ends have this state, otherwise each of these ends. */
 static void add_node(const held_ends *e, int node, int state, ends_words *out)
 {
     const scene *s = e->scene;

@@ -8,7 +8,7 @@
 #include "cases/scene/scene.h"
 #include "harness/formulations/formulations.h"
 
-/* In scenes with a motion, loads along members do their work on the field that its mass has. */
+/* In scenes with a motion, loads along members use the displacement field of the mass. */
 static int takes_loads(const model *m)
 {
     int along = 0, moves = 0;
@@ -70,7 +70,7 @@ static status allocate(model *m, fault *f)
     return kinematics_state_alloc(m, &m->rest, f);
 }
 
-/* Does an analysis move by its rates? */
+/* Does an analysis depend on rates? */
 static int has_rates(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -93,7 +93,7 @@ static status note_dashpots(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Is there an analysis that takes springs as they are at rest? */
+/* Does an analysis use the stiffness of springs at rest? */
 static int is_at_rest(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++) {
@@ -118,7 +118,8 @@ static status note_tables(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Matrices whose mean with their transpose is taken, and turns that nothing meets. */
+/* Reports matrices that are replaced by their symmetric part, and free rotations without stiffness.
+ */
 static status note_means(model *m, fault *f)
 {
     const scene *s = m->scene;

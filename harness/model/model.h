@@ -48,7 +48,8 @@ status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 
 typedef struct model_size {
-    int elements, vertices, free, driven, strains, inner; /* per element for the last two */
+    int elements, vertices, free, driven, strains,
+        inner; /* strains and internal unknowns: of each element */
     int kinds; /* of elements, each prepared once; identical ones share it */
     unsigned features;
 } model_size;
@@ -82,9 +83,9 @@ const char *model_trouble(const model *);
 typedef struct model_state model_state;
 
 const char *model_formulation(const model *);
-const double *model_options(const model *); /* of it, all of them */
+const double *model_options(const model *); /* all options of its formulation */
 unsigned model_limits(const model *);       /* LIMIT_* of its formulation */
-unsigned model_leaves(const model *);       /* LEAVES_* of it */
+unsigned model_leaves(const model *);       /* LEAVES_* of its formulation */
 /* Shape of a mode or state for identification and pictures: displacement (3), rotation (3) and
  * warping of every vertex in order along the members; returns vertices. u[vertices x 7],
  * position[vertices x 3] (undeformed). */
@@ -114,52 +115,54 @@ status assemble_pattern_of_states(const model *, assemble_patterns *, int with_d
                                   const sparse **out, fault *f);
 /* 0: a load or a support may make tangents unsymmetric. */
 int assemble_symmetric(const model *);
-/* Free x free, never symmetric: for motions, whose rotating masses have unsymmetric tangents. */
+/* Free x free, always stored unsymmetric: for motions; rotating masses have unsymmetric tangents.
+ */
 status assemble_pattern_in_time(const model *, assemble_patterns *, const sparse **out, fault *f);
 
-/* Centre lines of all members in a state, for pictures and other programs.
- * Between two vertices of the mesh runs a cubic whose tangents are the vertices' x axes, whatever
- * field the formulation has inside: what is drawn is the same for all. Resultants are in
- * equilibrium with the element's nodal forces J^T sigma. */
+/* Centre lines of all members in a state, for pictures and other programs. Between two vertices of
+ * the mesh the line is a cubic with the vertices' x axes as tangents. It is independent of the
+ * displacement field of the formulation. Resultants are in equilibrium with the element's nodal
+ * forces J^T sigma. */
 
 typedef struct centreline_point {
     double r[3];      /* position [m] */
     double q[4];      /* of the section's triad: x along the line, y and z principal */
-    double force[3];  /* N, Qy, Qz: of the part beyond on the part before, in that triad [N] */
+    double force[3];  /* N, Qy, Qz [N] on the part before the point, in that triad */
     double moment[3]; /* Mx, My, Mz about the point [N m] */
     double bimoment;  /* linear between an element's ends [N m^2] */
 } centreline_point;
 
-/* Points of all members; first[members + 1]: where each begins; NULL: count only. */
+/* Number of points of all members; first[members + 1]: index of the first point of each; NULL: not
+ * needed. */
 int centreline_points(const model *m, int first[]);
-/* out[points] in the order of the members, each from p to q. */
+/* Fills out[points] in the order of the members, each from p to q. */
 void centreline_fill(const model *m, const model_state *s, centreline_point out[]);
 /* Positions of the scene's nodes: out[nodes x 3] [m]. */
 void centreline_nodes(const model *m, const model_state *s, double out[]);
 /* New state: `from` moved by scale x the increments x[free + driven]; sigma[elements x strains] its
- * stresses, NULL: those of `from`. scale 0: what makes it visible: a tenth of the scene's size or
- * half a radian. *scale returns what was used. */
+ * stresses, NULL: those of `from`. scale 0: a visible size (a tenth of the scene's size or half a
+ * radian). *scale returns the scale used. */
 status centreline_displaced(const model *m, const model_state *from, const double x[],
                             const double sigma[], double *scale, model_state **out, fault *f);
 
 /* How the members of a scene are divided into elements.
  *
- * Where a load along a member begins, ends or acts between its ends, the mesh has a node, as if the
- * member were cut there: resultants have a slope discontinuity or a jump there, which no element
- * can have inside.  Each of these pieces has as many elements, of equal length, as a whole member
- * has: a mesh of twice as many has all nodes of the one before. */
+ * The mesh has a node where a load starts, ends or acts within a member, because resultants have a
+ * slope discontinuity or a jump there, which no element can represent inside. Each of these pieces
+ * has the requested number of elements of equal length. A mesh of twice this number contains all
+ * nodes of the coarser one. */
 
 typedef struct division {
-    int *first;    /* [members + 1] pieces before those of a member */
-    double *place; /* of a member from place[first[member] + member] on, pieces + 1: where they
-                      begin and end, 0 .. 1 of its initial length */
-    int *each;     /* [members] elements of a piece */
+    int *first;    /* [members + 1] number of pieces before each member */
+    double *place; /* [pieces + 1] ends of the pieces, 0 .. 1 of the initial length; a member's
+                      start at place[first[member] + member] */
+    int *each;     /* [members] elements per piece */
 } division;
 
 /* Least length of a piece, relative to its member; a shorter one lies inside an element. */
 #define DIVISION_LEAST 1e-3
 
-/* elements: of a piece, where the member does not say so. */
+/* elements: per piece, if the member does not specify it. */
 status division_make(const scene *, int elements, division *, fault *);
 void division_free(division *);
 
@@ -175,8 +178,8 @@ double division_inside(const division *, int member, int number, double place);
  * towards the end of the member or (before) towards its start. */
 int division_at(const division *, int member, double place, int before, double *x);
 
-/* The mesh of a model, to read: elements, vertices, and what joins them. It stays once model_alloc
- * has returned. */
+/* The mesh of a model, read-only: elements, vertices and their connections. It does not change
+ * after model_alloc. */
 
 /* An element depends on the coordinates of its nodes and on those of released ends. */
 enum {
@@ -185,7 +188,7 @@ enum {
     MODEL_MAX_COORDINATES = ELEMENT_MAX_COORDINATES + 2 * SCENE_RELEASED
 };
 
-/* Where a frame is and what moves it. The first vertices are the scene's nodes, in order. */
+/* A frame and the body that moves it. The first vertices are the scene's nodes, in order. */
 typedef struct mesh_vertex {
     double position[3]; /* undeformed [m] */
     int body;           /* vertex that moves this one rigidly; itself: it has its own coordinates */
@@ -193,15 +196,15 @@ typedef struct mesh_vertex {
     int coordinate[6];  /* of a body: global coordinate or NONE where fixed */
     int turned;         /* 1: its translations are along the columns of `along` */
     double along[9];
-    int angles; /* > 0: rotation is a sequence of that many angles about the axes */
+    int angles; /* > 0: the rotation is a sequence of this number of angles about the axes */
     double axis[3][3];
-    int idle;             /* bits of angles that are fixed: nothing depends on them */
-    int vector_driver[3]; /* prescribed rotation vector: its drivers; NONE: not prescribed so */
+    int idle;             /* bits of angles that are fixed because nothing depends on them */
+    int vector_driver[3]; /* drivers of the prescribed rotation vector; NONE: not prescribed */
 } mesh_vertex;
 
 /* End release of a member: see scene_release. */
 typedef struct mesh_release {
-    int node; /* of the scene, from which it is released */
+    int node; /* node of the scene from which it is released */
     int turns, slides;
     double turn[3][3], slide[3][3]; /* undeformed axes, unit vectors */
     int turn_of[3], slide_of[3];    /* the components, SCENE_UX .. SCENE_RZ */
@@ -219,11 +222,11 @@ typedef struct mesh_element {
     int nodes;
     int vertex[ELEMENT_MAX_NODES];
     int warp[ELEMENT_MAX_NODES];     /* index, or NONE: fixed at zero or absent */
-    double share[ELEMENT_MAX_NODES]; /* of its mass where that is at nodes: mesh.c */
-    double couple[2];  /* of two nodes: added to resultants at an end: time/deformable.c */
-    mesh_triad *triad; /* [nodes] initial; not its own: equal ones share them */
+    double share[ELEMENT_MAX_NODES]; /* share of its mass at each node if lumped: mesh.c */
+    double couple[2];  /* for two nodes: added to resultants at an end: time/deformable.c */
+    mesh_triad *triad; /* [nodes] initial; shared with equal ones, not owned */
     int columns;       /* coordinates after elimination: 7 nodes, then those of released ends */
-    int index[MODEL_MAX_COORDINATES]; /* the global one of each of them, or NONE */
+    int index[MODEL_MAX_COORDINATES]; /* global coordinate of each, or NONE */
     int plain; /* 1: no offset, sequence or released end: elimination is selection */
 } mesh_element;
 
@@ -232,7 +235,7 @@ typedef struct mesh_element {
 typedef struct mesh_discrete {
     mesh_element el; /* no kind, no warping; of a foundation its member */
     const scene_body *body;
-    const scene_spring *spring; /* of both one, the other NULL */
+    const scene_spring *spring; /* exactly one is not NULL */
     mesh_triad triad[ELEMENT_MAX_NODES];
 } mesh_discrete;
 
@@ -246,36 +249,36 @@ typedef struct spring_rates {
 typedef struct mesh_kind {
     int section;
     double length, curvature[3], strain[3];
-    double free[3]; /* elongation, and curvatures about y and z, principal, beyond `curvature`, that
-                       it has without stress */
+    double free[3]; /* elongation, and principal curvatures about y and z (in addition to
+                       `curvature`), in the unstressed state */
     int next;       /* kind of the same section, or NONE */
     element_data *data;
     size_t data_size;         /* [bytes] */
     displacement_field field; /* displacements between the nodes, for loads */
-    double *inner; /* field_inner where frequencies are requested, or NULL: the type has another
-                      mass */
+    double
+        *inner; /* field_inner if frequencies are requested, or NULL: the type has its own mass */
 } mesh_kind;
 
-/* Data that the functions below read without a call: the first member of every model. Only
- * harness/model sets it. */
+/* Data that the inline functions below read: the first member of every model. Only harness/model
+ * sets it. */
 typedef struct model_mesh {
     const element_type *type;                       /* completed by adapters_complete */
     int nodes, coordinates, strains, inner, memory; /* per element: nodes, 7 nodes, ... */
     int vertices, elements, kinds, warps;
-    int first_release, releases; /* vertices of released ends are the last */
+    int first_release, releases; /* vertices of released ends are the last ones */
     mesh_release *release;
     mesh_vertex *vertex;
     mesh_element *element;
     mesh_kind *kind;
     mesh_warp *warp;
-    int discretes, springs; /* springs: the last of them */
+    int discretes, springs; /* springs: the last ones of the discretes */
     mesh_discrete *discrete;
-    int turns;              /* that are followed */
+    int turns;              /* rotation vectors that are tracked */
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
     int takes;     /* elements take loads along them (element_type.along) */
-    int frees;     /* temperatures, or members that are drawn strained */
+    int frees;     /* temperatures or prestrained members exist */
     int work_size; /* of an element in a linear_memory: harness/newton/newton.h */
 } model_mesh;
 static inline const model_mesh *model_mesh_of(const model *m)
@@ -386,7 +389,7 @@ static inline const mesh_discrete *model_discrete(const model *m, int discrete)
     return &model_mesh_of(m)->discrete[discrete];
 }
 
-/* The first ones are those of the nodes, the last ones those of released ends. */
+/* First those of the nodes, last those of released ends. */
 static inline int model_vertices(const model *m)
 {
     return model_mesh_of(m)->vertices;
@@ -403,10 +406,10 @@ static inline int model_first_release(const model *m)
 {
     return model_mesh_of(m)->first_release;
 }
-/* The only axis about which a node is fixed or prescribed, so that it takes a moment about it for
- * any rotation about the two others; NONE: no axis, or several. */
+/* The only axis about which a node is fixed or prescribed; the node can support a moment about it
+ * at any rotation about the two others. NONE: no axis, or several. */
 int coordinates_held_turn(const model *, int node);
-/* Warping amplitudes, and the coordinate of one. */
+/* Number of warping amplitudes, and the coordinate of one. */
 static inline int model_warps(const model *m)
 {
     return model_mesh_of(m)->warps;
@@ -415,7 +418,7 @@ static inline int model_warp(const model *m, int warp)
 {
     return model_mesh_of(m)->warp[warp].coordinate;
 }
-/* Rotation vectors that are followed beyond half a circle. */
+/* Number of rotation vectors that are tracked beyond half a revolution. */
 static inline int model_turns(const model *m)
 {
     return model_mesh_of(m)->turns;
@@ -434,29 +437,28 @@ static inline int slot_along(const model *m)
     return slot_followed(m) + 3 * model_inner(m);
 }
 
-/* Discrete elements, next to those of the members: rigid bodies at nodes, and springs.  None: no
- * work. */
+/* Discrete elements, in addition to those of the members: rigid bodies at nodes, and springs. */
 
 status discrete_build(model *, fault *);
-/* Internal less centrifugal force (of the frame in that state) [7 nodes] and its tangent [7 nodes x
- * 7 nodes] in a state, in model coordinates. Rates: of dashpots; NULL: nothing moves. */
+/* Internal minus centrifugal force (in the state's rotating frame) [7 nodes] and its tangent [7
+ * nodes x 7 nodes], in model coordinates. rates: of dashpots; NULL: at rest. */
 void discrete_equations(const model *, const model_state *, const mesh_discrete *,
                         const element_rotating_frame *, const spring_rates *, double force[],
                         double K[]);
-/* M, G += theirs (rotating_frame_inertia); G NULL: not needed. */
+/* M, G += inertia of the discrete elements (rotating_frame_inertia); G NULL: not needed. */
 void discrete_inertia(const model *, const model_state *, const element_rotating_frame *, sparse *M,
                       sparse *G);
-/* The tangent in two parts, as in newton.h: y += its product with x[free + driven], out +=
- * the other. */
+/* The tangent in two parts, as in newton.h: y += product of the material part with x[free +
+ * driven], out += the other part. */
 void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
 void discrete_geometric(const model *, const model_state *, const element_rotating_frame *,
                         sparse *out);
-/* Bound of what rounding may change in x^T K x of the material part. */
+/* Bound of the round-off of x^T K x of the material part. */
 double discrete_material_rounding(const model *, const model_state *, const double x[]);
 /* Dashpots: deformations of all springs [6 x springs], and their rates at increments dx[free +
- * driven] in a unit of time; the power that dashpots take at these [W], what they take of the
- * coordinates (out[free + driven] +=) and on a node's frame (F[6] +=), and C += of small motions.
- */
+ * driven] in a unit of time; the power dissipated by dashpots [W], their forces in coordinates
+ * (out[free + driven] +=) and on a node's frame (F[6] +=), and their damping matrix for small
+ * motions (C +=). */
 void dashpots_deformations(const model *, const model_state *, double d[]);
 void dashpots_rates(const model *, const model_state *, const double dx[], double rate[]);
 double dashpots_power(const model *, const double rate[]);
@@ -465,25 +467,26 @@ void dashpots_node_force(const model *, const model_state *, const double rate[]
                          double F[6]);
 /* C += of the damping of all springs, and `more` [s] times their stiffness. */
 void dashpots_matrix(const model *, const model_state *, double more, sparse *C);
-/* Of one spring: its deformations, their derivatives J[6 x columns] by the coordinates that move
- * it, and what stresses of a dashpot take: force[columns], and K[columns x columns] of what turns
- * with it. */
+/* Of one spring: its deformations, their derivatives J[6 x columns] with respect to its
+ * coordinates, and from dashpot stresses the force[columns] and the geometric stiffness K[columns x
+ * columns]. */
 void dashpots_strains(const model *, const model_state *, int spring, double d[], double J[]);
 void dashpots_stressed(const model *, const model_state *, int spring, const double sigma[],
                        double force[], double K[]);
-/* "spring s", or "foundation of beam": those of members stand behind those of the scene. */
+/* "spring s", or "foundation of beam"; springs of members follow those of the scene. */
 scene_words model_spring_called(const model *, int spring);
 /* Energy of all springs [J]. */
 double discrete_stored(const model *, const model_state *);
-/* F += what the structure needs on a node's frame to hold them in the state [6: N, N m]. */
+/* F += the force and moment on a node's frame that hold the discrete elements in the state [6: N, N
+ * m]. */
 void discrete_node_force(const model *, const model_state *, const element_rotating_frame *,
                          int node, double F[6]);
 
-/* Members that have more elements than was requested, in words. */
+/* Describes members that have more elements than requested. */
 
 /* "beam has 6 elements, 2 in each of 3 pieces: its loads begin, end or act at 0.3, 0.5 of its
- * length"; of many the first ones are named.  elements 0: of any number n.  "" where each has as
- * many as was requested. */
+ * length"; a long list is truncated. elements 0: for any number n. "": each member has the
+ * requested number. */
 void division_words(const scene *, int elements, char *text, size_t room);
 
 /* Element coordinates -> coordinates of the model, in place; K[columns x columns]. force: internal,
@@ -494,12 +497,12 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
 void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
                       const double force[], double K[]);
 
-/* Where the entries of elements go in the matrices and vectors of a model. */
+/* Positions of element entries in the matrices and vectors of a model. */
 
 /* An entry of an element's matrix that a pattern stores. */
 typedef struct mesh_entry {
-    short local;  /* row * columns + column of the element's matrix */
-    short column; /* of the element's matrix */
+    short local;  /* row * columns + column in the element's matrix */
+    short column; /* in the element's matrix */
     int offset;   /* in the pattern: from the start of its column */
 } mesh_entry;
 
@@ -519,26 +522,26 @@ typedef struct mesh_pattern {
     const mesh_element *element; /* of the model */
 } mesh_pattern;
 
-/* Returns the pattern that the matrix was made on. */
+/* Returns the pattern of the matrix. */
 const mesh_pattern *assemble_of(const assemble_patterns *, const sparse *a);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
-/* The same of a discrete element, whose places are searched for. */
+/* The same for a discrete element; its positions are searched. */
 void assemble_discrete(const mesh_element *el, const double K[], sparse *out);
 void assemble_vector(const mesh_element *el, const double local[], double out[]);
-/* Nothing where it is not stored. */
+/* No effect if the entry is not stored. */
 void assemble_subtract(sparse *a, int row, int column, double value);
 
-/* Features that a scene needs (FEATURE_* bits). */
+/* Features that a scene requires (FEATURE_* bits). */
 
-/* Feature bits the scene needs and those of them the type does not support, or a limit it hits, in
- * words; 0: it can run. */
-/* 1: in this motion elements of the type spread their mass along themselves. */
+/* Features that the scene requires, and those of them that the type does not support, or a limit
+ * that the scene exceeds, in words; 0: the type can solve it. */
+/* 1: elements of the type have distributed mass in this motion. */
 int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
 
 unsigned features_needed(const scene *);
 /* Returns the features without which a requested quantity is meaningless. */
 unsigned features_of_quantities(const scene *);
-/* Physics that the scene would need but omits. */
+/* Physics that the scene omits although it has an effect. */
 unsigned features_omitted(const scene *);
 /* Returns the physics, not omitted, that a section given by its constants lacks although the
  * analyses of the scene need it; a constant given as zero counts as given. */
@@ -546,24 +549,24 @@ unsigned features_not_given(const scene *, int section);
 /* Returns 1 for a section of walls whose bimoment causes torsion, which no formulation models,
  * where the analyses have stresses and neither warping nor the Wagner torque is omitted. */
 int features_one_sided(const scene *, int section);
-/* The same with the theory of shear in stability that the type has instead of the one the scene
- * asks for: FEATURE_* bits. */
+/* The same, with the type's own theory of shear in stability instead of the requested one:
+ * FEATURE_* bits. */
 unsigned features_needed_of(const scene *, const element_type *);
-/* The theory of shear in stability that values of the type on this scene follow: a bit of
- * shear_theory; 0: nothing is flexible in shear, or nothing is stressed. */
+/* The theory of shear in stability of the type's values for this scene: a bit of shear_theory; 0:
+ * no flexibility in shear, or no stress. */
 unsigned features_theory(const scene *, const element_type *);
-/* Is there shear, and stability that its theory matters to? */
+/* Is there shear, and an analysis that depends on its theory? */
 int features_sheared(const scene *);
-/* Its name: "Haringx"; of SHEAR_OWN what the type specifies of it; "" of 0. */
+/* Name of the theory: "Haringx"; for SHEAR_OWN the type's text; "" for 0. */
 const char *features_theory_words(const element_type *, unsigned theory);
-/* Returns those that one quantity depends on: inertia only where it is a frequency or belongs to a
- * rotating structure. */
+/* Returns the features on which one quantity depends: inertia only for a frequency or a rotating
+ * structure. */
 unsigned features_needed_by_quantity(const scene *, int quantity);
 
 int features_eccentric(const section *c); /* its shear centre is not its centroid */
 status features_of_section(const model *m, int section, unsigned *features, fault *f);
 
-/* States of a model and the motion of its nodes in them. */
+/* States of a model and the motion of its nodes. */
 
 status kinematics_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
 /* A state with only those members that kinematics_component, kinematics_driver_value and the path
@@ -579,24 +582,25 @@ const double *kinematics_strains(const model_state *); /* [elements x strains] *
  * folders, which need not know what a state keeps. */
 void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
 /* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed state,
- * of as many turns as the path has made; not a number: the vector has lost its direction on a full
- * turn. */
+ * including full revolutions along the path; NaN: the vector has lost its direction at a full
+ * revolution. */
 double kinematics_component(const model *, const model_state *, int node, int component);
-/* The same of a node in the axes of another, `from`: how its place has moved there [m], or the
- * rotation vector of its turn against that [rad]. */
+/* The same relative to the axes of another node `from`: change of position [m], or relative
+ * rotation vector [rad]. */
 double kinematics_relative(const model *, const model_state *, int from, int node, int component);
 double kinematics_driver_value(const model *, const model_state *, int driver);
 /* Largest angle [rad] between the orientations of an element's nodes (chords: or between a node and
- * its chord), and that element. Angles below two full turns are distinguished. */
+ * its chord), and that element. Angles below two full revolutions are distinguished. */
 double kinematics_largest_turn(const model *, const model_state *, int chords, int *element_index);
 /* Likewise, about the element's axis. */
 double kinematics_largest_twist(const model *, const model_state *, int *element_index);
-/* Rise of the arc of an element at rest, by its curvature about z, in radii of gyration. */
+/* Rise of an undeformed element's arc due to its curvature about z, in radii of gyration. */
 double kinematics_largest_rise(const model *, int *element_index);
 
-/* Coordinate index of a component of a node, or -1 where it is fixed or dependent. */
+/* Index of a coordinate of a node, or -1 if it is fixed or dependent. */
 int kinematics_coordinate(const model *, int node, int component);
-/* Most coordinates that a vertex depends on: those of a body, and those of a released end. */
+/* Largest number of coordinates on which a vertex depends: those of a body and of a released end.
+ */
 enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
 /* Jacobian of the six spatial increments of a vertex with respect to the coordinates it depends on:
  * returns the count m <= size (6 of a node), fills index[m] and T[6 x m] (row-major, leading
@@ -625,35 +629,35 @@ void kinematics_turn_back(const mesh_vertex *, double A[9]);
 /* K[n x n], whose six of the vertex begin at `at`: from fixed axes, rows and columns. */
 void kinematics_turn_matrix(const mesh_vertex *, int n, int at, double K[]);
 
-/* Fills x[nodes], the nodes of an element in a state, as its type takes them. */
+/* Fills x[nodes], the nodes of an element in a state, in the form of its type. */
 void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,
                        node_state x[]);
 void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
-/* Spatial axes of a sequence's angles in the present state: b[angles][3]. */
+/* Spatial axes of a sequence's angles in the current state: b[angles][3]. */
 void kinematics_axes(const model *m, const model_state *s, int vertex, double b[3][3]);
-/* Recomputes what depends on bodies' coordinates. */
+/* Recomputes everything that depends on the bodies' coordinates. */
 void kinematics_follow(const model *m, model_state *s);
-/* Increments of an element's own coordinates from those of the model: local[7 nodes]. */
+/* Increments of an element's coordinates from those of the model: local[7 nodes]. */
 void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
                       const double dx[], double local[]);
 
-/* How far apart two states are. */
+/* Distance between two states. */
 
 /* Weights [free + driven] of the square of an increment, (displacement/size)^2 + rotation^2 in the
  * mean over the bodies. */
 void metric_of(const model *, double weight[]);
 /* Share of the displacements of the nodes in an increment [free + driven], in the same measure. */
 double metric_shift_part(const model *, const double dx[]);
-/* The same distance between two states; light[9 x (2 i + block)], row-major: projections of what
- * vertex i moved (block 0) and turned in its own axes (block 1) that do not count; NULL: all does.
- */
+/* The same distance between two states; light[9 x (2 i + block)], row-major: projections of the
+ * displacement (block 0) and of the rotation in its own axes (block 1) of vertex i that do not
+ * count; NULL: everything counts. */
 double metric_distance(const model *, const model_state *, const model_state *,
                        const double light[]);
 /* The largest angle [rad] between the orientations of a node in two states. */
 double metric_turn_between(const model *, const model_state *, const model_state *);
 
-/* Physics that a scene needs and a formulation does not support: what can be omitted, which selects
- * another model, and what cannot. */
+/* Physics that a scene requires and a formulation does not support: what can be omitted, what
+ * selects another model, and what cannot. */
 
 /* Physics that can be omitted and have no FEATURE_* bit. */
 enum {
@@ -662,100 +666,99 @@ enum {
 };
 enum { OMIT_WORDS = 200, OMIT_BITS = 16 }; /* length of their names; number of bits */
 
-/* Names the physics that the type does not support, or a limit that the scene exceeds; words are
- * empty if and only if there are none. 0: it has all that the scene needs. */
+/* Names the physics that the type does not support, or a limit that the scene exceeds; words is
+ * empty if and only if there is none. 0: the type supports all that the scene requires. */
 int missing_words(const scene *, const element_type *, char *words, int size);
-/* Names the missing physics without which nothing of the scene can be solved; returns 0: it can be
- * solved. */
+/* Names missing physics that prevents any solution of the scene; 0: it can be solved. */
 int missing_refused(const scene *, const element_type *, char *words, int size);
-/* Returns the physics that is omitted when it is solved: bits of FEATURE_* and OMIT_*. */
+/* Returns the physics that a solution omits: bits of FEATURE_* and OMIT_*. */
 unsigned missing_omits(const scene *, const element_type *);
 /* Such bits in words. */
 void missing_omit_words(unsigned omits, char words[OMIT_WORDS]);
-/* Removes omitted physics from a section, where elements do not do so by a feature. */
+/* Removes omitted physics from a section if elements do not do so themselves. */
 void missing_omit(section *, unsigned omits);
 /* The limit of the type that a section with N closed cells exceeds, in words; NULL: none. */
 const char *missing_in_section(const element_type *, const section *, int cells, int warps);
 
-/* Names what the type supports in one direction only (element_lack) where the scene needs it.
- * Returns 0: nothing; 1: so little that it is printed and not refused; 2: missing_words names it
- * too. */
+/* Names the features that the scene requires and the type supports in one direction only
+ * (element_lack). Returns 0: none; 1: negligible, printed but not rejected; 2: missing_words names
+ * them too. */
 int lacks_of(const scene *, const element_type *, char *words, int size);
 
 /* Members of a model's state, for functions that advance it. */
 
 struct model_state {
     double path;
-    size_t size; /* doubles in block */
+    size_t size; /* number of doubles in block */
     double *block;
     double *u;      /* [vertices x 3] displacement */
     double *q;      /* [vertices x 4] orientation */
     double *angle;  /* [vertices x 3] of sequences; accumulated spatial increments otherwise */
-    double *shift;  /* [releases x 3] along slides */
+    double *shift;  /* [releases x 3] displacement along slides */
     double *warp;   /* [warps] */
-    double *driver; /* [drivers] present value */
-    double *e, *sigma, *inner; /* [elements x strains], [.. inner] */
-    double *turn;              /* [turns x 3] rotation vectors that have been followed */
+    double *driver; /* [drivers] current value */
+    double *e, *sigma, *inner; /* [elements x strains], [elements x inner] */
+    double *turn;              /* [turns x 3] tracked rotation vectors */
 };
 
-/* The motions [6: displacement, turn] that a node can make: the span of the columns of its
- * Jacobian.  Axes that are computed are known to round-off only, so that dimensions are decided
- * beside the size of the columns and never by comparison with zero. */
+/* Possible motions [6: displacement, rotation] of a node: the span of the columns of its Jacobian.
+ * Computed axes have round-off errors. Therefore ranks are determined relative to the size of the
+ * columns, never by comparison with zero. */
 
 typedef struct movable {
     int count;           /* dimension */
-    unsigned components; /* bit i: some motion has component i */
-    int whole;           /* 1: the motions are those of components, one by one ... */
+    unsigned components; /* bit i: some motion contains component i */
+    int whole;           /* 1: the motions are single components ... */
     int component[6];    /* ... [count] */
-    double span[36]; /* [6 x count] a basis: unit vectors where these span it, else orthonormal with
-                        lengths in units of `length` */
-    double dual[36]; /* [count x 6] dual span = 1: the least combination of components that gives a
-                        basis vector's share */
+    double span[36]; /* [6 x count] a basis: unit vectors if these span it, otherwise orthonormal
+                        with lengths in units of `length` */
+    double dual[36]; /* [count x 6] dual span = 1: the smallest combination of components that gives
+                        the share of a basis vector */
 } movable;
 
-/* T[6 x columns]: columns of motions, of order 1 in displacements per displacement or turns per
- * angle.  length [m] > 0: of the structure. */
+/* T[6 x columns]: columns of motions, of order 1: displacement per displacement, or rotation per
+ * angle. length [m] > 0: size of the structure. */
 void movable_of(int columns, const double *T, double length, movable *out);
-/* out[3] = m without its part along the turns among the columns of T: along these nothing is
- * prescribed, and a moment there is what Newton's method left over. */
+/* out[3] = m without its part along the rotations among the columns of T. These rotations are not
+ * prescribed, so a moment along them is a residual of Newton's method. */
 void movable_prescribed(int columns, const double *T, const double m[3], double out[3]);
 
 /* Loads and masses of members that are lumped at nodes by convention, in words. */
 
-/* Describes, with their order of convergence in space: loads that ask to be lumped; masses that a
- * motion, the scene or the formulation lumps; loads that are lumped with them. Of many the first
- * ones are named. "": nothing is lumped. */
+/* Describes, with their order of convergence in space: loads with `lumped`; masses that a motion,
+ * the scene or the formulation lumps; loads that are lumped with them. A long list is truncated.
+ * "": nothing is lumped. */
 void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
               size_t room);
 
-/* Sections of the elements: those of the scene and, after them, of members whose section changes
- * along them one for each element, at its middle.  Members that change between the same two and
- * have as many elements, all of one length, share theirs.
+/* Sections of the elements. First those of the scene, then for tapered members one section for each
+ * element, at its middle. Tapered members with the same end sections and the same number of equal
+ * elements share them.
  *
- * The pieces are prismatic: what they come to has an error of second order in their length,
- * whatever the formulation. */
+ * The pieces are prismatic, so the error is of second order in their length for every formulation.
+ */
 
 /* Computes the sections of the scene. */
 status profile_scene(model *m, fault *f);
 /* Computes the sections of all elements of tapered members. No later call changes m->section;
  * *sections: their number. */
 status profile_members(model *m, int *sections, fault *f);
-/* Index in m->section of an element of a member, counted along it. */
+/* Index in m->section of an element of a member, counted along the member. */
 int profile_at(const model *m, int member, int number);
 
-/* Ends of members that keep turns and shifts to themselves (scene_release).
+/* Released ends of members: rotations and displacements of their own (scene_release).
  *
- * Such an end has a vertex of its own after all others, in the list `release`.  With the frame r,
- * R of its node's body, the node at the offset rho from it, and the member's undeformed axes a, d
- * at the end, R_end = R exp(a_1 t_1) exp(a_2 t_2),  r_end = r + R rho + R_end (sum d_i s_i). Three
- * turns have no order: R_end is free, its increments are spatial ones.  The end's coordinates t, s
- * are after those of the element's nodes; forces and matrices of the element are taken to all of
- * them by the chain rule with the second derivatives of the frame (turns: 1/2 b_i x b_j for i
- * before j, those of the body before all; shifts: turns of the end before them). */
+ * Such an end has its own vertex after all others, in the list `release`. With the frame r, R of
+ * its node's body, the node at the offset rho from it, and the member's undeformed axes a, d at the
+ * end, R_end = R exp(a_1 t_1) exp(a_2 t_2), r_end = r + R rho + R_end (sum d_i s_i). Three
+ * rotations have no order: R_end is free, with spatial increments. The end's coordinates t, s
+ * follow those of the element's nodes. The chain rule transforms forces and matrices of the element
+ * to all of them, with the second derivatives of the frame (turns: 1/2 b_i x b_j for i before j,
+ * those of the body before all; shifts: turns of the end before them). */
 
-/* Ends of all members that keep something. */
+/* Number of released ends of all members. */
 int release_count(const scene *);
-/* Their vertices, when the elements are made. */
+/* Creates their vertices together with the elements. */
 status release_build(model *, fault *);
 
 /* The end at this vertex; NULL: it is not one. */
@@ -765,35 +768,36 @@ static inline const mesh_release *release_of(const model *m, int vertex)
     return vertex < first ? NULL : &model_mesh_of(m)->release[vertex - first];
 }
 
-/* The end's motion d[6] += what its own coordinates, by dx, add to that of its node. */
+/* d[6] += the motion of the end relative to its node for the increment dx of its own coordinates.
+ */
 void release_add_local(const model *, const model_state *, int vertex, const double dx[],
                        double d[6]);
-/* T[6 x count] of its node's place and turn becomes that of the end, with its own columns from
- * `own` on. */
+/* Transforms T[6 x count] of its node to that of the end; its own columns start at `own`. */
 void release_jacobian(const model *, const model_state *, int vertex, int count, int own,
                       double T[]);
 /* What an end of a member (0 at p, 1 at q) has turned or shifted by a component against its node;
  * 0: it is not released; of three turns their rotation vector, NAN beyond 3 rad. */
 double release_value(const model *, const model_state *, int member, int end, int component);
-/* Own coordinates move by dx; returns the largest change [1, rad]. */
+/* Changes its own coordinates by dx; returns the largest change [1, rad]. */
 double release_advance(const model *, model_state *, int vertex, const double dx[]);
-/* Position and orientation, after those of all nodes. */
+/* Sets position and orientation, after those of all nodes. */
 void release_follow(const model *, model_state *);
 
-/* Spatial axes of the turns [turns x 3]; of three: the fixed ones. */
+/* Spatial axes of the rotations [turns x 3]; for three: the fixed ones. */
 void release_turn_axes(const model *, const model_state *, int vertex, double b[3][3]);
-/* Spatial directions of the shifts [slides x 3], and how far the end is from its node [m]. */
+/* Spatial directions of the displacements [slides x 3], and the vector from the node to the end
+ * [m]. */
 void release_slide_axes(const model *, const model_state *, int vertex, double along[3][3],
                         double apart[3]);
 
-/* force[7 at, its six]: of the end's frame becomes that of its node's place; own[]: of its
- * coordinates. */
+/* Transforms force[7 at, its six] from the end's frame to that of its node; own[]: forces of the
+ * end's own coordinates. */
 void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);
-/* Room for the columns of ends after those of the nodes: K[7 nodes x 7 nodes] -> K[columns x
+/* Inserts columns for released ends after those of the nodes: K[7 nodes x 7 nodes] -> K[columns x
  * columns]. */
 void release_widen(const mesh_element *, double K[]);
-/* The same of K, whose six coordinates of the end begin at `at`, its own ones at `own`. force[6] as
- * in release_force, which it follows; NULL: no second derivatives. */
+/* The same for K; the six coordinates of the end start at `at`, its own ones at `own`. force[6] as
+ * in release_force, to be called before; NULL: no second derivatives. */
 void release_matrix(const model *, const model_state *, int vertex, int n, int at, int own,
                     double force[6], double K[]);
 
@@ -801,42 +805,42 @@ void release_matrix(const model *, const model_state *, int vertex, int n, int a
 
 enum { SPRING_STRAINS = 6 };
 
-/* Stress [N, N m] of deformations e, by stiffness and tables, and its derivative S[6 x 6] (NULL:
- * not wanted). */
+/* Stress [N, N m] at deformations e, from stiffness and tables, and its derivative S[6 x 6] (NULL:
+ * not needed). */
 void spring_law(const scene_spring *, const double e[6], double sigma[6], double S[36]);
 double spring_energy(const scene_spring *, const double e[6]);
-/* The stress whose work on the way to e is what the energy gains, component by component, and its
- * derivative by e. */
+/* Discrete-gradient stress: its work on the way to e equals the change of energy, for each
+ * component; and its derivative with respect to e. */
 void spring_mean(const scene_spring *, const double from[6], const double e[6], double sigma[6],
                  double S[36]);
 /* S at rest. */
 void spring_at_rest(const scene_spring *, double S[36]);
 
 /* Deformation d = (R_p^T (r_q - r_p) less its initial value [m], rotation vector of R_p^T R_q
- * [rad]) in the axes of p; with one node q, p is the ground.  x[nodes]: R is the turn since the
- * undeformed state.  out->e[6], out->J[6 x 7 nodes] and out->H[7 nodes x 7 nodes] of out->s[6], in
- * the exponential chart, as strains of elements are.  near: the vector that the turn has come to,
- * by which that of several turns is known; NULL: less than half a turn.
+ * [rad]) in the axes of p; with one node q, p is the ground. x[nodes]: R is the turn since the
+ * undeformed state. out->e[6], out->J[6 x 7 nodes] and out->H[7 nodes x 7 nodes] of out->s[6], in
+ * the exponential chart, as strains of elements are. near: the tracked rotation vector, which
+ * resolves several revolutions; NULL: less than half a revolution.
  *
- * On a full turn the vector's derivatives across it have no bounds; within 1e-3 rad of it they stay
- * what they are there. The moment stays exact while it is along the turn. */
+ * At a full revolution the transverse derivatives of the vector are unbounded; within 1e-3 rad of
+ * it they are kept constant. The moment remains exact if it is along the rotation vector. */
 void spring_strain(int nodes, const node_state x[], const double near[3], strain_output *out);
 
 /* Whether the supports hold all parts of a structure. A rigid motion of a part is six numbers:
  * displacement of an origin, and rotation times the size of the model. Constraints are sums of
  * squares of lengths. */
 
-/* 1: the supports leave a part of the undeformed structure loose: a node of it, and a rigid motion
- * (displacement of that node [m], turn [rad], of any size) that they allow. Coordinates that are
- * prescribed are fixed. */
+/* 1: the supports leave a part of the undeformed structure loose. Returns a node of this part and a
+ * rigid motion (displacement of the node [m], rotation [rad], any size) that the supports allow.
+ * Prescribed coordinates count as fixed. */
 int supports_loose_part(const model *, int *node, double motion[6]);
 
-/* Least eigenvalue of the supports' squares beside the largest: fixed points closer to each other
- * than its root times the length count as one. */
+/* Smallest relative eigenvalue of the supports' squares: fixed points closer to each other than its
+ * root times the length count as one. */
 extern const double supports_loose;
 
-/* part[vertices]: a vertex that stands for all that elements, springs and bodies join, by
- * supports_root; apart: released ends are not joined to their nodes. */
+/* part[vertices]: a representative vertex of all that elements, springs and bodies connect, by
+ * supports_root; apart: released ends are not connected to their nodes. */
 void supports_join(const model *, int apart, int part[]);
 int supports_root(const int part[], int vertex);
 /* Returns the vertex that moves this one rigidly. */
@@ -845,50 +849,50 @@ int supports_mover(const model *, int vertex, int apart);
 void supports_rigid(const double position[3], double length, double G[36]);
 /* out[6 x 6]: squares of the motions about the origin that the supports of a node prevent. */
 void supports_prevented(const model *, int node, const double origin[3], double out[36]);
-/* sum[6 x 6] += squares of what springs between the part and the ground prevent, whatever their
- * stiffness. */
+/* sum[6 x 6] += squares of the motions that springs between the part and the ground prevent,
+ * independent of their stiffness. */
 void supports_add_springs(const model *, const int part[], int root, const double origin[3],
                           double sum[36]);
 
-/* Turns beyond half a circle: an orientation repeats itself, what has turned so does not. */
+/* Rotations beyond half a revolution: an orientation repeats after a revolution, the rotation
+ * vector does not. */
 
-/* Allocates the rotation vectors that are followed, in this order: of the scene's nodes, of its
- * springs (their ends against each other), and of nodes against other nodes where quantities read
- * them. */
+/* Allocates the tracked rotation vectors, in this order: nodes of the scene, springs (relative
+ * between their ends), and relative vectors between nodes that quantities use. */
 status turns_build(model *, fault *);
 
-/* Message: why the rotation vector of a turn is NaN. */
+/* Message: why a rotation vector is NaN. */
 extern const char turns_lost[];
 
-/* Updates the rotation vectors of a state whose orientations have changed; state.turn holds their
- * values before. */
+/* Updates the rotation vectors of a state after a change of orientations; state.turn contains their
+ * previous values. */
 void turns_follow(const model *, model_state *);
-/* [3] in a state, NaN where it has lost its direction. */
+/* [3] in a state, NaN if it has lost its direction. */
 const double *turns_of_node(const model_state *, int node);
 const double *turns_of_spring(const model *, const model_state *, int spring);
 /* NULL: no quantity reads it. */
 const double *turns_between(const model *, const model_state *, int from, int node);
 
-/* Rotation vectors between nodes that the quantities of one run read and those of another do not:
- * their number, and for each its two nodes and its vector [5]. A vector that is not restored starts
- * within half a turn of the difference of its nodes. */
+/* Relative rotation vectors depend on the quantities of a run. These functions save them for a
+ * continuation: their number, and for each the two nodes and the vector [5]. A vector that is not
+ * restored starts within half a revolution of the difference of its nodes. */
 int turns_between_count(const model *);
 void turns_put_between(const model *, const model_state *, double out[]);
 void turns_take_between(const model *, int count, const double in[], model_state *);
 
-/* Has a vector of more than half a turn swung aside? Beside a full turn it does in no time, and on
- * it what it has become is round-off. */
+/* Has a vector of more than half a revolution changed direction? Near a full revolution this takes
+ * a very short time; at the revolution the result is round-off. */
 int turns_swung(const double from[3], const double to[3]);
 /* Is it within `near` [rad] of one or more full turns? */
 int turns_full(double size, double near);
 /* Sets rotation vectors that have lost their direction since `from` to NaN. */
 void turns_lose(const model *, const model_state *from, model_state *);
 
-/* Which ends of members hold their warping, in words. */
+/* Warping at ends of members, in words. */
 
 /* Describes the ends of members whose section warps: "held at base_a, base_b; shared at fold; free
- * at tip", by nodes, or "leaf at base" where ends at one node differ. Of many the first ones are
- * named. "": nothing warps. */
+ * at tip", by nodes, or "leaf at base" if ends at one node differ. A long list is truncated. "":
+ * nothing warps. */
 void warping_ends(const scene *s, char *text, size_t room);
 
 #endif

@@ -1,4 +1,4 @@
-/* The inside of model/. */
+/* Private declarations of model/. */
 #ifndef BEAMWORK_MODEL_IMPL_H
 #define BEAMWORK_MODEL_IMPL_H
 
@@ -15,41 +15,41 @@ typedef struct member_arc {
     double length;         /* along the arc [m] */
     double start[3], R[9]; /* position and triad at p */
     double k[3];           /* [1/m] */
-    double bow[2];         /* beside that, in its axes: bow sin(half_waves pi s/length) [m] */
+    double bow[2];         /* deviation from it, in its axes: bow sin(half_waves pi s/length) [m] */
     int half_waves;
 } member_arc;
 
-/* axes_angle [rad]: of its section. REFUSED: no arc of its curvature joins its ends. */
+/* axes_angle [rad]: of its section. REFUSED: no arc of this curvature connects its ends. */
 status member_arc_of(const scene *s, int member, double axes_angle, member_arc *out, fault *f);
 /* Position, and triad without the bow, at the abscissa s [m]. */
 void member_arc_at(const member_arc *a, double s, double position[3], double R[9]);
 
-/* Inside of a model, for harness/model alone. */
+/* Private members of a model, for harness/model alone. */
 
-/* A rotation vector that is followed: of a node's frame against another's; NONE: against the fixed
- * one. */
+/* A tracked rotation vector: of a node's frame relative to another node's frame; NONE: relative to
+ * the fixed frame. */
 typedef struct mesh_turn {
     int from, node;
 } mesh_turn;
 
 struct model {
-    model_mesh mesh; /* what others read: the first, by which they find it */
+    model_mesh mesh; /* the public part, which must be first */
     const scene *scene;
-    const element_type *given; /* as its file has it */
-    element_type completed;    /* what mesh.type is where that leaves something out */
+    const element_type *given; /* as defined in its file */
+    element_type completed;    /* copy in which adapters have added missing functions */
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all;
-    unsigned features, omits; /* what it has, and what it has not of what the scene has */
-    section *section;         /* of the scene, then of members whose section changes: model.h */
+    unsigned features, omits; /* supported features, and physics of the scene that is omitted */
+    section *section;         /* those of the scene, then of tapered members: model.h */
     int *profile;             /* [members] section of the first element */
-    mesh_triad *triad;        /* [triads], room for those of all nodes of all elements */
+    mesh_triad *triad;        /* [triads], capacity for all nodes of all elements */
     int triads;
     int *kind_of_section;  /* [sections] the first, or NONE */
-    scene_spring *founded; /* those of foundations, at the vertices of their members */
+    scene_spring *founded; /* springs of foundations, at the vertices of their members */
     mesh_turn *turn;       /* [turns] in the order of model_turns */
     double size;           /* length of the longest member [m] */
-    int asked;             /* elements of a piece of a member */
-    division division;     /* of the members into elements */
+    int asked;             /* requested elements per piece of a member */
+    division division;     /* division of the members into elements */
     model_state *rest;     /* undeformed */
     int lines;
     char **line; /* eliminated coordinates, omitted physics */

@@ -26,8 +26,7 @@ static void chord_of(const double k[3], double s, double c[3])
         c[i] = s * e[i] + a * first[i] + b * second[i];
 }
 
-/* From the axes in which a section is described, about which the scene speaks, to its principal
- * ones. */
+/* Transforms from the section's description axes, which the scene uses, to its principal axes. */
 static void turn_to_principal(double angle, member_arc *a)
 {
     const double c = cos(angle), d = sin(angle), ky = a->k[1];
@@ -45,7 +44,7 @@ static void turn_to_principal(double angle, member_arc *a)
     a->k[2] = c * a->k[2] - d * ky;
 }
 
-/* The length of a curved arc whose ends are so far apart. */
+/* Finds the length of a curved arc from the distance of its ends. */
 static status find_length(const scene *s, int member, double distance, member_arc *a, fault *f)
 {
     double c[3];
@@ -110,9 +109,9 @@ void member_arc_at(const member_arc *a, double s, double position[3], double R[9
         position[i] += wave * (a->bow[0] * R[3 * i + 1] + a->bow[1] * R[3 * i + 2]);
 }
 
-enum { BALL = 3 }; /* turns without order */
+enum { BALL = 3 }; /* three rotations without order */
 
-/* Has this end of a member a vertex of its own? */
+/* Does this end of a member have its own vertex? */
 static int is_own(const scene_member *m, int end)
 {
     return m->release[end].count > 0 || scene_is_beside(m, end);
@@ -127,7 +126,7 @@ int release_count(const scene *s)
     return count;
 }
 
-/* The vertex of an end. R: the member's axes there. */
+/* Adds the vertex of an end. R: axes of the member there. */
 static void add_end(model *m, int member, int end, const double R[9])
 {
     const scene_member *sm = &m->scene->member[member];
@@ -138,7 +137,7 @@ static void add_end(model *m, int member, int end, const double R[9])
              .element[end ? m->mesh.first_element[member + 1] - 1 : m->mesh.first_element[member]];
     mesh_release *r = &m->mesh.release[m->mesh.releases++];
     r->node = node;
-    m->mesh.vertex[vertex] = m->mesh.vertex[node]; /* its place, and what moves that */
+    m->mesh.vertex[vertex] = m->mesh.vertex[node]; /* its position, and the body that moves it */
     m->mesh.vertex[vertex].angles = 0;
     for (int k = 0; k < 3; k++) {
         m->mesh.vertex[vertex].vector_driver[k] = NONE;
@@ -166,15 +165,16 @@ status release_build(model *m, fault *f)
             double position[3], R[9];
             if (!is_own(&m->scene->member[i], end))
                 continue;
-            TRY(member_arc_of(m->scene, i, 0, &axis, f)); /* in the axes of the description */
+            TRY(member_arc_of(m->scene, i, 0, &axis,
+                              f)); /* in the axes in which the section is described */
             member_arc_at(&axis, end * axis.length, position, R);
             add_end(m, i, end, R);
         }
     return STATUS_OK;
 }
 
-/* Orientation after the turns of an end of a body; of a ball that of the body. b[turns x 3]:
- * spatial axes of the turns, of a ball the fixed ones. */
+/* Orientation after the rotations of a released end; for a ball joint that of the body. b[turns x
+ * 3]: spatial axes of the rotations; for a ball joint the fixed ones. */
 static void follow_turns(const mesh_release *r, const double angle[3], const double body[4],
                          double b[3][3], double q[4])
 {
@@ -366,7 +366,7 @@ static void add_pair(int n, int a, int b, double value, double K[])
     K[b * n + a] += value;
 }
 
-/* F . (theta x along) of the end's turn before its shift. */
+/* F . (theta x along): rotation of the end before its displacement. */
 static void take_slides(const mesh_release *r, double along[3][3], const double apart[3], int n,
                         int at, int own, double force[6], double K[])
 {
@@ -383,7 +383,8 @@ static void take_slides(const mesh_release *r, double along[3][3], const double 
         offset_force(apart, force);
 }
 
-/* M . (theta x b_j)/2 of the body's turn before the end's, M . (b_i x b_j)/2 of the end's. */
+/* M . (theta x b_j)/2 for rotations of the body before those of the end, M . (b_i x b_j)/2 for
+ * those of the end. */
 static void add_turned_moment(const mesh_release *r, double b[3][3], const double moment[3], int n,
                               int at, int own, double K[])
 {

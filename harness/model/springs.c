@@ -55,8 +55,8 @@ status turns_build(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Beside a full turn the little that is more, or is missing, has a direction of round-off where it
- * is along what there was. */
+/* Near a full revolution, the small difference to it has a direction of round-off if it is parallel
+ * to the previous vector. */
 static int keeps_direction(const double more[3], const double before[3], double length)
 {
     const double near = 1e-3, round_off = 1e-8;
@@ -74,7 +74,7 @@ static void turns_continue(const double q[4], const double before[3], double out
     double along[3] = {0};
     rotation_log(q, out);
     if (q[0] > 0 && length < PI / 2)
-        return; /* less than half a turn, and no other is as near */
+        return; /* less than half a revolution: no other vector is as near */
     if (length > PI && keeps_direction(out, before, length)) {
         const int odd = q[0] < 0;
         const double turns = 2 * round((length / (2 * PI) - odd) / 2) + odd;
@@ -169,7 +169,7 @@ void turns_put_between(const model *m, const model_state *s, double out[])
     }
 }
 
-/* As if both had turned about one axis. */
+/* As if both had rotated about one axis. */
 static void begin_between(const model *m, model_state *s, int i)
 {
     const mesh_turn *t = &m->turn[i];
@@ -302,7 +302,8 @@ static void coefficient(double x, double *c, double *slope)
     *slope = (-g_x - *c) / x;
 }
 
-/* The rotation vector, B, and the symmetric part of what s makes of the second derivatives. */
+/* The rotation vector, B, and the symmetric part of the contribution of s to the second
+ * derivatives. */
 static void rotation_part(const double R[9], const double near[3], const double s[3],
                           double theta[3], double B[9], double second[9])
 {

@@ -9,12 +9,12 @@
 
 enum { N = 6, ALL = 0x3f };
 
-/* Axes of turns have an error of a few eps: smaller parts of unit columns are taken for
- * round-off. */
+/* Rotation axes have an error of a few eps: smaller parts of unit columns are treated as round-off.
+ */
 static const double round_off = 1e-12;
 
-/* column <- column without its part along the `count` orthonormal vectors, twice for
- * orthogonality. */
+/* Removes from the column its part along the `count` orthonormal vectors, twice for orthogonality.
+ */
 static void deflate(int n, int count, double (*basis)[N], double column[])
 {
     for (int pass = 0; pass < 2; pass++)
@@ -51,7 +51,7 @@ static int orthonormal(int n, int count, double (*column)[N], double (*basis)[N]
 }
 
 /* Columns of T scaled to unit length, displacements in units of `length`. Columns that cancel to
- * rounding are omitted. Returns how many remain. */
+ * round-off are omitted. Returns the number of the others. */
 static int unit_columns(int columns, const double *T, double length, double (*column)[N])
 {
     int count = 0;
@@ -82,8 +82,8 @@ static unsigned components_of(int rank, double (*basis)[N])
     return components;
 }
 
-/* Returns the components that move where every column is one component, or zero, as for a node that
- * is its own body; ALL + 1: there is another column. */
+/* Returns the components that move if every column is a single component, or zero, as for a node
+ * that is its own body; ALL + 1: another column exists. */
 static unsigned components_alone(int columns, const double *T)
 {
     unsigned components = 0;
@@ -168,8 +168,8 @@ void movable_prescribed(int columns, const double *T, const double m[3], double 
         deflate(3, rank, basis, out);
 }
 
-/* Which parts of the structure its supports leave loose: rigid motions of what is joined together,
- * found from the supports alone and so whatever the stiffness. */
+/* Finds parts of the structure that the supports leave loose: rigid motions of connected parts,
+ * from the supports alone, independent of stiffness. */
 
 enum { SUPPORTS_N = 6 };
 
@@ -252,7 +252,7 @@ void supports_prevented(const model *m, int node, const double origin[3],
         out[i] = (G[i] - out[i]) * (i / SUPPORTS_N < 3 ? 1 : m->size);
 }
 
-/* sum += their squares. */
+/* Adds their squares to sum. */
 static void add_supports(const model *m, int node, const double origin[3],
                          double sum[SUPPORTS_N * SUPPORTS_N])
 {
