@@ -426,5 +426,54 @@ quantities: {f: {frequency: {analysis: v, which: 0}, unit: %s}}
             self.assertNotIn("warning", done.stderr, path)
 
 
+IN_MM = """beamwork: 1
+units: mm, N, MPa
+sections: {s: {rectangle: {width: 40, thickness: 20}, young: 210e3, shear_modulus: 81e3, density: DENSITY, expansion: 12e-6}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [2000, 0, 0], hold: [uy, uz, rx, ry, rz]}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0], divide: 2}}
+loads: {weight: {gravity: [0, 0, 0], on: all}, push: {force: [FORCE, 0, 0], on: b}}
+analyses: {lin: {linear: {}}}
+quantities: {ux: {displacement: {analysis: lin, node: b, component: ux}, unit: mm}, N: {internal: {analysis: lin, member: m, end: to, resultant: Mx}, unit: N mm}}
+"""
+WARM = """beamwork: 1
+units: mm, N, MPa
+sections: {s: {rectangle: {width: 40, thickness: 20}, young: 210e3, shear_modulus: 81e3, expansion: 12e-6}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [2000, 0, 0], hold: all}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+loads: {fire: {temperature: 1, on: m}}
+analyses: {buck: {buckling: {}}}
+quantities: {dT: {critical_factor: {analysis: buck}, unit: K}}
+"""
+
+
+class Doubtful(SceneCase):
+    """Numbers that look like other units than those of the scene."""
+
+    def told(self, density, force):
+        text = IN_MM.replace("DENSITY", density).replace("FORCE", force).replace(", divide: 2", "")
+        return self.answered("solve", "--scene", self.scene(text), "-f", "beamw", "-n", 2)
+
+    def test_density(self):
+        self.assertEqual(self.told("7.85e-9", "1").stderr, "")
+        self.assertIn("is no solid, and looks like other units; numbers are in the 'units' of the scene: with mm, N, MPa "
+                      "densities are in t/mm^3", self.told("7850", "1").stderr)
+
+    def test_larger_than_the_structure(self):
+        """EA/l = 84000 N/mm: 2000 mm at 168 MN."""
+        self.assertEqual(self.told("7.85e-9", "167e6").stderr, "")
+        self.assertIn("ux: a linear analysis gives a displacement of 1.01 times the size of the structure",
+                      self.told("7.85e-9", "169e6").stderr)
+
+    def test_zero(self):
+        self.assertRegex(self.told("7.85e-9", "1").stdout, r"\nN +0 N mm")
+
+    def test_kelvin(self):
+        """The unit of a load is that of its factor: K in any units; another one needs a factor."""
+        self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
+                         r"\ndT +\S+ K")
+        self.refused(2, "or 'unit: MPa, factor: 1' if a load of 1 is 1 of it", "solve", "--scene",
+                     self.scene(WARM.replace("unit: K", "unit: MPa")))
+
+
 if __name__ == "__main__":
     unittest.main()

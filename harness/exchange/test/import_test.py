@@ -224,8 +224,10 @@ class Import(ProgramTest):
                   "".join(f"w_over_L, 1, {n}, {v}\n" for n, v in ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))) +
                   "".join(f"theta, rad, {n}, {0.46135195119 + 0.04 / n**2}\n" for n in (2, 4, 8, 16)))
         done = run("verify", "-k", "elastica/default", "-f", "collocation", "--imported", self.folder / "theirs.h5",
-                   "--imported-must-pass", "-o", self.folder / "found.h5")
+                   "--imported-must-pass", "-o", self.folder / "found.h5", "--markdown", self.folder / "found.md")
         self.assertEqual(done.returncode, 0, done.stdout)
+        omitted = (self.folder / "found.md").read_text(encoding="utf-8").partition("Omitted by the scenes")[2]
+        self.assertEqual([line for line in omitted.splitlines() if line.startswith("- ")], ["- elastica: trapeze", "- shear_elastica: trapeze"])
         self.assertRegex(done.stdout, r"theta(.*\n)*?.* mine .* pass")
         self.answered("compare", self.folder / "found.h5", "-o", self.folder / "found.csv")
         self.assertRegex((self.folder / "found.csv").read_text(), "mine.*theta=0.4613")
