@@ -1,6 +1,7 @@
 #include "harness/records/records_impl.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "elements/shared/choice.h"
@@ -390,14 +391,20 @@ static void compare_limits(const listing *l, const result_series *a, const resul
 
 void comparison_series(const listing *l, const result_series *a, const result_series *b)
 {
-    if (compare_meshes(l, a, b)) { /* sums over different meshes cannot be compared */
+    result_series common = {.name = NULL};
+    const int same = compare_meshes(l, a, b),
+              more = !same && l->after->whole && results_series_restrict(l->after, a, &common);
+    if (same || more) { /* sums over different meshes cannot be compared */
+        const result_series *now = same ? b : &common;
         if (results_part_differ(l->before, l->after, l->name)) {
             l->out->partial++; /* errors and work depend on the selected quantities */
         } else {
-            comparison_lines_work(l, a->work, b->work, a->meshes);
-            compare_errors(l, a, b);
+            comparison_lines_work(l, a->work, now->work, a->meshes);
+            compare_errors(l, a, now);
         }
     }
+    free(common.mesh);
+    free(common.limit);
     if (l->out->judged)
         compare_limits(l, a, b);
 }

@@ -145,6 +145,9 @@ int results_order(const result_cell *a,
                   const result_cell *b); /* compares by name, then by elements */
 /* Computes the series from the sorted cells. FAULT: out of memory. */
 status results_series_summarise(stored_results *r, fault *f);
+/* Sums over the meshes that another run has of the series; 0: r has not all of them, or no memory.
+ * The caller frees out->mesh and out->limit. */
+int results_series_restrict(const stored_results *r, const result_series *to, result_series *out);
 
 /* Is the text one of the lines? Returns 0 for lines NULL. */
 int results_part_has(const char *lines, const char *text);

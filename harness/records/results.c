@@ -120,6 +120,16 @@ static int take_cell(result_series *s, const result_cell *cell)
     return take_limits(s, cell);
 }
 
+int results_series_restrict(const stored_results *r, const result_series *to, result_series *out)
+{
+    int good = 1;
+    for (int i = 0; i < r->cells && good; i++)
+        for (int k = 0; strcmp(r->cell[i].name, to->name) == 0 && k < to->meshes && good; k++)
+            if (to->mesh[k].elements == r->cell[i].elements)
+                good = take_cell(out, &r->cell[i]);
+    return good && out->meshes == to->meshes;
+}
+
 status results_series_summarise(stored_results *r, fault *f)
 {
     result_series *s = NULL;

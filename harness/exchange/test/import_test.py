@@ -207,6 +207,12 @@ class Import(ProgramTest):
                 self.assertEqual(done.returncode, code, (name, done.stdout))
                 self.assertIn(words, done.stdout)
                 self.assertEqual(done.stdout.count("gone     "), code, done.stdout)
+        # one mesh more hides no larger errors on the others
+        worse = [f"w_over_L, 1, {n}, {0.30172077577 + 1.1 * (value - 0.30172077577)}\n" for n, value in values]
+        done = self.beside(text.format("mine", "4.2") + "".join(worse) + "w_over_L, 1, 64, 0.3017225\n", "new.h5",
+                           "--imported-must-pass", "--not-worse-than", table)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("/mine: largest error", " ".join(done.stdout.split()))
         select = ("verify", "-k", "elastica and w_over_L and not shear", "-f", "collocation")
         done = run(*select, "--not-worse-than", table, "-o", self.folder / "new.h5")
         self.assertEqual(done.returncode, 1, done.stdout)
