@@ -118,6 +118,22 @@ class Choice(ProgramTest):
         self.answered("solve", "deep_beam", "-f", "beamw", "-k", "frequency_9", "--error", "1%")
         self.refused(2, "--error", "solve", "deep_beam", "-n", "4", "--error", "1%")
 
+    def test_slow_convergence(self):
+        """Lateral-torsional buckling with shear: below first order more than the last change is expected."""
+        path = self.folder / "beam.yaml"
+        path.write_text("""beamwork: 1
+units: mm, N, MPa
+sections: {i: {i: {depth: 200, flange: 100, flange_thickness: 8.5, web_thickness: 5.6}, young: 210e3, shear_modulus: 81e3}}
+nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [6000, 0, 0], hold: [uy, uz, rx]}}
+members: {m: {from: a, to: b, section: i, y: [0, 1, 0]}}
+loads: {ma: {moment: [0, 1e6, 0], on: a}, mb: {moment: [0, -1e6, 0], on: b}}
+analyses: {buck: {buckling: {}}}
+quantities: {Mcr: {critical_factor: {analysis: buck}, unit: 1}}
+""", encoding="utf-8")
+        exact = 20.354  # geometrically_exact, order 4, 32 elements
+        found = self.record("solve", "--scene", path, "-f", "collocation", "--error", "0.0115%")
+        self.assertLess(abs(found["quantities"][0]["value"]/exact - 1), 1.15e-4, found["elements"])
+
     def test_zero_beside_others(self):
         """What is zero by symmetry settles."""
         scene = bar(random.Random(1), "linear")

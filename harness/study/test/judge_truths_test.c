@@ -321,6 +321,8 @@ static void limits(void)
     bench_fill(&b, 3 * (1 - 0.00115), 0.7, 4);
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "fast convergence to -0.115 %");
     bench_says(&b, "converges to a wrong limit: -0.115 %");
+    b.j.verdict[0].fit.limit_uncertainty = fabs(b.j.verdict[0].fit.limit - 3) / 2;
+    bench_says(&b, "does not converge on these meshes, and is wrong: -0.115 %");
     bench_fill(&b, 3 * (1 + 0.8e-4), 0.7, 2);
     bench_expect(&b, VERDICT_BIASED, 1, "limit within the tolerance, and sharp");
     bench_says(&b, "has a different limit within the tolerance: +0.008 %");
