@@ -301,6 +301,17 @@ double model_length(const model *m)
     return m->size;
 }
 
+double model_mass(const model *m)
+{
+    double mass = 0;
+    for (int i = 0; i < m->mesh.elements; i++) {
+        const mesh_kind *kind = &m->mesh.kind[m->mesh.element[i].kind];
+        const section *c = &m->section[kind->section];
+        mass += kind->length * (c->matrices ? c->mass[0] : c->density * c->A);
+    }
+    return mass;
+}
+
 unsigned model_features(const model *m)
 {
     return m->features;

@@ -68,6 +68,7 @@ int model_body(const model *, int vertex);
 int model_is_released(const model *, int vertex);
 /* Longest member [m]: the size that displacements are compared with. */
 double model_length(const model *);
+double model_mass(const model *); /* of the members [kg] */
 
 /* Physics of the scene that it has: FEATURE_* bits. */
 unsigned model_features(const model *);

@@ -39,6 +39,7 @@ static status set_up(const cell_request *request, const scene *s, model **m, cel
                                 request->omit};
     TRY(model_alloc(&what, m, f));
     out->size = model_sizes(*m);
+    out->mass = model_mass(*m);
     return copy_left_out(*m, out, f);
 }
 

@@ -104,6 +104,7 @@ typedef struct cell_request {
 typedef struct cell_result {
     scene scene; /* the scene, if the cell built it itself, else empty */
     model_size size;
+    double mass; /* of the members [kg] */
     counters counters;
     int left_out_lines;
     char **left_out;

@@ -1,6 +1,7 @@
 #include "harness/terminal/terminal_impl.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cases/scene/scene.h"
@@ -146,6 +147,119 @@ static void combinations(FILE *to, const scene *s)
     paragraph_end(&words, at, INDENT);
 }
 
+/* Does an analysis that is linear about a state hold what drives prescribe? Names these kinds. */
+static int holding(const scene *s, char words[40])
+{
+    static const struct {
+        scene_analysis_kind kind;
+        const char *name;
+    } all[] = {{SCENE_MODAL, "modal"}, {SCENE_BUCKLING, "buckling"}, {SCENE_HARMONIC, "harmonic"}};
+    int used = 0;
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+        for (int i = 0; i < s->analyses; i++)
+            if (s->analysis[i].kind == all[k].kind) {
+                used += snprintf(words + used, 40 - (size_t)used, "%s%s", used > 0 ? ", " : "",
+                                 all[k].name);
+                break;
+            }
+    return used > 0;
+}
+
+/* Is this motion the input of a response? */
+static int is_input(const scene *s, int driver)
+{
+    for (int i = 0; i < s->quantities; i++)
+        if (s->quantity[i].what.kind == SCENE_RESPONSE &&
+            s->quantity[i].what.of.response.driver == driver)
+            return 1;
+    return 0;
+}
+
+static void put_driven(FILE *text, const scene *s, int node, const int driver[3], const char *names,
+                       int *count)
+{
+    for (int k = 0; k < 3; k++)
+        if (driver[k] >= 0 && !is_input(s, driver[k]))
+            fprintf(text, "%s%s %.2s", (*count)++ > 0 ? ", " : "",
+                    scene_name(s, SCENE_NODES, node).text, names + 2 * k);
+}
+
+/* "held: stage ux, driven (modal)": where a drive does not move. */
+static void driven(FILE *to, const scene *s)
+{
+    char kinds[40], *words = NULL;
+    size_t size;
+    int count = 0;
+    FILE *text = holding(s, kinds) ? open_memstream(&words, &size) : NULL;
+    if (text == NULL)
+        return;
+    for (int i = 0; i < s->nodes; i++) {
+        const scene_node *n = &s->node[i];
+        put_driven(text, s, i, n->translation, "uxuyuz", &count);
+        if (n->rotation != SCENE_ROTATION_FORK)
+            put_driven(text, s, i, n->angle, "rxryrz", &count);
+    }
+    if (fclose(text) == 0 && count > 0)
+        paragraph_say(to, fprintf(to, "held by drives (%s): ", kinds), INDENT, "%s", words);
+    free(words);
+}
+
+static int has_no_inertia(const scene_body *b)
+{
+    int none = b->mass > 0;
+    for (int i = 0; i < 6; i++)
+        none &= b->inertia[i] == 0;
+    return none;
+}
+
+/* Can it turn, and has nothing that moves with it a mass away from it? */
+static int turns_alone(const scene *s, int node)
+{
+    const scene_node *n = &s->node[node];
+    if (n->attached != SCENE_NONE ||
+        (n->rotation == SCENE_ROTATION_SPATIAL && n->angle[0] == SCENE_HELD &&
+         n->angle[1] == SCENE_HELD && n->angle[2] == SCENE_HELD))
+        return 0;
+    for (int i = 0; i < s->nodes; i++)
+        if (s->node[i].attached == node && scene_has_body(&s->node[i]))
+            return 0;
+    return 1;
+}
+
+static int is_weighed(const scene *s)
+{
+    for (int i = 0; i < s->loads; i++)
+        if (s->load[i].kind == SCENE_GRAVITY || s->load[i].kind == SCENE_WEIGHT)
+            return 1;
+    return 0;
+}
+
+/* "mass: bodies 500 kg, members 0.0125 kg": a wrong unit shows here. members [kg] */
+static void masses(FILE *to, const scene *s, double members)
+{
+    enum { MOST_NAMES = 8 };
+    const int moves = (features_needed(s) & FEATURE_MASS) != 0;
+    double bodies = 0;
+    int count = 0;
+    paragraph words;
+    if (!moves && !is_weighed(s))
+        return;
+    for (int i = 0; i < s->nodes; i++)
+        bodies += s->node[i].body.mass;
+    const int at = fprintf(to, "mass: ");
+    FILE *text = paragraph_begin(&words, to);
+    if (bodies > 0)
+        fprintf(text, "bodies %.6g kg, ", bodies);
+    fprintf(text, "members %.6g kg", members);
+    for (int i = 0; moves && i < s->nodes; i++)
+        if (has_no_inertia(&s->node[i].body) && turns_alone(s, i) && ++count <= MOST_NAMES)
+            fprintf(text, "%s%s", count > 1 ? ", " : "; no moment of inertia: ",
+                    scene_name(s, SCENE_NODES, i).text);
+    if (count > MOST_NAMES)
+        fprintf(text, " and %d more", count - MOST_NAMES);
+    paragraph_end(&words, at, INDENT);
+}
+
 void table_solution(FILE *to, const sweep *s, const truths *t)
 {
     const series *one = &s->series[0];
@@ -170,6 +284,8 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     on_nodes(&p->scene, one->formulation.type, one->formulation.option, ends, sizeof ends);
     if (ends[0] != '\0')
         paragraph_write(to, fprintf(to, "lumped: "), INDENT, ends);
+    masses(to, &p->scene, c->mass);
+    driven(to, &p->scene);
     combinations(to, &p->scene);
     table_omitted(to, p);
     table_theory(to, &p->scene, one->formulation.type);

@@ -256,5 +256,53 @@ class PhysicsTest(SceneCase):
             "solve", "--scene", self.scene(text + "omit: shear\n")).stdout)
 
 
+GUIDE = """\
+beamwork: 1
+units: mm, N, MPa
+sections:
+  leaf: {{rectangle: {{width: 50, thickness: 0.5}}, young: 210e3, shear_modulus: 81e3, density: 7.85e-9}}
+nodes:
+  stage:   {{at: [25, 100, 0], drive: {{ux: travel}}, mass: 0.5{inertia}}}
+  base_$i: {{for: {{i: 0..1}}, at: [i*50, 0, 0], hold: all}}
+  end_$i:  {{for: {{i: 0..1}}, at: [i*50, 100, 0], part_of: stage{more}}}
+members:
+  leaf_$i: {{for: {{i: 0..1}}, from: base_$i, to: end_$i, section: leaf, y: [1, 0, 0], warping: fixed}}
+motions:
+  travel: {{unit: mm, path: [0, 1], value: [0, 10]}}
+{rest}
+"""
+MODAL = "analyses: {v: {modal: {}}}\nquantities: {f: {frequency: {analysis: v, which: 0}}}"
+
+
+class MassesTest(SceneCase):
+    """`solve` says what masses an analysis has, in kg, and what a drive holds."""
+
+    def said(self, **changes):
+        text = GUIDE.format(**{"inertia": "", "more": "", "rest": MODAL} | changes)
+        printed = self.answered("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 1).stdout
+        return [line for line in printed.splitlines() if line.startswith(("mass: ", "held by "))]
+
+    def test_body_in_tonnes_shows(self):
+        self.assertEqual(self.said(), ["mass: bodies 500 kg, members 0.03925 kg; no moment of inertia: stage",
+                                       "held by drives (modal): stage ux"])
+
+    def test_inertia_or_masses_aside_need_no_remark(self):
+        whole = "mass: bodies {} kg, members 0.03925 kg"
+        self.assertEqual(self.said(inertia=", inertia: [1, 1, 1, 0, 0, 0]")[0], whole.format(500))
+        self.assertEqual(self.said(more=", mass: 0.1")[0], whole.format(700))
+
+    def test_statics_use_no_mass_but_weight(self):
+        statics = ("analyses: {s: {static: {stations: [1]}}}\n"
+                   "quantities: {r: {reaction: {analysis: s, node: stage, component: ux}}}")
+        self.assertEqual(self.said(rest=statics), [])
+        self.assertEqual(self.said(rest="loads: {g: {gravity: [0, -9810, 0], on: all}}\n" + statics),
+                         ["mass: bodies 500 kg, members 0.03925 kg"])
+
+    def test_input_of_a_response_moves(self):
+        swept = ("analyses: {h: {harmonic: {frequencies: [10]}}}\nquantities: {t: {response: {analysis: h, node: stage, "
+                 "component: uy, drive: travel, at: 10}}}")
+        self.assertEqual([line for line in self.said(rest=swept) if "held" in line], [])
+
+
 if __name__ == "__main__":
     unittest.main()

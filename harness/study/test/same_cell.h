@@ -37,6 +37,7 @@ static inline void compare_counts(difference *out, const cell_result *a, const c
     SAME(size.strains);
     SAME(size.inner);
     SAME(size.features);
+    SAME(mass);
     SAME(counters);
     SAME(left_out_lines);
     for (int i = 0; i < a->left_out_lines && out->name == NULL; i++)
