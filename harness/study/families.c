@@ -227,6 +227,84 @@ families_limit families_limit_of(const sweep *s, int point_index, int quantity, 
     return best;
 }
 
+/* Why a series takes no part in an agreement; NULL: it does. */
+static const char *kept_out(const sweep *s, int index, int quantity, const truths *t)
+{
+    const series *one = &s->series[index];
+    const element_type *type = one->formulation.type;
+    if (one->without.other)
+        return "another model here";
+    if (type->family == NULL || type->misprint != NULL)
+        return type->family == NULL ? "of no family" : "kept with a misprint";
+    if (!may_vote(s, one, t))
+        return "known to deviate here";
+    const mesh_limit fit = verdict_limit(s, index, quantity, 0);
+    return isfinite(fit.limit) && isfinite(fit.limit_uncertainty)
+               ? NULL
+               : "without a limit on these meshes";
+}
+
+/* A formulation of a family other than this one that could take part. */
+static const char *of_another_family(const sweep *s, int point_index, const char *family,
+                                     const truths *t)
+{
+    const scene *here = &s->point[point_index].scene;
+    const element_type *type;
+    char words[OMIT_WORDS];
+    for (int i = 0; (type = formulations_at(i)) != NULL; i++) {
+        int ran = 0;
+        for (int k = 0; k < s->seriess; k++)
+            ran |= s->series[k].formulation.type == type;
+        if (!ran && type->family != NULL && type->misprint == NULL && !formulations_is_new(type) &&
+            (family == NULL || strcmp(type->family, family) != 0) &&
+            !is_known_wrong(t, features_needed(here), type->name) &&
+            !missing_words(here, type, words, sizeof words))
+            return type->name;
+    }
+    return NULL;
+}
+
+/* "A, B " for the series of a point with this reason; NULL: those that take part. */
+static int put_series(FILE *to, const sweep *s, int point_index, int quantity, const truths *t,
+                      const char *reason, const char *before)
+{
+    int count = 0;
+    for (int i = 0; i < s->seriess; i++) {
+        const char *own = s->series[i].missing[0] != '\0' ? "" : kept_out(s, i, quantity, t);
+        if (s->series[i].point == point_index && own == reason)
+            fprintf(to, "%s%s", count++ > 0 ? ", " : before, s->series[i].formulation.key);
+    }
+    return count;
+}
+
+void families_why(FILE *to, const sweep *s, int point_index, int quantity, const truths *t)
+{
+    const char *family = NULL, *before = "";
+    int families = 0;
+    for (int i = 0; i < s->seriess; i++) {
+        const series *one = &s->series[i];
+        const int counts = one->point == point_index && one->missing[0] == '\0';
+        const char *why = counts ? kept_out(s, i, quantity, t) : NULL;
+        int told = 0;
+        for (int k = 0; k < i && why != NULL; k++)
+            told |= s->series[k].point == point_index && s->series[k].missing[0] == '\0' &&
+                    kept_out(s, k, quantity, t) == why;
+        if (counts && why == NULL) {
+            families += family == NULL || strcmp(family, one->formulation.type->family) != 0;
+            family = one->formulation.type->family;
+        } else if (counts && !told) {
+            put_series(to, s, point_index, quantity, t, why, before);
+            fprintf(to, ": %s", why);
+            before = "; ";
+        }
+    }
+    if (put_series(to, s, point_index, quantity, t, NULL, before) > 0)
+        fprintf(to, families > 1 ? ": limits that differ" : ": one family (%s)", family);
+    const char *more = families < 2 ? of_another_family(s, point_index, family, t) : NULL;
+    if (more != NULL)
+        fprintf(to, "; add -f %s", more);
+}
+
 /* "beamw_consistent (beamw) and collocation (reissner) agree": source of the reference value. */
 static char *source_of(const sweep *s, const families_limit *l)
 {

@@ -63,10 +63,10 @@ static void biased(const verdict *v, char *text, size_t size)
 
 static void unjudged(const verdict *v, char *text, size_t size)
 {
-    if (v->model_truth != NULL && v->model_truth->theory[0] != '\0')
+    if (v->theory_truth != NULL && v->theory_truth->theory[0] != '\0')
         snprintf(text, size,
                  "no truth of its theory of shear; its limit is %+.3g %% from that of %s",
-                 100 * v->model_error, v->model_truth->theory);
+                 100 * (v->fit.limit / v->theory_truth->value - 1), v->theory_truth->theory);
     else if (v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0)
         snprintf(text, size,
                  "no reference value to compare with; its limit is %+.2g %% from that on which %s",

@@ -429,7 +429,8 @@ typedef struct verdict {
     /* for information only, if there is no such reference value: one of another model or theory, or
      * a cross-formulation agreement; NULL: none */
     const truth *model_truth;
-    const truth *predicted; /* limit derived for the formulation; NULL: none */
+    const truth *theory_truth; /* without such a reference value: that of another theory of shear */
+    const truth *predicted;    /* limit derived for the formulation; NULL: none */
     /* published value that differs from the limit by more than both uncertainties; NULL: none */
     const truth *contradicted;
     mesh_limit fit;
@@ -863,6 +864,8 @@ typedef struct families_limit {
 /* Agreement for one point and quantity; also for tests, which check disputes and the number of
  * families. */
 families_limit families_limit_of(const sweep *s, int point_index, int quantity, const truths *);
+/* Writes why there is no agreement, and which formulation may bring one. */
+void families_why(FILE *to, const sweep *s, int point_index, int quantity, const truths *);
 /* Adds a reference value of kind agreement for every quantity of a point that has none of its
  * model. files_only 1: for scene files only, not for built-in cases. */
 status families_add_truths(const sweep *s, int files_only, truths *t, fault *f);

@@ -195,9 +195,10 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
     const char *name = p->scene.quantity[v->quantity].name;
     v->truth = verdict_truth(t, p, &one->formulation, v->quantity);
     v->model_truth = truth_of(t, p->type, p->parameter, name, "other");
+    if (v->truth == NULL)
+        v->theory_truth = truth_of(t, p->type, p->parameter, name, "same");
     if (v->truth == NULL && v->model_truth == NULL)
-        /* another theory of shear */
-        v->model_truth = truth_of(t, p->type, p->parameter, name, "same");
+        v->model_truth = v->theory_truth;
     if (v->truth == NULL && v->model_truth == NULL)
         v->model_truth = truth_agreed(t, p->type, p->parameter, name);
     const int foreign = one->imported != NULL && !imported_same_model(one->imported);

@@ -25,6 +25,7 @@ typedef struct beside_column {
 typedef struct block {
     const scene_quantity *q;
     int quantity, count;
+    int known; /* 1: some formulation has a reference value */
     beside_column list[COLUMNS];
 } block;
 
@@ -148,6 +149,8 @@ static void write_sentences(FILE *to, const block *b)
         const beside_column *c = &b->list[i];
         if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
             continue; /* undecided limits are listed once, at the end */
+        if (c->shown.kind == VERDICT_NO_TRUTH && (c->row != NULL || !b->known))
+            continue; /* the heading says it of all of them */
         sentence_of_verdict(&c->shown, b->q->least_order, text, sizeof text);
         paragraph_write(to, fprintf(to, "  %s: ", c->one->formulation.key), 4, text);
     }
@@ -167,19 +170,32 @@ static void write_block(FILE *to, block *b)
     write_sentences(to, b);
 }
 
-/* "; exact 11419457.12 (haringx)". */
+/* "; exact 11419457.12 (haringx)"; an agreement says whose. */
 static void add_truth(char *line, size_t size, const truth *row)
 {
     const size_t used = strlen(line);
     char value[ROUNDING_TEXT];
     rounding_known(row->value, row->uncertainty, value);
-    snprintf(line + used, size - used, "%s%s %s%s%s%s", used > 0 ? "; " : "errors against ",
+    const int agreed = strcmp(row->kind, "agreement") == 0;
+    snprintf(line + used, size - used, "%s%s %s%s%s%s%s%s", used > 0 ? "; " : "errors against ",
              row->kind, value, row->theory[0] != '\0' ? " (" : "", row->theory,
-             row->theory[0] != '\0' ? ")" : "");
+             row->theory[0] != '\0' ? ")" : "", agreed ? ", no reference value: " : "",
+             agreed ? row->source : "");
 }
 
-/* Writes name, unit and the references of the formulations, without duplicates. */
-static void write_heading(FILE *to, const sweep *s, const truths *t, int quantity)
+/* Says why there is nothing to compare values with. */
+static void write_why(FILE *to, int at, const sweep *s, const truths *t, int quantity)
+{
+    paragraph words;
+    FILE *text = paragraph_begin(&words, to);
+    fputs("values: no truth, and no agreement: ", text);
+    families_why(text, s, 0, quantity, t);
+    paragraph_end(&words, at, 4);
+}
+
+/* Writes name, unit and the references of the formulations, without duplicates. Returns 0 when
+ * there is none. */
+static int write_heading(FILE *to, const sweep *s, const truths *t, int quantity)
 {
     const sweep_point *p = &s->point[0];
     const scene_quantity *q = &p->scene.quantity[quantity];
@@ -196,17 +212,21 @@ static void write_heading(FILE *to, const sweep *s, const truths *t, int quantit
         last = row != NULL && s->series[i].missing[0] == '\0' ? row : last;
     }
     const int at = fprintf(to, "\n%s [%s], ", q->name, q->unit) - 1;
-    paragraph_write(to, at, 4, line[0] != '\0' ? line : "values: no truth, and no agreement");
+    if (line[0] != '\0')
+        paragraph_write(to, at, 4, line);
+    else
+        write_why(to, at, s, t, quantity);
     if (q->prediction.source != NULL)
         fprintf(to, "  prediction %.8g %s (%s, analytic)\n", q->prediction.value, q->unit,
                 q->prediction.source);
+    return line[0] != '\0';
 }
 
 static void write_quantity(FILE *to, const sweep *s, const truths *t, int quantity)
 {
     block b = {.q = &s->point[0].scene.quantity[quantity], .quantity = quantity};
     int blocks = 0;
-    write_heading(to, s, t, quantity);
+    b.known = write_heading(to, s, t, quantity);
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
         if (one->missing[0] == '\0') {
