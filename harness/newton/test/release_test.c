@@ -512,7 +512,7 @@ static void handed_over(status outcome, int rounding, const char *reason, const 
 
 static void read_displacements(const void *o)
 {
-    outcome_displacements(o);
+    outcome_displacements(o, 0);
 }
 static void read_spectrum(const void *o)
 {
