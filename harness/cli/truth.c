@@ -36,7 +36,10 @@ static int print_stored(const truths *t, const case_type *type, const double par
         const truth *row = &t->row[i];
         if (row->formulation[0] != '\0' || !truth_holds(row, type, parameter))
             continue;
-        print_value(row->quantity, row->value, row->uncertainty, row->unit, row->kind, row->model,
+        char whose[2 * SCENE_NAME];
+        snprintf(whose, sizeof whose, "%s%s%s", row->model, row->theory[0] != '\0' ? ", " : "",
+                 row->theory);
+        print_value(row->quantity, row->value, row->uncertainty, row->unit, row->kind, whose,
                     row->source, row->convention);
         continuum += strcmp(row->model, "same") == 0;
     }

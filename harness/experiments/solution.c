@@ -375,6 +375,15 @@ static void write_answer(FILE *to, double level, const sweep *s, const truths *t
     paragraph words;
     reach_line_write(paragraph_begin(&words, to), s, t, level);
     paragraph_end(&words, 0, 0);
+    char *beyond = NULL;
+    size_t size = 0;
+    FILE *text = open_memstream(&beyond, &size);
+    if (text == NULL)
+        return;
+    reach_model_write(text, s, t, level);
+    if (fclose(text) == 0 && size > 0)
+        paragraph_write(to, 0, 0, beyond);
+    free(beyond);
 }
 
 static void write_text(FILE *to, const convergence *c)

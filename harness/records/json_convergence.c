@@ -80,17 +80,34 @@ static json_t *curves_of(const sweep *s, const series *one)
     return all;
 }
 
-/* Conclusion, as in the last line of the text output. */
-static json_t *sentence_of(const sweep *s, const truths *t, double level)
+/* What one of the functions below writes, without the end of its line; NULL: no memory. */
+static char *said(void (*write)(FILE *, const sweep *, const truths *, double), const sweep *s,
+                  const truths *t, double level)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *to = open_memstream(&text, &size);
     if (to == NULL)
         return NULL;
-    reach_line_write(to, s, t, level);
-    json_t *out = fclose(to) == 0 && size > 0 ? json_stringn(text, size - 1) : NULL;
+    write(to, s, t, level);
+    if (fclose(to) == 0 && text != NULL) {
+        text[strcspn(text, "\n")] = '\0';
+        return text;
+    }
     free(text);
+    return NULL;
+}
+
+/* Conclusion, as in the last lines of the text output. */
+static json_t *sentence_of(const sweep *s, const truths *t, double level)
+{
+    char *line = said(reach_line_write, s, t, level),
+         *beyond = said(reach_model_write, s, t, level);
+    json_t *out = NULL;
+    if (line != NULL && beyond != NULL)
+        out = json_sprintf("%s%s%s", line, beyond[0] != '\0' ? ". " : "", beyond);
+    free(line);
+    free(beyond);
     return out;
 }
 
@@ -321,8 +338,9 @@ static int is_of_another_model(const verdict *v)
 
 /* Writes the largest difference of the passing formulations from another model; if none passes,
  * that of the one with the lowest cost. */
-static void write_model_error(FILE *to, const reach_question *q, const reached list[], int count)
+static void write_model_error(FILE *to, const reach_question *q, reached list[])
 {
+    const int count = reach_ranking(q, list);
     const verdict *most = NULL;
     for (int i = 0; i < count && (i == 0 || list[i].defect == NULL); i++)
         for (int k = 0; k < q->verdicts; k++) {
@@ -333,10 +351,16 @@ static void write_model_error(FILE *to, const reach_question *q, const reached l
         }
     if (most == NULL)
         return;
-    char percent[ROUNDING_TEXT];
-    rounding_digits(100 * fabs(most->model_error), 2, percent);
-    fprintf(to, "; of another model (solid, plate): up to %s %% off (%s)", percent,
-            q->s->point[q->point].scene.quantity[most->quantity].name);
+    char percent[ROUNDING_TEXT], value[ROUNDING_TEXT];
+    const truth *solid = most->model_truth;
+    rounding_digits(100 * most->model_error, 2, percent);
+    rounding_known(solid->value, solid->uncertainty, value);
+    fprintf(to,
+            "Beams are not the structure: %s of another model is %s %s (%s); the limit of %s is "
+            "%s%s %% from it. The %g %% are of beams only.\n",
+            q->s->point[q->point].scene.quantity[most->quantity].name, value, solid->unit,
+            solid->source, q->s->series[most->series].formulation.key,
+            most->model_error > 0 ? "+" : "", percent, 100 * q->level);
 }
 
 /* Writes why no formulation runs. Returns 0 if one does. */
@@ -354,6 +378,10 @@ static int write_nothing_runs(FILE *to, const sweep *s)
 
 static void write_answer(FILE *to, const reach_question *q, reached list[])
 {
+    if (write_nothing_runs(to, q->s)) {
+        fputc('\n', to);
+        return;
+    }
     const int count = reach_ranking(q, list), known = write_asked(to, q);
     if (count == 0)
         fputs(known > 0
@@ -369,10 +397,12 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
                      "; without a reference value of its theory in all of it: ");
     }
     write_other_models(to, q);
-    write_model_error(to, q, list, count);
+    fputc('\n', to);
 }
 
-void reach_line_write(FILE *to, const sweep *s, const truths *t, double level)
+/* Asks about all quantities. */
+static void reach_write(FILE *to, const sweep *s, const truths *t, double level,
+                        void (*write)(FILE *, const reach_question *, reached[]))
 {
     reach_question q = {.s = s,
                         .point = s->seriess > 0 ? s->series[0].point : 0,
@@ -381,9 +411,18 @@ void reach_line_write(FILE *to, const sweep *s, const truths *t, double level)
     verdict *all = reach_verdicts(s, t, &q.verdicts);
     reached *list = calloc((size_t)s->seriess + 1, sizeof *list);
     q.verdict = all;
-    if (all != NULL && list != NULL && s->points > 0 && !write_nothing_runs(to, s))
-        write_answer(to, &q, list);
-    fputc('\n', to);
+    if (all != NULL && list != NULL && s->points > 0)
+        write(to, &q, list);
     free(all);
     free(list);
+}
+
+void reach_line_write(FILE *to, const sweep *s, const truths *t, double level)
+{
+    reach_write(to, s, t, level, write_answer);
+}
+
+void reach_model_write(FILE *to, const sweep *s, const truths *t, double level)
+{
+    reach_write(to, s, t, level, write_model_error);
 }

@@ -645,11 +645,12 @@ status output_folder_finish(output_folder *, status written, fault *f);
 
 /* "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2 (0.4 ms): costs tie;
  * beamw n = 8 (2 ms)": in the order of study.h, with the cost of their counted work.
- * Then follow the formulations with a defect, those not within the level, and the difference of
- * passing ones from reference values of another model. "in 5 of 6 quantities (without a reference:
- * frequency_1)" is added if some have neither a reference value nor an agreement; curves do not
- * count. Refers to the first point. One line. */
+ * Then follow the formulations with a defect and those not within the level. "in 5 of 6 quantities
+ * (without a reference: frequency_1)" is added if some have neither a reference value nor an
+ * agreement; curves do not count. Refers to the first point. One line. */
 void reach_line_write(FILE *to, const sweep *s, const truths *t, double level);
+/* How far those that pass are from a solid, plate or shell: one line, none if that is not known. */
+void reach_model_write(FILE *to, const sweep *s, const truths *t, double level);
 
 /* Records as rows of a typed, compressed table; units and summaries of the columns are its
  * attributes. */

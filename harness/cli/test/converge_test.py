@@ -115,10 +115,13 @@ class Forms(unittest.TestCase):
         most = max((q for s in whole["series"] if s["formulation"] in right
                     for q in s["quantities"] if q["model_truth_kind"] == "independent"),
                    key=lambda q: abs(q["model_error"]))
-        self.assertTrue(whole["sentence"].endswith(
-            f"; of another model (solid, plate): up to {100 * abs(most['model_error']):.2g} % off "
-            f"({most['quantity']})"), whole["sentence"])
-        self.assertNotIn("another model", answer(converge("text")))
+        self.assertRegex(whole["sentence"],
+                         rf"\. Beams are not the structure: {most['quantity']} of another model is .*; the limit of "
+                         rf"collocation is [+]?{100 * most['model_error']:.2g} % from it")
+        text = run("converge", "sheet_cantilever", "-f", "collocation", "-n", "2,4,8").stdout
+        self.assertIn("\nBeams are not the structure: ", text)
+        self.assertNotIn("Beams are not", converge("text"))
+        self.assertFalse(converge("text").endswith("\n\n"))
 
     def test_without_a_truth_families_agree(self):
         """Its truths are those of another stroke."""

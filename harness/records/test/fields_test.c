@@ -378,6 +378,7 @@ static void line_of(const reach_line_bench *b, double level, char out[1000])
     size_t size = 0;
     FILE *to = open_memstream(&text, &size);
     reach_line_write(to, &b->s, &b->t, level);
+    reach_model_write(to, &b->s, &b->t, level);
     fclose(to);
     for (const char *at = text; *at != '\0';) {
         const char *end = strncmp(at, " (", 2) == 0 ? strchr(at, ')') : NULL;
@@ -423,7 +424,7 @@ static void not_every_quantity(void)
     finish(&b);
 }
 
-/* The model error of those that are right, at the end; an agreement is no other model. */
+/* The model error of those that are right, on a line of its own; an agreement is no other model. */
 static void other_models(void)
 {
     reach_line_bench b;
@@ -436,9 +437,9 @@ static void other_models(void)
     add_model(&b, "independent", 3.1);
     line_expect(
         &b, 0.01,
-        "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red; of "
-        "another model "
-        "(solid, plate): up to 3.2 % off (load)\n");
+        "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red\n"
+        "Beams are not the structure: load of another model is 3.1 N (of the test); the limit of "
+        "red is -3.2 % from it. The 1 % are of beams only.\n");
     line_expect(&b, 1e-9,
                 "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
                 "(load: 0.0098 %)\n");
@@ -446,9 +447,9 @@ static void other_models(void)
     line_expect(
         &b, 0.2,
         "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
-        "cost coefficients of its own: grey, red, blue, green; of another model (solid, plate): "
-        "up to 6.5 "
-        "% off (load)\n");
+        "cost coefficients of its own: grey, red, blue, green\n"
+        "Beams are not the structure: load of another model is 3.1 N (of the test); the limit of "
+        "grey is +6.5 % from it. The 20 % are of beams only.\n");
     finish(&b);
 }
 
