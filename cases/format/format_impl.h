@@ -239,6 +239,10 @@ int expression_number(const document_node *n, const scope *names, mistakes *m, d
 int expression_vector(const document_node *n, int count, const scope *names, mistakes *m,
                       double out[]);
 
+/* Replaces `file`, `at`, `value` of tables below the node by the numbers of these files; scene:
+ * path of the scene file, NULL: none. */
+void table_files_read(document_node *, const char *beside, arena *a, mistakes *m);
+
 /* Tables of the keys of scene files, used to check and describe a file, and to suggest corrections
  * of keys. */
 

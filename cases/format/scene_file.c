@@ -70,11 +70,16 @@ static status build_from(const void *context, const double value[], scene *s, fa
     return mistakes_status(&m, f);
 }
 
-/* Reads tree, form and parameters, each only if the previous part has no errors. */
-static void read_form(scene_file *file, const char *bytes, size_t size, mistakes *m)
+/* Reads tree, tables of other files, form and parameters, each only if the previous part has no
+ * errors. folder: of a file in it; NULL: none. */
+static void read_form(scene_file *file, const char *bytes, size_t size, const char *folder,
+                      mistakes *m)
 {
-    file->root = document_read(bytes, size, &file->arena, m);
-    if (file->root == NULL || !keys_check(file->root, m))
+    document_node *root = document_read(bytes, size, &file->arena, m);
+    file->root = root;
+    if (root != NULL)
+        table_files_read(root, folder, &file->arena, m);
+    if (root == NULL || m->count > 0 || !keys_check(root, m))
         return;
     check_version(file, m);
     read_name(file, m);
@@ -102,9 +107,10 @@ status scene_file_check(const scene_file *file, const double value[], mistakes *
     return mistakes_status(m, f);
 }
 
-/* built: also builds the scene at its defaults. */
-static status read_from(const char *bytes, size_t size, const char *path, int built,
-                        scene_file **out, mistakes *m, fault *f)
+/* folder: path of a file in the folder of its tables; built: also builds the scene at its defaults.
+ */
+static status read_from(const char *bytes, size_t size, const char *path, const char *folder,
+                        int built, scene_file **out, mistakes *m, fault *f)
 {
     memset(m, 0, sizeof *m);
     m->file = path;
@@ -116,7 +122,7 @@ static status read_from(const char *bytes, size_t size, const char *path, int bu
     file->type.build_from = build_from;
     file->type.context = file;
     file->type.file = path;
-    read_form(file, bytes, size, m);
+    read_form(file, bytes, size, folder, m);
     if (built && m->count == 0 && !m->out_of_memory && !file->arena.failed) {
         double value[CASE_MAX_PARAMETERS] = {0};
         parameter_defaults(file->type.parameters, value);
@@ -134,7 +140,7 @@ static status read_from(const char *bytes, size_t size, const char *path, int bu
 status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,
                              mistakes *m, fault *f)
 {
-    return read_from(bytes, size, path, 1, out, m, f);
+    return read_from(bytes, size, path, NULL, 1, out, m, f);
 }
 
 /* Reads a file, at most one byte more than allowed, so that a longer one is refused. */
@@ -155,7 +161,7 @@ static status read_file(const char *path, char *bytes, size_t room, int built, s
 {
     size_t size = 0;
     TRY(read_bytes(path, bytes, room, &size, f));
-    return read_from(bytes, size, path, built, out, m, f);
+    return read_from(bytes, size, path, path, built, out, m, f);
 }
 
 static status read_path(const char *path, int built, scene_file **out, mistakes *m, fault *f)

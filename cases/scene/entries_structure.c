@@ -151,8 +151,13 @@ const entry_field entry_member[] = {
      .left_out = "as the mesh says", ENTRY_IN(scene_member, divisions), .most = 10000000},
     {.name = NULL}};
 
+#define FILE_OF_TABLE                                                                              \
+    "CSV file, path from the scene file; then 'at' and 'value' are its columns, by header or "     \
+    "number"
+#define NO_FILE "none: numbers here"
 #define TABLE(which, k, length, force)                                                             \
     static const entry_field table_##which[] = {                                                   \
+        {"file", ENTRY_TEXT, .summary = FILE_OF_TABLE, .left_out = NO_FILE},                       \
         {"at", ENTRY_NUMBERS, .needed = 1, .unit = (length), .summary = "ascending",               \
          ENTRY_IN(scene_spring, table[k].at)},                                                     \
         {"value", ENTRY_NUMBERS, .needed = 1, .unit = (force),                                     \
@@ -209,6 +214,7 @@ static const entry_field piece[] = {
     {.name = NULL}};
 
 static const entry_field table[] = {
+    {"file", ENTRY_TEXT, .summary = FILE_OF_TABLE, .left_out = NO_FILE},
     {"at", ENTRY_NUMBERS, .needed = 1, .unit = "s", .summary = "instants, ascending"},
     {"value", ENTRY_NUMBERS, .needed = 1,
      .summary = "at these values; the first value before them, the last one after"},

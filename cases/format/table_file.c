@@ -1,0 +1,247 @@
+/* Tables from CSV files: `table: {file: drive.csv, at: t, value: ux}` becomes the table that one
+ * would write there, before anything else reads the tree. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/format/format_impl.h"
+
+enum { LINE_BYTES = 8192, COLUMNS = 256, NAME_BYTES = 64, COLUMNS_TOLD = 160 };
+
+/* A file that is read for a table. */
+typedef struct table_file {
+    const document_node *place; /* its name in the scene file */
+    arena *arena;
+    mistakes *mistakes;
+    const char *name;              /* as in the scene file */
+    const document_node *of[2];    /* what the scene file says of the columns */
+    int column[2], columns, begun; /* from 0; of the first row; 1: columns are known */
+    double last;                   /* in the first of them */
+    document_node *list[2];
+    int line;
+    char text[LINE_BYTES], *field[COLUMNS];
+} table_file;
+
+static int wrong(const table_file *t, const char *what, const char *which, const char *remedy)
+{
+    document_mistake(t->mistakes, t->place, 0, "%.80s:%d: %s%.60s%s", t->name,
+                     t->line > 0 ? t->line : 1, what, which, remedy);
+    return 0;
+}
+
+/* Fields between commas or semicolons, or else blanks. */
+static int split(table_file *t, char *line)
+{
+    if (strchr(line, ',') == NULL)
+        for (char *c = strchr(line, ';'); c != NULL; c = strchr(c, ';'))
+            *c = ',';
+    return strchr(line, ',') != NULL ? line_split(line, t->field, COLUMNS)
+                                     : line_words(line, t->field, COLUMNS);
+}
+
+/* Column by its name in the header (if there is one), or by its number; -1: none, which is
+ * reported. */
+static int column_of(const table_file *t, const document_node *of, int header)
+{
+    char known[COLUMNS_TOLD] = "";
+    int found = -1;
+    for (int i = 0; header && i < t->columns; i++) {
+        if (strcmp(t->field[i], of->text) == 0) {
+            if (found >= 0) {
+                document_mistake(t->mistakes, of, 0,
+                                 "%.80s:%d: two columns are called '%.40s'; give its number",
+                                 t->name, t->line, of->text);
+                return -1;
+            }
+            found = i;
+        }
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%.30s", i > 0 ? ", " : "", t->field[i]);
+    }
+    char *end;
+    const long number = strtol(of->text, &end, 10);
+    if (found < 0 && *of->text != '\0' && *end == '\0' && number >= 1 && number <= t->columns)
+        found = (int)number - 1;
+    if (found < 0 && header)
+        document_mistake(t->mistakes, of, 0, "%.80s:%d: no column '%.40s'; there are %s", t->name,
+                         t->line, of->text, known);
+    else if (found < 0)
+        document_mistake(t->mistakes, of, 0,
+                         "%.80s:%d: no column '%.40s': without a header give its number, 1 to %d",
+                         t->name, t->line, of->text, t->columns);
+    return found;
+}
+
+static int add_number(table_file *t, int k, double value)
+{
+    document_node *n = arena_take(t->arena, sizeof *n), *list = t->list[k];
+    char text[NAME_BYTES];
+    const int length = snprintf(text, sizeof text, "%.17g", value);
+    list->item = arena_grow(t->arena, list->item, list->count, sizeof *list->item);
+    if (n == NULL || list->item == NULL)
+        return 0;
+    *n = (document_node){.kind = DOCUMENT_TEXT,
+                         .line = t->place->line,
+                         .column = t->place->column,
+                         .inset = -1,
+                         .text = arena_copy(t->arena, text, (size_t)length)};
+    list->item[list->count++] = n;
+    return n->text != NULL;
+}
+
+/* The first row: a header if a column is found by its name, or neither is a number there. Returns 1
+ * if it is one. */
+static int begin(table_file *t)
+{
+    double number;
+    int words = 0, header = 0, numbers = 0;
+    for (int i = 0; i < t->columns; i++)
+        words |= !line_number(t->field[i], &number);
+    for (int k = 0; k < 2; k++) {
+        t->column[k] = column_of(t, t->of[k], words);
+        if (t->column[k] < 0)
+            continue;
+        header |= words && strcmp(t->field[t->column[k]], t->of[k]->text) == 0;
+        numbers += line_number(t->field[t->column[k]], &number);
+    }
+    t->begun = 1;
+    return header || numbers == 0;
+}
+
+/* Reads a row; returns 0 after an error. */
+static int read_row(table_file *t, char *line)
+{
+    const int count = split(t, line);
+    if (count > COLUMNS)
+        return wrong(t, "more than 256 columns", "", "; keep those that are needed");
+    if (!t->begun) {
+        t->columns = count;
+        const int header = begin(t);
+        if (t->column[0] < 0 || t->column[1] < 0)
+            return 0;
+        if (header)
+            return 1;
+    }
+    if (count != t->columns)
+        return wrong(t, "another number of columns than in the first row", "",
+                     "; decimals have points, and columns commas between them");
+    for (int k = 0; k < 2; k++) {
+        double value;
+        const char *field = t->field[t->column[k]];
+        if (!line_number(field, &value))
+            return wrong(t, "no number: '", field, "'");
+        if (k == 0 && t->list[0]->count > 0 && !(value > t->last))
+            return wrong(t, "'at' does not ascend at ", field, "; sort the rows, and omit repeats");
+        if (t->list[k]->count == DOCUMENT_ENTRIES)
+            return wrong(t, "more than 10000 rows", "", "; write a smaller table");
+        if (k == 0)
+            t->last = value;
+        if (!add_number(t, k, value))
+            return 0;
+    }
+    return 1;
+}
+
+/* Blank lines and lines that begin with # do not count. */
+static int read_rows(table_file *t, FILE *from)
+{
+    while (fgets(t->text, sizeof t->text, from) != NULL) {
+        t->line++;
+        if (strlen(t->text) + 1 == sizeof t->text)
+            return wrong(t, "a line of more than 8000 characters", "",
+                         "; keep the columns that are needed");
+        char *line = line_trim(t->text);
+        if (!line_is_text(line))
+            return wrong(t, "no readable text", "", "; save the file as CSV in UTF-8");
+        if (*line != '\0' && *line != '#' && !read_row(t, line))
+            return 0;
+    }
+    if (ferror(from))
+        return wrong(t, "cannot be read further", "", "");
+    if (t->list[0]->count < 2)
+        return wrong(t, "the file ends with fewer than two rows", "", "; a table has two or more");
+    return 1;
+}
+
+/* Path from the folder of the scene file. */
+static FILE *open_beside(const char *beside, const char *name, arena *a)
+{
+    const char *slash = strrchr(beside, '/');
+    const size_t folder = slash != NULL && *name != '/' ? (size_t)(slash - beside) + 1 : 0,
+                 room = folder + strlen(name) + 1;
+    char *path = arena_take(a, room);
+    if (path == NULL)
+        return NULL;
+    memcpy(path, beside, folder);
+    memcpy(path + folder, name, strlen(name) + 1);
+    return line_open(path);
+}
+
+/* Replaces what a map says of a file by its numbers. */
+static void read_table(document_node *map, const char *beside, arena *a, mistakes *m)
+{
+    const document_node *file = document_find(map, "file");
+    table_file t = {.place = file,
+                    .arena = a,
+                    .mistakes = m,
+                    .of = {document_find(map, "at"), document_find(map, "value")}};
+    if (file == NULL)
+        return;
+    for (int k = 0; k < 2; k++)
+        if (t.of[k] == NULL || t.of[k]->kind != DOCUMENT_TEXT) {
+            document_mistake(m, t.of[k] != NULL ? t.of[k] : file, 0,
+                             "with 'file', 'at' and 'value' are columns of it: names in its "
+                             "header, or numbers");
+            return;
+        }
+    if (file->kind != DOCUMENT_TEXT) {
+        document_mistake(m, file, 0, "'file' is the path of a CSV file, from the scene file");
+        return;
+    }
+    if (beside == NULL) {
+        document_mistake(m, file, 0,
+                         "a scene that is given as text has no folder with files; give the path of "
+                         "a scene file, or write the values");
+        return;
+    }
+    t.name = file->text;
+    FILE *from = open_beside(beside, file->text, a);
+    if (from == NULL) {
+        document_mistake(m, file, 0, "%.120s cannot be read: %s; paths are from the scene file",
+                         file->text, strerror(errno));
+        return;
+    }
+    document_node *list = arena_take(a, 2 * sizeof *list);
+    int read = list != NULL;
+    for (int k = 0; k < 2 && read; k++) {
+        list[k] = (document_node){
+            .kind = DOCUMENT_LIST, .line = t.of[k]->line, .column = t.of[k]->column};
+        t.list[k] = list + k;
+    }
+    read = read && read_rows(&t, from);
+    fclose(from);
+    for (int i = 0, to = 0; read && i < map->count; i++) { /* without the file */
+        if (map->item[i] == file)
+            continue;
+        map->key[to] = map->key[i];
+        map->item[to++] = map->item[i] == t.of[0]   ? t.list[0]
+                          : map->item[i] == t.of[1] ? t.list[1]
+                                                    : map->item[i];
+    }
+    map->count -= read;
+}
+
+void table_files_read(document_node *n, const char *beside, arena *a, mistakes *m)
+{
+    for (int i = 0; i < n->count; i++) {
+        document_node *item = n->item[i];
+        const char *key = n->kind == DOCUMENT_MAP ? n->key[i]->text : "";
+        const int tables = strcmp(key, "tables") == 0;
+        if (strcmp(key, "table") == 0)
+            read_table(item, beside, a, m);
+        for (int k = 0; tables && item->kind == DOCUMENT_MAP && k < item->count; k++)
+            read_table(item->item[k], beside, a, m);
+        table_files_read(item, beside, a, m);
+    }
+}
