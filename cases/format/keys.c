@@ -1,5 +1,8 @@
 #include "cases/format/format_impl.h"
 
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "elements/shared/choice.h"
@@ -187,9 +190,14 @@ static void tell_kind(const document_node *n, const document_node *name, const c
                       mistakes *m)
 {
     static const char *const is[] = {"a text", "a list", "a map"};
-    const int empty = n->kind == DOCUMENT_TEXT && n->text[0] == '\0';
+    const int text = n->kind == DOCUMENT_TEXT, empty = text && n->text[0] == '\0';
+    char *end = NULL;
+    const int number = text && !empty && isfinite(strtod(n->text, &end)) && *end == '\0';
     document_mistake(m, n, 0, "%.60s is %s; %s is expected", name->text,
-                     empty ? "empty" : is[n->kind], expected);
+                     empty    ? "empty"
+                     : number ? "a number"
+                              : is[n->kind],
+                     expected);
 }
 
 int keys_loops(const entry_field *table)
@@ -366,11 +374,28 @@ static void check_missing(const document_node *map, const known_keys *known,
     }
 }
 
+/* "a map: {mass: ..., stiffness: ..., ratio: ...}". */
+static void tell_map(const document_node *n, const known_keys *known, const document_node *name,
+                     mistakes *m)
+{
+    enum { MOST_KEYS = 4 };
+    char keys[160] = "key: value, ...";
+    size_t used = 0;
+    int count = 0;
+    for (const entry_field *k = known->table; k != NULL && k->name != NULL; k++)
+        if (k->name[0] != '\0' && k->kind != ENTRY_LATER && ++count <= MOST_KEYS && used < 120)
+            used += (size_t)snprintf(keys + used, sizeof keys - used, "%s%.24s: ...",
+                                     count > 1 ? ", " : "", k->name);
+    char expected[200];
+    snprintf(expected, sizeof expected, "a map: {%s%s}", keys, count > MOST_KEYS ? ", ..." : "");
+    tell_kind(n, name, expected, m);
+}
+
 static void check_map(const document_node *map, const known_keys *known, const document_node *name,
                       mistakes *m)
 {
     if (map->kind != DOCUMENT_MAP) {
-        tell_kind(map, name, "a map: {key: value, ...}", m);
+        tell_map(map, known, name, m);
         return;
     }
     for (int i = 0; i < map->count; i++) {

@@ -29,6 +29,12 @@ class Pages(unittest.TestCase):
                 self.assertEqual(run, text.count("\n$ "))
 
 
+    def test_readme_counts_the_examples(self):
+        """As many as there are scenes in cases/examples."""
+        there = len(list((commands.ROOT / "cases" / "examples").glob("*.yaml")))
+        self.assertIn(f" {there} example structures ", (commands.ROOT / "README.md").read_text(encoding="utf-8"))
+
+
 class Marks(unittest.TestCase):
 
     def test_difference_is_noticed(self):

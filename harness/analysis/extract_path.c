@@ -178,7 +178,13 @@ static const char *reason_of_path(const analysis_context *c, const scene_quantit
 static void path_ends(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       quantity_result *r)
 {
-    if (o->status != STATUS_OK)
+    const int of_frequencies = c->scene->analysis[q->analysis].kind == SCENE_HARMONIC;
+    char text[FAULT_TEXT];
+    if (o->status == STATUS_OK && of_frequencies && q->reduction == SCENE_AT) {
+        snprintf(text, sizeof text, "%.10g Hz is none of the frequencies of %s; add it to them",
+                 q->at, scene_called(c->scene, SCENE_ANALYSES, q->analysis).text);
+        quantity_no_value(r, STATUS_NOT_CONVERGED, text);
+    } else if (o->status != STATUS_OK)
         quantity_no_value(r, o->status, o->reason);
     else
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason_of_path(c, q));

@@ -353,6 +353,13 @@ quantities:
         self.assertAlmostEqual(got["most"]["x"], 5, delta=1e-9)
         self.assertIn(", at 5 Hz", text)
 
+    def test_at_a_frequency_that_is_not_there(self):
+        path = self.folder/"scene.yaml"
+        path.write_text((self.OSCILLATOR % ("[1, 2, 5]", 0.1, "")).replace("take: max", "at: 3").replace("take: min", "at: 2"),
+                        encoding="utf-8")
+        said = " ".join(run("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout.split())
+        self.assertIn("most - 3 Hz is none of the frequencies of analysis steady; add it to them least ", said)
+
     def test_nothing_damps(self):
         path = self.folder/"scene.yaml"
         path.write_text((self.OSCILLATOR % ("[1, 2, 5]", 0, "")).replace(", damping: {ratio: 0}", ""), encoding="utf-8")
