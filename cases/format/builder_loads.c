@@ -318,6 +318,48 @@ void builder_springs(builder *b)
     }
 }
 
+/* Nodes of 'equal'. */
+static void read_equal(const fields *f, int index)
+{
+    const document_node *n = document_find(f->map, "equal");
+    if (n->kind != DOCUMENT_LIST || n->count < 2) {
+        document_mistake(f->b->mistakes, n, 0, "equal: give a list of two nodes or more");
+        return;
+    }
+    for (int i = 0; i < n->count; i++)
+        scene_constrain(f->b->scene, index, fields_entry_of(f, n->item[i], SCENE_NODES));
+}
+
+void builder_constraints(builder *b)
+{
+    static const char *const form[2][4] = {{"equal", "components", NULL, NULL},
+                                           {"node", "component", "ratio", "of"}};
+    for (int i = 0; i < b->list[SCENE_CONSTRAINTS].count; i++) {
+        const fields f = fields_of(b, &b->list[SCENE_CONSTRAINTS].entry[i]);
+        const int two = !fields_have(&f, "equal");
+        int wrong = 0;
+        for (int k = 0; k < 4; k++)
+            wrong |= (form[two][k] != NULL && !fields_have(&f, form[two][k])) ||
+                     (form[!two][k] != NULL && fields_have(&f, form[!two][k]));
+        if (wrong) {
+            document_mistake(b->mistakes, f.map, 0,
+                             "give {equal: [NODE, NODE], components: [ux]}, or {node: NODE, "
+                             "component: ux, ratio: -2, of: NODE}");
+            continue;
+        }
+        const int index = scene_add_constraint(
+            b->scene, fields_words(&f, two ? "component" : "components", fields_components),
+            two ? fields_number(&f, "ratio", 1) : 1);
+        builder_call(b, SCENE_CONSTRAINTS, index, i);
+        if (!two) {
+            read_equal(&f, index);
+            continue;
+        }
+        scene_constrain(b->scene, index, fields_entry(&f, "of", SCENE_NODES));
+        scene_constrain(b->scene, index, fields_entry(&f, "node", SCENE_NODES));
+    }
+}
+
 /* Load cases and combinations. */
 
 /* One that a load or a motion names and none before it. */

@@ -128,6 +128,8 @@ const entry_field keys_root[] = {
      .left_out = "none"},
     {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "forces and moments",
      .left_out = "none"},
+    {"constraints", ENTRY_ENTRIES, .below = entry_constraint,
+     .summary = "components of nodes that are equal, or in a ratio", .left_out = "none"},
     {"combinations", ENTRY_ENTRIES, .below = entry_combination,
      .summary = "{CASE: FACTOR, ...}: load cases that act together", .left_out = "none"},
     {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "what is computed",

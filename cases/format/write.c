@@ -158,7 +158,8 @@ static void write_list(writer *w, const char *key, scene_list list, const entry_
         [SCENE_SPRINGS] = {s->springs, sizeof *s->spring, s->spring},
         [SCENE_DRIVERS] = {s->drivers, sizeof *s->driver, s->driver},
         [SCENE_LOADS] = {s->loads, sizeof *s->load, s->load},
-        [SCENE_COMBINATIONS] = {s->combinations, sizeof *s->combination, s->combination}};
+        [SCENE_COMBINATIONS] = {s->combinations, sizeof *s->combination, s->combination},
+        [SCENE_CONSTRAINTS] = {s->constraints, sizeof *s->constraint, s->constraint}};
     for (int i = 0; i < all[list].count; i++) {
         if (i == 0)
             fprintf(w->to, "%s:\n", key);
@@ -347,6 +348,35 @@ static void write_terms(writer *w, const void *entry)
     }
 }
 
+/* With a ratio of one component of two nodes. */
+static void write_constraint(writer *w, const void *entry)
+{
+    const scene_constraint *c = entry;
+    const int equal = c->ratio == 1;
+    write_values_key(w, equal ? "equal" : "node");
+    for (int i = 0; i < c->nodes && equal; i++)
+        write_values_named(w, i > 0 ? ", " : "[", SCENE_NODES, c->node[i]);
+    if (equal)
+        fputc(']', w->to);
+    else
+        write_values_named(w, "", SCENE_NODES, c->node[1]);
+    write_values_key(w, equal ? "components" : "component");
+    const char *before = equal ? "[" : "";
+    for (int k = SCENE_UX; k <= SCENE_RZ; k++)
+        if (c->components >> k & 1u) {
+            fprintf(w->to, "%s%s", before, write_values_component[k]);
+            before = ", ";
+        }
+    if (equal) {
+        fputc(']', w->to);
+        return;
+    }
+    write_values_key(w, "ratio");
+    write_values_number(w, c->ratio);
+    write_values_key(w, "of");
+    write_values_named(w, "", SCENE_NODES, c->node[0]);
+}
+
 void write_structure(writer *w)
 {
     static const write_own node[] = {
@@ -361,10 +391,12 @@ void write_structure(writer *w)
     static const write_own load[] = {{"force", write_vector}, {"temperature", write_temperature},
                                      {"on", write_on},        {"where", write_range},
                                      {"path", write_factor},  {NULL, NULL}};
+    static const write_own constraint[] = {{"equal", write_constraint}, {NULL, NULL}};
     static const write_own combination[] = {{"", write_terms}, {NULL, NULL}};
     write_list(w, "nodes", SCENE_NODES, entry_node, node);
     write_list(w, "members", SCENE_MEMBERS, entry_member, member);
     write_list(w, "springs", SCENE_SPRINGS, entry_spring, spring);
+    write_list(w, "constraints", SCENE_CONSTRAINTS, entry_constraint, constraint);
     write_list(w, "motions", SCENE_DRIVERS, entry_driver, driver);
     write_list(w, "loads", SCENE_LOADS, entry_load, load);
     write_list(w, "combinations", SCENE_COMBINATIONS, entry_combination, combination);

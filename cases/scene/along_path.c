@@ -263,6 +263,12 @@ static int has_kink(const scene *s, int analysis, char *who, int size)
     return 0;
 }
 
+static int has_constraint(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    return s->constraints > 0 && called(s, SCENE_CONSTRAINTS, 0, who, size);
+}
+
 /* Is a warping coordinate shared by the ends of two members? */
 static int has_shared_warping(const scene *s, int analysis, char *who, int size)
 {
@@ -319,6 +325,9 @@ static const char *const no_potential = "has no potential: the tangent is not sy
                          *const no_tangent =
                              "has another stiffness on each side, and this analysis takes one at "
                              "rest; ask for it about a static path that presses on one side",
+                         *const no_constraint =
+                             "ties components of nodes, which motions in time do not take; join "
+                             "the nodes by a stiff spring, or into one body by part_of",
                          *const no_drive =
                              "is moved, and a continuation changes loads only; remove it, or "
                              "ask for a static path",
@@ -367,6 +376,7 @@ const scene_input scene_inputs[] = {
     {"warping shared", "uuuuuuuuuuuu", NULL, has_shared_warping},
     {"node that another carries", "uuuuuuuuuuuu", NULL, has_tied},
     {"supports in axes of their own", "uuuuuuuuuuuu", NULL, has_axes},
+    {"constraint", "uuuuuuuuuuux", no_constraint, has_constraint},
     {"fork", "uuuuuuuuuuuu", NULL, has_fork},
     {"mass of a node", "-ii-iuuu-iuu", NULL, has_mass},
     {"inertia of a node", "-ii-iuuu-iuu", NULL, has_inertia},

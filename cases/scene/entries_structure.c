@@ -302,6 +302,23 @@ const entry_field entry_load[] = {
     {.name = NULL}};
 
 /* Any load case. */
+const entry_field entry_constraint[] = {
+    {"equal", ENTRY_FORMS, .summary = "[NODE, NODE, ...]: their components are the same",
+     .left_out = "of two nodes, with a ratio"},
+    {"components", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
+     .summary = "of 'equal', along the nodes' axes; all of rx, ry and rz, or one where the others "
+                "are held",
+     .left_out = "for 'equal' required"},
+    {"node", ENTRY_NAME, .summary = "one whose component is 'ratio' times that of another",
+     .left_out = "none, with 'equal'"},
+    {"component", ENTRY_WORD, .words = ENTRY_COMPONENTS,
+     .summary = "of both, along their axes; a turn where the others are held",
+     .left_out = "none, with 'equal'"},
+    {"ratio", ENTRY_NUMBER, .unit = "1", .summary = "may be negative, not 0",
+     .left_out = "1, with 'equal'"},
+    {"of", ENTRY_NAME, .summary = "the other node", .left_out = "none, with 'equal'"},
+    {.name = NULL}};
+
 const entry_field entry_combination[] = {
     {"", ENTRY_NUMBER, .summary = "a load case: its factor", .left_out = "it does not act"},
     {.name = NULL}};

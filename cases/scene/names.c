@@ -4,20 +4,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const word_of[] = {
-    [SCENE_SECTIONS] = "section",  [SCENE_NODES] = "node",
-    [SCENE_MEMBERS] = "member",    [SCENE_SPRINGS] = "spring",
-    [SCENE_DRIVERS] = "driver",    [SCENE_LOADS] = "load",
-    [SCENE_ANALYSES] = "analysis", [SCENE_QUANTITIES] = "quantity",
-    [SCENE_CASES] = "case",        [SCENE_COMBINATIONS] = "combination"};
+static const char *const word_of[] = {[SCENE_SECTIONS] = "section",
+                                      [SCENE_NODES] = "node",
+                                      [SCENE_MEMBERS] = "member",
+                                      [SCENE_SPRINGS] = "spring",
+                                      [SCENE_DRIVERS] = "driver",
+                                      [SCENE_LOADS] = "load",
+                                      [SCENE_ANALYSES] = "analysis",
+                                      [SCENE_QUANTITIES] = "quantity",
+                                      [SCENE_CASES] = "case",
+                                      [SCENE_COMBINATIONS] = "combination",
+                                      [SCENE_CONSTRAINTS] = "constraint"};
 
 int scene_count(const scene *s, scene_list list)
 {
-    const int count[] = {[SCENE_SECTIONS] = s->sections, [SCENE_NODES] = s->nodes,
-                         [SCENE_MEMBERS] = s->members,   [SCENE_SPRINGS] = s->springs,
-                         [SCENE_DRIVERS] = s->drivers,   [SCENE_LOADS] = s->loads,
-                         [SCENE_ANALYSES] = s->analyses, [SCENE_QUANTITIES] = s->quantities,
-                         [SCENE_CASES] = s->cases,       [SCENE_COMBINATIONS] = s->combinations};
+    const int count[] = {[SCENE_SECTIONS] = s->sections,
+                         [SCENE_NODES] = s->nodes,
+                         [SCENE_MEMBERS] = s->members,
+                         [SCENE_SPRINGS] = s->springs,
+                         [SCENE_DRIVERS] = s->drivers,
+                         [SCENE_LOADS] = s->loads,
+                         [SCENE_ANALYSES] = s->analyses,
+                         [SCENE_QUANTITIES] = s->quantities,
+                         [SCENE_CASES] = s->cases,
+                         [SCENE_COMBINATIONS] = s->combinations,
+                         [SCENE_CONSTRAINTS] = s->constraints};
     return count[list];
 }
 
@@ -52,6 +63,8 @@ static char *room_of(const scene *s, scene_list list, int i)
         return s->load_case[i].name;
     case SCENE_COMBINATIONS:
         return s->combination[i].name;
+    case SCENE_CONSTRAINTS:
+        return s->constraint[i].name;
     }
     return NULL;
 }

@@ -34,6 +34,9 @@ void scene_free(scene *s)
         free(s->quantity[i].over);
     for (int i = 0; i < s->combinations; i++)
         free(s->combination[i].term);
+    for (int i = 0; i < s->constraints; i++)
+        free(s->constraint[i].node);
+    free(s->constraint);
     free(s->load_case);
     free(s->combination);
     free(s->section);

@@ -788,6 +788,15 @@ typedef struct scene_spring {
     char name[SCENE_NAME];
 } scene_spring;
 
+/* Components of nodes that are the same, or two in a fixed ratio: of each node after the first one,
+ * `ratio` times those of the first one. Along the nodes' axes. */
+typedef struct scene_constraint {
+    int nodes, *node;    /* [nodes] */
+    unsigned components; /* bits 1 << SCENE_UX .. SCENE_RZ */
+    double ratio;
+    char name[SCENE_NAME];
+} scene_constraint;
+
 /* A scalar that prescribes coordinates; piecewise linear in the path parameter between its
  * stations. */
 typedef struct scene_driver {
@@ -891,7 +900,7 @@ typedef struct scene_words {
 struct scene {
     char name[SCENE_NAME];
     int sections, nodes, members, springs, drivers, loads, analyses, quantities, cases,
-        combinations;
+        combinations, constraints;
     section_spec *section;
     int computeds;
     scene_computed *computed; /* [computeds] filled by scene_constants */
@@ -902,6 +911,7 @@ struct scene {
     scene_load *load;
     scene_load_case *load_case;
     scene_combination *combination;
+    scene_constraint *constraint;
     scene_analysis *analysis;
     scene_quantity *quantity;
     scene_plane plane; /* plane to which everything is restricted; SCENE_SPACE: none */
@@ -960,6 +970,21 @@ int scene_spring_kink(const scene_spring *);
  * scene_validate refuses more than SCENE_RELEASED. */
 void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
+/* Without nodes; the first of these is the one that others follow. */
+int scene_add_constraint(scene *s, unsigned components, double ratio);
+void scene_constrain(scene *s, int constraint, int node);
+
+/* A coordinate of a node, 0 .. 5 as in translation and angle, that is `ratio` times another one. */
+typedef struct scene_tie {
+    int node, coordinate; /* the other one; of itself: others follow it; SCENE_NONE: not tied */
+    double ratio;
+} scene_tie;
+/* Fills tie[6 nodes]; REFUSED: constraints that contradict each other or supports. */
+status scene_ties(const scene *, scene_tie tie[], fault *);
+/* Bits of rx, ry and rz. */
+#define SCENE_TURNS (7u << SCENE_RX)
+/* Is a component of the node in a constraint: one of the bits? */
+int scene_is_constrained(const scene *, int node, unsigned components);
 /* Adds a dashpot to the spring. */
 void scene_damp_spring(scene *s, int spring, const double damping[36]);
 int scene_spring_damps(const scene_spring *);
@@ -1109,9 +1134,10 @@ typedef enum scene_list {
     SCENE_ANALYSES,
     SCENE_QUANTITIES,
     SCENE_CASES,
-    SCENE_COMBINATIONS
+    SCENE_COMBINATIONS,
+    SCENE_CONSTRAINTS
 } scene_list;
-enum { SCENE_LISTS = SCENE_COMBINATIONS + 1 };
+enum { SCENE_LISTS = SCENE_CONSTRAINTS + 1 };
 
 /* Number of entries of a list; its singular, "node". */
 int scene_count(const scene *s, scene_list list);
@@ -1202,7 +1228,8 @@ typedef struct entry_field {
 #define ENTRY_COMPONENTS "ux|uy|uz|rx|ry|rz"
 
 extern const entry_field entry_section[], entry_node[], entry_member[], entry_spring[],
-    entry_driver[], entry_load[], entry_combination[], entry_analysis[], entry_quantity[];
+    entry_driver[], entry_load[], entry_combination[], entry_constraint[], entry_analysis[],
+    entry_quantity[];
 
 /* The key of the vector of a load: "force", with its unit. */
 const entry_field *entry_of_load(scene_load_kind);

@@ -27,6 +27,9 @@ status scene_validate_release(const scene *s, int member, fault *f);
 /* Checks that something resists the rotations of a node: a member, a support or a spring. */
 status scene_validate_turns(const scene *s, int node, fault *f);
 
+/* REFUSED: constraints that name a node twice, a support or a body, or close on themselves. */
+status scene_validate_constraints(const scene *s, fault *f);
+
 /* Requirements on load cases and combinations, and on what says which of them act. */
 
 status scene_validate_cases(const scene *s, fault *f);

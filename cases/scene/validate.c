@@ -356,5 +356,6 @@ status scene_validate(const scene *s, fault *f)
         for (int i = 0; i < count[k]; i++) {
             TRY(check[k](s, i, f));
         }
-    return scene_validate_plane(s, f);
+    TRY(scene_validate_plane(s, f));
+    return scene_validate_constraints(s, f);
 }

@@ -80,7 +80,7 @@ static int is_reached(const scene *s, int node)
     for (int i = 0; i < s->springs; i++)
         if (is_at(s, s->spring[i].p, body) || is_at(s, s->spring[i].q, body))
             return 1;
-    return 0;
+    return scene_is_constrained(s, node, ~0u);
 }
 
 static status check_body(const scene *s, int i, fault *f)

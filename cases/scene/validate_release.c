@@ -194,7 +194,7 @@ static loose loose_at(const scene *s, int node, double axis[3])
 static int turn_matters(const scene *s, int node)
 {
     const scene_body *b = &s->node[node].body;
-    int matters = vec3_norm(b->centre) > 0;
+    int matters = vec3_norm(b->centre) > 0 || scene_is_constrained(s, node, SCENE_TURNS);
     for (int k = 0; k < 6; k++)
         matters |= b->inertia[k] != 0;
     for (int i = 0; i < s->loads; i++) {
@@ -246,7 +246,8 @@ status scene_validate_turns(const scene *s, int node, fault *f)
 {
     double axis[3];
     const loose what = loose_at(s, node, axis);
-    if (what == LOOSE_NOTHING || scene_idle_turn(s, node, axis) != 0)
+    if (what == LOOSE_NOTHING || scene_is_constrained(s, node, SCENE_TURNS) ||
+        scene_idle_turn(s, node, axis) != 0)
         return STATUS_OK;
     return vec3_norm(axis) > 0
                ? fault_set(f, STATUS_REFUSED,

@@ -397,6 +397,9 @@ static status reacting(const vibration *v, const scene_response *r, int *out, fa
         for (int k = 0; k < 3; k++)
             nodes += (s->node[i].translation[k] == driver) + (s->node[i].angle[k] == driver) +
                      2 * (model_vertex(v->c->model, i)->vector_driver[k] == driver);
+    for (int i = 0; i < 6 * s->nodes && driver != SCENE_NONE; i++) /* what follows it */
+        nodes += model_tie(v->c->model, i / 6, i % 6) != NULL &&
+                 model_vertex(v->c->model, i / 6)->coordinate[i % 6] == *out;
     if (driver == SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
                          "the reaction of %s is that of a motion, and none drives the component "

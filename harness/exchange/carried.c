@@ -173,6 +173,11 @@ status carried_check(const scene *s, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "springs are not written with solids; remove "
                          "them, or make the spring a member");
+    if (s->constraints > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: constraints are not written with solids; make the nodes one body by "
+                         "part_of, or remove it",
+                         scene_called(s, SCENE_CONSTRAINTS, 0).text);
     for (int i = 0; i < s->members; i++)
         TRY(check_member(s, i, f));
     for (int i = 0; i < s->nodes; i++)

@@ -93,10 +93,10 @@ static void number_release(model *m, int index)
     }
 }
 
-/* Number of fixed coordinates, of those fixed because they leave the plane, and of unconnected
- * vertices. */
+/* Number of fixed coordinates, of those fixed because they leave the plane, of unconnected vertices
+ * and of coordinates that constraints give. */
 typedef struct coordinates_tally {
-    int held, across, unused;
+    int held, across, unused, tied;
 } coordinates_tally;
 
 static void number_vertex(model *m, int index, int pass, int used, coordinates_tally *of)
@@ -104,12 +104,18 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
     mesh_vertex *v = &m->mesh.vertex[index];
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
         const int motion = v->body == index ? motion_of(m, index, c) : SCENE_HELD;
+        const scene_tie *tie = index < m->scene->nodes ? model_tie(m, index, c) : NULL;
+        if (tie != NULL && !(tie->node == index && tie->coordinate == c)) {
+            v->coordinate[c] = NONE; /* for the time being */
+            of->tied += pass == 0;
+            continue;
+        }
         const int vector = c >= SCENE_RX && v->vector_driver[0] != NONE;
         const int driver = motion >= 0 && !vector;
         const int condition = driver ? conditioned_by(m, index, c, motion) : NONE;
         const int kept = m->keep_all && v->body == index && motion == SCENE_HELD &&
                          !(v->angles > 0 && c - SCENE_RX >= v->angles);
-        const int is_free = used && (motion == SCENE_FREE || condition != NONE);
+        const int is_free = (used || tie != NULL) && (motion == SCENE_FREE || condition != NONE);
         if (pass == 0) {
             v->coordinate[c] = NONE;
             if (v->body == index && motion == SCENE_HELD && used && !kept)
@@ -127,6 +133,19 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
             v->coordinate[c] = m->mesh.free + m->mesh.driven++;
         }
     }
+}
+
+/* Coordinates that follow others are these. An angle of a ratio is the first one of its node. */
+static void share_coordinates(model *m)
+{
+    for (int i = 0; i < m->scene->nodes; i++)
+        for (int c = 0; c < VERTEX_COORDINATES; c++) {
+            const scene_tie *tie = model_tie(m, i, c);
+            mesh_vertex *v = &m->mesh.vertex[i];
+            if (tie != NULL && !(tie->node == i && tie->coordinate == c))
+                v->coordinate[c >= SCENE_RX && v->angles > 0 ? SCENE_RX : c] =
+                    m->mesh.vertex[tie->node].coordinate[tie->coordinate];
+        }
 }
 
 static status number_vertices(model *m, coordinates_tally *of, fault *f)
@@ -147,6 +166,7 @@ static status number_vertices(model *m, coordinates_tally *of, fault *f)
             m->mesh.warp[i].coordinate = m->mesh.free++;
     }
     free(used);
+    share_coordinates(m);
     return of->unused > 0
                ? coordinates_note_left_out(m, f, "%d nodes that no member reaches", of->unused)
                : STATUS_OK;
@@ -222,6 +242,8 @@ static status note_left_out(model *m, const coordinates_tally *of, fault *f)
     const int fixed = fixed_warps(m, &absent);
     if (of->held > 0)
         TRY(coordinates_note_left_out(m, f, "%d fixed degrees of freedom", of->held));
+    if (of->tied > 0)
+        TRY(coordinates_note_left_out(m, f, "%d coordinates that constraints give", of->tied));
     if (m->scene->plane != SCENE_SPACE)
         TRY(coordinates_note_left_out(m, f, "%d coordinates held in the plane %s", of->across,
                                       scene_plane_name(m->scene)));
@@ -241,7 +263,7 @@ static status note_left_out(model *m, const coordinates_tally *of, fault *f)
 
 status coordinates_number(model *m, fault *f)
 {
-    coordinates_tally of = {0, 0, 0};
+    coordinates_tally of = {0};
     for (int i = 0; i < m->scene->drivers; i++)
         m->mesh.driver_coordinate[i] = NONE;
     TRY(number_vertices(m, &of, f));

@@ -56,6 +56,37 @@ static int is_free(const scene_node *n)
            n->translation[2] == SCENE_FREE;
 }
 
+/* A coordinate that is a multiple of another has its axis that much longer: a turn about a fixed
+ * axis becomes an angle about that. */
+static void stretch_axes(const model *m, int node, mesh_vertex *v)
+{
+    for (int c = 0; c < VERTEX_COORDINATES; c++) {
+        const scene_tie *tie = model_tie(m, node, c);
+        const int turn = c - SCENE_RX;
+        if (tie == NULL || tie->ratio == 1)
+            continue;
+        if (c < SCENE_RX) {
+            v->turned = 1;
+            for (int i = 0; i < 3; i++)
+                v->along[3 * i + c] *= tie->ratio;
+            continue;
+        }
+        if (v->angles == 0)
+            add_axis((const double[3]){turn == 0, turn == 1, turn == 2}, v);
+        for (int i = 0; i < 3; i++)
+            v->axis[0][i] *= tie->ratio;
+    }
+}
+
+/* Is a translation of it in a constraint? */
+static int is_tied(const model *m, int node)
+{
+    int tied = 0;
+    for (int c = 0; c < SCENE_RX; c++)
+        tied |= model_tie(m, node, c) != NULL;
+    return tied;
+}
+
 static void scene_vertices(model *m)
 {
     const scene *s = m->scene;
@@ -78,7 +109,9 @@ static void scene_vertices(model *m)
             while (v->angles < 3 && vec3_norm(n->axis[v->angles]) > 0)
                 add_axis(n->axis[v->angles], v);
         hold_idle(s, i, v);
-        v->turned = scene_node_axes(n, v->along) && !(is_free(n) && s->plane == SCENE_SPACE);
+        v->turned = scene_node_axes(n, v->along) &&
+                    !(is_free(n) && s->plane == SCENE_SPACE && !is_tied(m, i));
+        stretch_axes(m, i, v);
     }
 }
 

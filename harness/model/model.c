@@ -177,6 +177,12 @@ static status build(model *m, const model_request *request, fault *f)
     if (m->mesh.driver_coordinate == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for drivers");
     TRY(divide(m, f));
+    if (s->constraints > 0) {
+        m->mesh.tie = malloc((size_t)(6 * s->nodes + 1) * sizeof *m->mesh.tie);
+        if (m->mesh.tie == NULL)
+            return fault_set(f, STATUS_FAULT, "out of memory for constraints");
+        TRY(scene_ties(s, m->mesh.tie, f));
+    }
     TRY(mesh_build(m, f));
     TRY(discrete_build(m, f));
     TRY(turns_build(m, f));
@@ -254,6 +260,7 @@ void model_free(model *m)
     free(m->mesh.first_element);
     division_free(&m->division);
     free(m->mesh.driver_coordinate);
+    free(m->mesh.tie);
     kinematics_state_free(m->rest);
     free(m);
 }

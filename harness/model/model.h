@@ -278,9 +278,10 @@ typedef struct model_mesh {
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
-    int takes;     /* elements take loads along them (element_type.along) */
-    int frees;     /* temperatures or prestrained members exist */
-    int work_size; /* of an element in a linear_memory: harness/newton/newton.h */
+    int takes;      /* elements take loads along them (element_type.along) */
+    int frees;      /* temperatures or prestrained members exist */
+    int work_size;  /* of an element in a linear_memory: harness/newton/newton.h */
+    scene_tie *tie; /* [6 nodes]: coordinates of nodes in constraints; NULL: none */
 } model_mesh;
 static inline const model_mesh *model_mesh_of(const model *m)
 {
@@ -341,6 +342,12 @@ static inline int model_driven(const model *m)
 static inline int model_all_coordinates(const model *m)
 {
     return model_mesh_of(m)->free + model_mesh_of(m)->driven;
+}
+/* Which coordinate the one of a node follows, if any. */
+static inline const scene_tie *model_tie(const model *m, int node, int coordinate)
+{
+    const scene_tie *all = model_mesh_of(m)->tie;
+    return all != NULL && all[6 * node + coordinate].node >= 0 ? &all[6 * node + coordinate] : NULL;
 }
 /* Coordinate of a driver, or NONE. */
 static inline int model_driver_coordinate(const model *m, int driver)

@@ -301,8 +301,10 @@ static int has_elements(const model *m, const int part[], int root)
 int supports_loose_part(const model *m, int *node, double motion[6])
 {
     int *part = malloc((size_t)m->mesh.vertices * sizeof *part), found = 0;
-    if (part == NULL)
+    if (part == NULL || m->mesh.tie != NULL) { /* parts that constraints join: linkage.c */
+        free(part);
         return 0;
+    }
     supports_join(m, 0, part);
     for (int i = 0; i < m->scene->nodes && !found; i++) {
         if (supports_root(part, i) != i || m->mesh.vertex[i].body != i)

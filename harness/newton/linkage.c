@@ -161,7 +161,7 @@ status link_of(const link_element *el, chain_link *out, fault *f)
 
 enum { N = 6 };
 
-/* Rigid parts joined by released ends. */
+/* Rigid parts joined by released ends and constraints. */
 typedef struct linkage {
     const model *m;
     int *part, *number; /* [vertices]: root; index of a root's part, NONE: no element */
@@ -218,6 +218,50 @@ static void add_joint(linkage *l, int vertex)
     add_block(l, b, b, 1, C);
     add_block(l, a, b, -1, C);
     add_block(l, b, a, -1, C);
+}
+
+/* Motion of a node's coordinate with its part: row[6] by the motions of that. Returns the part. */
+static int coordinate_row(const linkage *l, int node, int coordinate, double row[N])
+{
+    const model *m = l->m;
+    const mesh_vertex *v = model_vertex(m, node);
+    double at[3], C[N * N], axis[3], b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const int turns = coordinate >= SCENE_RX;
+    if (turns && v->angles > 0)
+        kinematics_axes(m, kinematics_rest(m), node, b);
+    for (int i = 0; i < 3; i++) {
+        at[i] = v->position[i] - model_vertex(m, 0)->position[i];
+        axis[i] = turns ? b[coordinate - SCENE_RX][i]
+                        : (v->turned ? v->along[3 * i + coordinate] : i == coordinate);
+    }
+    supports_rigid(at, model_length(m), C);
+    const double scale = (turns ? model_length(m) : 1) / vec3_dot(axis, axis);
+    for (int j = 0; j < N; j++) {
+        row[j] = 0;
+        for (int i = 0; i < 3; i++)
+            row[j] += scale * axis[i] * C[N * (turns ? 3 + i : i) + j];
+    }
+    return l->number[supports_root(l->part, node)];
+}
+
+/* A coordinate of a node that follows another's. */
+static void add_tie(linkage *l, int node, int coordinate)
+{
+    const scene_tie *tie = model_tie(l->m, node, coordinate);
+    const mesh_vertex *v = model_vertex(l->m, node);
+    double row[2][N];
+    if (tie == NULL || (tie->node == node && tie->coordinate == coordinate))
+        return;
+    const int part[2] = {
+        coordinate_row(l, node, coordinate >= SCENE_RX && v->angles > 0 ? SCENE_RX : coordinate,
+                       row[0]),
+        coordinate_row(l, tie->node, tie->coordinate, row[1])};
+    for (int a = 0; a < 2; a++)
+        for (int b = 0; b < 2; b++)
+            for (int i = 0; i < N * N && part[a] != NONE && part[b] != NONE; i++)
+                l->S[(size_t)(N * part[a] + i / N) * (size_t)(N * l->count) +
+                     (size_t)(N * part[b] + i % N)] +=
+                    (a == b ? 1 : -1) * row[a][i / N] * row[b][i % N];
 }
 
 static void add_holds(linkage *l, int node)
@@ -294,6 +338,9 @@ static int is_loose(linkage *l)
     for (int i = 0; i < model_scene(l->m)->nodes; i++)
         if (model_vertex(l->m, i)->body == i)
             add_holds(l, i);
+    for (int i = 0; i < SCENE_RZ + 1; i++)
+        for (int node = 0; node < model_scene(l->m)->nodes; node++)
+            add_tie(l, node, i);
     const int found = LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', n, l->S, n, value) == 0 &&
                       !(value[0] > supports_loose * value[n - 1]);
     free(value);
@@ -306,7 +353,8 @@ int linkage_mechanism(const model *m, int *node, int *member, double motion[6])
     linkage l = {.m = m, .part = malloc((size_t)model_vertices(m) * sizeof *l.part)};
     int found = 0;
     l.number = malloc((size_t)model_vertices(m) * sizeof *l.number);
-    if (model_releases(m) > 0 && l.part != NULL && l.number != NULL) {
+    if ((model_releases(m) > 0 || model_mesh_of(m)->tie != NULL) && l.part != NULL &&
+        l.number != NULL) {
         supports_join(m, 1, l.part);
         for (int i = 0; i < model_vertices(m); i++)
             l.number[i] = NONE;
@@ -314,6 +362,9 @@ int linkage_mechanism(const model *m, int *node, int *member, double motion[6])
             count_part(&l, supports_mover(m, model_element(m, i)->vertex[0], 1));
         for (int i = model_first_release(m); i < model_vertices(m); i++)
             count_part(&l, model_vertex(m, i)->body);
+        for (int i = 0; i < 6 * model_scene(m)->nodes; i++)
+            if (model_tie(m, i / 6, i % 6) != NULL)
+                count_part(&l, i / 6);
         found = l.count <= MOST_PARTS && is_loose(&l);
         if (found)
             name_what_moves(&l, node, member, motion);

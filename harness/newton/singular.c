@@ -112,11 +112,13 @@ status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
     for (int i = 0; i < 3; i++)
         axis[i] = fabs(v[i]) > 1e-9 * size ? v[i] / size : 0;
     return fault_set(f, STATUS_SINGULAR,
-                     "%s can %s (%.3g, %.3g, %.3g) while nothing deforms: the released ends "
+                     "%s can %s (%.3g, %.3g, %.3g) while nothing deforms: %s "
                      "make a mechanism; join one of them, hold it against that, or drive it",
                      node >= 0 ? scene_called(c->scene, SCENE_NODES, node).text
                                : scene_called(c->scene, SCENE_MEMBERS, member).text,
-                     turns ? "turn about" : "move along", axis[0], axis[1], axis[2]);
+                     turns ? "turn about" : "move along", axis[0], axis[1], axis[2],
+                     model_releases(c->model) > 0 ? "the released ends"
+                                                  : "parts that constraints join");
 }
 
 /* Ratio of the largest to the smallest stiffness of the coordinates of K, displacements in units of

@@ -73,6 +73,13 @@ static inline int same_spring(const scene_spring *a, const scene_spring *b)
            same_numbers(36, a->damping, b->damping);
 }
 
+static inline int same_constraint(const scene_constraint *a, const scene_constraint *b)
+{
+    return a->nodes == b->nodes && a->components == b->components &&
+           memcmp(a->node, b->node, (size_t)a->nodes * sizeof *a->node) == 0 &&
+           same_numbers(1, &a->ratio, &b->ratio);
+}
+
 static inline int same_function(const scene_function *a, const scene_function *b)
 {
     if (a->pieces != b->pieces)
@@ -150,7 +157,7 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
     if (a->sections != b->sections || a->nodes != b->nodes || a->members != b->members ||
         a->springs != b->springs || a->drivers != b->drivers || a->loads != b->loads ||
         a->analyses != b->analyses || a->quantities != b->quantities || a->cases != b->cases ||
-        a->combinations != b->combinations)
+        a->combinations != b->combinations || a->constraints != b->constraints)
         return "counts";
 #define EACH(list, count, same)                                                                    \
     for (*index = 0; *index < a->count; (*index)++)                                                \
@@ -160,6 +167,7 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
     EACH(node, nodes, same_node)
     EACH(member, members, same_member)
     EACH(spring, springs, same_spring)
+    EACH(constraint, constraints, same_constraint)
     EACH(driver, drivers, same_driver)
     EACH(load, loads, same_load)
     EACH(combination, combinations, same_combination)

@@ -357,6 +357,8 @@ static void law_of_motion(const scene_input *in, const element_type *e, int cont
         .scheme = SCENE_ALPHA, .alpha = scene_alpha_of_radius(0.9), .step = 1e-3};
     posed p = pose(in->name, continued ? SCENE_OF_CONTINUATION : SCENE_OF_STATIC, 1);
     p.end = 0.7;
+    if (in->part[SCENE_OF_MOTION] == SCENE_PART_REFUSED)
+        return;
     for (int last = 0; last < 2; last++) { /* what the motions start from, and where they end */
         scene s;
         structure(&p, &s);

@@ -219,6 +219,10 @@ static void add(scene *s, const char *name)
         static const double axes[2][3] = {{1, 0, 0}, {0, 0.8, 0.6}};
         memcpy(scene_node_at(s, TIP)->axes, axes, sizeof axes);
         scene_hold(s, TIP, SCENE_UZ, SCENE_UZ);
+    } else if (IS("constraint")) {
+        const int c = scene_add_constraint(s, 1u << SCENE_UY, 3);
+        scene_constrain(s, c, MIDDLE);
+        scene_constrain(s, c, TIP);
     } else if (IS("fork")) {
         twist(s);
         ended_in_a_fork(s);

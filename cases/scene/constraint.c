@@ -1,0 +1,247 @@
+/* Constraints: which coordinate of a node is a multiple of which other one. */
+#include "cases/scene/scene_impl.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+
+enum { ALL = 6 };
+
+static const char *const component_name[ALL] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+int scene_add_constraint(scene *s, unsigned components, double ratio)
+{
+    const int i = scene_grow(s, &s->constraint, &s->constraints, sizeof *s->constraint);
+    if (i >= 0) {
+        s->constraint[i].components = components;
+        s->constraint[i].ratio = ratio;
+    }
+    return i;
+}
+
+void scene_constrain(scene *s, int constraint, int node)
+{
+    if (constraint < 0) /* memory ran out */
+        return;
+    scene_constraint *c = &s->constraint[constraint];
+    const int i = scene_grow(s, &c->node, &c->nodes, sizeof *c->node);
+    if (i >= 0)
+        c->node[i] = node;
+}
+
+int scene_is_constrained(const scene *s, int node, unsigned components)
+{
+    for (int i = 0; i < s->constraints; i++)
+        for (int k = 0; k < s->constraint[i].nodes; k++)
+            if (s->constraint[i].node[k] == node && (s->constraint[i].components & components) != 0)
+                return 1;
+    return 0;
+}
+
+static status refuse(const scene *s, int constraint, int node, int component, const char *why,
+                     fault *f)
+{
+    return fault_set(f, STATUS_REFUSED, "%s: %s of %s %s",
+                     scene_called(s, SCENE_CONSTRAINTS, constraint).text, component_name[component],
+                     scene_called(s, SCENE_NODES, node).text, why);
+}
+
+/* Are the node's turns free, of one constraint that makes all of them equal? */
+static int turns_together(const scene_node *n, const scene_constraint *c)
+{
+    return n->rotation == SCENE_ROTATION_SPATIAL && n->angle[0] == SCENE_FREE &&
+           n->angle[1] == SCENE_FREE && n->angle[2] == SCENE_FREE && c->ratio == 1 &&
+           (c->components & SCENE_TURNS) == SCENE_TURNS;
+}
+
+/* The angle that is the turn about the axis of a component: the only one that moves; SCENE_NONE:
+ * there is none. */
+static int angle_of(const scene *s, int node, int component)
+{
+    const scene_node *n = &s->node[node];
+    const int turn = component - SCENE_RX;
+    double R[9];
+    scene_node_axes(n, R);
+    if (n->rotation == SCENE_ROTATION_SEQUENCE) {
+        const double *axis = n->axis[0], along[3] = {R[turn], R[3 + turn], R[6 + turn]};
+        return !(vec3_norm(n->axis[1]) > 0) &&
+                       vec3_dot(axis, along) >= (1 - 1e-14) * vec3_norm(axis)
+                   ? 0
+                   : SCENE_NONE;
+    }
+    if (n->rotation != SCENE_ROTATION_SPATIAL)
+        return SCENE_NONE;
+    for (int k = 0; k < 3; k++)
+        if (k != turn && n->angle[k] != SCENE_HELD &&
+            (s->plane == SCENE_SPACE || k == scene_normal(s)))
+            return SCENE_NONE;
+    return turn;
+}
+
+static int leaves_plane(const scene *s, int node, int component)
+{
+    double R[9];
+    const int normal = scene_normal(s);
+    if (normal == SCENE_NONE)
+        return 0;
+    scene_node_axes(&s->node[node], R);
+    const int along = fabs(R[3 * normal + component % 3]) > 0.5;
+    return component < SCENE_RX ? along : !along;
+}
+
+/* Does a motion's value follow from the component? */
+static int is_condition(const scene *s, int node, int component, int motion)
+{
+    if (motion >= 0 && s->driver[motion].value == NULL && s->driver[motion].function.pieces == 0)
+        return 1;
+    for (int d = 0; d < s->drivers; d++)
+        if (s->driver[d].value == NULL && s->driver[d].function.pieces == 0 &&
+            s->driver[d].condition_node == node && s->driver[d].condition_component == component)
+            return 1;
+    return 0;
+}
+
+/* The coordinate that is the component of a node, and what moves it. */
+static status coordinate_of(const scene *s, int constraint, int node, int component,
+                            int *coordinate, int *motion, fault *f)
+{
+    const scene_node *n = &s->node[node];
+    const int angle = component < SCENE_RX ? 0 : angle_of(s, node, component);
+    if (n->attached != SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED, "%s: %s moves with %s; name that one",
+                         scene_called(s, SCENE_CONSTRAINTS, constraint).text,
+                         scene_called(s, SCENE_NODES, node).text,
+                         scene_called(s, SCENE_NODES, n->attached).text);
+    if (leaves_plane(s, node, component))
+        return refuse(s, constraint, node, component,
+                      "leaves the plane of the scene, so that it is held; remove it", f);
+    *coordinate = component;
+    if (component >= SCENE_RX && turns_together(n, &s->constraint[constraint]) &&
+        s->plane == SCENE_SPACE) {
+        *motion = SCENE_FREE;
+        return STATUS_OK;
+    }
+    if (angle == SCENE_NONE)
+        return refuse(s, constraint, node, component,
+                      "is not a turn about a fixed axis; hold the node's two other turns, or name "
+                      "rx, ry and rz of nodes that turn freely",
+                      f);
+    *coordinate = component < SCENE_RX ? component : SCENE_RX + angle;
+    *motion = component < SCENE_RX ? n->translation[component] : n->angle[angle];
+    if (*motion == SCENE_HELD)
+        return refuse(s, constraint, node, component,
+                      "is held and in a constraint; take one of them away", f);
+    if (is_condition(s, node, component, *motion))
+        return refuse(s, constraint, node, component,
+                      "belongs to a motion of unknown value; take the constraint away", f);
+    return STATUS_OK;
+}
+
+/* The coordinate that is followed in the end, and its multiple. */
+static scene_tie follow(const scene_tie tie[], int node, int coordinate)
+{
+    scene_tie at = {node, coordinate, 1};
+    for (;;) {
+        const scene_tie *next = &tie[ALL * at.node + at.coordinate];
+        if (next->node == SCENE_NONE ||
+            (next->node == at.node && next->coordinate == at.coordinate))
+            return at;
+        at = (scene_tie){next->node, next->coordinate, at.ratio * next->ratio};
+    }
+}
+
+/* What moves a coordinate. */
+static int motion_at(const scene *s, scene_tie at)
+{
+    const scene_node *n = &s->node[at.node];
+    return at.coordinate < SCENE_RX ? n->translation[at.coordinate]
+                                    : n->angle[at.coordinate - SCENE_RX];
+}
+
+/* The component of node k is the ratio times that of the first: joins what they follow. */
+static status join(const scene *s, int constraint, int k, int component, scene_tie tie[], fault *f)
+{
+    const scene_constraint *c = &s->constraint[constraint];
+    int at[2], motion;
+    TRY(coordinate_of(s, constraint, c->node[0], component, &at[0], &motion, f));
+    TRY(coordinate_of(s, constraint, c->node[k], component, &at[1], &motion, f));
+    const scene_tie first = follow(tie, c->node[0], at[0]), other = follow(tie, c->node[k], at[1]);
+    /* other.ratio root_other = ratio first.ratio root_first */
+    const double ratio = c->ratio * first.ratio / other.ratio;
+    if (first.node == other.node && first.coordinate == other.coordinate)
+        return refuse(s, constraint, c->node[k], component,
+                      "follows already from other constraints; remove it", f);
+    if (motion_at(s, first) >= 0 && motion_at(s, other) >= 0)
+        return refuse(s, constraint, c->node[k], component,
+                      "is driven twice, by a motion and by the constraint; take one of them away",
+                      f);
+    const int reversed = motion_at(s, other) >= 0 ||
+                         (motion_at(s, first) < 0 && ALL * other.node + other.coordinate <
+                                                         ALL * first.node + first.coordinate);
+    const scene_tie *from = reversed ? &first : &other, *to = reversed ? &other : &first;
+    tie[ALL * to->node + to->coordinate] = (scene_tie){to->node, to->coordinate, 1};
+    tie[ALL * from->node + from->coordinate] =
+        (scene_tie){to->node, to->coordinate, reversed ? 1 / ratio : ratio};
+    return STATUS_OK;
+}
+
+static status check_names(const scene *s, int i, fault *f)
+{
+    const scene_constraint *c = &s->constraint[i];
+    const scene_words who = scene_called(s, SCENE_CONSTRAINTS, i);
+    int single = c->components != 0 && (c->components & (c->components - 1)) == 0;
+    if (c->components == 0 || c->components >> ALL != 0)
+        return fault_set(f, STATUS_REFUSED, "%s: it has no components; give ux, uy, uz, rx, ry, rz",
+                         who.text);
+    if (c->nodes < 2)
+        return fault_set(f, STATUS_REFUSED, "%s: it has not two nodes; give two or more", who.text);
+    if (!isfinite(c->ratio) || !(fabs(c->ratio) >= 1e-6 && fabs(c->ratio) <= 1e6))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: ratio = %g; give one of size 1e-6 to 1e6, or hold the component",
+                         who.text, c->ratio);
+    if (c->ratio != 1 && !(single && c->nodes == 2))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a ratio is of one component of two nodes; write one entry for each",
+                         who.text);
+    for (int k = 0; k < c->nodes; k++) {
+        if (c->node[k] < 0 || c->node[k] >= s->nodes)
+            return fault_set(f, STATUS_REFUSED, "%s: a node of it does not exist; add it first",
+                             who.text);
+        for (int j = 0; j < k; j++)
+            if (c->node[j] == c->node[k])
+                return fault_set(f, STATUS_REFUSED, "%s: %s is in it twice; name another node",
+                                 who.text, scene_called(s, SCENE_NODES, c->node[k]).text);
+    }
+    return STATUS_OK;
+}
+
+status scene_ties(const scene *s, scene_tie tie[], fault *f)
+{
+    for (int i = 0; i < ALL * s->nodes; i++)
+        tie[i] = (scene_tie){SCENE_NONE, 0, 1};
+    for (int i = 0; i < s->constraints; i++) {
+        TRY(check_names(s, i, f));
+        for (int k = 1; k < s->constraint[i].nodes; k++)
+            for (int c = 0; c < ALL; c++)
+                if (s->constraint[i].components >> c & 1u)
+                    TRY(join(s, i, k, c, tie, f));
+    }
+    for (int i = 0; i < ALL * s->nodes; i++)
+        if (tie[i].node != SCENE_NONE)
+            tie[i] = follow(tie, i / ALL, i % ALL);
+    return STATUS_OK;
+}
+
+status scene_validate_constraints(const scene *s, fault *f)
+{
+    if (s->constraints == 0)
+        return STATUS_OK;
+    scene_tie *tie = malloc((size_t)(ALL * s->nodes + 1) * sizeof *tie);
+    if (tie == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for constraints");
+    const status outcome = scene_ties(s, tie, f);
+    free(tie);
+    return outcome;
+}

@@ -1,0 +1,386 @@
+"""Constraints between components: one node in two, bodies, gears, cells that repeat; what is refused."""
+import math
+
+from harness.tools.kit.program import ProgramTest, ROOT, run
+
+EXAMPLE = ROOT / "cases" / "examples" / "geared_shafts.yaml"
+HEAD = """beamwork: 1
+sections: {s: {rectangle: {width: 0.02, thickness: 0.03}, young: 2e9, shear_modulus: 0.8e9, density: 2000}}
+"""
+# At @: where m ends; at #: where n begins.
+FRAME = HEAD + """motions: {push: {unit: m, path: [0, 1], value: [0, 0.02]}}
+nodes:
+  a: {at: [0, 0, 0], hold: [ux, uy, uz, rx, ry]}
+  b: {at: [1, 0.2, 0.1]MOVES}
+  c: {at: [2, -0.1, 0], hold: [uy, uz, rx, ry], drive: {ux: push}}
+NODES
+members:
+  m: {from: a, to: @, section: s, y: [0, 1, 0], warping: fixed}
+  n: {from: #, to: c, section: s, y: [0, 1, 0], offset: {from: [0, 0.01, 0], to: [0, 0, 0]}, warping: fixed, damping: 1e-4}
+springs:
+  s: {to: c, stiffness: [500, 0, 20, 0, 0, 0.5], damping: [1, 1, 1, 0.01, 0.01, 0.01]}
+  t: {to: @, stiffness: [9, 8, 20, 0.1, 0.2, 0.5], damping: [3, 1, 2, 0.01, 0.02, 0.01]}
+loads:
+  f: {force: [-6, -12, 6], on: #}
+  q: {force: [0, 0, 2], on: #, at: [0.02, 0.03, 0]}
+  g: {distributed: [0.5, 1, -1], on: n}
+CONSTRAINTS
+analyses:
+  L: {linear: {}}
+  S: {static: {stations: [0.5, 1]}}
+  ML: {modal: {about: L}}
+  M: {modal: {}}
+  B: {buckling: {}}
+  MD: {modal: {damped: yes}}
+  C: {compliance: {node: #}}
+  CS: {compliance: {node: #, about: S}}
+  R: {rotation: {omega: [0, 0, 3], centre: [0, 0, 0], stations: [1]}}
+  H: {harmonic: {frequencies: [3]}}
+quantities:
+  ux: {displacement: {analysis: L, node: b, component: ux}}
+  sx: {displacement: {analysis: S, node: b, component: ux}}
+  sy: {displacement: {analysis: S, node: #, component: uy}}
+  sz: {displacement: {analysis: S, node: #, component: rz}}
+  ra: {reaction: {analysis: S, node: a, component: uy}}
+  rc: {reaction: {analysis: S, node: c, component: uy}}
+  N: {internal: {analysis: S, member: n, end: from, resultant: Mz}}
+  f1: {frequency: {analysis: M}}
+  f5: {frequency: {analysis: M, which: 5}}
+  fl: {frequency: {analysis: ML, which: 2}}
+  fr: {frequency: {analysis: R, which: 2}}
+  cx: {compliance: {analysis: C, row: ux, column: ux}}
+  bc: {critical_factor: {analysis: B}}
+  fd: {frequency: {analysis: MD, which: 3}}
+  h: {response: {analysis: H, node: b, component: uy, force: #, along: ux}}
+  v: {response: {analysis: H, node: #, component: uz, force: b, along: ux, part: phase}}
+  cz: {compliance: {analysis: CS, row: uz, column: rx}}
+"""
+
+
+MASS = ", mass: 0.5, centre: [0.02, 0.01, 0.03], inertia: [0.01, 0.02, 0.015, 0, 0, 0]"
+ALL = "components: [ux, uy, uz, rx, ry, rz]"
+SLIDERS = HEAD + """nodes:
+  a: {at: [0, 0, 0], hold: all}
+  p: {at: [1, 0.1, 0], axes: {x: [0.8, 0.6, 0], z: [0, 0, 1]}, hold: [uy, uz, rx, ry, rz]}
+  q: {at: [1, 0.8, 0.2], SLIDES}
+  c: {at: [2, 0.7, 0.1], hold: all}
+members:
+  m: {from: a, to: p, section: s, y: [0, 1, 0], warping: free}
+  n: {from: q, to: c, section: s, y: [0, 1, 0], warping: free}
+  o: {from: p, to: q, section: s, y: [1, 0, 0], warping: free}
+CONSTRAINTS
+loads: {f: {force: [300, 50, 20], on: p}, g: {distributed: [10, 20, 30], on: o}, h: {force: [-20, 50, 0], on: q}}
+analyses:
+  L: {linear: {}}
+  S: {static: {stations: [1]}}
+  M: {modal: {}}
+  B: {buckling: {}}
+  MS: {modal: {about: S}}
+  C: {compliance: {node: p, about: S}}
+quantities:
+  lx: {displacement: {analysis: L, node: q, component: ux}}
+  sx: {displacement: {analysis: S, node: q, component: ux}}
+  sy: {displacement: {analysis: S, node: p, component: uy}}
+  ra: {reaction: {analysis: S, node: a, component: uy}}
+  M: {internal: {analysis: S, member: o, end: from, resultant: Mz}}
+  f0: {frequency: {analysis: M}}
+  f2: {frequency: {analysis: M, which: 2}}
+  fs: {frequency: {analysis: MS}}
+  b: {critical_factor: {analysis: B}}
+  c: {compliance: {analysis: C, row: ux, column: uy}}
+"""
+# Two shafts whose wheels turn in a ratio.
+GEAR = """beamwork: 1
+sections: {s: {tube: {diameter: 0.02, thickness: 0.01}, young: 210e9, shear_modulus: 80e9, density: 1e-3}}
+nodes:
+  a: {at: [0, 0, 0], hold: all}
+  b: {at: [0, 0, 1], AXES hold: [ux, uy, rx, ry], inertia: [0.3, 0.3, 0.3, 0, 0, 0]}
+  c: {at: [0.1, 0, 1], hold: all}
+  d: {at: [0.1, 0, 3], AXES hold: [ux, uy, rx, ry], inertia: [0.05, 0.05, 0.05, 0, 0, 0]}
+members:
+  m: {from: a, to: b, section: s, y: [0, 1, 0]}
+  n: {from: c, to: d, section: s, y: [0, 1, 0]}
+constraints: {gear: {node: WHO, component: rz, ratio: RATIO, of: OTHER}}
+loads: {t: {moment: [0, 0, TORQUE], on: b}, u: {moment: [0, 0, -5], on: d}}
+omit: [shear, trapeze, wagner_torque, wagner_moments, rotary_inertia]
+analyses:
+  L: {linear: {}}
+  S: {static: {stations: [0.5, 1]}}
+  M: {modal: {}}
+  MS: {modal: {about: S}}
+  C: {compliance: {node: b}}
+  D: {compliance: {node: d, about: S}}
+quantities:
+  lb: {displacement: {analysis: L, node: b, component: rz}}
+  sb: {displacement: {analysis: S, node: b, component: rz}}
+  sd: {displacement: {analysis: S, node: d, component: rz}}
+  rb: {reaction: {analysis: S, node: b, component: rz}}
+  rd: {reaction: {analysis: S, node: d, component: rz}}
+  f: {frequency: {analysis: M}}
+  fs: {frequency: {analysis: MS}}
+  c: {compliance: {analysis: C, row: rz, column: rz}}
+  d: {compliance: {analysis: D, row: rz, column: rz}}
+"""
+COLUMN = HEAD + """nodes:
+  a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}
+  b: {at: [0.5, 0, 0]}
+  NODES
+  c: {at: [1, 0, 0], hold: [uy, uz, rx]}
+members:
+  m: {from: a, to: b, section: s, y: [0, 1, 0], warping: fixed}
+  n: {from: #, to: c, section: s, y: [0, 1, 0], warping: fixed}
+CONSTRAINTS
+loads: {p: {force: [-1, 0, 0], on: c}, f: {force: [0, 1e-3, 0], on: b}}
+plane: xy
+analyses:
+  K: {continuation: {control: {node: #, component: uy}, to: [0.05], step: 0.01}}
+  S: {static: {stations: [20]}}
+  B: {buckling: {about: S}}
+quantities:
+  p: {factor_at: {analysis: K, at: 0.05}}
+  u: {displacement: {analysis: S, node: c, component: ux}}
+  b: {critical_factor: {analysis: B}}
+"""
+
+
+class Constraints(ProgramTest):
+    def values(self, text, formulation="collocation", elements=2):
+        path = self.folder / "scene.yaml"
+        path.write_text(text)
+        record = self.record("solve", "--scene", path, "-f", formulation, "-n", elements)
+        return {q["quantity"]: q["value"] for q in record["quantities"]}
+
+    def same(self, one, two, close=1e-10, **options):
+        a, b = self.values(one, **options), self.values(two, **options)
+        self.assertGreater(len(a), 0)
+        for name, value in a.items():
+            self.assertLess(abs(b[name] - value), close * abs(value), name)
+
+    def names(self):
+        names = [f["formulation"] for f in self.record("list", "formulations")["formulations"]]
+        self.assertGreaterEqual(len(names), 10)
+        return names
+
+    def test_one_node_in_two(self):
+        """Two nodes at one place that are equal in all components are one, in every analysis and formulation."""
+        one = FRAME.replace("@", "b").replace("#", "b").replace("MOVES", MASS)
+        two = FRAME.replace("@", "b").replace("#", "e").replace("MOVES", "")
+        one = one.replace("NODES", "").replace("CONSTRAINTS", "")
+        two = two.replace("NODES", "  e: {at: [1, 0.2, 0.1]" + MASS + "}")
+        two = two.replace("CONSTRAINTS", "constraints: {one: {equal: [b, e], " + ALL + "}}")
+        for name in self.names():
+            self.same(one, two, 1e-7, formulation=name)
+
+    def test_column(self):
+        """Likewise a continuation, and buckling about a path."""
+        one = COLUMN.replace("NODES", "").replace("#", "b").replace("CONSTRAINTS", "")
+        two = COLUMN.replace("NODES", "e: {at: [0.5, 0, 0]}").replace("#", "e")
+        self.same(one, two.replace("CONSTRAINTS", "constraints: {one: {equal: [e, b], components: [ux, uy, rz]}}"), 1e-7)
+
+    def test_sliders(self):
+        """On slopes, joined by a member: equal along them is a rigid link between them."""
+        one = SLIDERS.replace("SLIDES", "part_of: p").replace("CONSTRAINTS", "")
+        two = SLIDERS.replace("SLIDES", "axes: {x: [0.8, 0.6, 0], z: [0, 0, 1]}, hold: [uy, uz, rx, ry, rz]")
+        self.same(one, two.replace("CONSTRAINTS", "constraints: {s: {equal: [p, q], components: ux}}"))
+
+    def test_gear(self):
+        """Stiffness k1 + i^2 k2 and inertia I1 + i^2 I2, at large turns too, whoever names whom; in turned axes."""
+        k1 = 80e9 * math.pi * 0.01**4 / 2
+        k2 = k1 / 2
+        stiff, inertia = k1 + 4 * k2, 0.3 + 4 * 0.05
+        for torque, who, other, ratio in ((40, "d", "b", -2), (5000, "b", "d", -0.5)):
+            text = GEAR.replace("WHO", who).replace("OTHER", other).replace("RATIO", str(ratio))
+            text = text.replace("TORQUE", str(torque))
+            turn = (torque + 10) / stiff
+            wanted = {"lb": turn, "sb": turn, "sd": -2 * turn, "rb": k1 * turn - torque, "rd": -2 * k2 * turn + 5,
+                      "f": math.sqrt(stiff / inertia) / (2 * math.pi), "c": 1 / stiff, "d": 4 / stiff}
+            wanted["fs"] = wanted["f"]
+            for axes in ("", "axes: {x: [0, 1, 0], y: [-1, 0, 0]}, "):
+                found = self.values(text.replace("AXES ", axes))
+                for name, value in wanted.items():
+                    self.assertLess(abs(found[name] / value - 1), 1e-8, f"{name} {axes}")
+
+    def test_turned_gear(self):
+        """About an axis that is none of the scene's."""
+        text = GEAR.replace("WHO", "d").replace("OTHER", "b").replace("RATIO", "-2").replace("TORQUE", "4000")
+        plain = self.values(text.replace("AXES ", ""))
+        text = text.replace("AXES ", "axes: {z: [0.48, 0.64, 0.6], x: [0.8, -0.6, 0]}, ").replace("y: [0, 1, 0]", "y: [0.8, -0.6, 0]")
+        for z, x in ((1, 0), (1, 0.1), (3, 0.1)):
+            text = text.replace(f"at: [{x}, 0, {z}]", f"at: [{x + 0.48 * z}, {0.64 * z}, {0.6 * z}]")
+        for axis in "bd":
+            for turn in (f"[0, 0, {4000}], on: b", "[0, 0, -5], on: d"):
+                size = float(turn.split(",")[2].split("]")[0])
+                text = text.replace(f"moment: {turn}", f"moment: [{0.48 * size}, {0.64 * size}, {0.6 * size}], on: {turn[-1]}")
+        turned = self.values(text)
+        self.assertLess(abs(turned["sb"] / (0.6 * plain["sb"]) - 1), 1e-8)
+        for name in ("rb", "rd", "f", "fs"):
+            self.assertLess(abs(turned[name] / plain[name] - 1), 1e-8, name)
+
+    def test_lever(self):
+        """Displacements in a ratio: the spring at the other end counts with its square; driven, it follows."""
+        text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0.02]}}
+nodes:
+  a: {at: [0, 0, 0], hold: all}
+  b: {at: [1, 0, 0], hold: [ux, uz, rx, ry, rz]DRIVE}
+  c: {at: [0, 2, 0], axes: {x: [0.6, 0, 0.8], y: [0, 1, 0]}, hold: [ux, uz, rx, ry, rz], mass: 3}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0], warping: fixed}}
+springs: {s: {to: c, stiffness: [0, 700, 0, 0, 0, 0]}}
+constraints: {lever: {node: c, component: uy, ratio: -3, of: b}}
+loads: {f: {force: [0, 50, 0], on: b}, g: {force: [0, 20, 0], on: c}}
+analyses: {L: {linear: {}}, S: {static: {stations: [0.5, 1]}}}
+quantities:
+  l: {displacement: {analysis: L, node: c, component: uy}}
+  b: {displacement: {analysis: S, node: b, component: uy}}
+  c: {displacement: {analysis: S, node: c, component: uy}}
+  rb: {reaction: {analysis: S, node: b, component: uy}}
+  rc: {reaction: {analysis: S, node: c, component: uy}}
+plane: PLANE
+"""
+        stiff = 12 * 2e9 * 0.02 * 0.03**3 / 12
+        for plane in ("xy", "space"):
+            free = text.replace("DRIVE", "").replace("plane: space\n", "").replace("plane: PLANE\n", "")
+            free = free.replace("motions:", "#").replace("loads:", "omit: [shear, trapeze]\nloads:")
+            if plane == "xy":
+                free = free.replace("axes: {x: [0.6, 0, 0.8], y: [0, 1, 0]}, ", "") + "plane: xy\n"
+            found = self.values(free)
+            self.assertLess(abs(found["l"] / (-3 * (50 - 60) / (stiff + 9 * 700)) - 1), 1e-8)
+            self.assertLess(abs(found["c"] / (-3 * found["b"]) - 1), 1e-12)
+            self.assertLess(abs(found["rb"] - 3 * found["rc"]), 1e-8)
+        driven = text.replace("DRIVE", ", drive: {uy: go}").replace("plane: PLANE\n", "")
+        found = self.values(driven)
+        self.assertAlmostEqual(found["c"], -0.06, delta=1e-14)
+        self.assertAlmostEqual(found["rc"], -0.06 * 700 - 20, delta=1e-9)
+
+    def test_cell(self):
+        """A cell whose ends are equal is one of three in a row whose ends are equal."""
+        found = []
+        for cells in (1, 3):
+            nodes = "".join(f"  l{i}: {{at: [{i}, 0, 0]}}\n  h{i}: {{at: [{i + 0.4}, 0.1, 0]}}\n" for i in range(cells))
+            members = "".join(f"  m{i}: {{from: l{i}, to: h{i}, section: s, y: [0, 1, 0], warping: fixed}}\n"
+                              f"  n{i}: {{from: h{i}, to: l{i + 1}, section: s, y: [0, 1, 0], warping: fixed}}\n"
+                              for i in range(cells))
+            springs = "".join(f"  s{i}: {{to: h{i}, stiffness: [500, 900, 300, 1, 2, 3]}}\n" for i in range(cells))
+            loads = "".join(f"  f{i}: {{force: [5, 20, 9], on: h{i}}}\n  g{i}: {{distributed: [0, 30, 7], on: n{i}}}\n"
+                            for i in range(cells))
+            found.append(self.values(HEAD + f"nodes:\n{nodes}  l{cells}: {{at: [{cells}, 0, 0]}}\nmembers:\n{members}"
+                                     f"springs:\n{springs}loads:\n{loads}"
+                                     f"constraints: {{cell: {{equal: [l{cells}, l0], {ALL}}}}}\n" + """
+analyses: {S: {static: {stations: [1]}}, M: {modal: {}}}
+quantities:
+  u: {displacement: {analysis: S, node: h0, component: uy}}
+  l: {displacement: {analysis: S, node: l0, component: uz}}
+  t: {displacement: {analysis: S, node: l0, component: rz}}
+  N: {internal: {analysis: S, member: m0, where: 0.3, resultant: N}}
+  f: {frequency: {analysis: M}}
+"""))
+        for name, value in found[0].items():
+            self.assertLess(abs(found[1][name] / value - 1), 1e-7, name)
+
+    def test_loop(self):
+        """A member between nodes that are equal: heated it pushes with E A alpha T; loaded it is clamped."""
+        text = HEAD.replace("density: 2000", "density: 2000, expansion: 1e-5") + """
+nodes: {a: {at: [0, 0, 0], hold: [uz, rx, ry]}, b: {at: [1, 0, 0], hold: [uz, rx, ry]}, m: {at: [0.5, 0, 0], hold: [ux, uz]}}
+members:
+  m: {from: a, to: m, section: s, y: [0, 1, 0], warping: fixed}
+  n: {from: m, to: b, section: s, y: [0, 1, 0], warping: fixed}
+springs: {s: {to: a, stiffness: [0, 1e3, 0, 0, 0, 0]}}
+constraints: {loop: {equal: [b, a], components: [ux, uy, rz]}}
+loads: {t: {temperature: 30, on: m}, u: {temperature: 30, on: n}, f: {force: [0, 16, 0], on: m}}
+omit: [shear, trapeze]
+analyses: {L: {linear: {}}}
+quantities:
+  N: {internal: {analysis: L, member: n, end: from, resultant: N}}
+  a: {displacement: {analysis: L, node: b, component: uy}}
+  u: {displacement: {analysis: L, node: m, component: uy}}
+"""
+        for elements in (1, 2):
+            found = self.values(text, elements=elements)
+            self.assertAlmostEqual(found["N"], -2e9 * 6e-4 * 30e-5, delta=1e-6)
+            self.assertAlmostEqual(found["a"], 16e-3, delta=1e-12)
+            self.assertAlmostEqual(found["u"], 16e-3 + 16 / (192 * 2e9 * 0.02 * 0.03**3 / 12), delta=1e-9)
+
+    def test_example(self):
+        """In closed form, in all formulations; what is written again gives the same."""
+        for name in self.names():
+            for q in self.record("solve", "--scene", EXAMPLE, "-f", name, "-n", "2")["quantities"]:
+                self.assertLess(abs(q["error"]), 1e-6, f"{name}: {q['quantity']}")
+        again = self.folder / "again.yaml"
+        again.write_text(self.answered("scene", "--scene", EXAMPLE).stdout)
+        self.assertIn("ratio: ", again.read_text())
+        self.assertIn("equal: [", again.read_text())
+        one, two = (self.record("solve", "--scene", scene, "-f", "collocation", "-n", "1") for scene in (EXAMPLE, again))
+        for a, b in zip(one["quantities"], two["quantities"]):
+            self.assertAlmostEqual(a["value"], b["value"], delta=1e-12 * abs(a["value"]))
+
+    def test_refused(self):
+        """What contradicts supports, motions, bodies or another constraint."""
+        text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0.01]}}
+nodes:
+  a: {at: [0, 0, 0], hold: all}
+  b: {at: [1, 0, 0], hold: [uz], drive: {uy: go}}
+  c: {at: [1, 1, 0], hold: [rx, ry], drive: {uy: go}}
+  d: {at: [1, 2, 0], part_of: c}
+  e: {at: [2, 1, 0], rotation: {sequence: [{axis: x, angle: free}, {axis: y, angle: free}]}}
+members:
+  m: {from: a, to: b, section: s, y: [0, 1, 0]}
+  n: {from: b, to: c, section: s, y: [1, 0, 0]}
+  o: {from: c, to: e, section: s, y: [0, 1, 0]}
+constraints: {x: CONSTRAINT}
+analyses: {L: {linear: {}}}
+quantities: {u: {displacement: {analysis: L, node: b, component: ux}}}
+"""
+        path = self.folder / "bad.yaml"
+        for new, words in (("{equal: [b, b], components: ux}", "x: node b is in it twice"),
+                           ("{equal: [a, b], components: ux}", "x: ux of node a is held and in a constraint"),
+                           ("{equal: [b, c], components: uz}", "uz of node b is held"),
+                           ("{equal: [b, c], components: uy}", "uy of node c is driven twice"),
+                           ("{equal: [b, d], components: ux}", "node d moves with node c; name that one"),
+                           ("{equal: [b, c], components: rz}", "rz of node b is not a turn about a fixed axis"),
+                           ("{equal: [c, e], components: rz}", "rz of node e is not a turn about a fixed axis"),
+                           ("{equal: [b, c, e], components: ux}, y: {equal: [e, b], components: [ux]}",
+                            "y: ux of node b follows already from other constraints"),
+                           ("{node: b, component: ux, ratio: 0, of: c}", "ratio = 0"),
+                           ("{node: b, component: ux, ratio: 2}", "give {equal: [NODE, NODE], components: [ux]}"),
+                           ("{equal: [b, c], component: ux}", "give {equal: [NODE, NODE], components: [ux]}"),
+                           ("{equal: b, components: ux}", "equal: give a list of two nodes or more"),
+                           ("{equal: [b, k], components: ux}", "no node 'k'")):
+            path.write_text(text.replace("CONSTRAINT}", new + "}"))
+            self.refused(2, words, "scene", "--scene", path)
+        path.write_text(text.replace("CONSTRAINT}", "{equal: [b, e], components: uz}}").replace("uz], drive", "rx], drive") + "plane: xy\n")
+        self.refused(2, "plane", "scene", "--scene", path)
+
+    def test_motions(self):
+        """In time they are refused by name, alone."""
+        path = self.folder / "motion.yaml"
+        path.write_text(HEAD + """
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}, c: {at: [2, 0, 0]}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}, n: {from: b, to: c, section: s, y: [0, 1, 0]}}
+constraints: {x: {equal: [b, c], components: uy}}
+loads: {f: {force: [0, 1, 0], on: b, time: 1}}
+analyses: {L: {linear: {}}, T: {motion: {stations: [0.01], integrator: alpha, step: 0.001}}}
+quantities:
+  l: {displacement: {analysis: L, node: b, component: uy}}
+  t: {displacement: {analysis: T, node: b, component: uy}}
+""")
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
+        self.assertIn("analysis T (motion) and constraint x (constraint): it ties", done.stdout + done.stderr)
+        done = run("export", "--to", "calculix", "--scene", path, "-o", self.folder / "deck.inp")
+        self.assertIn("constraints are not written with solids", done.stdout + done.stderr)
+
+    def test_mechanism(self):
+        """What only a constraint could hold, and does not; what it holds."""
+        text = HEAD + """
+nodes: {a: {at: [0, 0, 0], hold: [uy, uz, rx, ry, rz]}, b: {at: [1, 0, 0]}, c: {at: [0, 1, 0], hold: [uy, uz, rx, ry, rz]}, d: {at: [1, 1, 0]ENDS}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}, n: {from: c, to: d, section: s, y: [0, 1, 0]}}
+constraints: {x: {equal: [a, c], components: ux}}
+loads: {f: {force: [3, 0, 0], on: b}}
+analyses: {L: {linear: {}}}
+quantities: {l: {displacement: {analysis: L, node: b, component: ux}}}
+"""
+        path = self.folder / "loose.yaml"
+        path.write_text(text.replace("ENDS", ""))
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("0, 0) while nothing deforms: parts that constraints join", done.stdout + done.stderr)
+        found = self.values(text.replace("ENDS", ", hold: [ux]"))
+        self.assertAlmostEqual(found["l"], 2 * 3 / (2e9 * 6e-4), delta=1e-15)
