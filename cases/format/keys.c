@@ -284,7 +284,8 @@ static void check_value(const document_node *n, const entry_field *k, const docu
                 check_value(n->item[i], k->below, n->key[i], m);
         break;
     case ENTRY_LATER:
-        document_mistake(m, name, 0, "'%s' is not supported yet; remove it", name->text);
+        document_mistake(m, name, 0, "'%s' is %s", name->text,
+                         k->summary != NULL ? k->summary : "not supported yet; remove it");
         break;
     case ENTRY_FORMS:
         break;
@@ -317,12 +318,15 @@ static const char *remedy_of(const known_keys *known, const char *name, char tex
                            text);
 }
 
-/* Is a missing key probably meant by a misspelt one? */
+/* Is a missing key probably meant by a misspelt one, or replaced by a refused one? */
 static int is_meant(const document_node *map, const known_keys *known, const char *name)
 {
     for (int i = 0; i < map->count; i++) {
         const char *text = map->key[i]->text;
-        const char *near = find(known->table, text) == NULL && elsewhere(known->table, text) == NULL
+        const entry_field *k = find(known->table, text);
+        if (k != NULL && k->kind == ENTRY_LATER)
+            return 1;
+        const char *near = k == NULL && elsewhere(known->table, text) == NULL
                                ? choice_nearest(text, name_at, known)
                                : NULL;
         if (near != NULL && strcmp(near, name) == 0)

@@ -164,11 +164,20 @@ static const entry_field start[] = {
      .usual = "[0, 0, 0]", ENTRY_IN(scene_analysis, of.motion.start.centre)},
     {.name = NULL}};
 
+#define OF_MODES                                                                                   \
+    "of modes, which motions do not use; at a frequency f mass: 4*pi*f*ratio has that ratio, or "  \
+    "damping: ratio/(pi*f) of members"
 static const entry_field of_masses[] = {
     {"mass", ENTRY_NUMBER, .needed = 1, .unit = "1/s",
      .summary = "force by momentum of all masses, in fixed axes; not by conserving",
      ENTRY_IN(scene_analysis, damping.mass), .most = INFINITY},
+    {"stiffness", ENTRY_LATER,
+     .summary = "not of a motion; give it as damping: b [s] of each member, and b times their "
+                "stiffness as damping of springs"},
+    {"ratio", ENTRY_LATER, .summary = OF_MODES},
+    {"ratios", ENTRY_LATER, .summary = OF_MODES},
     {.name = NULL}};
+#undef OF_MODES
 
 static const entry_field in_time[] = {
     {"stations", ENTRY_NUMBERS, .needed = 1, .unit = "s",

@@ -1176,7 +1176,7 @@ typedef enum entry_kind {
     ENTRY_LIST,      /* a list of such maps */
     ENTRY_NAMES,     /* user-defined names, each with one value as described by `below` (its
                         first key) */
-    ENTRY_LATER      /* defined, but not implemented yet */
+    ENTRY_LATER      /* refused; summary: by what it is replaced; NULL: not implemented yet */
 } entry_kind;
 
 /* How a word changes with a rotation of the axes. */
