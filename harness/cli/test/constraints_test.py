@@ -171,6 +171,52 @@ class Constraints(ProgramTest):
         for name in self.names():
             self.same(one, two, 1e-7, formulation=name)
 
+    def test_matrices(self):
+        """What --matrices writes is that of the one node: stiffness and mass."""
+        one = FRAME.replace("@", "b").replace("#", "b").replace("MOVES", MASS)
+        two = FRAME.replace("@", "b").replace("#", "e").replace("MOVES", "")
+        one = one.replace("NODES", "").replace("CONSTRAINTS", "")
+        two = two.replace("NODES", "  e: {at: [1, 0.2, 0.1]" + MASS + "}")
+        two = two.replace("CONSTRAINTS", "constraints: {one: {equal: [b, e], " + ALL + "}}")
+        found = []
+        for name, text in (("one", one), ("two", two)):
+            path = self.folder / f"{name}.yaml"
+            path.write_text(text)
+            self.answered("solve", "--scene", path, "-f", "collocation", "-n", 2, "--matrices", self.folder / name)
+            found.append([(self.folder / name / file).read_text().splitlines()
+                          for file in ("undeformed/K.mtx", "undeformed/M.mtx")])
+        for a, b in zip(*found):
+            self.assertEqual([line for line in a if not line.startswith("%")],
+                             [line for line in b if not line.startswith("%")])
+
+    def test_harmonic_reaction(self):
+        """Of a motion that others follow by constraints it is refused: it would be that of all of them."""
+        path = self.folder / "followed.yaml"
+        path.write_text(HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], drive: {uy: go}}, c: {at: [2, 0, 0]}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}, n: {from: b, to: c, section: s, y: [0, 1, 0]}}
+constraints: {x: {node: c, component: uy, ratio: 2, of: b}}
+analyses: {h: {harmonic: {frequencies: [0]}}}
+quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction, drive: go}, unit: N/m}}
+""")
+        text = path.read_text()
+        for node in "bc":
+            path.write_text(text.replace("NODE", node))
+            done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
+            self.assertIn("drives more than the component", done.stdout + done.stderr)
+
+    def test_units(self):
+        """One scene in mm and N gives the same: a ratio has no unit."""
+        text = GEAR.replace("AXES ", "").replace("WHO", "d").replace("OTHER", "b").replace("RATIO", "-2")
+        one = self.values(text.replace("TORQUE", "40"))
+        mm = (text.replace("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa").replace("diameter: 0.02, thickness: 0.01", "diameter: 20, thickness: 10")
+              .replace("210e9", "210e3").replace("80e9", "80e3").replace("1e-3}", "1e-15}").replace("[0, 0, 1]", "[0, 0, 1000]")
+              .replace("[0.1, 0, 1]", "[100, 0, 1000]").replace("[0.1, 0, 3]", "[100, 0, 3000]").replace("[0.3, 0.3, 0.3,", "[300, 300, 300,")
+              .replace("[0.05, 0.05, 0.05,", "[50, 50, 50,").replace("TORQUE", "40e3").replace("-5]", "-5e3]"))
+        two = self.values(mm)
+        for name, factor in (("lb", 1), ("sd", 1), ("rb", 1e3), ("f", 1), ("d", 1e-3)):
+            self.assertLess(abs(two[name] / (one[name] * factor) - 1), 1e-8, name)
+
     def test_column(self):
         """Likewise a continuation, and buckling about a path."""
         one = COLUMN.replace("NODES", "").replace("#", "b").replace("CONSTRAINTS", "")
