@@ -1,4 +1,5 @@
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,16 @@ typedef struct truth_request {
 
 enum { NAME = 28, INDENT = 6 };
 
+/* The fewest digits that tell the value to a thousandth of its uncertainty. */
+static void digits_of(double value, double uncertainty, char text[32])
+{
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(text, 32, "%.*g", digits, value);
+        if (fabs(strtod(text, NULL) - value) <= 1e-3 * uncertainty)
+            return;
+    }
+}
+
 /* Prints two lines: the value and its source. */
 static void print_value(const char *quantity, double value, double uncertainty, const char *unit,
                         const char *kind, const char *whose, const char *source, const char *note)
@@ -23,7 +34,9 @@ static void print_value(const char *quantity, double value, double uncertainty, 
     const int name = printf("  %-*s", NAME, quantity);
     if (name > NAME + 2)
         printf("\n%*s", NAME + 2, "");
-    printf(" %24.16g +- %-8.1e %-8s %-13s %s\n", value, uncertainty, unit, kind, whose);
+    char digits[32];
+    digits_of(value, uncertainty, digits);
+    printf(" %24s +- %-8.1e %-8s %-13s %s\n", digits, uncertainty, unit, kind, whose);
     paragraph_say(stdout, 0, INDENT, "%s%s%s", source, note[0] != '\0' ? "; " : "", note);
 }
 
@@ -140,7 +153,14 @@ static status print_scene(const case_type *type, const double parameter[], fault
         return fault_set(f, STATUS_FAULT, "no temporary file for the scene");
     const status outcome = print_scene_of(type, parameter, text, f);
     fclose(text);
-    return outcome;
+    if (outcome != STATUS_REFUSED)
+        return outcome;
+    const fault why = *f;
+    return fault_set(
+        f, outcome,
+        "%.140s; give `truths` of the scene, numbers or formulas with their source, or "
+        "compare formulations: 'beamwork converge --scene FILE' looks for an agreement",
+        why.text);
 }
 
 static int answer(const command_line *l, void *request)
