@@ -10,7 +10,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 from reference.derive import defaults  # noqa: E402
 
-SIZES = ("height", "width", "web_thickness")  # of the C-shaped section
+SIZES = ("height", "width", "web_thickness", "flange_thickness")  # of the C-shaped section
 
 
 class NotDerivable(Exception):
@@ -148,8 +148,8 @@ def weighted_column(given):
 
 SHEET = ("length", "width", "thickness", "young", "poisson", "tip_deflection", "tip_warping",
          "warping", "shear", "trapeze", "wagner", "shear_factor", "moment_convention")
-CHANNEL = ("length", "height", "width", "web_thickness", "young", "shear_modulus", "density",
-           "section_data", "shear", "shear_stability")
+CHANNEL = ("length", "height", "width", "web_thickness", "flange_thickness", "young", "shear_modulus",
+           "density", "section_data", "shear", "shear_stability")
 HEXAPOD = ("length", "width", "thickness", "young", "poisson", "fold_angle", "radius",
            "fold_warping", "wagner", "base_radius", "crank_length", "crank_azimuth",
            "platform_radius", "platform_azimuth", "height", "stroke", "steps")
