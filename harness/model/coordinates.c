@@ -99,11 +99,22 @@ typedef struct coordinates_tally {
     int held, across, unused, tied;
 } coordinates_tally;
 
+/* Is its turn an angle because it is a multiple of another one (mesh.c)? */
+static int is_stretched(const model *m, int index)
+{
+    int tied = 0;
+    for (int c = SCENE_RX; c <= SCENE_RZ && index < m->scene->nodes; c++)
+        tied |= model_tie(m, index, c) != NULL;
+    return tied && m->mesh.vertex[index].angles > 0 &&
+           m->scene->node[index].rotation == SCENE_ROTATION_SPATIAL;
+}
+
 static void number_vertex(model *m, int index, int pass, int used, coordinates_tally *of)
 {
     mesh_vertex *v = &m->mesh.vertex[index];
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
-        const int motion = v->body == index ? motion_of(m, index, c) : SCENE_HELD;
+        const int other = c >= SCENE_RX && is_stretched(m, index); /* than the angle */
+        const int motion = v->body == index && !other ? motion_of(m, index, c) : SCENE_HELD;
         const scene_tie *tie = index < m->scene->nodes ? model_tie(m, index, c) : NULL;
         if (tie != NULL && !(tie->node == index && tie->coordinate == c)) {
             v->coordinate[c] = NONE; /* for the time being */
@@ -113,7 +124,7 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
         const int vector = c >= SCENE_RX && v->vector_driver[0] != NONE;
         const int driver = motion >= 0 && !vector;
         const int condition = driver ? conditioned_by(m, index, c, motion) : NONE;
-        const int kept = m->keep_all && v->body == index && motion == SCENE_HELD &&
+        const int kept = m->keep_all && v->body == index && motion == SCENE_HELD && !other &&
                          !(v->angles > 0 && c - SCENE_RX >= v->angles);
         const int is_free = (used || tie != NULL) && (motion == SCENE_FREE || condition != NONE);
         if (pass == 0) {

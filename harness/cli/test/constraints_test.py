@@ -297,6 +297,38 @@ plane: PLANE
         self.assertAlmostEqual(found["c"], -0.06, delta=1e-14)
         self.assertAlmostEqual(found["rc"], -0.06 * 700 - 20, delta=1e-9)
 
+    def test_plane(self):
+        """Turns in a ratio at the ends of two beams of a plane scene: (3 E I/2 + 9 x 4 E I) of the first turn."""
+        found = self.values(HEAD + """
+nodes:
+  a: {at: [0, 0, 0], hold: [ux, uy]}
+  b: {at: [1, 0, 0]}
+  c: {at: [2, 0, 0], hold: [ux, uy]}
+  d: {at: [0, 1, 0], hold: [uy]}
+  e: {at: [1, 1, 0], hold: [ux, uy, rz]}
+members:
+  m: {from: a, to: b, section: s, y: [0, 1, 0]}
+  n: {from: b, to: c, section: s, y: [0, 1, 0]}
+  o: {from: d, to: e, section: s, y: [0, 1, 0]}
+constraints: {x: {node: d, component: rz, ratio: -3, of: a}}
+loads: {w: {moment: [0, 0, 2], on: a}}
+analyses: {S: {static: {stations: [1]}}, L: {linear: {}}, M: {modal: {}}}
+quantities:
+  l: {displacement: {analysis: L, node: a, component: rz}}
+  s: {displacement: {analysis: S, node: a, component: rz}}
+  d: {displacement: {analysis: S, node: d, component: rz}}
+  ra: {reaction: {analysis: S, node: a, component: rz}}
+  rd: {reaction: {analysis: S, node: d, component: rz}}
+  f: {frequency: {analysis: M}}
+plane: xy
+omit: [shear]
+""")
+        bends = 2e9 * 0.02 * 0.03**3 / 12
+        self.assertLess(abs(found["l"] * (1.5 + 36) * bends / 2 - 1), 1e-9)
+        self.assertLess(abs(found["d"] / (-3 * found["s"]) - 1), 1e-12)
+        self.assertLess(abs(found["ra"] - 3 * found["rd"]), 1e-8)
+        self.assertGreater(found["f"], 1)
+
     def test_cell(self):
         """A cell whose ends are equal is one of three in a row whose ends are equal."""
         found = []
