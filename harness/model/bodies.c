@@ -519,6 +519,13 @@ void dashpots_node_force(const model *m, const model_state *s, const double rate
     }
 }
 
+void spring_slopes(const model *m, const model_state *s, int spring, double S[36])
+{
+    spring_state p;
+    spring_at(m, s, numbered(m, spring), NULL, &p);
+    memcpy(S, p.S, sizeof p.S);
+}
+
 void dashpots_matrix(const model *m, const model_state *s, double more, sparse *C)
 {
     for (int i = 0; i < m->mesh.springs; i++) {

@@ -824,6 +824,9 @@ void spring_mean(const scene_spring *, const double from[6], const double e[6], 
 /* S at rest. */
 void spring_at_rest(const scene_spring *, double S[36]);
 
+/* S of a spring, with its tables, at its present deformation. */
+void spring_slopes(const model *, const model_state *, int spring, double S[36]);
+
 /* Deformation d = (R_p^T (r_q - r_p) less its initial value [m], rotation vector of R_p^T R_q
  * [rad]) in the axes of p; with one node q, p is the ground. x[nodes]: R is the turn since the
  * undeformed state. out->e[6], out->J[6 x 7 nodes] and out->H[7 nodes x 7 nodes] of out->s[6], in

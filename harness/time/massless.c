@@ -443,7 +443,7 @@ static int mark(const model *m, const mesh_element *el, unsigned char of[])
 /* Nodes of elements and springs whose damping time is long compared with a step h: their
  * coordinates without inertia relax no faster. of[free]: these coordinates; returns their number.
  */
-static int creeping(const model *m, double h, unsigned char of[])
+static int creeping(const model *m, const model_state *state, double h, unsigned char of[])
 {
     const double part = 1e-3;
     int count = 0;
@@ -452,9 +452,13 @@ static int creeping(const model *m, double h, unsigned char of[])
             count += mark(m, model_element(m, i), of);
     for (int i = 0; i < model_springs(m); i++) {
         const mesh_discrete *d = model_discrete(m, model_discretes(m) - model_springs(m) + i);
+        double S[SPRING_STRAINS * SPRING_STRAINS];
         int holds = 0;
+        if (scene_spring_damps(d->spring))
+            spring_slopes(m, state, i, S);
         for (int k = 0; k < SPRING_STRAINS; k++)
-            holds |= d->spring->damping[7 * k] > part * h * d->spring->stiffness[7 * k];
+            holds |=
+                d->spring->damping[7 * k] > 0 && d->spring->damping[7 * k] > part * h * S[7 * k];
         if (holds)
             count += mark(m, &d->el, of);
     }
@@ -505,7 +509,7 @@ static status find_balance(motion_stage *s, const double zero[], double h, insta
     unsigned char *of = calloc((size_t)s->free + 1, 1);
     status outcome = fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     if (moved != NULL && of != NULL)
-        outcome = s->c->run->damping != NULL && creeping(m, h, of) > 0
+        outcome = s->c->run->damping != NULL && creeping(m, now->state, h, of) > 0
                       ? creep(s, zero, h, now, moved, of, f)
                       : balance(s, zero, now, moved, f);
     free(moved);

@@ -35,6 +35,33 @@ quantities:
   between: {internal: {analysis: go, member: m, end: to, resultant: N}}
 omit: [trapeze, wagner_moments, wagner_torque]
 """
+# A node without mass between springs, of which one has a light dashpot beside it.
+LIGHT = """beamwork: 1
+sections:
+  tube: {tube: {diameter: 20e-3, thickness: 1e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
+nodes:
+  g: {at: [0, 1, 0], hold: all}
+  h: {at: [1, 1, 0], hold: all}
+  base: {at: [0, 0, 0], hold: [uy, uz, rx, ry, rz], drive: {ux: shake}}
+  mid:  {at: [0.1, 0, 0], hold: [uy, uz, rx, ry, rz]}
+  far:  {at: [0.2, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 1}
+members:
+  w: {from: g, to: h, section: tube, y: [0, 1, 0]}
+springs:
+  a: {from: base, to: mid, %s, damping: [%s, 0, 0, 0, 0, 0]}
+  b: {from: mid, to: far, stiffness: [3000, 0, 0, 0, 0, 0]}
+motions:
+  shake: {unit: m, time: 1e-2*(1-cos(20*t))}
+loads:
+  p: {force: [5, 0, 0], on: mid, time: 1 + t}
+analyses:
+  run: {motion: {stations: [1e-3, 0.01, 0.1], step: 1e-3, integrator: %s}}
+quantities:
+  early: {displacement: {analysis: run, node: mid, component: ux, at: 1e-3}}
+  next: {displacement: {analysis: run, node: mid, component: ux, at: 0.01}}
+  end:  {displacement: {analysis: run, node: mid, component: ux}}
+omit: [trapeze, wagner_moments, wagner_torque]
+"""
 HOW = (("integrator: radau", 1e-6), ("integrator: alpha, rho: 1, step: 5e-4", 2e-6),
        ("integrator: explicit, step: 1e-5, mass: lumped", 1e-7))
 
@@ -76,6 +103,20 @@ class MassDampingTest(ProgramTest):
         path.write_text(FREE % ("integrator: conserving", 3), encoding="utf-8")
         done = run("solve", "--scene", path, "-f", "collocation", "-n", 1)
         self.assertRegex(done.stdout + done.stderr, "conserving has no damping of masses")
+
+    def test_light_dashpot(self):
+        """A dashpot beside a spring by a table settles at the start as beside the same stiffness."""
+        for damping in ("1e-6", "1e-4"):
+            for integrator in ("alpha", "radau"):
+                both = []
+                for spring in ("stiffness: [1000, 0, 0, 0, 0, 0]",
+                               "tables: {ux: {at: [-1, 1], value: [-1000, 1000]}}"):
+                    path = self.folder/"light.yaml"
+                    path.write_text(LIGHT % (spring, damping, integrator), encoding="utf-8")
+                    record = self.record("solve", "--scene", path, "-f", "beamw", "-n", 1)
+                    both.append([q["value"] for q in record["quantities"]])
+                for one, other in zip(*both, strict=True):
+                    self.assertAlmostEqual(one, other, delta=2e-9)
 
 
 if __name__ == "__main__":
