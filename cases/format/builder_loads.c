@@ -99,12 +99,12 @@ static int whole_of(builder *b)
 static void check_gravity(const fields *f, const scene_load *what, int whole)
 {
     if (fields_have(f, "at") || what->axes == SCENE_AXES_MEMBER || what->follower)
-        mistake_at(f, "gravity",
-                   "weight acts at centres of mass along fixed axes; remove 'at', 'axes' and "
-                   "'follower'");
+        mistake_at(
+            f, "gravity",
+            "weight acts at centres of mass along global axes; remove 'at', 'axes' and 'follower'");
     if (whole >= 0 && !is_on_all(f))
         document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
-                         "its weight is in '%.40s' already, which is on all; remove one",
+                         "'%.40s' (on: all) already contains its weight; remove one",
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
 
@@ -143,18 +143,16 @@ static void check_keys(const fields *f, int given)
 {
     static const char *const of_range[] = {"from", "to", "to_value"};
     if (fields_have(f, "where") && given > SCENE_MOMENT)
-        mistake_at(
-            f, "where",
-            given == SCENE_GRAVITY
-                ? "where: the position of a force or a moment, and gravity acts on the whole "
-                  "member; remove it"
-                : "where: the position of a force or a moment; a distributed load begins and "
-                  "ends at 'from' and 'to'");
+        mistake_at(f, "where",
+                   given == SCENE_GRAVITY ? "where: this key is for a force or a moment; gravity "
+                                            "acts on the whole member; remove it"
+                                          : "where: this key is for a force or a moment; a "
+                                            "distributed load has 'from' and 'to'");
     for (int k = 0; k < 3; k++) {
         if ((spreads(given) && (k < 2 || given != OF_TEMPERATURE)) || !fields_have(f, of_range[k]))
             continue;
         document_mistake(f->b->mistakes, document_find(f->map, of_range[k]), 0,
-                         "%s: of a distributed load; %s", of_range[k],
+                         "%s: this key is for a distributed load; %s", of_range[k],
                          given == OF_TEMPERATURE
                              ? "a temperature is the same from 'from' to 'to'; remove it"
                          : given == SCENE_GRAVITY
@@ -168,7 +166,7 @@ static void read_range(const fields *f, int given, scene_load *what)
 {
     check_keys(f, given);
     if (fields_have(f, "gradient") && given != OF_TEMPERATURE)
-        mistake_at(f, "gradient", "gradient: of a temperature; give temperature: 0 with it");
+        mistake_at(f, "gradient", "gradient: this key is for a temperature; add temperature: 0");
     if (scene_load_within(what))
         what->range[0] = what->range[1] = part_of(f, "where", 0);
     if (!spreads(given))
@@ -190,18 +188,18 @@ static int place_of(const fields *f, const scene_load *what)
     const char *on = fields_text(f, "on", "");
     if (what->lumped && (!scene_load_along(what) || within))
         mistake_at(f, "lumped",
-                   "lumped: of distributed loads and of gravity on a member, and this load "
+                   "lumped: this key is for distributed loads and gravity on a member; this load "
                    "acts at one position; remove it");
     if (within && node && !member) {
         document_mistake(f->b->mistakes, document_find(f->map, "where"), 0,
-                         "where: a part of a member's length, and '%.40s' is a node; name a "
-                         "member, or remove it",
+                         "where: this is a fraction of a member's length, but '%.40s' is a node; "
+                         "name a member, or remove it",
                          on);
         return SCENE_NONE;
     }
     if (what->kind <= SCENE_MOMENT && member && !node) {
         document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
-                         "'%.40s' is a member; say where of its length, with 'where' from 0 to 1, "
+                         "'%.40s' is a member; add 'where', a fraction of its length from 0 to 1, "
                          "or name a node",
                          on);
         return SCENE_NONE;
@@ -306,9 +304,10 @@ void builder_springs(builder *b)
             document_mistake(b->mistakes, f.map, 0,
                              "neither stiffness nor damping nor tables; give one of them");
         if (tables != NULL && f.placed != NULL && f.placed->turned)
-            document_mistake(b->mistakes, tables, 0,
-                             "tables are of components, and the part is turned; put the spring "
-                             "into the scene, or turn nothing");
+            document_mistake(
+                b->mistakes, tables, 0,
+                "tables belong to components along the axes of the scene, but the part is rotated; "
+                "move the spring to the scene, or do not rotate the part");
         const int index = scene_add_spring(b->scene, SCENE_NONE, SCENE_NONE, stiffness);
         builder_call(b, SCENE_SPRINGS, index, i);
         if (index < 0)

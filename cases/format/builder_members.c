@@ -150,7 +150,7 @@ static void check_unit(const fields *f, int motion)
         }
     if ((angle == 1 && lengths > 0) || (angle == 0 && angles > 0))
         document_mistake(f->b->mistakes, document_find(f->map, "unit"), 0,
-                         "the motion drives %s; write unit: %s, or drive something else",
+                         "the motion drives %s; write unit: %s, or drive another component",
                          angle == 1 ? "a translation" : "an angle", angle == 1 ? "m" : "rad");
 }
 
@@ -161,7 +161,7 @@ static void check_given(const fields *f)
               unknown = fields_have(f, "such_that");
     if (known == unknown)
         document_mistake(f->b->mistakes, f->place, 0,
-                         known ? "the motion has values and is unknown; remove one"
+                         known ? "the motion has both values and a condition; remove one"
                                : "the motion needs 'path' and 'value', one of 'time', 'pieces' and "
                                  "'table', or 'such_that'");
 }

@@ -199,7 +199,8 @@ static void read_axis(const fields *f, double axis[3])
         axis[fields_word_of(f, n, "axis", "x|y|z", 0)] = 1;
     placement_turn(f->placed, axis);
     if (axis[0] == 0 && axis[1] == 0 && axis[2] == 0)
-        document_mistake(f->b->mistakes, n, 0, "an axis of no length; give x, y, z or a direction");
+        document_mistake(f->b->mistakes, n, 0,
+                         "the axis has no length; give x, y, z or a direction");
 }
 
 static void read_sequence(const fields *f, const document_node *list, scene_node *n)
@@ -207,7 +208,7 @@ static void read_sequence(const fields *f, const document_node *list, scene_node
     unrolled *turns;
     const int count = unroll_entries(list, f->names, f->b->arena, f->b->mistakes, &turns);
     if (count < 1 || count > 3) {
-        document_mistake(f->b->mistakes, list, 0, "%d turns; give one to three", count);
+        document_mistake(f->b->mistakes, list, 0, "%d rotations; give one to three", count);
         return;
     }
     n->rotation = SCENE_ROTATION_SEQUENCE;
@@ -401,8 +402,7 @@ static void check_material(const fields *f)
                                  material[i].key, material[i].about);
         if (fields_have(f, "mass"))
             document_mistake(m, document_find(f->map, "mass"), 0,
-                             "a mass matrix is of a section with a stiffness matrix; give a "
-                             "density");
+                             "a mass matrix requires a stiffness matrix; give a density");
         return;
     }
     for (size_t i = 0; i < sizeof other / sizeof other[0]; i++)
@@ -439,7 +439,7 @@ void builder_sections(builder *b)
             static const char *const of_walls[] = {"points", "cells"};
             if (!fields_have(&f, "walls") && fields_have(&f, of_walls[k]))
                 document_mistake(b->mistakes, document_find(f.map, of_walls[k]), 0,
-                                 "%s are of walls; add them, or remove the %s", of_walls[k],
+                                 "%s require walls; add them, or remove the %s", of_walls[k],
                                  of_walls[k]);
         }
         if (spec.kind != SECTION_RECTANGLE && fields_have(&f, "shear_factor"))

@@ -71,7 +71,7 @@ static void read_abscissa_of(const fields *x, scene_quantity *q)
     for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
         if (fields_have(x, own[i]))
             document_mistake(x->b->mistakes, document_find(x->map, own[i]), 0,
-                             "a curve over a quantity takes the %s of that quantity; set it there",
+                             "a curve over a quantity uses the %s of that quantity; set it there",
                              own[i]);
     scene_set_curve_over(q, over >= 0 ? x->b->list[SCENE_QUANTITIES].entry[over].name : "", "");
 }
@@ -127,7 +127,7 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
         read_abscissa(entry, q);
     else if (fields_have(entry, "x"))
         document_mistake(entry->b->mistakes, document_find(entry->map, "x"), 0,
-                         "an abscissa is of a curve; add take: curve, or remove it");
+                         "an abscissa requires a curve; add take: curve, or remove it");
 }
 
 /* The source of the prediction keeps its text when the scene is built again. */
@@ -198,7 +198,7 @@ static void settle(const fields *what, const quantity_type *type, scene_quantity
         document_mistake(what->b->mistakes, document_find(what->map, key), 0, "%s", wrong);
     if (fields_have(what, "side") && !fields_have(what, "where"))
         document_mistake(what->b->mistakes, document_find(what->map, "side"), 0,
-                         "side: of a place of the member, at which a load acts; say which, with "
+                         "side: this key selects the side of a position where a load acts; add "
                          "'where', or remove it");
     if (q->analysis >= 0 && !scene_gives(s->analysis[q->analysis].kind, q))
         builder_no_quantity(what, type->key, q);
@@ -528,8 +528,8 @@ void units_read(const document_node *n, mistakes *m, unit_system *out)
                  out->name_of_length);
     else if (!(stress > own * (1 - 1e-9) && stress < own * (1 + 1e-9))) {
         document_mistake(m, n, 0,
-                         "units: %s are not %s/%s^2, and the units of one scene must be "
-                         "consistent; remove the stress, and give moduli in %s/%s^2",
+                         "units: %s is not %s/%s^2, but the units of a scene must be consistent; "
+                         "remove the stress, and give moduli in %s/%s^2",
                          out->name_of_stress, out->name_of_force, out->name_of_length,
                          out->name_of_force, out->name_of_length);
         return;

@@ -35,7 +35,7 @@ static void tell_syntax(reader *r)
         r->mistakes->out_of_memory = 1;
     else if (p->error == YAML_READER_ERROR)
         mistakes_add(r->mistakes, line, column,
-                     "byte %zu is no readable text (%s); save the file as UTF-8, without control "
+                     "byte %zu is not readable text (%s); save the file as UTF-8, without control "
                      "characters",
                      p->problem_offset, problem);
     else if (strstr(problem, "cannot start any token") != NULL &&
@@ -136,15 +136,16 @@ static int check_key(reader *r, const document_node *map, const document_node *k
         return 0;
     }
     if (strcmp(key->text, "<<") == 0) {
-        document_mistake(r->mistakes, key, 0,
-                         "a merge key; write the entries out, or use 'for', 'let' or 'parts'");
+        document_mistake(
+            r->mistakes, key, 0,
+            "merge keys are not supported; write the entries, or use 'for', 'let' or 'parts'");
         return 0;
     }
     for (int i = 0; i < map->count; i++)
         if (strcmp(map->key[i]->text, key->text) == 0) {
             document_mistake(r->mistakes, key, 0,
-                             "'%.60s' is there already, in line %d; rename or remove one",
-                             key->text, map->key[i]->line);
+                             "'%.60s' is also in line %d; rename or remove one", key->text,
+                             map->key[i]->line);
             return 0;
         }
     return 1;
@@ -197,13 +198,15 @@ static document_node *read_collection(reader *r, const yaml_event_t *event, int 
 
 static document_node *read_node(reader *r, const yaml_event_t *event, int depth)
 {
-    static const char anchor[] =
-        "an anchor; write the entry where it is needed, or use 'for', 'let' or 'parts'";
-    static const char tag[] = "a tag; every value is text, number or word by its key: remove it";
+    static const char anchor[] = "anchors are not supported; write the entry where it is needed, "
+                                 "or use 'for', 'let' or 'parts'";
+    static const char tag[] = "tags are not supported; remove it: the key decides whether a value "
+                              "is text, number or word";
     switch (event->type) {
     case YAML_ALIAS_EVENT:
-        return refuse(r, event->start_mark,
-                      "an alias; write the entry out, or use 'for', 'let' or 'parts'");
+        return refuse(
+            r, event->start_mark,
+            "aliases are not supported; repeat the entry, or use 'for', 'let' or 'parts'");
     case YAML_SCALAR_EVENT:
         if (event->data.scalar.anchor != NULL)
             return refuse(r, event->start_mark, anchor);

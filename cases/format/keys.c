@@ -368,7 +368,7 @@ static void check_missing(const document_node *map, const known_keys *known,
         char group[FAULT_TEXT];
         group_words(known->table, k->group, group);
         if (there > 1 && k->group > 0)
-            document_mistake(m, first, 0, "%.40s: only one of %.200s can be there", name->text,
+            document_mistake(m, first, 0, "%.40s: only one of %.200s is allowed", name->text,
                              group);
         if (there > 0 || meant || !k->needed)
             continue;

@@ -300,7 +300,7 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
     if ((strcmp(t.kind, "predicted") == 0) != (t.formulation[0] != '\0'))
         document_mistake(
             m, f->place, 0,
-            "a reference value of kind predicted is of a formulation, and no other is");
+            "kind 'predicted' requires a formulation, and other kinds must not have one");
     const scene_quantity *q = quantity_of(s, t.quantity);
     if (q == NULL)
         fields_entry(f, "quantity", SCENE_QUANTITIES);

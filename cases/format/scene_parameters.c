@@ -35,7 +35,7 @@ static void read_switch(parameter_type *p, const document_node *value, mistakes 
     p->unit = "1";
     p->max = 1;
     if (expression_number(value, NULL, m, &p->value) && p->value != 0 && p->value != 1)
-        document_mistake(m, value, 0, "%s: the default is none of its choices 0|1", p->name);
+        document_mistake(m, value, 0, "%s: the default is not one of its choices 0|1", p->name);
 }
 
 /* [a, b, c] -> "a|b|c"; NULL after an error. */
@@ -64,7 +64,7 @@ static void read_choice(parameter_type *p, const document_node *value, mistakes 
     p->unit = "";
     p->value = index >= 0 ? index : 0;
     if (index < 0)
-        document_mistake(m, value, 0, "%s: the default is none of its choices %s", p->name,
+        document_mistake(m, value, 0, "%s: the default is not one of its choices %s", p->name,
                          p->choices);
 }
 
@@ -151,7 +151,7 @@ static void check_name(const builder *b, scene_list list, int i)
     for (int k = 0; k < i; k++)
         if (strcmp(b->list[list].entry[k].name, entry->name) == 0) {
             document_mistake(b->mistakes, entry->place, 0,
-                             "'%s' is there already; put the names of the loops into it: NAME_$i",
+                             "the name '%s' is used twice; put the loop variable into it: NAME_$i",
                              entry->name);
             return;
         }

@@ -244,20 +244,20 @@ int scene_looks_foreign(const scene *s, char words[FAULT_TEXT])
             continue;
         if (E >= soft[0] && E <= soft[1] && length >= 10 && size >= 0.1) {
             snprintf(words, FAULT_TEXT,
-                     "young's modulus of %g Pa with members of %g m looks like mm, N and MPa", E,
+                     "Young's modulus of %g Pa with members of %g m looks like mm, N and MPa", E,
                      length);
             return 1;
         }
         if (E >= stiff && size >= wide && length >= wide) {
             snprintf(words, FAULT_TEXT,
-                     "a section %g m wide with young's modulus of %g Pa looks like lengths in mm",
+                     "a section %g m wide with Young's modulus of %g Pa looks like lengths in mm",
                      size, E);
             return 1;
         }
         if ((rho >= 300 && speed < slow) || (E >= soft[0] && speed > fast)) {
             snprintf(words, FAULT_TEXT,
-                     "young's modulus of %g Pa with a density of %g kg/m^3 is no solid, and looks "
-                     "like other units",
+                     "Young's modulus of %g Pa with a density of %g kg/m^3 is not a solid, and "
+                     "looks like other units",
                      E, rho);
             return 1;
         }

@@ -258,8 +258,7 @@ static status check_load_kind(const scene *s, int i, fault *f)
     if (load->kind == SCENE_TEMPERATURE)
         return check_temperature(s, i, f);
     if (load->temperature != 0 || load->gradient[0] != 0 || load->gradient[1] != 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: a temperature or its gradient, and it is a %s; leave that out",
+        return fault_set(f, STATUS_REFUSED, "%s: a %s has no temperature or gradient; remove them",
                          scene_called(s, SCENE_LOADS, i).text, entry_of_load(load->kind)->name);
     if (vec3_norm(load->at) > 0 &&
         (scene_load_turns(load) || load->kind == SCENE_GRAVITY || load->kind == SCENE_WEIGHT))

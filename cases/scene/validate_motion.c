@@ -58,11 +58,10 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
                 "%s: it continues a motion, with the velocities of that; remove its start",
                 scene_called(s, SCENE_ANALYSES, i).text);
     if (scene_path_of(a)->value[0] < before->value[before->stations - 1])
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: it continues a motion that ends at %g s, and so does its time; "
-                         "let its first instant be there or later",
-                         scene_called(s, SCENE_ANALYSES, i).text,
-                         before->value[before->stations - 1]);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: it continues a motion that ends at %g s; start its times there or later",
+            scene_called(s, SCENE_ANALYSES, i).text, before->value[before->stations - 1]);
     return STATUS_OK;
 }
 
@@ -73,7 +72,7 @@ static status scene_validate_mass(const scene *s, int i, fault *f)
         return STATUS_OK;
     return fault_set(
         f, STATUS_REFUSED,
-        "%s: the structure has no mass; give a section a density or a mass, or a node a body",
+        "%s: the structure has no mass; add a density or a mass to a section, or a mass to a node",
         scene_called(s, SCENE_ANALYSES, i).text);
 }
 
@@ -304,13 +303,12 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
     if (about == SCENE_STATIC || (about == SCENE_LINEAR && a->kind != SCENE_BUCKLING))
         return STATUS_OK;
     if (a->kind == SCENE_HARMONIC)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: a harmonic analysis is about the last state of a static path, or "
-                         "about a linear analysis, and %s is a %s analysis; name one of these, or "
-                         "leave about out",
-                         scene_called(s, SCENE_ANALYSES, i).text,
-                         scene_name(s, SCENE_ANALYSES, a->follows).text,
-                         scene_analysis_name(about));
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a harmonic analysis is about the last state of a static path, or about a linear "
+            "analysis, but %s is a %s analysis; name one of these, or remove 'about'",
+            scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
+            scene_analysis_name(about));
     return fault_set(f, STATUS_REFUSED,
                      "%s: %s about a state are about the last one of a static path%s, and %s "
                      "is a %s analysis; name a static one, or remove 'about'%s",
@@ -503,11 +501,11 @@ static status check_abscissa(const scene *s, const scene_quantity *q, fault *f)
     const scene_quantity *x = over != SCENE_NONE ? &s->quantity[over] : NULL;
     if (x == NULL || x == q || x->reduction != SCENE_CURVE || q->transform != SCENE_HISTORY ||
         x->transform != SCENE_HISTORY)
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its curve is over %s, which is no other quantity with take: "
-                         "curve, or a spectrum is one of them; add take: curve there, or name one "
-                         "that has it",
-                         q->name, q->x.name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "quantity %s: its curve is over %s, which is not another quantity with take: curve, or "
+            "a spectrum is one of them; add take: curve there, or name one that has it",
+            q->name, q->x.name);
     if (x->analysis < 0 || x->analysis >= s->analyses ||
         path_of_curve(s, q, &points) != path_of_curve(s, x, &others) || points != others)
         return fault_set(f, STATUS_REFUSED,

@@ -33,8 +33,8 @@ static status check_fork(const scene *s, int i, fault *f)
     for (int k = 0; k < 3; k++)
         if (n->angle[k] != SCENE_FREE)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: contradictory supports, a fork and R%c %s; take one away, or "
-                             "give a sequence of angles",
+                             "%s: inconsistent supports, a fork and R%c %s; remove one, or give a "
+                             "sequence of angles",
                              scene_called(s, SCENE_NODES, i).text, "XYZ"[k],
                              n -> angle[k] == SCENE_HELD ? "held" : "driven");
     if (!(lengths > 0) || !(fabs(vec3_dot(axis, web)) <= 1e-9 * lengths))

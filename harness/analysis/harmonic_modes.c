@@ -28,7 +28,7 @@ enum { MOST_DENSE = 3000 };
 
 struct harmonic_modes {
     int n, kept, count; /* of free coordinates; modes, and columns of V */
-    int complete;       /* 1: V is all there is */
+    int complete;       /* 1: V is complete */
     int damped;         /* modes with a damping ratio */
     sparse K, M, C, B;  /* free block, K shifted */
     matrix_factor *factor;
@@ -105,8 +105,8 @@ static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
     return fault_set(
         f, STATUS_REFUSED,
         factor_count(m->factor).negative_pivots < 0
-            ? "modes without damping need a symmetric stiffness, and loads that follow "
-              "the structure make it unsymmetric: leave solution and ratios out"
+            ? "modes without damping need a symmetric stiffness, and loads that follow the "
+              "structure make it unsymmetric; remove 'solution' and 'ratios'"
             : "the state is unstable: nothing vibrates steadily about it");
 }
 
@@ -133,7 +133,7 @@ static void whole(const sparse *a, double D[])
             D[(size_t)a->row[k] * n + j] = D[j * n + (size_t)a->row[k]] = a->value[k];
 }
 
-/* All of them, those of no mass too; the first has the lowest frequency. */
+/* All modes, including those without mass; the first has the lowest frequency. */
 static status all_modes(vibration *v, harmonic_modes *m, fault *f)
 {
     const size_t n = (size_t)m->n;
@@ -169,7 +169,7 @@ static status all_modes(vibration *v, harmonic_modes *m, fault *f)
                                     "all modes of %d coordinates: LAPACK says %d", m->n, info);
 }
 
-/* The first ones, and the frequency of the next. */
+/* The first modes, and the frequency of the next. */
 static status first_modes(vibration *v, harmonic_modes *m, int wanted, fault *f)
 {
     const size_t n = (size_t)m->n;
@@ -184,7 +184,7 @@ static status first_modes(vibration *v, harmonic_modes *m, int wanted, fault *f)
         memcpy(m->V, e.positive.mode, (size_t)m->kept * n * sizeof *m->V);
         for (int i = 0; i < m->kept; i++)
             m->square[i] = 1 / e.positive.mu[i];
-        /* where there is none, those that are rounding of the first one may be there */
+        /* without a next one, the others may be round-off of the first */
         m->least = found > wanted ? 1 / e.positive.mu[wanted]
                    : found > 0    ? fmax(m->square[m->kept - 1], 1e8 * m->square[0])
                                   : INFINITY;
@@ -279,7 +279,7 @@ static status bound_inner(vibration *v, harmonic_modes *m, sparse *N, matrix_fac
     const eigen_problem p = {.K = N, .A = &m->B, .K_factor = *factor, .sign = 1, .largest = 1};
     const status outcome = eigen_solve(&p, e, f);
     context_count_eigen(v->c, e);
-    if (outcome == STATUS_OK && e->positive.count > 0) /* a little more */
+    if (outcome == STATUS_OK && e->positive.count > 0) /* plus a margin */
         m->inner = 1.001 * e->positive.mu[0] * 2 / m->least;
     return outcome;
 }
@@ -296,7 +296,7 @@ static status largest_inner(vibration *v, harmonic_modes *m, fault *f)
     return outcome;
 }
 
-/* Takes K^-1 f into V, as far as it is not there. */
+/* Adds K^-1 f to V, without its part that V contains already. */
 static void take_static(vibration *v, harmonic_modes *m, const double f[])
 {
     const size_t n = (size_t)m->n;
@@ -440,7 +440,7 @@ status harmonic_modes_project(vibration *v, int count, const double f[], fault *
     m->half = calloc(2 * kept * kept + 1, sizeof *m->half);
     enough &= m->D != NULL && m->entry != NULL && m->scale != NULL && m->pivot != NULL &&
               m->y != NULL && m->inverse != NULL && m->half != NULL;
-    if (m->complete) { /* nothing is bounded */
+    if (m->complete) { /* no bound is needed */
         free(X[0]);
         free(X[1]);
         X[0] = X[1] = NULL;
@@ -460,7 +460,7 @@ static double complex projected(const vibration *v, const harmonic_modes *m, dou
            moves * moves / (1 + I * w * damping->stiffness) * m->Bp[k];
 }
 
-/* Norm of what couples the modes to what is beyond them, Frobenius's; INFINITY: not known. */
+/* Frobenius norm of the coupling between the modes and the rest; INFINITY: not known. */
 static double coupled(vibration *v, harmonic_modes *m, double w)
 {
     const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;
@@ -476,7 +476,8 @@ static double coupled(vibration *v, harmonic_modes *m, double w)
     if (LAPACKE_zgetrf(LAPACK_ROW_MAJOR, kept, kept, m->inverse, kept, m->pivot) != 0 ||
         LAPACKE_zgetri(LAPACK_ROW_MAJOR, kept, m->inverse, kept, m->pivot) != 0)
         return INFINITY;
-    /* T^H T in the first half; it times the inverse, and its conjugate times that's, behind */
+    /* T^H T in the first half; behind it, its product with the inverse, and the conjugate of that
+     * product */
     double complex *G = m->half, *product = m->half + k2;
     for (int i = 0; i < kept; i++)
         for (int j = 0; j < kept; j++) {
@@ -499,7 +500,7 @@ static double coupled(vibration *v, harmonic_modes *m, double w)
     return sqrt(fmax(0, creal(sum)));
 }
 
-/* The part of D beyond the modes that nothing takes away. */
+/* The part of D beyond the modes that is certainly positive. */
 static double positive_part(vibration *v, harmonic_modes *m, double w)
 {
     const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;

@@ -66,7 +66,8 @@ static const verb_option own[] = {
     {"output", 'o', "FILE",
      "into that file of results in HDF5, next to the results of other experiments", IN(output),
      .traits = OPTION_OUTPUT},
-    {"dense", 0, NULL, "also time the published algorithm (newton=dense) on every mesh", IN(dense)},
+    {"dense", 0, NULL, "also times the published algorithm (newton=dense) on every mesh",
+     IN(dense)},
     {"against", 0, "OTHER",
      "compare in alternation with another formulation (without -n: at equal error), or with "
      "another program (a path with a '/': at equal n)",
@@ -76,7 +77,7 @@ static const verb_option own[] = {
      "and 0.01 % that both reach)",
      IN(error)},
     {"inject-slowdown", 0, "PERCENT",
-     "add that percentage to the time of the other, to see whether the comparison finds it",
+     "add this percentage to the time of the other one, to check that the comparison detects it",
      IN(slowdown), .least = 0, .most = 1000},
     {0}};
 static const verb_group shared[] = {

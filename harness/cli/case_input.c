@@ -275,14 +275,14 @@ void case_input_tell_analysis(const case_options *r, const scene *s)
         return;
     const scene_analysis *a = &s->analysis[0];
     if (a->kind == SCENE_LINEAR) {
-        fprintf(stderr, "beamwork: the scene states no analysis; this is a linear one, as "
+        fprintf(stderr, "beamwork: the scene has no analysis; a linear one is run, as for "
                         "analyses: {run: {linear: {}}}\n");
         return;
     }
     const scene_path *path = scene_path_of(a);
     fprintf(stderr,
-            "beamwork: the scene states no analysis; its motions are followed to their end, as "
-            "analyses: {run: {static: {stations: [%g]}}}\n",
+            "beamwork: the scene has no analysis; a static one runs to the end of its motions, as "
+            "for analyses: {run: {static: {stations: [%g]}}}\n",
             path->value[path->stations - 1]);
 }
 

@@ -180,11 +180,10 @@ static const verb_option own[] = {
      "itself, of a value relative to its reference value, of a count relative to itself",
      IN(threshold)},
     {"experiment", 0, "NAME",
-     "of a file that several have written into: verify, bench or sweep (default: the first of "
-     "these "
-     "that is there)",
+     "experiment in a file that contains several: verify, bench or sweep (default: the first of "
+     "these in the file)",
      IN(experiment)},
-    {"hash", 0, NULL, "one line for each run: a hash of its values, how many they are, its name",
+    {"hash", 0, NULL, "one line for each run: hash of its values, their number, name of the file",
      IN(hash)},
     {0}};
 static const verb_group shared[] = {SHARED(output, output), SHARED(select, select), {NULL, 0}};
@@ -192,15 +191,15 @@ const verb verb_compare = {
     "compare",
     "OLD [NEW]",
     "two stored runs: changes for better or worse",
-    "Compares errors and work counts of two runs stored by 'verify -o' (HDF5), cell by cell, or, "
-    "where one is the short table that is kept of a run, series by series, with the limits of the "
-    "default points; a former run is never a truth. Two runs of 'sweep -o' are compared point by "
-    "point, by the values of their parameters: errors, values, references (a line "
-    "'.../reference'), statuses and costs (threshold work=); points, formulations and meshes that "
-    "one of them has not are named. What one of them was not asked for (verify -k, -f, --scene) "
-    "and new formulations in one of them are counted, and no change. -o with OLD alone writes its "
-    "short table. --hash: SHA-256 of all that a run says but times, machines and versions, and of "
-    "how many values it is; two runs with the same hash say the same. Exit status: 0 the same "
+    "Compares errors and work counts of two runs stored by 'verify -o' (HDF5): run by run, or, if "
+    "one of them is a short table, by mesh series, with the limits at the default parameters. A "
+    "previous run is not a reference value. Two runs of 'sweep -o' are compared point by point, by "
+    "the values of their parameters: errors, values, references (a line '.../reference'), statuses "
+    "and costs (threshold work=); points, formulations and meshes that only one of them has are "
+    "named. What was not requested of one of them (verify -k, -f, --scene), and new formulations "
+    "in one of them, are counted, not reported as changes. -o with OLD alone writes its short "
+    "table. --hash prints SHA-256 of all values, without times, machines and versions, and the "
+    "number of values; two runs with equal hashes have equal results. Exit status: 0 the same "
     "within the thresholds, 1 something is worse, better, changed, gone or new, 2 trouble (file, "
     "usage, nothing in common).",
     "beamwork compare old.h5 new.h5\n"

@@ -89,11 +89,11 @@ const verb verb_converge = {
     "converge",
     "CASE",
     "one case on several meshes: errors, order, limit",
-    "Solves one case on several meshes and shows errors, observed order and limit: of several "
-    "formulations side by side, a table for each quantity; of one, or with -v of each, with values "
-    "and times. Without -f: all formulations that offer what the case needs; without -n: the "
-    "case's own meshes. The last line says which formulation reaches 1 % with how many elements, "
-    "or the error given by --error.",
+    "Solves one case on several meshes and prints errors, observed order and limit: for several "
+    "formulations one table for each quantity; for one formulation, or with -v for each, also "
+    "values and times. Without -f: all formulations that support the case; without -n: the meshes "
+    "of the case. The last line gives the formulations that reach 1 %, or the error given by "
+    "--error, with their numbers of elements.",
     "beamwork converge c_column -k buckling_load\n"
     "beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32",
     shared,

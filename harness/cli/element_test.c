@@ -75,7 +75,7 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(element_test_request, at)
 static const verb_option own[] = {
-    {"verbose", 'v', NULL, "every claim with its numbers", IN(verbose), .traits = OPTION_ASIDE},
+    {"verbose", 'v', NULL, "every check with its numbers", IN(verbose), .traits = OPTION_ASIDE},
     {"quiet", 'q', NULL, "only what is broken", IN(quiet), .traits = OPTION_ASIDE},
     {0}};
 static const verb_group shared[] = {SHARED(formulations, chosen),

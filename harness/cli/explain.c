@@ -352,15 +352,15 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(explain_request, at)
 static const verb_group shared[] = {SHARED(truths, truths), {NULL, 0}};
-const verb verb_explain = {
-    "explain",
-    "[WORD...]",
-    "what a word means: verdicts, theories, physics, known deviations",
-    "Explains a term: verdicts, reference values, convergence, analyses, physics, elements, times; "
-    "a case, a formulation, a quantity, a known deviation. Without a word: lists the words.",
-    "beamwork explain haringx\n"
-    "beamwork explain wrong limit",
-    shared,
-    NULL,
-    sizeof(explain_request),
-    .answer = answer};
+const verb verb_explain = {"explain",
+                           "[WORD...]",
+                           "what a word means: verdicts, theories, physics, known deviations",
+                           "Explains a term (verdicts, reference values, convergence, analyses, "
+                           "physics, elements, times), a case, a formulation, a quantity or a "
+                           "known deviation. Without a word it lists all terms.",
+                           "beamwork explain haringx\n"
+                           "beamwork explain wrong limit",
+                           shared,
+                           NULL,
+                           sizeof(explain_request),
+                           .answer = answer};

@@ -78,11 +78,11 @@ const verb verb_export = {
     "export",
     "[CASE]",
     "a structure as solids, as an input deck of another program",
-    "Writes a case, or a scene of your own (--scene FILE), as solids in the words of another "
-    "program: rectangles and straight walls at right angles as bricks with 20 nodes and reduced "
-    "integration, ends and bodies rigid; -n elements along each member (default 20), denser at "
-    "its ends. What a deck cannot say is refused. harness/exchange/read_back.py makes an import of "
-    "what the program prints.",
+    "Writes a case, or your own scene (--scene FILE), as solids in an input deck of another "
+    "program: rectangles and straight walls at right angles become bricks with 20 nodes and "
+    "reduced integration, ends and bodies are rigid; -n elements along each member (default 20), "
+    "denser at its ends. Everything that a deck cannot express is rejected. "
+    "harness/exchange/read_back.py converts the printed results to an import.",
     "beamwork export --scene cases/examples/leaf_spring_guide.yaml --to calculix -o guide.inp",
     shared,
     own,

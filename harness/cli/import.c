@@ -120,9 +120,9 @@ const verb verb_import = {
     "import",
     "FILE...",
     "results of other programs, for 'verify --imported'",
-    "Reads what other programs found of a case or scene: CSV with a declared header "
-    "(harness/exchange/import.md). Names, units and parameters are checked, values converted; -o "
-    "FILE is of the same schema as results of verify, whose --imported takes it as one more "
+    "Reads results of other programs for a case or scene: CSV with a header "
+    "(harness/exchange/import.md). Names, units and parameters are checked, and values converted. "
+    "-o FILE has the schema of results of verify, whose option --imported compares it as another "
     "program. --format json: the mistakes of each file, for editors.",
     "beamwork import theirs.csv -o theirs.h5",
     shared,

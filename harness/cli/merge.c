@@ -127,7 +127,7 @@ typedef struct merge_request {
 
 #define IN(at) .member = offsetof(merge_request, at)
 static const verb_option own[] = {
-    {"partial", 0, NULL, "continue without the batches that are missing", IN(on)},
+    {"partial", 0, NULL, "continue without missing batches", IN(on)},
     {"verbose", 'v', NULL, "verify: every limit, not only the overview", IN(on)},
     {"quiet", 'q', NULL, "print only unexpected verdicts, and the last sentence", IN(on)},
     {0}};
@@ -139,12 +139,12 @@ static const verb_group shared[] = {SHARED(output, output),
 const verb verb_merge = {
     "merge",
     "FOLDER...",
-    "what shards of verify or sweep computed, as one run",
-    "Puts together the batches that shards of verify or sweep wrote with "
-    "--into, and writes what the verb would have written in one run. The verb, its options and its "
-    "files are those of the shards. Exit status: that of the verb; 2 batches of another request, "
-    "build or input, or two that differ; 5 batches are missing, which are listed: nothing is "
-    "written, or with --partial what there is, in files named .partial",
+    "merges the batches of shards of verify or sweep to one run",
+    "Merges the batches that shards of verify or sweep wrote with --into, and writes the same "
+    "output as a single run. The verb, its options and its files are those of the shards. Exit "
+    "status: that of the verb; 2 batches belong to another request, build or input, or two of them "
+    "differ; 5 batches are missing and are listed: without --partial nothing is written, with it "
+    "the existing part, in files named .partial",
     "beamwork merge parts -o results.h5\n"
     "beamwork merge first/parts second/parts -o results.h5 --junit junit.xml",
     shared,

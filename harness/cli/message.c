@@ -75,8 +75,8 @@ static void asked(int number)
 static void crashed(int number)
 {
     if (getpid() == program) {
-        say("beamwork: crashed; an element that is at fault shows in 'beamwork element-test', and "
-            "libraries end so where memory is short\n");
+        say("beamwork: crashed; run 'beamwork element-test' to check an element; libraries also "
+            "crash when memory is short\n");
         output_abandon();
     }
     end_by(number);
@@ -88,7 +88,7 @@ static void ended(int code, void *unused)
     (void)unused;
     if (getpid() != program || (code >= EXIT_AS_EXPECTED && code <= EXIT_INTERRUPTED))
         return;
-    say("beamwork: a library or an element ended the program; libraries do so where memory is "
+    say("beamwork: a library or an element ended the program; libraries do this when memory is "
         "short\n");
     output_abandon();
     _exit(EXIT_FAULT);
@@ -136,9 +136,9 @@ static struct {
     int signal;
     const char *what;
     char line[200];
-} mishap[] = {{SIGSEGV, "reaches for memory that is not its own", ""},
-              {SIGBUS, "reaches for memory that is not there", ""},
-              {SIGFPE, "divides whole numbers by zero", ""},
+} mishap[] = {{SIGSEGV, "accesses memory that it does not own", ""},
+              {SIGBUS, "accesses memory that does not exist", ""},
+              {SIGFPE, "divides an integer by zero", ""},
               {SIGILL, "executes an invalid instruction", ""},
               {SIGABRT, "aborts", ""},
               {SIGALRM, "did not finish within the time limit (--time-limit)", ""}};

@@ -96,8 +96,8 @@ static const verb_option own[] = {
      "and 1/4 of that of the motion)",
      IN(step_lengths)},
     {"tolerance", 0, "R[,R...]|R..R",
-     "error per step that controls the step size, of integrators that estimate it; a range goes by "
-     "hundredths",
+     "error per step that controls the step size, for integrators that estimate it; a range is "
+     "divided by 100 repeatedly",
      IN(tolerances)},
     {"conservation-only", 0, NULL,
      "only energy and momenta: no reference solution is computed, and no step is halved",
@@ -113,13 +113,11 @@ static const verb_group shared[] = {
 const verb verb_motion = {
     "motion",
     "[CASE]",
-    "integrators side by side: error of time, energy, momenta, cost",
-    "Integrates a motion in time by several integrators with several steps or tolerances, and "
-    "shows for each the error of time (against radau at 1e-10 on the same mesh), its order, the "
-    "change of "
-    "energy and momenta, and what it costs. With --conservation-only long motions of "
-    "large "
-    "steps: does the energy grow, does a step fail? With --expected the verdicts of a table. Exit "
+    "comparison of integrators: time error, energy, momenta, cost",
+    "Runs a transient analysis with several integrators and several steps or tolerances. Prints "
+    "for each the time error (against radau at 1e-10 on the same mesh), its order, the change of "
+    "energy and momenta, and the cost. With --conservation-only: long motions with large steps, to "
+    "see whether the energy grows or a step fails. With --expected: the verdicts of a table. Exit "
     "status: 0 as expected, 1 a verdict differs or no motion reaches its end, 2 refused, 3 nothing "
     "was run, 4 file, disk or memory.",
     "beamwork motion free_flight_space -f collocation -n 8 --integrator alpha,radau "

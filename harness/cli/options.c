@@ -308,9 +308,8 @@ static const verb_option record[] = {{"format", 0, "text|json", "form of the out
                                      {0}};
 static const verb_option selection[] = {
     {"select", 'k', "EXPRESSION",
-     "words joined by and, or, not, grouped by brackets; searched for in "
-     "case/parameters/formulation/quantity, also as parts of names; =NAME: the whole "
-     "name",
+     "words joined by and, or, not and brackets; each is searched in "
+     "case/parameters/formulation/quantity, also inside names; =NAME: the whole name",
      .traits = 0},
     {0}};
 static const verb_option jobs[] = {{"jobs", 'j', "N", "processes (default: one for each processor)",

@@ -64,11 +64,11 @@ static const verb_group shared[] = {
 const verb verb_scene = {
     "scene",
     "[CASE]",
-    "a case, or a structure of your own, written out as a scene file",
-    "Writes a case at a parameter point as a scene file, or one of your own (--scene FILE) again: "
-    "names kept where scenes have them, loops and expressions written out, numbers with all their "
-    "digits. Reading it gives the same scene, bit for bit. --keys: keys of scene files; "
-    "--schema: the same as JSON Schema, for editors.",
+    "writes a case, or your own structure, as a scene file",
+    "Writes a case at a parameter point as a scene file, or rewrites your own (--scene FILE): "
+    "names are kept, loops and expressions are expanded, numbers have all their digits. Reading it "
+    "gives the same scene, bit for bit. --keys: keys of scene files; --schema: the same as JSON "
+    "Schema, for editors.",
     "beamwork scene c_column -o column.yaml\n"
     "beamwork scene --keys",
     shared,

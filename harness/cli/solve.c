@@ -226,7 +226,7 @@ static status write_ends(const solve_request *r, const solution_request *what, c
         return STATUS_OK;
     if (s->series[0].cell[0].solve.ends > 0)
         return restart_write(r->ends, what, s, f);
-    fprintf(stderr, "beamwork: no motion came to its end: --save-state %s is not written\n",
+    fprintf(stderr, "beamwork: no motion reached its end: --save-state %s is not written\n",
             r->ends);
     return STATUS_OK;
 }

@@ -52,10 +52,10 @@ static const verb_group shared[] = {SHARED(formulations, chosen), SHARED(select,
 const verb verb_stress = {
     "stress",
     "",
-    "every formulation at extremes: a value, or a reported failure",
-    "Drives every formulation to the extremes where numbers become unstable, and judges every "
-    "answer: a value, coarse, a reported failure, or wrong. Exit status: 0 all as expected, 1 one "
-    "differs, 2 refused, 3 nothing was run, 4 file, disk or memory.",
+    "every formulation at extremes: an accurate value, or a reported failure",
+    "Runs every formulation at extremes where numerical errors become critical, and classifies "
+    "every result: accurate, under-resolved, a reported failure, or wrong. Exit status: 0 all as "
+    "expected, 1 one differs, 2 refused, 3 nothing was run, 4 file, disk or memory.",
     "beamwork stress -k \"thin_sheet and collocation\"",
     shared,
     NULL,

@@ -284,8 +284,8 @@ static const verb_option own[] = {
      .most = 1000000000},
     {"seed", 0, "S", "of --design random (default 1)", IN(seed), .least = 0, .most = INT_MAX},
     {"compute-references", 0, NULL,
-     "compute a reference value where none is stored: about half a second for each point (a "
-     "scene: 4 s)",
+     "compute a reference value where none is stored: about half a second for each point (for a "
+     "scene 4 s)",
      IN(derive)},
     {"error", 0, "R", "requested error (default 1%)", IN(error), .read = option_error},
     {"verbose", 'v', NULL, "also the least elements for each quantity", IN(verbose),
@@ -306,23 +306,20 @@ static const verb_group shared[] = {SHARED(case, of),
 const verb verb_sweep = {
     "sweep",
     "CASE",
-    "one case over ranges of its parameters: where is an error kept?",
+    "one case over ranges of its parameters: where is the error target met?",
     "Solves a case, or a structure of your own (--scene FILE), at many points of its parameters "
     "and shows where formulations are within an error (--error, default 1 %): the share of points "
     "with each mesh, the least number of elements over the parameters, the worst points. --vary "
     "NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these values, or "
     "words of a choice. Several make a grid, the last one changing first. --design sobol, halton "
-    "or random --points N: so many points in the box of --vary NAME=A..B (or A..B:log). Errors are "
-    "against a reference value stored for the very point, with --compute-references against one "
-    "that is "
-    "solved for "
-    "there, else against the limit that the meshes of all formulations of the same physics go to; "
-    "points where that is not known to half of the error are reported. A point that has no scene, "
-    "a "
-    "cell that fails, is a result. -o FILE: all values in a file of results, and the worst points "
-    "as scenes in "
-    "FILE.worst; batches that are done are kept in FILE.batches until all are: the same command "
-    "continues there. Exit status: 0 done, 2 refused, 4 file, disk or memory, 5 incomplete.",
+    "or random --points N: N points in the box of --vary NAME=A..B (or A..B:log). Errors refer to "
+    "a reference value stored for the point, with --compute-references to one computed there, "
+    "otherwise to the limit of the meshes of all formulations with the same physics; points whose "
+    "limit has an uncertainty above half of the error are reported. A point without a scene and a "
+    "failed run are reported as results. -o FILE: all values in a results file, and the worst "
+    "points as scenes in FILE.worst. Finished batches are stored in FILE.batches until all are "
+    "complete: the same command resumes from them. Exit status: 0 done, 2 refused, 4 file, disk or "
+    "memory, 5 incomplete.",
     "beamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
     "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --compute-references -o "
     "column.h5\n"
@@ -462,10 +459,9 @@ static const verb_option shards[] = {
     {"into", 0, "FOLDER", "folder of the batches of --shard (without it: of all); it is created",
      .member = offsetof(shard_options, into), .traits = OPTION_ASIDE},
     {"from", 0, "FOLDER",
-     "take the batches that are there instead of computing, as 'beamwork merge' does; may be "
-     "repeated",
+     "use existing batches instead of computing, as 'beamwork merge' does; may be repeated",
      .member = offsetof(shard_options, from), .traits = OPTION_REPEATS | OPTION_ASIDE},
-    {"partial", 0, NULL, "continue without the batches that are missing",
+    {"partial", 0, NULL, "continue without missing batches",
      .member = offsetof(shard_options, partial), .traits = OPTION_ASIDE},
     {0}};
 const option_group options_shards = {shards, begin, NULL, NULL};

@@ -199,13 +199,11 @@ const verb verb_truth = {
     "truth",
     "CASE",
     "reference values of a case at a parameter point; computed on demand",
-    "Shows the reference values of a parameter point: value, uncertainty, unit, kind, model, "
-    "source. Where "
-    "the tables have none of the case's own model, the deriving program is run to solve for them. "
-    "A scene of your own (--scene FILE) is solved as a network of geometrically exact beams and "
-    "rigid bodies, beside what the file has: lines to be pasted into its truths. Exit status: 0 "
-    "shown, 1 none is stored and no program derives this case or these parameters, or a scene of "
-    "your own, 2 refused, 4 file, disk or memory.",
+    "Prints the reference values of a parameter point: value, uncertainty, unit, kind, model, "
+    "source. If none is stored for the model of the case, the deriving program computes them. Your "
+    "own scene (--scene FILE) is solved as a network of geometrically exact beams and rigid "
+    "bodies; the output lines can be added to its 'truths'. Exit status: 0 printed, 1 none is "
+    "stored and no program can compute it, 2 invalid input, 4 file, disk or memory.",
     "beamwork truth elastica --set load=3",
     shared,
     NULL,

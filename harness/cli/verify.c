@@ -275,17 +275,17 @@ static const verb_option own[] = {
      "change",
      IN(refine), .least = 1, .most = 10},
     {"tolerance", 0, "R",
-     "limits within R (1% or 0.01) of the reference value pass: in place of the tolerances of the "
-     "cases, for any order of convergence",
+     "limits within R (1% or 0.01) of the reference value pass, for any order of convergence; "
+     "replaces the tolerances of the cases",
      IN(tolerance), .traits = OPTION_VERDICT, .read = option_error},
     {"not-worse-than", 0, "FILE",
-     "results of a former 'verify -o', or the short table of them that 'compare FILE -o' writes: "
-     "fail where the error of any mesh is larger than there by more than 2 %, it has lost its "
-     "value, a limit has moved by more than 0.001 % that no exact value judges as closely, or a "
-     "program that --imported gave there is not in this run",
+     "results of a previous 'verify -o', or their short table from 'compare FILE -o'. The run "
+     "fails if the error of a mesh is larger by more than 2 %, if a value is missing, if a limit "
+     "changed by more than 0.001 % (unless an exact value checks it as closely), or if an imported "
+     "program is not in this run",
      IN(former), .traits = OPTION_INPUT | OPTION_VERDICT},
-    {"exit-zero", 0, NULL, "exit status 0 for any verdicts; files have the outcome", IN(exit_zero),
-     .traits = OPTION_ASIDE},
+    {"exit-zero", 0, NULL, "exit status 0 for any verdicts; the output files contain the result",
+     IN(exit_zero), .traits = OPTION_ASIDE},
     {"verbose", 'v', NULL, "print every limit, not only the overview", IN(verbose),
      .traits = OPTION_ASIDE},
     {"quiet", 'q', NULL, "print only unexpected verdicts, and the last sentence", IN(shards.quiet),

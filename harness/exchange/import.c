@@ -224,7 +224,7 @@ static int convert(const import_block *b, const scene_quantity *q, imported_row 
     fault f = {""};
     const scene_quantity *ours = axes_quantity(&b->axes, scene_of(b), q, &sign);
     if (ours == NULL) {
-        mistakes_add(b->m, line_of(b, row), 1, "'%s' in these axes is no quantity of the case",
+        mistakes_add(b->m, line_of(b, row), 1, "the case has no quantity '%s' in these axes",
                      q->name);
         return 0;
     }

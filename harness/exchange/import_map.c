@@ -45,8 +45,8 @@ static int column_named(const map_reader *r, const document_node *at, const char
     if (line_number(n != NULL && n->kind == DOCUMENT_TEXT ? n->text : name, &value) && value >= 1 &&
         value <= WORDS && value == floor(value))
         return (int)value - 1;
-    document_mistake(r->m, at, 0, "'%.40s' is no column; give its number, or a name of 'columns'",
-                     name);
+    document_mistake(r->m, at, 0,
+                     "'%.40s' is not a column; give its number, or a name of 'columns'", name);
     return -1;
 }
 

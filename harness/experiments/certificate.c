@@ -398,6 +398,8 @@ void certificate_text(FILE *to, screen look, const certificate *all, int count, 
         numbers += certificate_compared(&all[i]);
     }
     if (count > 1)
-        fprintf(to, "%s%d of %d formulations keep the contract (%d numbers compared)\n",
-                quiet ? "" : "\n", count - broken, count, numbers);
+        fprintf(
+            to,
+            "%s%d of %d formulations satisfy the interface requirements (%d numbers compared)\n",
+            quiet ? "" : "\n", count - broken, count, numbers);
 }

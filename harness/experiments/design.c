@@ -317,8 +317,8 @@ static status read_range(const case_type *type, const char *text, const char *do
                          a->of->name, a->of->choices);
     if (colon != NULL && strcmp(colon, ":log") != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "--vary %s: '%.40s' is no kind of steps; write %s=A..B/N for equal steps, "
-                         "%s=A..B/N:log for equal ratios",
+                         "--vary %s: '%.40s' is not a kind of steps; write %s=A..B/N for equal "
+                         "steps, %s=A..B/N:log for equal ratios",
                          a->of->name, colon, a->of->name, a->of->name);
     a->kind = colon != NULL ? AXIS_LOG : AXIS_LINEAR;
     TRY(read_end(a, text, (size_t)(dots - text), &a->from, f));

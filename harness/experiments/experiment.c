@@ -280,7 +280,7 @@ static const schema_field fields_of_measure[] = {
      "the error of a linear state is that of one element with every "
      "mesh",
      AT(element_measure, astray)},
-    {"words", "", FIELD_TEXT, "why there is nothing, or what it comes to",
+    {"words", "", FIELD_TEXT, "reason for a missing value, or a description of it",
      AT(element_measure, words)},
     {0}};
 static const record_type record_measure = {

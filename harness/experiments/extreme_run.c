@@ -289,7 +289,8 @@ static const schema_field fields_of_outcome[] = {
      AT(extreme_outcome, neighbour_error[1])},
     {"condition", "1", FIELD_DOUBLE, "estimate of the tangent's", .get = get_condition},
     {"iterations", "1", FIELD_LONG, "of Newton", OF(CELL, cell_result, counters.iterations)},
-    {"reason", "", FIELD_TEXT, "why there is no value", TEXT_OF(RECORD, extreme_outcome, reason)},
+    {"reason", "", FIELD_TEXT, "reason for a missing value",
+     TEXT_OF(RECORD, extreme_outcome, reason)},
     {"proof", "", FIELD_TEXT, "of the finding that expects it", .get = get_proof},
     {0}};
 const record_type record_outcome = {

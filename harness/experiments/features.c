@@ -95,7 +95,7 @@ static void features_of_cases(const formulation *chosen, claims *c)
     }
     if (registry_cases[0] != NULL)
         claims_asks(claims_open(c, "cases", 0), runs > 0,
-                    "offers, limits: none of the built-in cases can be run with what it offers");
+                    "features, limits: the formulation supports none of the built-in cases");
 }
 
 /* Other subsets may be refused by name, where one feature presupposes another: at most half. */

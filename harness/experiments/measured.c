@@ -320,8 +320,8 @@ static void hold_against_declared(const orders_question *q, int last, const elem
     else if (last > 0)
         claims_departs(
             claimed, one->least - one->order,
-            "order: at least %d is declared in %s, and %s shows %.1f: errors of %.2g and "
-            "%.2g with %g and %g elements; declare what there is, or correct it",
+            "order: at least %d is declared in %s, but %s shows %.1f: errors of %.2g and %.2g with "
+            "%g and %g elements; declare the measured order, or correct the element",
             one->least, analysis[q->declared], q->name, one->order, fabs(one->error[last - 1]),
             fabs(one->error[last]), one->at[last - 1], one->at[last]);
 }

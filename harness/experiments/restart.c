@@ -69,7 +69,7 @@ status restart_begin(const restart *r, solution_request *of, scene *s, fault *f)
         const int k = r->end[i].analysis;
         if (k < 0 || k >= s->analyses || s->analysis[k].kind != SCENE_MOTION)
             return fault_set(f, STATUS_REFUSED,
-                             "--restart: %s is no motion of the scene; keep its end anew",
+                             "--restart: %s is not a motion of the scene; store its end again",
                              scene_called(s, SCENE_ANALYSES, k).text);
         TRY(drop_stations(&r->end[i], s, f));
     }

@@ -47,9 +47,10 @@ static status hold_against(stock *s, const batch_label *label, const char *path,
     batch_label_free(&first);
     s->twice++;
     return same ? STATUS_OK
-                : fault_set(f, STATUS_REFUSED,
-                            "%.130s and %.130s are one batch with different answers; take one away",
-                            other, path);
+                : fault_set(
+                      f, STATUS_REFUSED,
+                      "%.130s and %.130s are the same batch with different results; remove one",
+                      other, path);
 }
 
 static status add(stock *s, const batch_label *label, const char *path, int folder, fault *f)

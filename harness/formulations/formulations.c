@@ -76,8 +76,8 @@ status formulations_add(const element_type *t, const char *from, fault *f)
                          "give it another name",
                          t->name);
     if (formulations_named(t->name, strlen(t->name)) != NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "formulation %s is there already; give it a name of its own", t->name);
+        return fault_set(f, STATUS_REFUSED, "formulation %s already exists; use another name",
+                         t->name);
     while (formulations_loaded[count] != NULL)
         count++;
     if (count == FORMULATIONS_MOST_LOADED)

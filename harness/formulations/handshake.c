@@ -89,7 +89,7 @@ static status no_such_word(const handshake_reading *r, const char *key, const wo
                                known->word);
     return fault_set(r->f, STATUS_REFUSED,
                      "%.60s: '%s' of its first line has no word '%.40s'; give %s", r->who, key,
-                     word != NULL ? word : "that is no text", words);
+                     word != NULL ? word : "that is not text", words);
 }
 
 /* Combined bits of a list of words; known NULL: the words of feature.h. */
@@ -248,7 +248,7 @@ status handshake_read(const char *who, const char *line, size_t length, handshak
     if (!json_is_object(r.said)) {
         json_decref(r.said);
         return fault_set(f, STATUS_REFUSED,
-                         "%.100s: began with '%.60s', which is no line of JSON as "
+                         "%.100s: began with '%.60s', which is not a line of JSON as "
                          "harness/formulations/protocol.md says; print to standard error",
                          who, line);
     }

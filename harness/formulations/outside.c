@@ -23,7 +23,8 @@ static status check(const char *path, const element_type *t, fault *f)
 {
     const char *why = NULL;
     if (!is_name(t->name) || strlen(t->name) > 60)
-        why = "its .name is no word of small letters, digits and _; give one of at most 60";
+        why = "its .name is not a word of small letters, digits and _; use one of at most 60 "
+              "characters";
     else if (t->summary == NULL || t->source == NULL || t->family == NULL)
         why = "give it .summary, .source and .family";
     else if (t->prepare == NULL || t->data_size == NULL)

@@ -345,10 +345,10 @@ status output_folder_open(const char *path, output_folder *out, fault *f)
     TRY(find(path, out, f));
     if (out->to.kind == PLACE_FILE || out->to.kind == PLACE_STREAM)
         return fault_set(f, STATUS_REFUSED,
-                         "%.200s is there already and is no folder; give another name", path);
+                         "%.200s already exists and is not a folder; give another name", path);
     if (out->to.kind == PLACE_FOLDER && !is_empty(out->to.path))
         return fault_set(f, STATUS_REFUSED,
-                         "%.200s is there already and not empty; give another name", path);
+                         "%.200s already exists and is not empty; give another name", path);
     return create(out, f);
 }
 

@@ -120,7 +120,7 @@ static void check_verdicts(findings_reader *r)
             found |= k != VERDICT_PASS && k != VERDICT_SKIP && k != VERDICT_NO_TRUTH &&
                      k != VERDICT_OTHER_MODEL && strcmp(verdict_name((verdict_kind)k), word) == 0;
         if (!found)
-            WRONG(r, VERDICTS, "'%.60s' is no verdict that a finding explains%s", word,
+            WRONG(r, VERDICTS, "'%.60s' is not a verdict that a known deviation explains%s", word,
                   mistakes_remedy(choice_nearest(word, verdict_at, NULL), "", near));
         if (at[length] == '\0')
             return;
@@ -153,7 +153,7 @@ static void check_name(findings_reader *r)
         WRONG(r, RULE, "the name of a rule is one word");
     for (int i = 0; i < r->t->rules; i++)
         if (strcmp(r->t->rule[i].name, name) == 0)
-            WRONG(r, RULE, "a rule '%.60s' is there already (%.100s); give this one another name",
+            WRONG(r, RULE, "a rule '%.60s' already exists (%.100s); use another name for this one",
                   name,
                   r->t->rule[i].from != NULL ? r->t->rule[i].from : "the list of known deviations");
 }

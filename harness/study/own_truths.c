@@ -48,7 +48,7 @@ static void take_number(truths_reader *r, int column, double *out)
 {
     const char *text = r->row->field[column];
     if (!line_number(text, out))
-        WRONG(r, column, "%s '%.40s' is no finite number", names[column], text);
+        WRONG(r, column, "%s '%.40s' is not a finite number", names[column], text);
 }
 
 static void take_elements(truths_reader *r, int *out)
@@ -165,13 +165,12 @@ static void check_row(truths_reader *r, const truth *row)
                   "a value of one mesh has formulation and elements, a predicted limit a "
                   "formulation, another truth neither");
         else if (same(names[i], wrong))
-            WRONG(r, i, "%s '%.40s' is not known; 'beamwork explain truth' says what there is",
-                  wrong, r->row->field[i]);
+            WRONG(r, i, "%s '%.40s' is not known; 'beamwork explain truth' lists them", wrong,
+                  r->row->field[i]);
     const truth *other = r->good ? known(r->t, row) : NULL;
     if (other != NULL)
         WRONG(r, QUANTITY,
-              "a reference value of this kind is there already: %.10g (%.100s); only one is "
-              "compared with",
+              "a reference value of this kind already exists: %.10g (%.100s); only one is compared",
               other->value, other->source);
 }
 

@@ -286,7 +286,7 @@ int worker_bury(workload *w, int self, worker *dead)
     solve_result *r = &workload_cell(w, i)->solve;
     const int late = child_ended(how, dead->stopped, w->time_limit, r->reason, sizeof r->reason);
     if (dead->damaged)
-        snprintf(r->reason, sizeof r->reason, "its process wrote what is no result");
+        snprintf(r->reason, sizeof r->reason, "its process wrote an invalid result");
     r->status = late ? STATUS_TIME_LIMIT : STATUS_FAULT;
     workload_done(w, i);
     return 1;

@@ -246,8 +246,8 @@ quantities:
                          self.answered("scene", "--scene", self.scene(each, "one.yaml")).stdout)
         self.same_again(self.scene(one, "again.yaml"), "-f", "collocation", "-n", 1)
         bare = one.replace(", density: 7800", "").replace("mass: 0.01, centre: [0.02, 0, 0]", "hold: []")
-        for text, words in ((one + "  twice: {gravity: [0, 0, 1], on: tip}\n", "in 'weight' already"),
-                            (one + "  twice: {gravity: [0, 0, 1], on: leaf}\n", "in 'weight' already"),
+        for text, words in ((one + "  twice: {gravity: [0, 0, 1], on: tip}\n", "already contains its weight"),
+                            (one + "  twice: {gravity: [0, 0, 1], on: leaf}\n", "already contains its weight"),
                             (one.replace("on: all", "on: all, follower: true"), "remove 'at', 'axes' and 'follower'"),
                             (one.replace("gravity:", "force:"), "no node 'all'"),
                             (bare, "the scene has no mass")):
@@ -257,7 +257,7 @@ quantities:
         """Said where the scene states none."""
         where = ("-f", "collocation", "-n", 1)
         done = self.answered("solve", "--scene", self.scene(LEAF), *where)
-        self.assertIn("states no analysis; this is a linear one", done.stderr)
+        self.assertIn("has no analysis; a linear one is run", done.stderr)
         driven = LEAF.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 0.5], value: [0, 1e-3]}\nloads:")
         done = self.answered("solve", "--scene", self.scene(driven), *where)

@@ -210,7 +210,7 @@ static void check_refused(void)
                {"a: 1\n<<: {b: 1}\n", 2, 1, "merge key"},
                {"a: 1\n---\nb: 1\n", 2, 1, "second YAML document"},
                {"%YAML 1.1\n---\na: 1\n", 1, 1, "directive"},
-               {"a: 1\nb: 2\na: 3\n", 3, 1, "already, in line 1"},
+               {"a: 1\nb: 2\na: 3\n", 3, 1, "also in line 1"},
                {"{a: 1}: 2\n", 1, 1, "a key must be a name"},
                {"a:\n\tb: 1\n", 2, 1, "a tab"},
                {"a: [1, 2\nb: 3\n", 2, 2, "'['"},

@@ -376,7 +376,7 @@ class UnitsTest(SceneCase):
 
     def test_refusals(self):
         leaf = filled(LEAF, **MILLIMETRES)
-        for units, words in (("mm, N, Pa", "Pa are not N/mm^2"), ("mm", "of length and of force"),
+        for units, words in (("mm, N, Pa", "Pa is not N/mm^2"), ("mm", "of length and of force"),
                              ("mm, N, MPa, kg", "'kg'"), ("furlong, N", "'furlong'"), ("[[mm], N]", "'?'"), ("mm, m, N", "'m'")):
             text = leaf.replace("beamwork: 1", f"beamwork: 1\nunits: {units}")
             self.refused(2, words, "solve", "--scene", self.scene(text))

@@ -399,10 +399,10 @@ class CurvesTest(SceneCase):
 
     def test_refusals(self):
         for before, behind, words in (
-                ("x: {quantity: place}}\n  k_z", "x: {quantity: k_end}}\n  k_z", "no other quantity with take: curve"),
+                ("x: {quantity: place}}\n  k_z", "x: {quantity: k_end}}\n  k_z", "not another quantity with take: curve"),
                 ("x: {quantity: place}}\n  k_z", "x: {quantity: plane}}\n  k_z", "did you mean 'place'"),
-                ("x: {quantity: place}}\n  k_z", "x: {quantity: place, factor: 2}}\n  k_z", "takes the factor of"),
-                ("x: {quantity: place}}\n  k_z", "x: {quantity: force}}\n  k_z", "no other quantity"),
+                ("x: {quantity: place}}\n  k_z", "x: {quantity: place, factor: 2}}\n  k_z", "uses the factor of"),
+                ("x: {quantity: place}}\n  k_z", "x: {quantity: force}}\n  k_z", "not another quantity"),
                 ("x: {quantity: place}}\n  k_z", "x: {quantity: away}}\n  k_z", "of another path")):
             self.assertIn(before, FEW)
             text = FEW.replace(before, behind).replace("quantities:", """  second: {static: {stations: 1..2/20}}

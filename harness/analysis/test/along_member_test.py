@@ -235,7 +235,7 @@ class DividedMember(ProgramTest):
                         "side: from, resultant: Qy}}\n", encoding="utf-8")
         done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("say which, with 'where', or remove it", done.stderr)
+        self.assertIn("add 'where', or remove it", done.stderr)
 
 
 # What only the mesh makes is no answer: a stiffness that is indefinite at rest, a critical load

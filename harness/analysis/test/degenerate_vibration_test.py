@@ -88,7 +88,7 @@ class Degenerate(ProgramTest):
 
     def test_nothing_has_mass(self):
         for nodes in (HELD, FREE):
-            self.refused(2, "v: the structure has no mass; give a section a density or a mass, or a node a body",
+            self.refused(2, "v: the structure has no mass; add a density or a mass to a section, or a mass to a node",
                          "solve", "--scene", self.scene(f"{nodes}, {tip()}", bar("light")))
 
     def test_nothing_resists(self):

@@ -1,4 +1,4 @@
-"""`element-test`: what it prints and writes of formulations that keep the contract or do not."""
+"""`element-test`: what it prints and writes of formulations that satisfy the interface requirements or do not."""
 import json
 
 from harness.cli.test.element_test_test import EXAMPLES, FAULTS, Tested
@@ -33,7 +33,7 @@ class Certificates(Tested):
     def test_with_options(self):
         out = self.answered("element-test", "collocation:stages=3", "geometrically_exact:nodes=2",
                             "--quiet").stdout
-        self.assertIn("2 of 2 formulations keep the contract", out)
+        self.assertIn("2 of 2 formulations satisfy the interface requirements", out)
 
     def test_width(self):
         out = self.answered("element-test", "all", "-v", env=environment(LC_ALL="C")).stdout

@@ -117,7 +117,7 @@ class Refused(Loaded):
 
     def test_name_that_is_there(self):
         self.refuse(self.example(('.name = "timoshenko"', '.name = "collocation"')),
-                    "collocation is there already")
+                    "collocation already exists")
 
     def test_sizes_that_cannot_be(self):
         made = self.example(("return STRAINS;", "return 1000;"))
@@ -152,7 +152,7 @@ class Hostile(Loaded):
     def test_crash(self):
         made = self.example(("    if (out->e == NULL)",
                              "    *(volatile int *)0 = 1;\n    if (out->e == NULL)"))
-        self.one_line(made, "timoshenko", "memory that is not its own")
+        self.one_line(made, "timoshenko", "memory that it does not own")
         self.cell(made, "crashed")
 
     def test_endless_recursion(self):

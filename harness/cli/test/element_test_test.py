@@ -113,7 +113,7 @@ FAULTS = {
         "order: its errors do not fall: 0.0099, 0.0099, 0.0099", "the limit is wrong"),
     "order": (
         ("    .leaves = LEAVES_J,", "    .leaves = LEAVES_J,\n    .order = fourth,"),
-        "order: at least 4 is declared in buckling", "shows 2.0", "declare what there is"),
+        "order: at least 4 is declared in buckling", "shows 2.0", "declare the measured order"),
     "status": (
         ("    return STATUS_OK;\n}\n\nstatic int strains",
          "    return energy > 1 ? STATUS_SINGULAR : STATUS_OK;\n}\n\nstatic int strains"),

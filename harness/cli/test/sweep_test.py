@@ -297,7 +297,7 @@ class Going(ProgramTest):
         (self.folder / "e.worst" / "mine.txt").write_text("mine", encoding="utf-8")
         done = self.answered("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1",
                              "-o", self.folder / "e.h5", code=2)
-        self.assertIn("e.worst is there already and not empty", done.stderr)
+        self.assertIn("e.worst already exists and is not empty", done.stderr)
         self.assertEqual([p.name for p in self.folder.iterdir()], ["e.worst"])
 
     def test_one_run_for_each_output(self):

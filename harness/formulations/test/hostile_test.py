@@ -44,7 +44,7 @@ class Refused(Speaker):
                            ("said['options'] = [dict(name='k', default=3, min=0, max=1)]", "'k'"),
                            ("said['options'] = [dict(name='k', choices=['a'], default='b')]",
                             "'k'"),
-                           ("said['name'] = 'collocation'", "is there already")):
+                           ("said['name'] = 'collocation'", "already exists")):
             self.refuse(self.speaker(first=line), word)
 
     def test_ends_before_it_speaks(self):

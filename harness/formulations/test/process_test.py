@@ -400,7 +400,7 @@ class Mistakes(OctaveTest):
 
     def test_printed_before(self):
         """Before beamwork_element is called nothing can hold it back: it is named."""
-        self.told(2, ["began with 'x = 3', which is no line of JSON"], ("1;", "x = 3"))
+        self.told(2, ["began with 'x = 3', which is not a line of JSON"], ("1;", "x = 3"))
 
     def test_ends(self):
         self.told(1, [f"formulation {NAME}: its process ended with status 3"],

@@ -233,7 +233,7 @@ class Truths(Own):
                 (("2:11", "kind"), good.replace("independent", "guess")),
                 (("2:12", "model"), good.replace("same", "mine")),
                 (("2:14", "source"), good.replace("my program", "")),
-                (("2:6", "there already"), good.replace("load=0.6", "").replace(
+                (("2:6", "already exists"), good.replace("load=0.6", "").replace(
                     "independent", "exact"))):
             with self.subTest(line=line):
                 self.refused(2, ("t.csv:", *words), "verify", "--truths",
