@@ -18,7 +18,7 @@ static const parameter_type parameters[] = {
     {"rotary_inertia", "1", 1, 0, 1, NULL,
      "1: rotary and warping inertia, 0: translations and twist only"},
     {"stations", "1", 15, 1, MOST_STATIONS, NULL,
-     "states from rest to the deflection, at equal distances"},
+     "number of equidistant states from zero to the full deflection"},
     {0},
 };
 

@@ -114,7 +114,7 @@ def arguments(value):
 
 
 def write_terms(site):
-    """Verdicts and terms: what `explain` says of each."""
+    """Verdicts and terms: the output of `explain` for each."""
     groups = re.findall(r"^(\w[^\n]*)\n((?:  [^\n]*\n)+)", site.ask("explain").partition("\n")[2], re.M)
     parts = ["# Verdicts and terms\n\nThe same as `beamwork explain TERM`."]
     for group, terms in groups:
@@ -153,10 +153,10 @@ def problem(site, case):
              f"```{{image}} {case}_structure.svg\n:alt: the structure, its supports and loads\n```",
              "## Structure\n\n" + "\n".join(f"* {heading}: {'; '.join(lines)}" for heading, lines in describe.describe(structure)),
              "## Parameters", table(
-        ["name", "default", "unit", "what it is"],
+        ["name", "default", "unit", "meaning"],
         [[p["name"], numbers(p["default"]), p["unit"], p["summary"]] for p in told["parameters"]])]
     parts += ["## Quantities", table(
-        ["name", "unit", "what it is"],
+        ["name", "unit", "meaning"],
         [[q["name"], q["unit"], q["meaning"] + (", a curve" if q["is_curve"] else "")] for q in told["quantities"]])]
     return parts
 

@@ -8,7 +8,7 @@ from reports import data
 
 NAVIGATION = [("glossary.html", "glossary")]
 PAGE = "glossary.html"
-# Groups in the order of a reader's questions; what is not named here comes behind.
+# Groups in the order of a reader's questions; other groups follow.
 GROUPS = ("verdicts", "convergence", "truths", "time and work", "outcomes of a solution",
           "stability", "physics", "elements", "solution", "analyses", "structure",
           "extremes", "program")

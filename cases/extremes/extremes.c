@@ -186,7 +186,7 @@ const extreme extremes[] = {
      {{"stiffening", 0, 1, 1}},
      {{"tip_x", 0}, {"tip_y", 0}}, "EA, GA/those of rubber", "1", EXTREME_PARAMETERS,
      8, 2, {1, 1e6}, EXTREME_EXACT, 0, 5e-3},
-    {"stiff_release", "EA in motion", "axial to bending stiffness of a cantilever that is let go",
+    {"stiff_release", "EA in motion", "axial to bending stiffness of a released cantilever",
      "release", "",
      {{"axial", 0, 1e6, 1}},
      {{"tip", 0}}, "EA L^2/EI/1e6", "1", EXTREME_PARAMETERS,

@@ -81,8 +81,7 @@ static void read_sections(const fields *f, scene_member *m)
         return;
     }
     if (n->count != 2) {
-        document_mistake(f->b->mistakes, n, 0,
-                         "section: the name of one, or [at from, at to] of two");
+        document_mistake(f->b->mistakes, n, 0, "section: a name, or two names [at from, at to]");
         return;
     }
     m->section = fields_entry_of(f, n->item[0], SCENE_SECTIONS);
@@ -350,7 +349,7 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
         const double until = fields_number(&piece, "until", 0);
         if (!last && !(ends && until > before))
             document_mistake(f->b->mistakes, piece.map, 0,
-                             "a piece must end after the one before it; give until: [s]");
+                             "a piece must end after the previous one; give until: [s]");
         if (last && ends)
             document_mistake(f->b->mistakes, document_find(piece.map, "until"), 0,
                              "the last piece has no end; remove 'until', or add the "

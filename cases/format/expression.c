@@ -184,10 +184,10 @@ static int read_range(const document_node *n, int dots, const scope *names, aren
         return divide(n, from, to, slash + 1, names, a, m, out);
     const double steps = (to - from) / step;
     if (!(step != 0 && steps >= -1e-9)) {
-        document_mistake(m, n, word >= 0 ? word + 6 : 0,
-                         "from %g to %g with steps of %g there are no values; correct the "
-                         "ends or the sign of the step",
-                         from, to, step);
+        document_mistake(
+            m, n, word >= 0 ? word + 6 : 0,
+            "from %g to %g in steps of %g is empty; correct the ends or the sign of the step", from,
+            to, step);
         return -1;
     }
     if (steps >= MOST) {

@@ -12,8 +12,9 @@ const entry_field keys_let[] = {
     {.name = NULL}};
 
 const entry_field keys_refusal[] = {
-    {"if", ENTRY_FORMS, .needed = 1, .summary = "as of entries"},
-    {"say", ENTRY_TEXT, .needed = 1, .summary = "why, and what to do; $NAME is replaced"},
+    {"if", ENTRY_FORMS, .needed = 1, .summary = "condition, as for entries"},
+    {"say", ENTRY_TEXT, .needed = 1,
+     .summary = "message: the reason and the remedy; $NAME is replaced by its value"},
     {.name = NULL}};
 
 static const entry_field nothing[] = {{.name = NULL}};
@@ -22,31 +23,33 @@ const entry_field keys_parameter[] = {
     {"value", ENTRY_FORMS, .needed = 1,
      .summary = "default: an expression of constants, or a word"},
     {"unit", ENTRY_TEXT, .summary = "SI unit; 1 for a plain number", .usual = "1"},
-    {"min", ENTRY_NUMBER, .summary = "least value", .left_out = "no limit"},
-    {"max", ENTRY_NUMBER, .summary = "largest value", .left_out = "no limit"},
-    {"choices", ENTRY_FORMS,
-     .summary = "[WORD, ...]: the words that may be chosen; [0, 1]: a switch",
-     .left_out = "it is a number"},
-    {"about", ENTRY_TEXT, .summary = "what it is, in one line", .left_out = "none"},
+    {"min", ENTRY_NUMBER, .summary = "minimum", .left_out = "no limit"},
+    {"max", ENTRY_NUMBER, .summary = "maximum", .left_out = "no limit"},
+    {"choices", ENTRY_FORMS, .summary = "[WORD, ...]: allowed words; [0, 1]: a switch",
+     .left_out = "a number"},
+    {"about", ENTRY_TEXT, .summary = "description in one line", .left_out = "none"},
     {.name = NULL}};
 
 const entry_field keys_truth[] = {
     {"quantity", ENTRY_NAME, .needed = 1, .summary = "quantity"},
-    {"value", ENTRY_NUMBER, .needed = 1, .summary = "in its unit"},
+    {"value", ENTRY_NUMBER, .needed = 1, .summary = "value in the unit of the quantity"},
     {"kind", ENTRY_WORD, .needed = 1,
      .words = "exact|predicted|independent|agreement|consensus|published|reconstructed|experiment",
-     .summary = "how it is known"},
-    {"source", ENTRY_TEXT, .needed = 1, .summary = "who says so"},
-    {"uncertainty", ENTRY_NUMBER, .summary = "of the value, same unit", .usual = "0"},
-    {"formulation", ENTRY_TEXT, .summary = "of whom it speaks", .left_out = "of the continuum"},
-    {"theory", ENTRY_WORD, .words = SCENE_SHEAR_THEORIES, .summary = "of shear in stability",
-     .left_out = "of any"},
-    {"parameters", ENTRY_NAMES, .below = nothing, .summary = "NAME: VALUE",
-     .left_out = "any values"},
-    {"at", ENTRY_NUMBER, .summary = "point of a curve", .left_out = "of the one value"},
+     .summary = "kind of reference value"},
+    {"source", ENTRY_TEXT, .needed = 1, .summary = "source of the value"},
+    {"uncertainty", ENTRY_NUMBER, .summary = "uncertainty of the value, in the same unit",
+     .usual = "0"},
+    {"formulation", ENTRY_TEXT, .summary = "formulation to which it applies",
+     .left_out = "the continuum"},
+    {"theory", ENTRY_WORD, .words = SCENE_SHEAR_THEORIES, .summary = "theory of shear in stability",
+     .left_out = "any"},
+    {"parameters", ENTRY_NAMES, .below = nothing,
+     .summary = "parameter values to which it applies, as NAME: VALUE", .left_out = "any values"},
+    {"at", ENTRY_NUMBER, .summary = "point of a curve", .left_out = "none: a single value"},
     {"model", ENTRY_WORD, .words = "plate|solid",
-     .summary = "another one: shown only, never affects the exit status", .left_out = "of beams"},
-    {"convention", ENTRY_TEXT, .summary = "of moments", .left_out = "that of the analysis"},
+     .summary = "a different model: shown only, never affects the exit status",
+     .left_out = "beams"},
+    {"convention", ENTRY_TEXT, .summary = "moment convention", .left_out = "that of the analysis"},
     {.name = NULL}};
 
 const entry_field keys_part[] = {
@@ -66,7 +69,7 @@ const entry_field keys_part[] = {
 
 static const entry_field axes[] = {
     {"x", ENTRY_VECTOR, .needed = 1, .count = 3, .summary = "the part's x axis in the scene"},
-    {"z", ENTRY_VECTOR, .needed = 1, .count = 3, .summary = "its z axis"},
+    {"z", ENTRY_VECTOR, .needed = 1, .count = 3, .summary = "the part's z axis in the scene"},
     {.name = NULL}};
 
 static const entry_field angles[] = {
@@ -80,10 +83,10 @@ static const entry_field outer[] = {{"", ENTRY_NAME, .summary = "node of the sce
 
 const entry_field keys_instance[] = {
     {"part", ENTRY_NAME, .needed = 1, .summary = "name of the part"},
-    {"at", ENTRY_VECTOR, .needed = 1, .count = 3, .unit = "m", .summary = "its origin"},
+    {"at", ENTRY_VECTOR, .needed = 1, .count = 3, .unit = "m", .summary = "position of its origin"},
     {"axes", ENTRY_MAP, .group = 1, .below = axes, .summary = "its axes",
      .left_out = "those of the scene"},
-    {"turn", ENTRY_MAP, .group = 1, .below = angles, .summary = "one angle about an axis",
+    {"turn", ENTRY_MAP, .group = 1, .below = angles, .summary = "rotation about one axis",
      .left_out = "none"},
     {"connect", ENTRY_NAMES, .below = outer, .summary = "PLACE: NODE",
      .left_out = "none; required for each interface"},
@@ -91,32 +94,32 @@ const entry_field keys_instance[] = {
 
 const entry_field keys_loop[] = {
     {"for", ENTRY_FORMS, .summary = "{NAME: a..b | a..b step c | a..b/n | [list], ...}: loops",
-     .left_out = "it is there once"},
+     .left_out = "one entry"},
     {"let", ENTRY_NAMES, .below = keys_let, .summary = "values derived for this entry",
      .left_out = "none"},
     {"if", ENTRY_FORMS,
-     .summary = "{NAME: VALUE, NAME: [VALUE, ...], ...}: the values that names "
-                "have where the entry is there",
-     .left_out = "it is always there"},
+     .summary =
+         "{NAME: VALUE, NAME: [VALUE, ...], ...}: values of names for which the entry exists",
+     .left_out = "it always exists"},
     {.name = NULL}};
 
 #define PHYSICS "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping"
 
 const entry_field keys_root[] = {
     {"beamwork", ENTRY_NUMBER, .needed = 1, .summary = "version of the format: 1"},
-    {"name", ENTRY_TEXT, .summary = "of the scene", .left_out = "that of the file"},
-    {"summary", ENTRY_TEXT, .summary = "what it is, in one line", .left_out = "none"},
-    {"source", ENTRY_TEXT, .summary = "where it comes from", .left_out = "none"},
+    {"name", ENTRY_TEXT, .summary = "name of the scene", .left_out = "name of the file"},
+    {"summary", ENTRY_TEXT, .summary = "description in one line", .left_out = "none"},
+    {"source", ENTRY_TEXT, .summary = "origin of the scene", .left_out = "none"},
     {"units", ENTRY_FORMS,
-     .summary = "of its numbers and values: length, force, stress, as mm, N, MPa; masses are then "
-                "in force s^2/length (t), seconds and radians stay",
+     .summary = "length, force and stress, such as mm, N, MPa; masses are then in force s^2/length "
+                "(t), times in s, angles in rad",
      .left_out = "SI"},
-    {"parameters", ENTRY_ENTRIES, .below = keys_parameter, .summary = "what --set may change",
-     .left_out = "none"},
+    {"parameters", ENTRY_ENTRIES, .below = keys_parameter,
+     .summary = "parameters that --set can change", .left_out = "none"},
     {"let", ENTRY_NAMES, .below = keys_let, .summary = "derived values, in order",
      .left_out = "none"},
     {"refuse", ENTRY_LIST, .below = keys_refusal,
-     .summary = "values of parameters that make no scene", .left_out = "nothing is refused"},
+     .summary = "parameter values to reject, with a message", .left_out = "none"},
     {"sections", ENTRY_ENTRIES, .needed = 1, .below = entry_section, .summary = "cross-sections"},
     {"nodes", ENTRY_ENTRIES, .below = entry_node, .summary = "ends, supports, bodies",
      .left_out = "those of the instances"},
@@ -124,38 +127,38 @@ const entry_field keys_root[] = {
      .left_out = "those of the instances"},
     {"springs", ENTRY_ENTRIES, .below = entry_spring, .summary = "between nodes, or to the ground",
      .left_out = "none"},
-    {"motions", ENTRY_ENTRIES, .below = entry_driver, .summary = "numbers along a path or in time",
-     .left_out = "none"},
+    {"motions", ENTRY_ENTRIES, .below = entry_driver,
+     .summary = "prescribed values along a path or in time", .left_out = "none"},
     {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "forces and moments",
      .left_out = "none"},
     {"constraints", ENTRY_ENTRIES, .below = entry_constraint,
      .summary = "components of nodes that are equal, or in a ratio", .left_out = "none"},
     {"combinations", ENTRY_ENTRIES, .below = entry_combination,
      .summary = "{CASE: FACTOR, ...}: load cases that act together", .left_out = "none"},
-    {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "what is computed",
-     .left_out = "static to the end of the motions' paths, without these linear"},
-    {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "results requested of it",
+    {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "analyses to run",
+     .left_out = "static, to the end of the paths of motions; linear without motions"},
+    {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "requested results",
      .left_out = "the usual ones of each analysis: displacements "
                  "of loaded or driven nodes, the first eigenvalue"},
-    {"truths", ENTRY_LIST, .below = keys_truth, .summary = "what is known", .left_out = "none"},
+    {"truths", ENTRY_LIST, .below = keys_truth, .summary = "reference values", .left_out = "none"},
     {"plane", ENTRY_WORD, .words = SCENE_PLANE_CHOICES,
-     .summary = "all nodes, also those of the mesh, are held in it", .left_out = "nothing is"},
+     .summary = "plane in which all nodes, also those of the mesh, are held", .left_out = "none"},
     {"omit", ENTRY_FORMS, .words = PHYSICS "|all|none",
-     .summary = "physics that is omitted: a word, a list of them, or {WORD: yes, WORD: {NAME: "
-                "VALUE}}, the values that names have where it is",
+     .summary = "omitted physics: a word, a list of words, or {WORD: yes, WORD: {NAME: VALUE}} "
+                "with values that names have if it is omitted",
      .left_out = "none: all physics that sections, loads and analyses require is on"},
     {"shear_theory", ENTRY_WORD, .words = "haringx|engesser|own",
-     .summary = "of shear in stability; own: that of each formulation", .usual = "haringx"},
+     .summary = "theory of shear in stability; own: that of each formulation", .usual = "haringx"},
     {"mass", ENTRY_WORD, .words = "consistent|lumped",
-     .summary = "of members in vibration and steady rotation: along them, or at their nodes "
-                "(and in motions in time that say nothing else)",
+     .summary = "mass of members in vibration and steady rotation: distributed, or at their nodes "
+                "(also in motions in time without their own setting)",
      .usual = "consistent"},
     {"needs", ENTRY_WORDS, .words = PHYSICS "|engesser|haringx",
      .summary = "of earlier versions: all physics except that "
                 "listed (and warping) is omitted; use omit instead",
-     .left_out = "omit says it"},
+     .left_out = "as given by omit"},
     {"meshes", ENTRY_FORMS,
-     .summary = "elements per member: [EXPR, ...], or a choice of such: {NAME: {VALUE: [...]}}",
+     .summary = "elements per member: [EXPR, ...], or a choice of lists: {NAME: {VALUE: [...]}}",
      .usual = "[1, 2, 4, 8]"},
     {"parts", ENTRY_ENTRIES, .below = keys_part, .summary = "sub-assemblies in their own axes",
      .left_out = "none"},

@@ -226,7 +226,7 @@ static int is_omitted(const fields *f, const document_node *n)
     if (n->kind == DOCUMENT_TEXT && strcmp(n->text, "yes") == 0)
         return 1;
     document_mistake(f->b->mistakes, n, 0,
-                     "give yes, or the values that names have where it is off: {NAME: VALUE}");
+                     "give yes, or the values that names have if it is omitted: {NAME: VALUE}");
     return 0;
 }
 

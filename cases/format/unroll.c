@@ -213,8 +213,7 @@ const document_node *choose_value(const document_node *n, const scope *names, mi
     const scope *known = find(n->key[0], names, m);
     const document_node *found = known != NULL ? entry_of(known, n->item[0], names, m) : NULL;
     if (found == NULL && m->count == before)
-        document_mistake(m, n->key[0], 0,
-                         "there is no entry for the value of %s; add it, or else: ...",
+        document_mistake(m, n->key[0], 0, "no entry for the value of %s; add one, or else: ...",
                          n->key[0]->text);
     return found != NULL ? choose_value(found, names, m) : NULL;
 }

@@ -46,7 +46,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 }
 
 const quantity_type quantity_compliance = {.key = "compliance",
-                                           .summary = "entry of the matrix",
+                                           .summary = "entry of the compliance matrix",
                                            .kind = SCENE_COMPLIANCE_ENTRY,
                                            .field = fields,
                                            .analyses = 1u << SCENE_COMPLIANCE,

@@ -3,9 +3,9 @@
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
-    {"sign", ENTRY_WORD, .words = "positive|negative", .summary = "of the load factor",
+    {"sign", ENTRY_WORD, .words = "positive|negative", .summary = "sign of the load factor",
      .usual = "positive", ENTRY_IN(scene_quantity, what.of.load.sign), .first = 1, .falls = 2},
-    {"which", ENTRY_WHOLE, .summary = "counted from 0", .usual = "0",
+    {"which", ENTRY_WHOLE, .summary = "index, counted from 0", .usual = "0",
      ENTRY_IN(scene_quantity, what.of.load.order), .most = ENTRY_MOST_ORDER},
     {.name = NULL}};
 

@@ -4,10 +4,10 @@
 static const entry_field fields[] = {
     {"analysis", ENTRY_NAME, .needed = 1, .summary = "continuation",
      ENTRY_IN(scene_quantity, analysis), .of = SCENE_ANALYSES},
-    {"kind", ENTRY_WORD, .needed = 1, .words = "limit|bifurcation", .summary = "of the point",
+    {"kind", ENTRY_WORD, .needed = 1, .words = "limit|bifurcation", .summary = "kind of the point",
      ENTRY_IN(scene_quantity, what.of.point.kind)},
     {"value", ENTRY_WORD, .words = "factor|coordinate",
-     .summary = "what of it: the load factor or the coordinate", .usual = "factor",
+     .summary = "load factor or coordinate of the point", .usual = "factor",
      ENTRY_IN(scene_quantity, what.of.point.ordinate), .always = 1},
     {"which", ENTRY_WHOLE, .summary = "counted from 0", .usual = "0",
      ENTRY_IN(scene_quantity, what.of.point.order), .most = ENTRY_MOST_ORDER},
@@ -34,7 +34,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 }
 
 const quantity_type quantity_critical_point = {.key = "critical_point",
-                                               .summary = "where the tangent is singular",
+                                               .summary = "point where the tangent is singular",
                                                .kind = SCENE_CRITICAL_POINT,
                                                .field = fields,
                                                .analyses = 1u << SCENE_CONTINUATION,

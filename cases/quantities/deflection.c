@@ -7,11 +7,12 @@ static const entry_field fields[] = {
     {"member", ENTRY_NAME, .needed = 1, .summary = "member",
      ENTRY_IN(scene_quantity, what.of.deflection.member), .of = SCENE_MEMBERS},
     /* before the end, which is a place, too */
-    {"where", ENTRY_NUMBER, .needed = 1, .group = 2, .summary = "0 'from' to 1 'to', of its length",
+    {"where", ENTRY_NUMBER, .needed = 1, .group = 2,
+     .summary = "position in the member, from 0 at its start to 1 at its end",
      ENTRY_IN(scene_quantity, what.of.deflection.place), .most = 1,
      .range = "a part of the member's length, from 0 to 1"},
     {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to",
-     .summary = "of the member: with what a release adds to the node",
+     .summary = "end of the member, including the motion of its release",
      ENTRY_IN(scene_quantity, what.of.deflection.place)},
     QUANTITY_COMPONENT("along or about a fixed axis", deflection.component),
     QUANTITY_ACTING,
@@ -39,14 +40,13 @@ static double read(const scene_quantity *q, const quantity_state *state)
     return state->deflection(state, &q->what.of.deflection);
 }
 
-const quantity_type quantity_deflection = {.key = "deflection",
-                                           .summary =
-                                               "displacement or rotation within a member, or of "
-                                               "its end beside a release",
-                                           .kind = SCENE_DEFLECTION,
-                                           .field = fields,
-                                           .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
-                                           .passing = QUANTITY_EXTREMES,
-                                           .unit = unit,
-                                           .meaning = meaning,
-                                           .read = read};
+const quantity_type quantity_deflection = {
+    .key = "deflection",
+    .summary = "displacement or rotation within a member, or of its end at a release",
+    .kind = SCENE_DEFLECTION,
+    .field = fields,
+    .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
+    .passing = QUANTITY_EXTREMES,
+    .unit = unit,
+    .meaning = meaning,
+    .read = read};

@@ -1,12 +1,13 @@
 /* Displacement of a node, or a component of its rotation vector. */
 #include "cases/scene/scene.h"
 
-static const entry_field fields[] = {QUANTITY_ANALYSIS,
-                                     QUANTITY_NODE(component.node),
-                                     QUANTITY_COMPONENT("of its coordinates", component.component),
-                                     QUANTITY_ACTING,
-                                     QUANTITY_TAKEN,
-                                     {.name = NULL}};
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    QUANTITY_NODE(component.node),
+    QUANTITY_COMPONENT("coordinate of the node", component.component),
+    QUANTITY_ACTING,
+    QUANTITY_TAKEN,
+    {.name = NULL}};
 
 static const char *unit(const scene *s, const scene_quantity *q)
 {
@@ -33,7 +34,7 @@ static int turns(const scene *s, const scene_quantity *q, int i, scene_component
 }
 
 const quantity_type quantity_displacement = {.key = "displacement",
-                                             .summary = "or rotation, of a node",
+                                             .summary = "displacement or rotation of a node",
                                              .kind = SCENE_COORDINATE,
                                              .field = fields,
                                              .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,

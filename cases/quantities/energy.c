@@ -25,7 +25,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
         [SCENE_ENERGY] = "kinetic and strain energy",
         [SCENE_WORK] = "work of loads and of prescribed coordinates, since the start",
         [SCENE_DISSIPATED] = "energy that damping dissipated, since the start",
-        [SCENE_DRIFT] = "energy and what damping dissipated, less energy at the start and work"};
+        [SCENE_DRIFT] = "energy plus dissipation, minus initial energy and work"};
     fputs(word[q->what.of.balance], to);
 }
 
@@ -35,7 +35,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 }
 
 const quantity_type quantity_energy = {.key = "energy",
-                                       .summary = "of a motion",
+                                       .summary = "energy of a motion",
                                        .kind = SCENE_BALANCE,
                                        .field = fields,
                                        .analyses = 1u << SCENE_MOTION,

@@ -23,12 +23,12 @@ static double read(const scene_quantity *q, const quantity_state *state)
     return state->path;
 }
 
-const quantity_type quantity_factor_at = {
-    .key = "factor_at",
-    .summary = "load factor where the control coordinate has a value",
-    .kind = SCENE_FACTOR_AT,
-    .field = fields,
-    .analyses = 1u << SCENE_CONTINUATION,
-    .unit = unit,
-    .meaning = meaning,
-    .read = read};
+const quantity_type quantity_factor_at = {.key = "factor_at",
+                                          .summary =
+                                              "load factor at a value of the control coordinate",
+                                          .kind = SCENE_FACTOR_AT,
+                                          .field = fields,
+                                          .analyses = 1u << SCENE_CONTINUATION,
+                                          .unit = unit,
+                                          .meaning = meaning,
+                                          .read = read};

@@ -14,11 +14,11 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 {
     (void)s;
     (void)q;
-    fputs("rate at which the fastest growing small motion grows, 0 where none does", to);
+    fputs("growth rate of the fastest growing small motion, 0 if none grows", to);
 }
 
 const quantity_type quantity_growth = {.key = "growth",
-                                       .summary = "largest rate of growth of a small motion",
+                                       .summary = "largest growth rate of a small motion",
                                        .kind = SCENE_GROWTH,
                                        .field = fields,
                                        .analyses = 1u << SCENE_MODAL | 1u << SCENE_ROTATION,

@@ -7,10 +7,10 @@ static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     {"member", ENTRY_NAME, .needed = 1, .summary = "member",
      ENTRY_IN(scene_quantity, what.of.reading.node[MEMBER]), .of = SCENE_MEMBERS},
-    {"end", ENTRY_WORD, .needed = 1, .words = "from|to", .summary = "of the member",
+    {"end", ENTRY_WORD, .needed = 1, .words = "from|to", .summary = "end of the member",
      ENTRY_IN(scene_quantity, what.of.reading.component[END])},
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS,
-     .summary = "that is released there, in the member's axes",
+     .summary = "released component, in the member's axes",
      ENTRY_IN(scene_quantity, what.of.reading.component[COMPONENT])},
     QUANTITY_TAKEN,
     {.name = NULL}};
@@ -41,7 +41,7 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
             return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
                      "quantity %s: %s does not release that component at its end '%s'; name one "
-                     "that it releases, or ask for the deflection of that end",
+                     "that it releases, or request the deflection of that end",
                      q->name, scene_called(s, SCENE_MEMBERS, what->node[MEMBER]).text,
                      what->component[END] ? "to" : "from");
 }
@@ -53,14 +53,14 @@ static double read(const scene_quantity *q, const quantity_state *state)
                            what->component[COMPONENT]);
 }
 
-const quantity_type quantity_hinge = {.key = "hinge",
-                                      .summary = "turn or shift of a released end of a member "
-                                                 "against its node",
-                                      .kind = SCENE_READING,
-                                      .field = fields,
-                                      .analyses = QUANTITY_ALL_STATES,
-                                      .passing = QUANTITY_CROSSINGS,
-                                      .unit = unit,
-                                      .meaning = meaning,
-                                      .read = read,
-                                      .check = check};
+const quantity_type quantity_hinge = {
+    .key = "hinge",
+    .summary = "rotation or displacement of a released end of a member relative to its node",
+    .kind = SCENE_READING,
+    .field = fields,
+    .analyses = QUANTITY_ALL_STATES,
+    .passing = QUANTITY_CROSSINGS,
+    .unit = unit,
+    .meaning = meaning,
+    .read = read,
+    .check = check};

@@ -6,17 +6,18 @@ static const entry_field fields[] = {
     {"member", ENTRY_NAME, .needed = 1, .summary = "member",
      ENTRY_IN(scene_quantity, what.of.internal.member), .of = SCENE_MEMBERS},
     /* before `end`, which is also a position */
-    {"where", ENTRY_NUMBER, .needed = 1, .group = 2, .summary = "0 'from' to 1 'to', of its length",
+    {"where", ENTRY_NUMBER, .needed = 1, .group = 2,
+     .summary = "position in the member, from 0 at its start to 1 at its end",
      ENTRY_IN(scene_quantity, what.of.internal.place), .most = 1,
      .range = "a part of the member's length, from 0 to 1"},
-    {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to", .summary = "of the member",
+    {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to", .summary = "end of the member",
      ENTRY_IN(scene_quantity, what.of.internal.place)},
     {"along", ENTRY_WORD, .needed = 1, .group = 2, .words = "max|min|largest",
-     .summary = "over the member: largest and least value, or largest magnitude",
+     .summary = "over the member: maximum, minimum, or largest magnitude",
      ENTRY_IN(scene_quantity, what.of.internal.along), .first = SCENE_ALONG_MAX},
     QUANTITY_SIDE(internal.before),
     {"resultant", ENTRY_WORD, .needed = 1, .words = SCENE_RESULTANT_CHOICES,
-     .summary = "of what lies towards 'to', in the turned section's principal axes",
+     .summary = "resultant on the part towards 'to', in principal axes of the rotated section",
      ENTRY_IN(scene_quantity, what.of.internal.resultant)},
     QUANTITY_ACTING,
     QUANTITY_TAKEN,
@@ -62,8 +63,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 }
 
 const quantity_type quantity_internal = {.key = "internal",
-                                         .summary =
-                                             "resultant of stresses on a section of a member",
+                                         .summary = "stress resultant on a section of a member",
                                          .kind = SCENE_INTERNAL,
                                          .field = fields,
                                          .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,

@@ -4,9 +4,10 @@
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     QUANTITY_NODE(reading.node[0]),
-    {"row", ENTRY_WORD, .needed = 1, .words = "x|y|z", .summary = "of its rotation matrix",
+    {"row", ENTRY_WORD, .needed = 1, .words = "x|y|z", .summary = "row of the rotation matrix",
      ENTRY_IN(scene_quantity, what.of.reading.component[0]), .turns = ENTRY_AXIS},
-    {"column", ENTRY_WORD, .needed = 1, .words = "x|y|z", .summary = "of it",
+    {"column", ENTRY_WORD, .needed = 1, .words = "x|y|z",
+     .summary = "column of the rotation matrix",
      ENTRY_IN(scene_quantity, what.of.reading.component[1]), .turns = ENTRY_AXIS},
     QUANTITY_TAKEN,
     {.name = NULL}};

@@ -1,15 +1,15 @@
 /* Velocity of a node, or its angular velocity in its own axes; acceleration, jerk. */
 #include "cases/scene/scene.h"
 
-static const entry_field fields[] = {QUANTITY_ANALYSIS,
-                                     QUANTITY_NODE(rated.at.node),
-                                     QUANTITY_COMPONENT("of its coordinates", rated.at.component),
-                                     {"of", ENTRY_WORD, .words = SCENE_RATE_CHOICES,
-                                      .summary = "its rate, the rate of that, or the third one",
-                                      .usual = "velocity",
-                                      ENTRY_IN(scene_quantity, what.of.rated.rate)},
-                                     QUANTITY_TAKEN,
-                                     {.name = NULL}};
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    QUANTITY_NODE(rated.at.node),
+    QUANTITY_COMPONENT("coordinate of the node", rated.at.component),
+    {"of", ENTRY_WORD, .words = SCENE_RATE_CHOICES,
+     .summary = "first, second or third derivative in time", .usual = "velocity",
+     ENTRY_IN(scene_quantity, what.of.rated.rate)},
+    QUANTITY_TAKEN,
+    {.name = NULL}};
 
 static const char *unit(const scene *s, const scene_quantity *q)
 {
@@ -66,8 +66,7 @@ static int turns(const scene *s, const scene_quantity *q, int i, scene_component
 
 const quantity_type quantity_rate = {
     .key = "rate",
-    .summary = "velocity, acceleration or jerk of a node, or angular in its "
-               "own axes",
+    .summary = "velocity, acceleration or jerk of a node; of rotations in its own axes",
     .kind = SCENE_RATE,
     .field = fields,
     .analyses = 1u << SCENE_MOTION,

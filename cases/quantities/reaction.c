@@ -5,7 +5,7 @@ static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     QUANTITY_NODE(component.node),
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS "|turn_1",
-     .summary = "of its coordinates; turn_1: about the first axis of its sequence",
+     .summary = "coordinate of the node; turn_1: about the first axis of its sequence",
      ENTRY_IN(scene_quantity, what.of.component.component), .turns = ENTRY_COMPONENT},
     QUANTITY_ACTING,
     QUANTITY_TAKEN,
@@ -58,7 +58,7 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
             return NULL;
         }
     *key = "component";
-    return "turn_1 is of a node with a sequence whose first axis is x, y or z; take rx, ry or rz";
+    return "turn_1 is for a node with a sequence whose first axis is x, y or z; use rx, ry or rz";
 }
 
 static double read(const scene_quantity *q, const quantity_state *state)
@@ -67,7 +67,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 }
 
 const quantity_type quantity_reaction = {.key = "reaction",
-                                         .summary = "of a held or driven component",
+                                         .summary = "reaction of a held or driven component",
                                          .kind = SCENE_REACTION,
                                          .field = fields,
                                          .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,

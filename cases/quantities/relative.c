@@ -4,9 +4,9 @@
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     QUANTITY_NODE(relative.node),
-    {"from", ENTRY_NAME, .needed = 1, .summary = "node in whose axes",
+    {"from", ENTRY_NAME, .needed = 1, .summary = "node relative to which, in its axes",
      ENTRY_IN(scene_quantity, what.of.relative.from), .of = SCENE_NODES},
-    QUANTITY_COMPONENT("of its motion", relative.component),
+    QUANTITY_COMPONENT("component of the relative motion", relative.component),
     QUANTITY_TAKEN,
     {.name = NULL}};
 
@@ -50,7 +50,7 @@ static int turns(const scene *s, const scene_quantity *q, int i, scene_component
 
 const quantity_type quantity_relative = {.key = "relative",
                                          .summary =
-                                             "displacement or rotation as seen from another node",
+                                             "displacement or rotation relative to another node",
                                          .kind = SCENE_RELATIVE,
                                          .field = fields,
                                          .analyses = QUANTITY_ALL_STATES,

@@ -1,13 +1,13 @@
 /* Reciprocal of a diagonal entry of the compliance matrix. */
 #include "cases/scene/scene.h"
 
-static const entry_field fields[] = {QUANTITY_ANALYSIS,
-                                     {"component", ENTRY_WORD, .needed = 1,
-                                      .words = ENTRY_COMPONENTS, .summary = "of the coordinates",
-                                      ENTRY_IN(scene_quantity, what.of.entry.row),
-                                      .turns = ENTRY_DIAGONAL},
-                                     QUANTITY_TAKEN,
-                                     {.name = NULL}};
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS,
+     .summary = "component of the stiffness", ENTRY_IN(scene_quantity, what.of.entry.row),
+     .turns = ENTRY_DIAGONAL},
+    QUANTITY_TAKEN,
+    {.name = NULL}};
 
 static const char *unit(const scene *s, const scene_quantity *q)
 {

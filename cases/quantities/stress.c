@@ -7,12 +7,15 @@ static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     {"member", ENTRY_NAME, .needed = 1, .summary = "member; its section not given by constants",
      ENTRY_IN(scene_quantity, what.of.stress.member), .of = SCENE_MEMBERS},
-    {"where", ENTRY_NUMBER, .summary = "0 'from' to 1 'to', of its length",
-     ENTRY_IN(scene_quantity, what.of.stress.place), .otherwise = NAN, .left_out = "all along it",
-     .most = 1, .range = "a part of the member's length, from 0 to 1"},
+    {"where", ENTRY_NUMBER,
+     .summary = "position in the member, from 0 at its start to 1 at its end",
+     ENTRY_IN(scene_quantity, what.of.stress.place), .otherwise = NAN,
+     .left_out = "the whole member", .most = 1,
+     .range = "a part of the member's length, from 0 to 1"},
     QUANTITY_SIDE(stress.before),
-    {"measure", ENTRY_WORD, .words = SCENE_STRESS_CHOICES, .summary = "over the section's points",
-     .usual = "von_mises", ENTRY_IN(scene_quantity, what.of.stress.measure), .always = 1},
+    {"measure", ENTRY_WORD, .words = SCENE_STRESS_CHOICES,
+     .summary = "measure of stress at the points of the section", .usual = "von_mises",
+     ENTRY_IN(scene_quantity, what.of.stress.measure), .always = 1},
     QUANTITY_ACTING,
     QUANTITY_TAKEN,
     {.name = NULL}};
@@ -54,10 +57,9 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
     c->whole = isnan(c->place);
     c->place = c->whole ? 0 : c->place;
     *key = "member";
-    return has_points(s, c->member)
-               ? NULL
-               : "its section is given by numbers and has no points; describe it by sizes or "
-                 "walls, or ask for 'internal'";
+    return has_points(s, c->member) ? NULL
+                                    : "its section is given by numbers and has no points; describe "
+                                      "it by sizes or walls, or request 'internal'";
 }
 
 static status check(const scene *s, const scene_quantity *q, fault *f)
@@ -66,7 +68,7 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
                      "quantity %s: the section of %s is given by numbers and has no points; "
-                     "describe it by sizes or walls, or ask for a resultant",
+                     "describe it by sizes or walls, or request a resultant",
                      q->name, scene_called(s, SCENE_MEMBERS, q->what.of.stress.member).text);
 }
 
@@ -77,7 +79,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 
 const quantity_type quantity_stress = {.key = "stress",
                                        .summary =
-                                           "largest stress of a member or of a section of it",
+                                           "largest stress of a member or of one of its sections",
                                        .kind = SCENE_STRESS,
                                        .field = fields,
                                        .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,

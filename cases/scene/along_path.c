@@ -319,28 +319,25 @@ static int has_spin(const scene *s, int analysis, char *who, int size)
                : follows != SCENE_NONE && has_spin(s, follows, who, size);
 }
 
-static const char *const no_potential = "has no potential: the tangent is not symmetric and "
-                                        "stability may be lost by flutter; ask for "
-                                        "it about a static path, or for a motion",
-                         *const no_tangent =
-                             "has another stiffness on each side, and this analysis takes one at "
-                             "rest; ask for it about a static path that presses on one side",
-                         *const no_constraint =
-                             "ties components of nodes, which motions in time do not take; join "
-                             "the nodes by a stiff spring, or into one body by part_of",
-                         *const no_drive =
-                             "is moved, and a continuation changes loads only; remove it, or "
-                             "ask for a static path",
-                         *const no_spin = "turns, and this analysis does not count the Coriolis "
-                                          "forces on what moves there; use a 'rotation' analysis "
-                                          "with that omega for frequencies";
+static const char *const
+    no_potential = "has no potential: the tangent is not symmetric, and flutter is possible; "
+                   "request it about a static path, or use a motion",
+    *const no_tangent = "has a different stiffness on each side, and this analysis needs one at "
+                        "rest; request it about a static path that presses on one side",
+    *const no_constraint = "ties components of nodes, which motions in time do not support; join "
+                           "the nodes by a stiff spring, or into one body by part_of",
+    *const no_drive =
+        "is moved, but a continuation changes loads only; remove it, or use a static path",
+    *const no_spin = "turns, and this analysis does not count the Coriolis "
+                     "forces on what moves there; use a 'rotation' analysis "
+                     "with that omega for frequencies";
 
 /* Columns: linear, static, continuation, buckling and about a path, modal and about a linear
  * analysis and a path, compliance and about a path, rotation, motion. */
 const scene_input scene_inputs[] = {
     {"force", "uuuuu-uu-uuu", NULL, has_force},
     {"force that follows", "uusxu-xu-usu", no_potential, has_following_force},
-    {"force beside its node", "uuusu-su-uuu", NULL, has_force_beside},
+    {"force at an offset from its node", "uuusu-su-uuu", NULL, has_force_beside},
     {"moment", "uussu-su-usu", NULL, has_moment},
     {"moment that follows", "uusxu-xu-usu", no_potential, has_following_moment},
     {"load along a member", "uuuuu-uu-uuu", NULL, has_line},
@@ -438,8 +435,8 @@ static status check_unknown(const scene *s, int analysis, scene_column column, f
         if (s->driver[d].value == NULL && s->driver[d].function.pieces == 0 &&
             (column == SCENE_OF_LINEAR || column == SCENE_OF_BUCKLING))
             return fault_set(f, STATUS_REFUSED,
-                             "%s (%s) and motion %s: its value is unknown, and only a "
-                             "static path solves for it; use one",
+                             "%s (%s) and motion %s: its value is unknown; only a static path "
+                             "solves for it; use one",
                              scene_called(s, SCENE_ANALYSES, analysis).text,
                              scene_column_name[column], s->driver[d].name);
     return STATUS_OK;

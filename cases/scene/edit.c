@@ -90,8 +90,8 @@ static status reverse(scene *s, fault *f)
         const int p = m->p, warp_p = m->warp_p, section_p = m->section;
         if (m->curvature[0] != 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: initially twisted, its y axis at the other end is not known "
-                             "here; leave its order of nodes",
+                             "%s: initially twisted: its y axis at the other end is not known "
+                             "here; keep its order of nodes",
                              scene_called(s, SCENE_MEMBERS, i).text);
         for (int k = 0; k < 2 && m->half_waves > 0 && m->half_waves % 2 == 0; k++)
             m->bow[k] = -m->bow[k];
@@ -146,9 +146,10 @@ static status split_quantity(scene_quantity *q, double fraction, int second, fau
     int member;
     if ((internal && scene_internal_of(q)->along != SCENE_ALONG_PLACE) ||
         (stress && scene_stress_of(q)->whole))
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s is of all of member 0, which is split; ask for a place of it",
-                         q->name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "quantity %s is for all of member 0, which is split; request a position of it",
+            q->name);
     if (internal) {
         const scene_internal what = *scene_internal_of(q);
         const double place = split_place(what.place, what.before, fraction, second, &member);

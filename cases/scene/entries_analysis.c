@@ -13,14 +13,14 @@
      ENTRY_IN(scene_analysis, acting.load_case),                                                   \
      .of = SCENE_CASES},                                                                           \
     {                                                                                              \
-        "combination", ENTRY_NAME, .group = 3, .summary = "of load cases that acts",               \
+        "combination", ENTRY_NAME, .group = 3, .summary = "combination of load cases that acts",   \
             .left_out = (otherwise), ENTRY_IN(scene_analysis, acting.combination),                 \
             .of = SCENE_COMBINATIONS                                                               \
     }
-static const char all_loads[] = "all loads; needed where they have cases";
+static const char all_loads[] = "all loads; required if they have cases";
 
 static const entry_field linear[] = {
-    ACTING("all loads; where they have cases each one is solved, and quantities say which"),
+    ACTING("all loads; if they have cases, each is solved, and quantities select one"),
     {.name = NULL}};
 
 #define OMEGA(member)                                                                              \
@@ -60,22 +60,24 @@ static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
      .least = 1,                                                                                   \
      .most = 1000000}
 
-static const entry_field path[] = {
-    {"stations", ENTRY_NUMBERS, .needed = 1, .summary = "path parameter, ascending",
-     ENTRY_IN(scene_analysis, of.walk.path)},
-    STEPS,
-    {"spin", ENTRY_MAP, .below = spin, .summary = "the axes turn", .left_out = "they do not"},
-    ACTING(all_loads),
-    {.name = NULL}};
+static const entry_field path[] = {{"stations", ENTRY_NUMBERS, .needed = 1,
+                                    .summary = "path parameter, ascending",
+                                    ENTRY_IN(scene_analysis, of.walk.path)},
+                                   STEPS,
+                                   {"spin", ENTRY_MAP, .below = spin, .summary = "rotating axes",
+                                    .left_out = "axes fixed in space"},
+                                   ACTING(all_loads),
+                                   {.name = NULL}};
 
 #define RAYLEIGH                                                                                   \
     {"mass",          ENTRY_NUMBER,                                                                \
-     .unit = "1/s",   .summary = "times the mass matrix",                                          \
+     .unit = "1/s",   .summary = "coefficient of the mass matrix",                                 \
      .usual = "0",    ENTRY_IN(scene_analysis, damping.mass),                                      \
      .most = INFINITY},                                                                            \
     {                                                                                              \
         "stiffness", ENTRY_NUMBER, .unit = "s",                                                    \
-            .summary = "times the stiffness of members and springs, without that of stresses",     \
+            .summary = "coefficient of the stiffness of members and springs, without geometric "   \
+                       "stiffness",                                                                \
             .usual = "0", ENTRY_IN(scene_analysis, damping.stiffness), .most = INFINITY            \
     }
 
@@ -86,32 +88,35 @@ static const entry_field of_modes[] = {
     {"ratio", ENTRY_NUMBER, .unit = "1", .summary = "damping ratio of every mode", .usual = "0",
      ENTRY_IN(scene_analysis, damping.ratio), .most = INFINITY},
     {"ratios", ENTRY_NUMBERS, .unit = "1",
-     .summary = "those of the first modes, lowest frequency first; of the others: ratio",
+     .summary =
+         "damping ratios of the first modes, lowest frequency first; the others have 'ratio'",
      .left_out = "none", ENTRY_IN(scene_analysis, damping.ratios)},
     {.name = NULL}};
 
 #define PROPORTIONAL                                                                               \
     {"damping", ENTRY_MAP, .below = proportional,                                                  \
-     .summary = "Rayleigh damping, beside that of members and springs", .left_out = "none"}
+     .summary = "Rayleigh damping, in addition to that of members and springs",                    \
+     .left_out = "none"}
 
 static const entry_field modes[] = {
-    {"wanted", ENTRY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
+    {"wanted", ENTRY_NUMBER, .summary = "number of modes",
+     .left_out = "as required by the quantities"},
     {"damped", ENTRY_WORD, .words = "no|yes",
      .summary = "modes with the damping of members, springs and `damping`", .usual = "no",
      ENTRY_IN(scene_analysis, damped)},
     PROPORTIONAL,
-    ABOUT("static analysis about whose last state"),
+    ABOUT("static analysis; its last state is the base state"),
     {.name = NULL}};
 
-static const entry_field buckling[] = {
-    {"wanted", ENTRY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
-    ABOUT("static analysis about whose last state"),
-    ACTING(all_loads),
-    {.name = "sign", .kind = ENTRY_LATER},
-    {.name = NULL}};
+static const entry_field buckling[] = {{"wanted", ENTRY_NUMBER, .summary = "number of modes",
+                                        .left_out = "as required by the quantities"},
+                                       ABOUT("static analysis; its last state is the base state"),
+                                       ACTING(all_loads),
+                                       {.name = "sign", .kind = ENTRY_LATER},
+                                       {.name = NULL}};
 
 static const entry_field compliance[] = {
-    {"node", ENTRY_NAME, .needed = 1, .summary = "where",
+    {"node", ENTRY_NAME, .needed = 1, .summary = "node that is loaded",
      ENTRY_IN(scene_analysis, of.compliance.node), .of = SCENE_NODES},
     {"moments", ENTRY_WORD, .words = SCENE_MOMENTS_CHOICES,
      .summary = "convention of a reaction's moment on a rotating node", .usual = "spatial",
@@ -119,29 +124,32 @@ static const entry_field compliance[] = {
     {"released", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
      .summary = "prescribed components that are free", .usual = "[]",
      ENTRY_IN(scene_analysis, of.compliance.released)},
-    ABOUT("static analysis, continuation or rotation at whose stations"),
+    ABOUT("static analysis, continuation or rotation; computed at its stations"),
     {.name = NULL}};
 
 static const entry_field control[] = {
-    {"node", ENTRY_NAME, .needed = 1, .summary = "whose translation",
+    {"node", ENTRY_NAME, .needed = 1, .summary = "node of the coordinate",
      ENTRY_IN(scene_analysis, of.continuation.control.node), .of = SCENE_NODES},
-    {"component", ENTRY_WORD, .needed = 1, .words = "ux|uy|uz", .summary = "of these",
+    {"component", ENTRY_WORD, .needed = 1, .words = "ux|uy|uz",
+     .summary = "translation of the node",
      ENTRY_IN(scene_analysis, of.continuation.control.component)},
     {.name = NULL}};
 
 static const entry_field continuation[] = {
-    {"control", ENTRY_MAP, .needed = 1, .below = control, .summary = "coordinate that grows"},
-    {"by", ENTRY_WORD, .words = "coordinate|arc", .summary = "what steps are measured in",
+    {"control", ENTRY_MAP, .needed = 1, .below = control,
+     .summary = "coordinate that is increased"},
+    {"by", ENTRY_WORD, .words = "coordinate|arc", .summary = "measure of the steps",
      .usual = "coordinate", ENTRY_IN(scene_analysis, of.continuation.control.by_arc), .always = 1},
-    {"to", ENTRY_NUMBERS, .needed = 1, .unit = "m", .summary = "of the coordinate, as met",
+    {"to", ENTRY_NUMBERS, .needed = 1, .unit = "m",
+     .summary = "values of the coordinate, in the order of the path",
      ENTRY_IN(scene_analysis, of.continuation.path)},
-    {"step", ENTRY_NUMBER, .needed = 1, .summary = "first step",
+    {"step", ENTRY_NUMBER, .needed = 1, .summary = "initial step",
      ENTRY_IN(scene_analysis, of.continuation.control.step)},
-    {"step_max", ENTRY_NUMBER, .summary = "largest step", .left_out = "the first"},
-    {"constant", ENTRY_WORD, .words = "no|yes", .summary = "steps keep their size", .usual = "no",
+    {"step_max", ENTRY_NUMBER, .summary = "largest step", .left_out = "the initial step"},
+    {"constant", ENTRY_WORD, .words = "no|yes", .summary = "constant step size", .usual = "no",
      ENTRY_IN(scene_analysis, of.continuation.control.constant_steps)},
-    {"spin", ENTRY_MAP, .below = spin_followed, .summary = "the axes turn",
-     .left_out = "they do not"},
+    {"spin", ENTRY_MAP, .below = spin_followed, .summary = "rotating axes",
+     .left_out = "axes fixed in space"},
     ACTING(all_loads),
     {.name = NULL}};
 
@@ -150,16 +158,17 @@ static const entry_field rotation[] = {
     {"stations", ENTRY_NUMBERS, .needed = 1, .summary = "factors of omega, ascending",
      ENTRY_IN(scene_analysis, of.walk.path)},
     STEPS,
-    {"wanted", ENTRY_WHOLE, .summary = "modes to look for at first, of all families", .usual = "0",
+    {"wanted", ENTRY_WHOLE, .summary = "initial number of modes, of all families", .usual = "0",
      ENTRY_IN(scene_analysis, of.walk.modes), .most = 1000},
     ACTING(all_loads),
     {.name = NULL}};
 
 static const entry_field start[] = {
-    {"velocity", ENTRY_VECTOR, .count = 3, .unit = "m/s", .summary = "of all nodes",
+    {"velocity", ENTRY_VECTOR, .count = 3, .unit = "m/s", .summary = "velocity of all nodes",
      .usual = "[0, 0, 0]", ENTRY_IN(scene_analysis, of.motion.start.velocity)},
-    {"spin", ENTRY_VECTOR, .count = 3, .unit = "rad/s", .summary = "of the whole, about the centre",
-     .usual = "[0, 0, 0]", ENTRY_IN(scene_analysis, of.motion.start.spin)},
+    {"spin", ENTRY_VECTOR, .count = 3, .unit = "rad/s",
+     .summary = "angular velocity of the structure about 'centre'", .usual = "[0, 0, 0]",
+     ENTRY_IN(scene_analysis, of.motion.start.spin)},
     {"centre", ENTRY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis",
      .usual = "[0, 0, 0]", ENTRY_IN(scene_analysis, of.motion.start.centre)},
     {.name = NULL}};
@@ -169,7 +178,7 @@ static const entry_field start[] = {
     "damping: ratio/(pi*f) of members"
 static const entry_field of_masses[] = {
     {"mass", ENTRY_NUMBER, .needed = 1, .unit = "1/s",
-     .summary = "force by momentum of all masses, in fixed axes; not by conserving",
+     .summary = "force per momentum of all masses, in fixed axes; not with conserving",
      ENTRY_IN(scene_analysis, damping.mass), .most = INFINITY},
     {"stiffness", ENTRY_LATER,
      .summary = "not of a motion; give it as damping: b [s] of each member, and b times their "
@@ -181,83 +190,88 @@ static const entry_field of_masses[] = {
 
 static const entry_field in_time[] = {
     {"stations", ENTRY_NUMBERS, .needed = 1, .unit = "s",
-     .summary = "instants at which quantities are read, ascending; it begins at 0",
+     .summary = "output times, ascending; the motion starts at 0",
      ENTRY_IN(scene_analysis, of.motion.path)},
     {"integrator", ENTRY_WORD, .words = SCENE_SCHEME_CHOICES, .summary = "method",
-     .left_out = "alpha where there is one of its parameters, or a step without a tolerance; else "
-                 "radau"},
-    {"step", ENTRY_NUMBER, .unit = "s",
-     .summary = "of the integration; with a tolerance the first one",
+     .left_out =
+         "alpha if one of its parameters, or a step without a tolerance, is given; else radau"},
+    {"step", ENTRY_NUMBER, .unit = "s", .summary = "time step; with a tolerance the initial one",
      .left_out = "1/1000 of the last station", ENTRY_IN(scene_analysis, of.motion.step),
      .always = 1},
     {"tolerance", ENTRY_NUMBER,
-     .summary = "of the error of time, relative to the largest motion so far (at most the size of "
-                "the structure): by alpha and conserving of all steps together, each has its share "
-                "by its length, by radau of the estimate of one step, which is far above its "
-                "error; 0: all steps are equal",
-     .left_out = "0 where there is a step; else 1e-3, by radau 1e-5: 0.1 % of the motion",
+     .summary = "of the time error, relative to the largest motion so far (at most the size of the "
+                "structure). alpha and conserving: of all steps together, shared in proportion to "
+                "their lengths; radau: of the estimate for one step, which is far above its error; "
+                "0: equal steps",
+     .left_out = "0 if a step is given; else 1e-3, with radau 1e-5: 0.1 % of the motion",
      ENTRY_IN(scene_analysis, of.motion.tolerance)},
     {"rho", ENTRY_NUMBER, .group = 1,
-     .summary = "of alpha, 0 to 1: what remains after a step of motions that are not resolved",
-     .usual = "0.9"},
+     .summary = "alpha: spectral radius at infinite frequency, 0 to 1", .usual = "0.9"},
     {"hht", ENTRY_NUMBER, .group = 1,
-     .summary = "of alpha: the method of Hilber, Hughes and Taylor, 0 to 1/3",
-     .left_out = "as rho says"},
+     .summary = "alpha: parameter of the method of Hilber, Hughes and Taylor, 0 to 1/3",
+     .left_out = "as given by rho"},
     {"trapezoidal", ENTRY_WORD, .group = 1, .words = "no|yes",
-     .summary = "of alpha: the trapezoidal rule, which may blow up; for comparison", .usual = "no"},
-    {"parameters", ENTRY_VECTOR, .group = 1, .count = 2, .summary = "of alpha: alpha_m, alpha_f",
-     .left_out = "as rho says"},
+     .summary = "alpha: use the trapezoidal rule, which may become unstable; for comparison",
+     .usual = "no"},
+    {"parameters", ENTRY_VECTOR, .group = 1, .count = 2, .summary = "alpha: alpha_m, alpha_f",
+     .left_out = "as given by rho"},
     {"mass", ENTRY_WORD, .words = SCENE_MASS_CHOICES,
-     .summary = "of members: lumped at the nodes, or consistent, by alpha and radau",
-     .left_out = "consistent by alpha and radau, lumped by the others or as the scene says",
+     .summary = "mass of members: lumped at the nodes, or consistent (alpha and radau only)",
+     .left_out =
+         "consistent with alpha and radau; lumped with the others, or as given for the scene",
      ENTRY_IN(scene_analysis, of.motion.mass), .first = SCENE_LUMPED},
-    ABOUT("static analysis, continuation or rotation from whose last state, or motion that "
-          "continues, with its rates and its time"),
+    ABOUT("static analysis, continuation or rotation: start at its last state; or motion: continue "
+          "it with its velocities and its time"),
     {"damping", ENTRY_MAP, .below = of_masses,
-     .summary = "mass-proportional damping; of stiffness: damping of members and springs",
+     .summary =
+         "mass-proportional damping; stiffness-proportional: 'damping' of members and springs",
      .left_out = "none"},
     {"start", ENTRY_MAP, .below = start, .summary = "velocities at the start",
-     .left_out = "at rest, or as about has it"},
+     .left_out = "at rest, or as given by 'about'"},
     ACTING(all_loads),
     {.name = NULL}};
 
 static const entry_field harmonic[] = {
-    {"frequencies", ENTRY_NUMBERS, .needed = 1, .unit = "Hz", .summary = "ascending",
+    {"frequencies", ENTRY_NUMBERS, .needed = 1, .unit = "Hz", .summary = "frequencies, ascending",
      ENTRY_IN(scene_analysis, of.harmonic)},
     {"solution", ENTRY_WORD, .words = "direct|modal",
-     .summary = "by factors at each frequency, or by the modes "
-                "without damping, with an error bound",
+     .summary =
+         "direct: factorisation at each frequency; modal: undamped modes, with an error bound",
      .usual = "direct", ENTRY_IN(scene_analysis, by_modes)},
-    {"modes", ENTRY_WHOLE, .summary = "how many, of the modal solution and of ratios; 0: all",
+    {"modes", ENTRY_WHOLE,
+     .summary = "number of modes for the modal solution and for damping ratios; 0: all",
      .usual = "0", ENTRY_IN(scene_analysis, modes), .most = 1000000},
     {"damping", ENTRY_MAP, .below = of_modes,
-     .summary = "beside that of members and springs: Rayleigh "
-                "damping, and ratios of modes",
+     .summary =
+         "Rayleigh damping and modal damping ratios, in addition to damping of members and springs",
      .left_out = "none"},
-    ABOUT("static or linear analysis about whose last state"),
+    ABOUT("static or linear analysis; its last state is the base state"),
     {.name = NULL}};
 
 const entry_field entry_analysis[] = {
-    {"linear", ENTRY_MAP, .needed = 1, .group = 1, .below = linear, .summary = "loads at factor 1",
-     ENTRY_IN(scene_analysis, kind), .first = SCENE_LINEAR},
-    {"static", ENTRY_MAP, .needed = 1, .group = 1, .below = path, .summary = "along a path",
-     ENTRY_IN(scene_analysis, kind), .first = SCENE_STATIC},
+    {"linear", ENTRY_MAP, .needed = 1, .group = 1, .below = linear,
+     .summary = "linear statics; loads have factor 1", ENTRY_IN(scene_analysis, kind),
+     .first = SCENE_LINEAR},
+    {"static", ENTRY_MAP, .needed = 1, .group = 1, .below = path,
+     .summary = "nonlinear statics along a load path", ENTRY_IN(scene_analysis, kind),
+     .first = SCENE_STATIC},
     {"buckling", ENTRY_MAP, .needed = 1, .group = 1, .below = buckling, .summary = "critical loads",
      ENTRY_IN(scene_analysis, kind), .first = SCENE_BUCKLING},
     {"modal", ENTRY_MAP, .needed = 1, .group = 1, .below = modes,
-     .summary = "frequencies; driven components are held", ENTRY_IN(scene_analysis, kind),
+     .summary = "natural frequencies; driven components are fixed", ENTRY_IN(scene_analysis, kind),
      .first = SCENE_MODAL},
-    {"compliance", ENTRY_MAP, .needed = 1, .group = 1, .below = compliance, .summary = "6 x 6",
-     ENTRY_IN(scene_analysis, kind), .first = SCENE_COMPLIANCE},
+    {"compliance", ENTRY_MAP, .needed = 1, .group = 1, .below = compliance,
+     .summary = "6 x 6 compliance matrix of a node", ENTRY_IN(scene_analysis, kind),
+     .first = SCENE_COMPLIANCE},
     {"continuation", ENTRY_MAP, .needed = 1, .group = 1, .below = continuation,
-     .summary = "path of a load factor", ENTRY_IN(scene_analysis, kind),
+     .summary = "equilibrium path over a load factor", ENTRY_IN(scene_analysis, kind),
      .first = SCENE_CONTINUATION},
-    {"rotation", ENTRY_MAP, .needed = 1, .group = 1, .below = rotation, .summary = "stationary",
-     ENTRY_IN(scene_analysis, kind), .first = SCENE_ROTATION},
+    {"rotation", ENTRY_MAP, .needed = 1, .group = 1, .below = rotation,
+     .summary = "steady rotation", ENTRY_IN(scene_analysis, kind), .first = SCENE_ROTATION},
     {"motion", ENTRY_MAP, .needed = 1, .group = 1, .below = in_time,
-     .summary = "in time: dynamics; needs masses", ENTRY_IN(scene_analysis, kind),
+     .summary = "transient analysis; requires masses", ENTRY_IN(scene_analysis, kind),
      .first = SCENE_MOTION},
     {"harmonic", ENTRY_MAP, .needed = 1, .group = 1, .below = harmonic,
-     .summary = "steady small vibration by frequency: responses; needs masses",
+     .summary = "steady harmonic response over frequency; requires masses",
      ENTRY_IN(scene_analysis, kind), .first = SCENE_HARMONIC},
     {.name = NULL}};

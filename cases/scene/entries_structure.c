@@ -21,134 +21,145 @@ static const entry_field fork_[] = {
 
 static const entry_field turn[] = {
     {"axis", ENTRY_FORMS, .needed = 1,
-     .summary = "x, y, z or [3]: turns with the angles before it"},
-    {"angle", ENTRY_NAME, .needed = 1, .summary = "free, held or a motion"},
+     .summary = "x, y, z or [3]; it rotates with the angles before it"},
+    {"angle", ENTRY_NAME, .needed = 1, .summary = "free, held or the name of a motion"},
     {.name = NULL}};
 
-static const entry_field rotation[] = {
-    {"sequence", ENTRY_LIST, .needed = 1, .group = 1, .below = turn,
-     .summary = "one to three turns"},
-    {"vector", ENTRY_FORMS, .needed = 1, .group = 1, .summary = "[MOTION, MOTION, MOTION]"},
-    {.name = NULL}};
+static const entry_field rotation[] = {{"sequence", ENTRY_LIST, .needed = 1, .group = 1,
+                                        .below = turn,
+                                        .summary = "one to three successive rotations"},
+                                       {"vector", ENTRY_FORMS, .needed = 1, .group = 1,
+                                        .summary = "rotation vector: [MOTION, MOTION, MOTION]"},
+                                       {.name = NULL}};
 
 static const entry_field axes[] = {
-    {"x", ENTRY_DIRECTION, .count = 3, .summary = "direction; give two of x, y and z",
-     .left_out = "across the two others", ENTRY_IN(scene_node, axes[0])},
-    {"y", ENTRY_DIRECTION, .count = 3, .summary = "at right angles to it",
-     .left_out = "across the two others", ENTRY_IN(scene_node, axes[1])},
-    {"z", ENTRY_DIRECTION, .count = 3, .summary = "in place of x or y",
-     .left_out = "across the two others"},
-    {"member", ENTRY_NAME, .summary = "in place of directions: a straight member that ends there",
+    {"x", ENTRY_DIRECTION, .count = 3, .summary = "direction of the x axis; give two of x, y and z",
+     .left_out = "perpendicular to the other two", ENTRY_IN(scene_node, axes[0])},
+    {"y", ENTRY_DIRECTION, .count = 3, .summary = "direction of the y axis, perpendicular to x",
+     .left_out = "perpendicular to the other two", ENTRY_IN(scene_node, axes[1])},
+    {"z", ENTRY_DIRECTION, .count = 3, .summary = "direction of the z axis, instead of x or y",
+     .left_out = "perpendicular to the other two"},
+    {"member", ENTRY_NAME,
+     .summary = "straight member that ends at the node, instead of directions",
      .left_out = "directions"},
     {.name = NULL}};
 
 const entry_field entry_node[] = {
     {"at", ENTRY_POSITION, .needed = 1, .count = 3, .unit = "m", .summary = "position",
      ENTRY_IN(scene_node, position)},
-    {"part_of", ENTRY_NAME, .summary = "node that it moves with, as one rigid body",
-     .left_out = "of no body", ENTRY_IN(scene_node, attached), .of = SCENE_NODES},
+    {"part_of", ENTRY_NAME, .summary = "node to which it is rigidly connected",
+     .left_out = "no rigid connection", ENTRY_IN(scene_node, attached), .of = SCENE_NODES},
     {"axes", ENTRY_MAP, .below = axes,
-     .summary = "of hold and drive, and of reactions of the node: supports on inclined planes",
-     .left_out = "those of the scene"},
+     .summary = "axes of hold, drive and reactions of the node, for inclined supports",
+     .left_out = "axes of the scene"},
     {"hold", ENTRY_WORDS, .words = "all|" ENTRY_COMPONENTS,
-     .summary = "components that are fixed; a "
-                "single rotation: about that fixed axis",
+     .summary = "fixed components; a single rotation is about an axis fixed in space",
      .usual = "[]"},
-    {"drive", ENTRY_MAP, .below = drive, .summary = "components that follow a motion",
-     .left_out = "nothing is driven"},
-    {"rotation", ENTRY_MAP, .below = rotation, .summary = "how it turns, where not freely",
-     .left_out = "as hold, drive and fork say"},
+    {"drive", ENTRY_MAP, .below = drive, .summary = "components that follow a motion, by its name",
+     .left_out = "none"},
+    {"rotation", ENTRY_MAP, .below = rotation,
+     .summary = "rotation of the node, if it is constrained",
+     .left_out = "as given by hold, drive and fork"},
     {"fork", ENTRY_MAP, .below = fork_,
      .summary = "no rotation about the axis of the rotated section", .left_out = "none",
      ENTRY_IN(scene_node, rotation), .first = SCENE_ROTATION_FORK},
-    {"mass", ENTRY_NUMBER, .unit = "kg", .summary = "of a rigid body that moves with it",
+    {"mass", ENTRY_NUMBER, .unit = "kg", .summary = "mass of a rigid body fixed to the node",
      .usual = "0", ENTRY_IN(scene_node, body.mass), .most = INFINITY},
-    {"centre", ENTRY_DIRECTION, .count = 3, .unit = "m", .summary = "of that mass, from the node",
-     .usual = "[0, 0, 0]", ENTRY_IN(scene_node, body.centre)},
+    {"centre", ENTRY_DIRECTION, .count = 3, .unit = "m",
+     .summary = "centre of that mass, relative to the node", .usual = "[0, 0, 0]",
+     ENTRY_IN(scene_node, body.centre)},
     {"inertia", ENTRY_VECTOR, .count = 6, .unit = "kg m^2",
-     .summary = "tensor about that centre: [xx, yy, zz, xy, yz, zx]", .usual = "[0, 0, 0, 0, 0, 0]",
-     ENTRY_IN(scene_node, body.inertia)},
+     .summary = "inertia tensor about that centre: [xx, yy, zz, xy, yz, zx]",
+     .usual = "[0, 0, 0, 0, 0, 0]", ENTRY_IN(scene_node, body.inertia)},
     {.name = "velocity", .kind = ENTRY_LATER},
     {.name = "spin", .kind = ENTRY_LATER},
     {.name = NULL}};
 
 static const entry_field release[] = {
     {"from", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
-     .summary = "at that end, in the member's axes: [rz] is a hinge, [rx, ry, rz] a ball",
+     .summary = "released components at this end, in the member's axes: [rz] is a hinge, [rx, ry, "
+                "rz] a ball joint",
      .usual = "[]"},
     {"to", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
-     .summary = "of two turns the first axis stays with the node, the second with the member",
+     .summary = "likewise; with two rotations the first axis is fixed to the node, the second to "
+                "the member",
      .usual = "[]"},
     {.name = NULL}};
 
 static const entry_field offset[] = {
-    {"from", ENTRY_DIRECTION, .count = 3, .unit = "m", .summary = "of the end at 'from'",
+    {"from", ENTRY_DIRECTION, .count = 3, .unit = "m", .summary = "offset of the end at 'from'",
      .usual = "[0, 0, 0]", ENTRY_IN(scene_member, offset[0])},
-    {"to", ENTRY_DIRECTION, .count = 3, .unit = "m", .summary = "of the end at 'to'",
+    {"to", ENTRY_DIRECTION, .count = 3, .unit = "m", .summary = "offset of the end at 'to'",
      .usual = "[0, 0, 0]", ENTRY_IN(scene_member, offset[1])},
     {.name = NULL}};
 
 static const entry_field imperfection[] = {
     {"amplitude", ENTRY_VECTOR, .needed = 1, .count = 2, .unit = "m",
-     .summary = "along the section's y and z axes", ENTRY_IN(scene_member, bow), .mirrors = "-+"},
-    {"half_waves", ENTRY_WHOLE, .summary = "of a sine between its ends", .usual = "1",
-     ENTRY_IN(scene_member, half_waves), .least = 1, .most = 1000},
+     .summary = "amplitude along the section's y and z axes", ENTRY_IN(scene_member, bow),
+     .mirrors = "-+"},
+    {"half_waves", ENTRY_WHOLE, .summary = "number of half-waves of a sine between its ends",
+     .usual = "1", ENTRY_IN(scene_member, half_waves), .least = 1, .most = 1000},
     {.name = NULL}};
 
 static const entry_field foundation[] = {
     {"translation", ENTRY_VECTOR, .count = 3, .unit = "N/m^2",
-     .summary = "along its x, y, z: force per length and displacement", .usual = "[0, 0, 0]",
-     .at = offsetof(scene_member, foundation), .size = 3 * sizeof(double), .most = INFINITY},
+     .summary = "stiffness along its x, y, z: force per length and displacement",
+     .usual = "[0, 0, 0]", .at = offsetof(scene_member, foundation), .size = 3 * sizeof(double),
+     .most = INFINITY},
     {"rotation", ENTRY_VECTOR, .count = 3, .unit = "N",
-     .summary = "about its x, y, z: moment per length and rotation", .usual = "[0, 0, 0]",
+     .summary = "stiffness about its x, y, z: moment per length and rotation", .usual = "[0, 0, 0]",
      .at = offsetof(scene_member, foundation) + 3 * sizeof(double), .size = 3 * sizeof(double),
      .most = INFINITY},
     {.name = NULL}};
 
 const entry_field entry_member[] = {
-    {"from", ENTRY_NAME, .needed = 1, .summary = "node where its x axis begins",
-     ENTRY_IN(scene_member, p), .of = SCENE_NODES},
-    {"to", ENTRY_NAME, .needed = 1, .summary = "node where it ends", ENTRY_IN(scene_member, q),
+    {"from", ENTRY_NAME, .needed = 1, .summary = "start node", ENTRY_IN(scene_member, p),
+     .of = SCENE_NODES},
+    {"to", ENTRY_NAME, .needed = 1, .summary = "end node", ENTRY_IN(scene_member, q),
      .of = SCENE_NODES},
     {"section", ENTRY_FORMS, .needed = 1,
-     .summary = "NAME, or [at from, at to]: sizes change linearly, elements are prismatic"},
+     .summary = "NAME, or [at from, at to]: sizes vary linearly, each element is prismatic"},
     {"y", ENTRY_DIRECTION, .needed = 1, .count = 3, .summary = "direction of the section's y axis",
      ENTRY_IN(scene_member, y_axis), .mirrors = "---"},
-    {"warping", ENTRY_FORMS, .summary = "free, fixed, {shared: NAME}, or [at from, at to]",
+    {"warping", ENTRY_FORMS,
+     .summary = "free, fixed or {shared: NAME}; for different ends [at from, at to]",
      .left_out =
-         "fixed where all six components of the node are held or driven or it is tied by part_of, "
-         "and no turn is released; shared where two members run on in one line; else free"},
-    {"curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m", .summary = "initial twist, curvatures",
-     .usual = "[0, 0, 0]", ENTRY_IN(scene_member, curvature), .mirrors = "++-"},
+         "fixed if all six components of the node are held or driven, or it is tied by part_of, "
+         "and no rotation is released; shared if two members continue in one line; else free"},
+    {"curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m",
+     .summary = "initial twist and curvatures", .usual = "[0, 0, 0]",
+     ENTRY_IN(scene_member, curvature), .mirrors = "++-"},
     {"strain", ENTRY_VECTOR, .group = 1, .count = 3, .unit = "1",
-     .summary = "elongation, shears that it would have without stress", .usual = "[0, 0, 0]",
+     .summary = "elongation and shears of the unstressed member", .usual = "[0, 0, 0]",
      ENTRY_IN(scene_member, strain)},
     {"pretension", ENTRY_NUMBER, .group = 1, .unit = "N",
-     .summary = "its axial force while its nodes are where they are drawn, before equilibrium",
+     .summary = "axial force with the nodes at their given positions, before equilibrium",
      .left_out = "none", ENTRY_IN(scene_member, pretension)},
     {"unstressed_length", ENTRY_NUMBER, .group = 1, .unit = "m",
-     .summary = "as it was made, to be mounted between its nodes",
-     .left_out = "the length that is drawn", ENTRY_IN(scene_member, unstressed_length),
-     .most = INFINITY},
+     .summary = "its length before it is mounted between its nodes",
+     .left_out = "its length between the given positions",
+     ENTRY_IN(scene_member, unstressed_length), .most = INFINITY},
     {"free_curvature", ENTRY_VECTOR, .count = 2, .unit = "1/m",
-     .summary = "about y and z, that it would have without stress, beyond 'curvature'",
+     .summary = "curvatures about y and z of the unstressed member, in addition to 'curvature'",
      .usual = "[0, 0]", ENTRY_IN(scene_member, free_curvature), .mirrors = "+-"},
     {"offset", ENTRY_MAP, .below = offset,
-     .summary = "where its ends are, from the nodes, with which they move rigidly",
+     .summary = "positions of its ends relative to the nodes, with rigid connections",
      .left_out = "at the nodes"},
     {"imperfection", ENTRY_MAP, .below = imperfection,
-     .summary = "initial shape beside its line, free of stress", .left_out = "none"},
+     .summary = "initial deviation from its line, without stress", .left_out = "none"},
     {"foundation", ENTRY_MAP, .below = foundation,
-     .summary = "springs to the ground all along it, which stay in space", .left_out = "none"},
-    {"release", ENTRY_MAP, .below = release,
-     .summary = "what its ends do not pass on: hinges, slides", .left_out = "nothing"},
+     .summary = "springs to the ground along the member, with directions fixed in space",
+     .left_out = "none"},
+    {"release", ENTRY_MAP, .below = release, .summary = "end releases: hinges, slides",
+     .left_out = "none"},
     {"damping", ENTRY_NUMBER, .unit = "s",
-     .summary = "in time: rates of its strains times its stiffness at rest, times this",
+     .summary = "stiffness-proportional damping: stresses gain this times strain rates times the "
+                "undeformed stiffness",
      .usual = "0", ENTRY_IN(scene_member, damping), .most = INFINITY},
     {"divisions", ENTRY_WHOLE,
-     .summary =
-         "elements, whatever the mesh; of each piece where loads begin, end or act within it",
-     .left_out = "as the mesh says", ENTRY_IN(scene_member, divisions), .most = 10000000},
+     .summary = "number of elements, independent of the mesh; of each piece if loads start, end or "
+                "act within the member",
+     .left_out = "as given by the mesh", ENTRY_IN(scene_member, divisions), .most = 10000000},
     {.name = NULL}};
 
 #define FILE_OF_TABLE                                                                              \
@@ -158,10 +169,11 @@ const entry_field entry_member[] = {
 #define TABLE(which, k, length, force)                                                             \
     static const entry_field table_##which[] = {                                                   \
         {"file", ENTRY_TEXT, .summary = FILE_OF_TABLE, .left_out = NO_FILE},                       \
-        {"at", ENTRY_NUMBERS, .needed = 1, .unit = (length), .summary = "ascending",               \
-         ENTRY_IN(scene_spring, table[k].at)},                                                     \
+        {"at", ENTRY_NUMBERS, .needed = 1, .unit = (length),                                       \
+         .summary = "displacements or rotations, ascending", ENTRY_IN(scene_spring, table[k].at)}, \
         {"value", ENTRY_NUMBERS, .needed = 1, .unit = (force),                                     \
-         .summary = "at these, not falling; 0 at 0. Lines between and beyond",                     \
+         .summary =                                                                                \
+             "forces or moments at these, not decreasing, 0 at 0; linear between and beyond",      \
          ENTRY_IN(scene_spring, table[k].value)},                                                  \
         {.name = NULL}};
 TABLE(ux, 0, "m", "N")
@@ -182,19 +194,20 @@ static const entry_field tables[] = {
     {.name = NULL}};
 
 const entry_field entry_spring[] = {
-    {"from", ENTRY_NAME, .summary = "node in whose axes it deforms", .left_out = "the ground",
-     ENTRY_IN(scene_spring, p), .of = SCENE_NODES},
-    {"to", ENTRY_NAME, .needed = 1, .summary = "node at its other end", ENTRY_IN(scene_spring, q),
+    {"from", ENTRY_NAME, .summary = "first node; deformations are measured in its axes",
+     .left_out = "the ground", ENTRY_IN(scene_spring, p), .of = SCENE_NODES},
+    {"to", ENTRY_NAME, .needed = 1, .summary = "second node", ENTRY_IN(scene_spring, q),
      .of = SCENE_NODES},
     {"tables", ENTRY_MAP, .below = tables,
-     .summary = "of components, beside stiffness: gaps, stops, one-sided springs",
+     .summary = "of components, in addition to stiffness: gaps, stops, one-sided springs",
      .left_out = "none"},
     {"stiffness", ENTRY_NUMBERS,
-     .summary = "of ux, uy, uz [N/m], rx, ry, rz [N m]: six, or the 36 of a symmetric matrix",
-     .left_out = "none: needed without damping and tables"},
+     .summary = "for ux, uy, uz [N/m], rx, ry, rz [N m]: six values, or the 36 entries of a "
+                "symmetric matrix",
+     .left_out = "none; required without damping and tables"},
     {"damping", ENTRY_NUMBERS,
-     .summary = "of a dashpot: forces by the rates of the same, ux, uy, uz [N s/m], rx, ry, rz "
-                "[N m s]: six, or 36",
+     .summary = "dashpot coefficients for ux, uy, uz [N s/m], rx, ry, rz [N m s]: six values, or "
+                "36 entries",
      .left_out = "none"},
     {.name = NULL}};
 
@@ -202,46 +215,46 @@ static const entry_field condition[] = {
     {"node", ENTRY_NAME, .needed = 1, .summary = "node whose coordinate is prescribed instead",
      ENTRY_IN(scene_driver, condition_node), .of = SCENE_NODES},
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS,
-     .summary = "of its coordinates", ENTRY_IN(scene_driver, condition_component)},
-    {"motion", ENTRY_NAME, .needed = 1, .summary = "by this motion",
+     .summary = "coordinate of the node", ENTRY_IN(scene_driver, condition_component)},
+    {"motion", ENTRY_NAME, .needed = 1, .summary = "motion that prescribes it",
      ENTRY_IN(scene_driver, condition_driver), .of = SCENE_DRIVERS},
     {.name = NULL}};
 
 static const entry_field piece[] = {
-    {"until", ENTRY_NUMBER, .unit = "s", .summary = "where it ends; the last one does not",
-     .left_out = "for ever, of the last one"},
+    {"until", ENTRY_NUMBER, .unit = "s", .summary = "end of the piece; the last piece has none",
+     .left_out = "no end; for the last piece only"},
     {"is", ENTRY_TEXT, .needed = 1, .summary = "expression of the time t [s]"},
     {.name = NULL}};
 
 static const entry_field table[] = {
     {"file", ENTRY_TEXT, .summary = FILE_OF_TABLE, .left_out = NO_FILE},
-    {"at", ENTRY_NUMBERS, .needed = 1, .unit = "s", .summary = "instants, ascending"},
+    {"at", ENTRY_NUMBERS, .needed = 1, .unit = "s", .summary = "times, ascending"},
     {"value", ENTRY_NUMBERS, .needed = 1,
-     .summary = "at these values; the first value before them, the last one after"},
+     .summary = "values at these times; constant before the first and after the last"},
     {.name = NULL}};
 
 const entry_field entry_driver[] = {
-    {"unit", ENTRY_WORD, .words = "m|rad", .summary = "of its values",
-     .left_out = "that of what it drives"},
+    {"unit", ENTRY_WORD, .words = "m|rad", .summary = "unit of its values",
+     .left_out = "unit of the driven component"},
     {"path", ENTRY_NUMBERS, .summary = "path parameter, ascending",
-     .left_out = "none: needed with value"},
+     .left_out = "none; required with value"},
     {"value", ENTRY_NUMBERS, .summary = "at these, linear between; in time what it has at the end",
-     .left_out = "none: in time, or unknown"},
-    {"such_that", ENTRY_MAP, .group = 1, .below = condition, .summary = "unknown",
-     .left_out = "it is known"},
-    {"unknown", ENTRY_WORD, .words = "true|yes", .summary = "for the reader of the file",
-     .left_out = "as such_that says"},
+     .left_out = "none; for a motion in time, or unknown"},
+    {"such_that", ENTRY_MAP, .group = 1, .below = condition,
+     .summary = "condition that determines an unknown motion", .left_out = "the motion is known"},
+    {"unknown", ENTRY_WORD, .words = "true|yes", .summary = "a remark for readers of the file",
+     .left_out = "as given by such_that"},
     {"time", ENTRY_TEXT, .group = 1,
-     .summary = "in time: expression of the time t [s]; value in m or rad (30*deg*t)",
-     .left_out = "it is along a path"},
+     .summary = "motion in time: expression of the time t [s], in m or rad (30*deg*t)",
+     .left_out = "a motion along the path"},
     {"pieces", ENTRY_LIST, .group = 1, .below = piece,
-     .summary = "likewise, one expression after the other; value and velocity do not jump",
-     .left_out = "it is along a path"},
+     .summary = "motion in time by successive expressions; value and velocity must be continuous",
+     .left_out = "a motion along the path"},
     {"table", ENTRY_MAP, .group = 1, .below = table,
-     .summary = "likewise, a cubic spline that begins and ends at rest",
-     .left_out = "it is along a path"},
+     .summary = "motion in time as a table: a cubic spline that starts and ends at rest",
+     .left_out = "a motion along the path"},
     {"case", ENTRY_NAME, .summary = "load case that it belongs to",
-     .left_out = "none: it moves in all of them", ENTRY_IN(scene_driver, load_case),
+     .left_out = "none: it acts in all load cases", ENTRY_IN(scene_driver, load_case),
      .of = SCENE_CASES},
     {.name = NULL}};
 
@@ -249,56 +262,58 @@ const entry_field entry_load[] = {
     {"force", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
      .summary = "at a node, or at 'where' of a member"},
     {"moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N m",
-     .summary = "at one, or there"},
+     .summary = "at a node, or at 'where' of a member"},
     {"distributed", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N/m",
-     .summary = "along a member"},
+     .summary = "force per length of a member"},
     {"distributed_moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
-     .summary = "moments along a member, N m per m"},
+     .summary = "moment per length of a member"},
     {"gravity", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "m/s^2",
-     .summary = "on a member, whose section has a density, on a node, which has a mass, or on all "
-                "that has"},
+     .summary =
+         "on a member whose section has a density, on a node with a mass, or on all of these"},
     {"temperature", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "K",
-     .summary = "change of a member's temperature, at its centroids",
+     .summary = "temperature change of a member, at its centroids",
      ENTRY_IN(scene_load, temperature)},
     {"gradient", ENTRY_VECTOR, .count = 2, .unit = "K/m",
-     .summary = "of a temperature: how it changes along y and z of the section", .usual = "[0, 0]",
-     ENTRY_IN(scene_load, gradient), .mirrors = "-+"},
-    {"on", ENTRY_NAME, .needed = 1, .summary = "node or member; of gravity also: all"},
+     .summary = "gradient of the temperature change along y and z of the section",
+     .usual = "[0, 0]", ENTRY_IN(scene_load, gradient), .mirrors = "-+"},
+    {"on", ENTRY_NAME, .needed = 1, .summary = "node or member; for gravity also: all"},
     {"where", ENTRY_NUMBER,
-     .summary = "of a force or a moment within a member: 0 'from' to 1 'to', of its length",
-     .left_out = "it is at a node"},
+     .summary = "position of a force or moment in a member, from 0 at its start to 1 at its end",
+     .left_out = "at a node"},
     {"from", ENTRY_NUMBER,
-     .summary = "of a distributed load, a temperature: where it begins, of the length",
+     .summary = "start of a distributed load or temperature, as a fraction of the length",
      .usual = "0"},
-    {"to", ENTRY_NUMBER, .summary = "where it ends, of the length", .usual = "1"},
+    {"to", ENTRY_NUMBER, .summary = "its end, as a fraction of the length", .usual = "1"},
     {"to_value", ENTRY_VECTOR, .count = 3,
-     .summary = "of a distributed load: what it is at 'to', linear from what it is at 'from'",
-     .left_out = "the same all along"},
+     .summary = "distributed load at 'to', varying linearly from its value at 'from'",
+     .left_out = "constant"},
     {"lumped", ENTRY_FLAG, .words = "no|yes|false|true",
-     .summary = "of a distributed load or gravity: half of an element's share on each of its "
-                "nodes, of second order",
+     .summary = "distributed load or gravity: half of the load of an element on each of its nodes; "
+                "second-order accurate",
      .usual = "no", ENTRY_IN(scene_load, lumped)},
     {"at", ENTRY_VECTOR, .count = 3, .unit = "m",
-     .summary = "of forces: offset from the node or the centroids", .usual = "[0, 0, 0]",
+     .summary = "offset of a force from the node or the centroids", .usual = "[0, 0, 0]",
      ENTRY_IN(scene_load, at)},
     {"axes", ENTRY_WORD, .words = "fixed|member",
-     .summary = "of vector and 'at': fixed, or the undeformed member's", .usual = "fixed",
-     ENTRY_IN(scene_load, axes)},
+     .summary = "axes of the load vector and of 'at': fixed, or those of the undeformed member",
+     .usual = "fixed", ENTRY_IN(scene_load, axes)},
     {"follower", ENTRY_FLAG, .words = "false|true|no|yes",
-     .summary = "true: its direction turns with the node or the sections", .usual = "false",
+     .summary = "true: its direction rotates with the node or the sections", .usual = "false",
      ENTRY_IN(scene_load, follower)},
     {"path", ENTRY_NUMBERS, .summary = "path parameter, ascending",
-     .left_out = "none: needed with factor"},
-    {"factor", ENTRY_NUMBERS, .summary = "at these", .left_out = "the path parameter itself"},
+     .left_out = "none; required with factor"},
+    {"factor", ENTRY_NUMBERS, .summary = "factors at these values of the path parameter",
+     .left_out = "the path parameter itself"},
     {"time", ENTRY_TEXT, .group = 2, .summary = "factor in time: expression of the time t [s]",
-     .left_out = "as at the end of the path that a motion follows, or 1"},
+     .left_out = "the factor at the end of the path that a motion follows, or 1"},
     {"pieces", ENTRY_LIST, .group = 2, .below = piece,
-     .summary = "likewise, one expression after the other; it may jump between",
-     .left_out = "likewise"},
-    {"table", ENTRY_MAP, .group = 2, .below = table, .summary = "likewise, linear between",
-     .left_out = "likewise"},
-    {"case", ENTRY_NAME, .summary = "load case that it belongs to: any name; of all loads or none",
-     .left_out = "no load has one", ENTRY_IN(scene_load, load_case), .of = SCENE_CASES},
+     .summary = "factor in time by successive expressions; it may jump between them",
+     .left_out = "as for time"},
+    {"table", ENTRY_MAP, .group = 2, .below = table,
+     .summary = "factor in time as a table, linear in between", .left_out = "as for time"},
+    {"case", ENTRY_NAME,
+     .summary = "load case that it belongs to: any name; give it for all loads or none",
+     .left_out = "none", ENTRY_IN(scene_load, load_case), .of = SCENE_CASES},
     {.name = NULL}};
 
 /* Any load case. */
@@ -320,7 +335,7 @@ const entry_field entry_constraint[] = {
     {.name = NULL}};
 
 const entry_field entry_combination[] = {
-    {"", ENTRY_NUMBER, .summary = "a load case: its factor", .left_out = "it does not act"},
+    {"", ENTRY_NUMBER, .summary = "factor of this load case", .left_out = "it does not act"},
     {.name = NULL}};
 
 const entry_field *entry_of_load(scene_load_kind kind)
@@ -339,9 +354,9 @@ static const entry_field rectangle[] = {
     {.name = NULL}};
 
 static const entry_field tube[] = {{"diameter", ENTRY_NUMBER, .needed = 1, .unit = "m",
-                                    .summary = "outer one", ENTRY_IN(section_spec, diameter)},
+                                    .summary = "outer diameter", ENTRY_IN(section_spec, diameter)},
                                    {"thickness", ENTRY_NUMBER, .needed = 1, .unit = "m",
-                                    .summary = "half the diameter: a bar",
+                                    .summary = "wall thickness; half the diameter for a solid bar",
                                     ENTRY_IN(section_spec, wall_thickness)},
                                    {.name = NULL}};
 
@@ -349,9 +364,9 @@ static const entry_field point[] = {
     {"", ENTRY_VECTOR, .count = 2, .unit = "m", .summary = "[y, z]"}, {.name = NULL}};
 
 static const entry_field wall[] = {
-    {"from", ENTRY_NAME, .needed = 1, .summary = "point where it begins"},
-    {"to", ENTRY_NAME, .needed = 1, .summary = "point where it ends"},
-    {"thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "of the wall"},
+    {"from", ENTRY_NAME, .needed = 1, .summary = "start point"},
+    {"to", ENTRY_NAME, .needed = 1, .summary = "end point"},
+    {"thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "wall thickness"},
     {.name = NULL}};
 
 /* Records that a zero was given explicitly, for constants that are otherwise unknown. */
@@ -368,26 +383,27 @@ static const entry_field constants[] = {
      ENTRY_IN(section_spec, constants.It)},
     {"Ip", ENTRY_NUMBER, .unit = "m^4", .summary = "polar moment", .left_out = "Iy + Iz",
      ENTRY_IN(section_spec, constants.Ip), .always = 1},
-    {"Iw", ENTRY_NUMBER, .unit = "m^6", .summary = "warping constant; 0: nothing warps",
-     .left_out = "unknown: taken as 0", ENTRY_IN(section_spec, constants.Iw),
+    {"Iw", ENTRY_NUMBER, .unit = "m^6", .summary = "warping constant; 0: no warping",
+     .left_out = "unknown: assumed to be 0", ENTRY_IN(section_spec, constants.Iw),
      ZERO(SECTION_ZERO_WARPING)},
     {"ys", ENTRY_NUMBER, .unit = "m", .summary = "shear centre from the centroid, along y",
      .usual = "0", ENTRY_IN(section_spec, constants.ys), .mirrors = "-"},
     {"zs", ENTRY_NUMBER, .unit = "m", .summary = "shear centre from the centroid, along z",
      .usual = "0", ENTRY_IN(section_spec, constants.zs)},
     {"wagner_y", ENTRY_NUMBER, .unit = "m^5", .summary = "int y (y^2 + z^2) dA",
-     .left_out = "unknown: taken as 0", ENTRY_IN(section_spec, constants.wagner_y), .mirrors = "-",
-     ZERO(SECTION_ZERO_WAGNER_Y)},
+     .left_out = "unknown: assumed to be 0", ENTRY_IN(section_spec, constants.wagner_y),
+     .mirrors = "-", ZERO(SECTION_ZERO_WAGNER_Y)},
     {"wagner_z", ENTRY_NUMBER, .unit = "m^5", .summary = "int z (y^2 + z^2) dA",
-     .left_out = "unknown: taken as 0", ENTRY_IN(section_spec, constants.wagner_z),
+     .left_out = "unknown: assumed to be 0", ENTRY_IN(section_spec, constants.wagner_z),
      ZERO(SECTION_ZERO_WAGNER_Z)},
     {"wagner_torque", ENTRY_NUMBER, .unit = "m^6", .summary = "c of the energy E c kx^4 per length",
-     .left_out = "unknown: taken as 0", ENTRY_IN(section_spec, constants.wagner_torque),
+     .left_out = "unknown: assumed to be 0", ENTRY_IN(section_spec, constants.wagner_torque),
      ZERO(SECTION_ZERO_WAGNER_TORQUE)},
-    {"D", ENTRY_VECTOR, .count = 9, .group = 1, .summary = "shear rigidities/G, order y, z, omega",
-     .left_out = "that of F; neither: rigid in shear"},
-    {"F", ENTRY_VECTOR, .count = 9, .group = 1, .summary = "its inverse",
-     .left_out = "that of D; neither: rigid in shear"},
+    {"D", ENTRY_VECTOR, .count = 9, .group = 1,
+     .summary = "matrix of shear rigidities/G, in the order y, z, omega",
+     .left_out = "inverse of F; without either: rigid in shear"},
+    {"F", ENTRY_VECTOR, .count = 9, .group = 1, .summary = "inverse of D",
+     .left_out = "inverse of D; without either: rigid in shear"},
     {.name = NULL}};
 
 #define GIVEN(constant)                                                                            \
@@ -398,7 +414,7 @@ static const entry_field given[] = {
     {"Iz", ENTRY_NUMBER, .unit = "m^4", .summary = "walls: int y^2 dA", GIVEN(Iz)},
     {"Iw", ENTRY_NUMBER, .unit = "m^6", .summary = "warping constant", GIVEN(Iw)},
     {"beta", ENTRY_NUMBER, .unit = "rad",
-     .summary = "walls: principal y axis from the y axis of the points", GIVEN(beta),
+     .summary = "walls: angle from the y axis of the points to the principal y axis", GIVEN(beta),
      .mirrors = "-"},
     {"ys", ENTRY_NUMBER, .unit = "m", .summary = "shear centre, along y", GIVEN(ys),
      .mirrors = "-"},
@@ -419,73 +435,79 @@ static const entry_field given[] = {
 
 /* Sizes refer to the centre lines of the walls. */
 static const entry_field flanged[] = {
-    {"depth", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "between the flanges"},
+    {"depth", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "distance of the flanges"},
     {"flange", ENTRY_NUMBER, .needed = 1, .unit = "m",
-     .summary = "its width; channel, zed: from the web"},
-    {"flange_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "of both flanges"},
-    {"web_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "of the web"},
+     .summary = "width of a flange; channel, zed: from the web"},
+    {"flange_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m",
+     .summary = "thickness of both flanges"},
+    {"web_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "thickness of the web"},
     {.name = NULL}};
 
 static const entry_field legs[] = {
-    {"along_y", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "length of this leg"},
-    {"along_z", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "length of that one"},
-    {"thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "of both"},
+    {"along_y", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "length of the leg along y"},
+    {"along_z", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "length of the leg along z"},
+    {"thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "thickness of both legs"},
     {.name = NULL}};
 
 static const entry_field tee[] = {
     {"depth", ENTRY_NUMBER, .needed = 1, .unit = "m",
-     .summary = "of the web, from the flange's centre line to its end"},
-    {"flange", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "its width"},
-    {"flange_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "of the flange"},
-    {"web_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "of the web"},
+     .summary = "depth of the web, from the flange's centre line to its end"},
+    {"flange", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "width of the flange"},
+    {"flange_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m",
+     .summary = "thickness of the flange"},
+    {"web_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "thickness of the web"},
     {.name = NULL}};
 
 const entry_field entry_section[] = {
-    {"rectangle", ENTRY_MAP, .needed = 1, .group = 1, .below = rectangle, .summary = "solid",
-     ENTRY_IN(section_spec, kind), .first = SECTION_RECTANGLE},
-    {"points", ENTRY_NAMES, .below = point, .summary = "of walls, in any axes", .left_out = "none"},
+    {"rectangle", ENTRY_MAP, .needed = 1, .group = 1, .below = rectangle,
+     .summary = "solid rectangle", ENTRY_IN(section_spec, kind), .first = SECTION_RECTANGLE},
+    {"points", ENTRY_NAMES, .below = point, .summary = "end points of walls, in any axes",
+     .left_out = "none"},
     {"walls", ENTRY_LIST, .needed = 1, .group = 1, .below = wall, .summary = "thin straight walls"},
-    {"constants", ENTRY_MAP, .needed = 1, .group = 1, .below = constants, .summary = "as given",
-     ENTRY_IN(section_spec, kind), .first = SECTION_CONSTANTS},
+    {"constants", ENTRY_MAP, .needed = 1, .group = 1, .below = constants,
+     .summary = "given constants", ENTRY_IN(section_spec, kind), .first = SECTION_CONSTANTS},
     {"i", ENTRY_MAP, .needed = 1, .group = 1, .below = flanged,
-     .summary = "web along z, in the middle"},
+     .summary = "I-section: web along z, in the middle of the flanges"},
     {"channel", ENTRY_MAP, .needed = 1, .group = 1, .below = flanged,
      .summary = "flanges towards -y"},
     {"zed", ENTRY_MAP, .needed = 1, .group = 1, .below = flanged,
      .summary = "upper flange towards -y"},
-    {"angle", ENTRY_MAP, .needed = 1, .group = 1, .below = legs, .summary = "from its corner"},
-    {"box", ENTRY_MAP, .needed = 1, .group = 1, .below = flanged, .summary = "closed, two webs"},
-    {"tube", ENTRY_MAP, .needed = 1, .group = 1, .below = tube, .summary = "circular, or a bar",
-     ENTRY_IN(section_spec, kind), .first = SECTION_TUBE},
+    {"angle", ENTRY_MAP, .needed = 1, .group = 1, .below = legs,
+     .summary = "angle section: legs from the corner"},
+    {"box", ENTRY_MAP, .needed = 1, .group = 1, .below = flanged,
+     .summary = "closed box with two webs"},
+    {"tube", ENTRY_MAP, .needed = 1, .group = 1, .below = tube,
+     .summary = "circular tube, or solid bar", ENTRY_IN(section_spec, kind), .first = SECTION_TUBE},
     {"t", ENTRY_MAP, .needed = 1, .group = 1, .below = tee,
      .summary = "flange along y, web from it towards -z"},
     {"profile", ENTRY_TEXT, .needed = 1, .group = 1,
-     .summary = "a rolled one: IPE200, HEA200, HEB200, UPN200, L100x10, SHS100x5, RHS200x100x5, "
+     .summary = "rolled section: IPE200, HEA200, HEB200, UPN200, L100x10, SHS100x5, RHS200x100x5, "
                 "CHS114.3x5"},
     {"stiffness", ENTRY_NUMBERS, .needed = 1, .group = 1,
-     .summary =
-         "(N, Qy, Qz, Mx, My, Mz) from (gx, gy, gz, kx, ky, kz) on the member's line: the 36 "
-         "of a symmetric matrix, or its diagonal"},
+     .summary = "(N, Qy, Qz, Mx, My, Mz) from (gx, gy, gz, kx, ky, kz) on the member's line: the "
+                "36 entries of a symmetric matrix, or its diagonal"},
     {"mass", ENTRY_NUMBERS,
-     .summary = "of stiffness, per length, of (vx, vy, vz, wx, wy, wz): 36, or the diagonal",
+     .summary = "with stiffness: mass per length for (vx, vy, vz, wx, wy, wz), 36 entries, or the "
+                "diagonal",
      .usual = "[0, 0, 0, 0, 0, 0]"},
     {"shear_factor", ENTRY_FORMS, .summary = "rectangle: k, or [k_y, k_z]",
      .left_out = "5/6, with the warping's own shear"},
-    {"thickness_terms", ENTRY_WORD, .words = "no|yes", .summary = "walls: t^3 terms too",
+    {"thickness_terms", ENTRY_WORD, .words = "no|yes", .summary = "walls: include t^3 terms",
      .usual = "no", ENTRY_IN(section_spec, thickness_terms)},
-    {"cells", ENTRY_WHOLE, .summary = "how many the walls close", .usual = "0",
+    {"cells", ENTRY_WHOLE, .summary = "number of cells that the walls close", .usual = "0",
      ENTRY_IN(section_spec, cells), .most = SECTION_MAX_WALLS},
-    {"given", ENTRY_MAP, .below = given, .summary = "replaces computed constants",
-     .left_out = "nothing is replaced"},
-    {"young", ENTRY_NUMBER, .unit = "Pa", .summary = "modulus of elasticity; of all but stiffness",
-     .left_out = "a mistake, unless stiffness is given", ENTRY_IN(section_spec, young),
+    {"given", ENTRY_MAP, .below = given, .summary = "constants that replace computed ones",
+     .left_out = "none"},
+    {"young", ENTRY_NUMBER, .unit = "Pa",
+     .summary = "modulus of elasticity; for all sections but stiffness",
+     .left_out = "required, unless stiffness is given", ENTRY_IN(section_spec, young),
      .otherwise = 1, .always = 1},
-    {"shear_modulus", ENTRY_NUMBER, .unit = "Pa", .summary = "E/(2 (1 + nu)); of all but stiffness",
-     .left_out = "a mistake, unless stiffness is given", ENTRY_IN(section_spec, shear_modulus),
+    {"shear_modulus", ENTRY_NUMBER, .unit = "Pa",
+     .summary = "E/(2 (1 + nu)); for all sections but stiffness",
+     .left_out = "required, unless stiffness is given", ENTRY_IN(section_spec, shear_modulus),
      .otherwise = 1, .always = 1},
-    {"density", ENTRY_NUMBER, .unit = "kg/m^3", .summary = "0: no inertia", .usual = "0",
+    {"density", ENTRY_NUMBER, .unit = "kg/m^3", .summary = "density; 0: no inertia", .usual = "0",
      ENTRY_IN(section_spec, density)},
-    {"expansion", ENTRY_NUMBER, .unit = "1/K",
-     .summary = "strain by the temperature, free of stress", .usual = "0",
-     ENTRY_IN(section_spec, expansion)},
+    {"expansion", ENTRY_NUMBER, .unit = "1/K", .summary = "coefficient of thermal expansion",
+     .usual = "0", ENTRY_IN(section_spec, expansion)},
     {.name = NULL}};

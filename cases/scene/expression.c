@@ -269,7 +269,7 @@ static status emit(reader *r, jet_operation what, double number, int grows)
     r->depth += grows;
     return !r->in_time || r->depth < HIGHEST
                ? STATUS_OK
-               : WRONG(r, r->at, "too deeply nested; compute parts of it with 'let'");
+               : WRONG(r, r->at, "too deeply nested; compute parts with 'let'");
 }
 
 /* Position of the last value if it is a single number; NULL if it contains t. first: its first

@@ -5,35 +5,37 @@
 QUANTITY_TYPES(DECLARED)
 
 static const entry_field abscissa[] = {
-    {"quantity", ENTRY_NAME, .summary = "whose curve, of the same path, it is",
+    {"quantity", ENTRY_NAME, .summary = "quantity whose curve along the same path is the abscissa",
      .left_out = "the path, time or frequency"},
     {"name", ENTRY_TEXT, .summary = "its name", .left_out = "path, time or frequency"},
     {"unit", ENTRY_TEXT, .summary = "its unit",
      .left_out = "1; with factor 1 over time s, over frequency Hz"},
-    {"factor", ENTRY_NUMBER, .summary = "times the path parameter", .usual = "1"},
+    {"factor", ENTRY_NUMBER, .summary = "factor of the path parameter", .usual = "1"},
     {"offset", ENTRY_NUMBER, .summary = "added to it", .usual = "0"},
     {.name = NULL}};
 
 static const entry_field when[] = {
-    {"direction", ENTRY_WORD, .words = SCENE_DIRECTION_CHOICES, .summary = "of the crossing",
-     .usual = "rising", ENTRY_IN(scene_quantity, passing.direction), .always = 1},
-    {"level", ENTRY_NUMBER, .summary = "that is crossed, in SI units before factor and offset",
-     .usual = "0", ENTRY_IN(scene_quantity, passing.level)},
+    {"direction", ENTRY_WORD, .words = SCENE_DIRECTION_CHOICES,
+     .summary = "direction of the crossing", .usual = "rising",
+     ENTRY_IN(scene_quantity, passing.direction), .always = 1},
+    {"level", ENTRY_NUMBER,
+     .summary = "level that is crossed, in SI units before factor and offset", .usual = "0",
+     ENTRY_IN(scene_quantity, passing.level)},
     {"which", ENTRY_WHOLE, .summary = "crossing, counted from 0", .usual = "0",
      ENTRY_IN(scene_quantity, passing.order), .most = ENTRY_MOST_ORDER},
-    {"from", ENTRY_NUMBER, .summary = "begin of the window [s]", .usual = "0",
+    {"from", ENTRY_NUMBER, .summary = "start of the window [s]", .usual = "0",
      ENTRY_IN(scene_quantity, passing.from)},
     {"until", ENTRY_NUMBER, .summary = "its end [s]", .left_out = "that of the motion",
      ENTRY_IN(scene_quantity, passing.until)},
     {"taper", ENTRY_WORD, .words = SCENE_TAPER_CHOICES,
-     .summary = "of a spectrum: hann weights its history with sin^2 from end to end",
-     .usual = "none", ENTRY_IN(scene_quantity, passing.taper)},
+     .summary = "taper of a spectrum; hann: the history is weighted with sin^2", .usual = "none",
+     ENTRY_IN(scene_quantity, passing.taper)},
     {.name = NULL}};
 
 static const entry_field prediction[] = {
-    {"value", ENTRY_NUMBER, .needed = 1, .summary = "of a model with its own error",
+    {"value", ENTRY_NUMBER, .needed = 1, .summary = "value of the estimate",
      ENTRY_IN(scene_quantity, prediction.value)},
-    {"source", ENTRY_TEXT, .needed = 1, .summary = "of the model"},
+    {"source", ENTRY_TEXT, .needed = 1, .summary = "source of the estimate"},
     {.name = NULL}};
 
 #define KIND(key)                                                                                  \
@@ -46,23 +48,23 @@ static const entry_field prediction[] = {
 const entry_field entry_quantity[] = {
     QUANTITY_TYPES(KIND) /* one of them */
     {"unit", ENTRY_TEXT, .summary = "SI unit, or that of the scene's 'units'",
-     .left_out = "that of the kind"},
+     .left_out = "as usual for the quantity"},
     {"factor", ENTRY_NUMBER, .summary = "reported value = factor value + offset", .usual = "1",
      ENTRY_IN(scene_quantity, factor), .always = 1},
-    {"offset", ENTRY_NUMBER, .summary = "in the same unit", .usual = "0",
+    {"offset", ENTRY_NUMBER, .summary = "offset in the same unit", .usual = "0",
      ENTRY_IN(scene_quantity, offset)},
     {"near_zero", ENTRY_NUMBER, .summary = "scale of errors of values near zero", .usual = "0",
      ENTRY_IN(scene_quantity, near_zero)},
-    {"tolerance", ENTRY_NUMBER, .summary = "relative, of the limit", .usual = "1e-3",
+    {"tolerance", ENTRY_NUMBER, .summary = "relative tolerance of the limit", .usual = "1e-3",
      ENTRY_IN(scene_quantity, tolerance)},
-    {"order", ENTRY_NUMBER, .summary = "least order of convergence", .usual = "0",
+    {"order", ENTRY_NUMBER, .summary = "required order of convergence", .usual = "0",
      ENTRY_IN(scene_quantity, least_order)},
     {"x", ENTRY_MAP, .below = abscissa, .summary = "abscissa of a curve",
      .left_out = "the path or time"},
-    {"when", ENTRY_MAP, .below = when, .summary = "of a motion: which crossing; its window",
-     .left_out = "the first that rises through 0"},
-    {"prediction", ENTRY_MAP, .below = prediction, .summary = "shown, never judged",
-     .left_out = "none"},
+    {"when", ENTRY_MAP, .below = when, .summary = "crossing and window of a motion",
+     .left_out = "the first rising crossing of 0"},
+    {"prediction", ENTRY_MAP, .below = prediction,
+     .summary = "analytic estimate: shown, gets no verdict", .left_out = "none"},
     {.name = NULL}};
 
 void quantity_type_begin(const quantity_type *type, scene_quantity *q)

@@ -852,7 +852,7 @@ typedef struct scene_load {
     char name[SCENE_NAME];
 } scene_load;
 
-/* What loads belong to, by a name alone. */
+/* A load case; loads refer to it by its name. */
 typedef struct scene_load_case {
     char name[SCENE_NAME];
 } scene_load_case;
@@ -1441,30 +1441,31 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
      ENTRY_IN(scene_quantity, analysis),                                                           \
      .of = SCENE_ANALYSES}
 #define QUANTITY_TAKEN                                                                             \
-    {"at", ENTRY_NUMBER, .group = 1, .summary = "station", .left_out = "as take says"},            \
+    {"at", ENTRY_NUMBER, .group = 1, .summary = "station", .left_out = "as given by take"},        \
         {"take",                                                                                   \
          ENTRY_WORD,                                                                               \
          .group = 1,                                                                               \
          .words = SCENE_TAKE_CHOICES,                                                              \
-         .summary = "of all stations",                                                             \
+         .summary = "statistic over all stations",                                                 \
          .usual = "last"}
 #define QUANTITY_MODE                                                                              \
     {"which",                                                                                      \
      ENTRY_WHOLE,                                                                                  \
-     .summary = "counted from 0, of the family",                                                   \
+     .summary = "index in the family, counted from 0",                                             \
      .usual = "0",                                                                                 \
      ENTRY_IN(scene_quantity, what.of.mode.order),                                                 \
      .most = ENTRY_MOST_ORDER},                                                                    \
         {"family",                                                                                 \
          ENTRY_WORD,                                                                               \
          .words = "any|not_axial|axial|bending_y|bending_z|torsion",                               \
-         .summary = "of modes",                                                                    \
+         .summary = "family of modes",                                                             \
          .usual = "any",                                                                           \
          ENTRY_IN(scene_quantity, what.of.mode.family),                                            \
          .always = 1},                                                                             \
     {                                                                                              \
-        "half_waves", ENTRY_WHOLE, .summary = "of the mode; 0: any", .usual = "0",                 \
-            ENTRY_IN(scene_quantity, what.of.mode.half_waves), .most = ENTRY_MOST_ORDER            \
+        "half_waves", ENTRY_WHOLE, .summary = "half-waves of the mode; 0: any number",             \
+            .usual = "0", ENTRY_IN(scene_quantity, what.of.mode.half_waves),                       \
+            .most = ENTRY_MOST_ORDER                                                               \
     }
 #define QUANTITY_NODE(member)                                                                      \
     {"node",                                                                                       \

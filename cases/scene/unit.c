@@ -164,7 +164,7 @@ status scene_change_unit(scene *s, double x, fault *f)
 {
     if (!(x > 0 && isfinite(x)))
         return fault_set(f, STATUS_REFUSED,
-                         "no unit of length has %g of it to the metre; give a positive number", x);
+                         "%g is not a number of length units per metre; give a positive number", x);
     for (int i = 0; i < s->sections; i++)
         scale_section(&s->section[i], x);
     scale_entries(s, ENTRY_LENGTH, x);

@@ -94,7 +94,7 @@ static const char *table_mistake(const scene_table *t)
             return "'at' does not ascend; give finite numbers that do";
     for (int i = 1; i < n; i++)
         if (!(t->value.value[i] >= t->value.value[i - 1]))
-            return "'value' falls, so that it drives itself on; give values that do not fall";
+            return "'value' decreases, which is unstable; give values that do not decrease";
     double most = fmax(fabs(t->value.value[0]), fabs(t->value.value[n - 1]));
     return fabs(scene_table_at(t, 0, &slope)) <= 1e-12 * most
                ? NULL
@@ -205,15 +205,15 @@ static status check_range(const scene *s, int i, fault *f)
         return r[0] >= 0 && r[0] <= 1 && r[1] == r[0]
                    ? STATUS_OK
                    : fault_set(f, STATUS_REFUSED,
-                               "%s: it acts at %g of its member's length; give a part of it, from "
-                               "0 to 1",
+                               "%s: its position is %g of the member's length; give a fraction "
+                               "from 0 to 1",
                                scene_called(s, SCENE_LOADS, i).text, r[0]);
     if (spread)
         return r[0] >= 0 && r[0] < r[1] && r[1] <= 1
                    ? STATUS_OK
                    : fault_set(f, STATUS_REFUSED,
-                               "%s: it acts from %g to %g of its member's length; give two parts "
-                               "of it that ascend, from 0 to 1",
+                               "%s: it acts from %g to %g of the member's length; give two "
+                               "increasing fractions from 0 to 1",
                                scene_called(s, SCENE_LOADS, i).text, r[0], r[1]);
     if (r[0] != 0 || r[1] != (load->kind == SCENE_GRAVITY))
         return fault_set(f, STATUS_REFUSED, "%s: a part of a member, and it is %s; remove that",

@@ -85,7 +85,7 @@ static status check_follows(const scene *s, int i, fault *f)
         return fault_set(
             f, STATUS_REFUSED,
             "%s: a motion starts from the last state of a static path, a continuation, a rotation "
-            "or a motion, and what it follows is %s; follow one of these, or nothing",
+            "or a motion, but it follows %s; follow one of these, or nothing",
             scene_called(s, SCENE_ANALYSES, i).text,
             scene_analysis_name(s->analysis[follows].kind));
     if (follows != SCENE_NONE && s->analysis[follows].kind == SCENE_MOTION)
@@ -146,8 +146,8 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     function_at(&driver->function, 0, at);
     if (!(fabs(at[0] - starts) <= 1e-9 * (1 + fabs(starts))))
         return fault_set(f, STATUS_REFUSED,
-                         "driver %s: at 0 s it is %g, and a motion starts with it at %g; begin "
-                         "there, or follow a static path that ends where it begins",
+                         "driver %s: at 0 s its value is %g, but a motion starts from %g; start "
+                         "there, or follow a static path that ends at the start value",
                          driver->name, at[0], starts);
     return STATUS_OK;
 }
@@ -358,7 +358,7 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
     const scene_analysis *a = &s->analysis[i];
     if (a->follows != SCENE_NONE && (a->follows < 0 || a->follows >= i))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it follows one that does not come before it; name an earlier one",
+                         "%s: it follows an analysis that is not before it; name an earlier one",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (a->follows != SCENE_NONE && a->kind != SCENE_MOTION &&
         s->analysis[a->follows].kind == SCENE_MOTION)
@@ -439,8 +439,8 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
                          q->name);
     if (!(p->from >= 0) || !isfinite(p->until) || (p->until != 0 && !(p->until > p->from)))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its window from %g to %g s is none; begin at 0 s or later, "
-                         "and end behind that",
+                         "quantity %s: its window from %g to %g s is invalid; start at 0 s or "
+                         "later, and end after the start",
                          q->name, p->from, p->until);
     return scene_spectrum_stations(s, q, &first, &count, f);
 }
@@ -461,13 +461,13 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
                          q->name, scene_called(s, SCENE_ANALYSES, q->analysis).text);
     if (q->reduction > SCENE_CURVE && a->kind != SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: times, crossings and means are those of a motion in time; "
-                         "name one, or ask for a station or a curve",
+                         "quantity %s: times, crossings and means require a motion in time; name "
+                         "one, or request a station or a curve",
                          q->name);
     if (q->reduction > SCENE_CURVE && !scene_is_passed(q, a->kind))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: crossings, periods and means are those of places and "
-                         "rates; ask for its largest or least value, or for a curve",
+                         "quantity %s: crossings, periods and means require positions or rates; "
+                         "request the maximum, the minimum or a curve",
                          q->name);
     if (!scene_is_passed(q, a->kind))
         return STATUS_OK;
@@ -475,9 +475,9 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
         p->direction > SCENE_EITHER || !(p->from >= 0) || !isfinite(p->until) ||
         (p->until != 0 && !(p->until > p->from)))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its window from %g to %g s, or its crossing, is none; give "
-                         "a finite level, rising, falling or either, and a window that begins at "
-                         "0 s or later and ends behind that",
+                         "quantity %s: its window from %g to %g s, or its crossing, is invalid; "
+                         "give a finite level, rising, falling or either, and a window that starts "
+                         "at 0 s or later and ends after the start",
                          q->name, p->from, p->until);
     return STATUS_OK;
 }

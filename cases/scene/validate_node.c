@@ -294,7 +294,7 @@ static status check_member(const scene *s, int i, fault *f)
     if (is_across(s, strain))
         return refuse(s, who, "its initial strain leaves the plane", f);
     if (is_across(s, m->offset[0]) || is_across(s, m->offset[1]))
-        return refuse(s, who, "an end of it is outside the plane", f);
+        return refuse(s, who, "one of its ends is outside the plane", f);
     return check_release(s, i, R, f);
 }
 

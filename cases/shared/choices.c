@@ -6,9 +6,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-static const char omitted[] =
-    "physics omitted: what the source of the case omits, or nothing, whatever the other "
-    "parameters say; values of the source are not those of the latter";
+static const char omitted[] = "omitted physics: the physics that the source of the case omits, or "
+                              "none. The values of the source do not apply to none";
 
 const parameter_type case_omit[] = {
     {"omit", "", 0, 0, 0, "source|none", omitted},
@@ -16,8 +15,8 @@ const parameter_type case_omit[] = {
 };
 const parameter_type case_mass_omit[] = {
     {"mass", "", SCENE_MASS_USUAL, 0, 0, "usual|" SCENE_MASS_CHOICES,
-     "of members: along them where formulation and integrator have it so, halves at the nodes, or "
-     "along them and refused without"},
+     "mass of members: distributed if the formulation and the integrator support it, or half at "
+     "each node, or distributed and rejected if not supported"},
     {"omit", "", 0, 0, 0, "source|none", omitted},
     {0},
 };

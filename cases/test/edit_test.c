@@ -190,8 +190,8 @@ static void refused(void)
         {curved, {SCENE_EDIT_SPLIT, 0.5}, "member 0: curved"},
         {unchanged, {SCENE_EDIT_SPLIT, 1}, "split at 1 of its length"},
         {unchanged, {SCENE_EDIT_SPLIT, NAN}, "split at nan of its length"},
-        {unchanged, {SCENE_EDIT_UNIT, 0}, "no unit of length"},
-        {unchanged, {SCENE_EDIT_UNIT, INFINITY}, "no unit of length"},
+        {unchanged, {SCENE_EDIT_UNIT, 0}, "not a number of length units"},
+        {unchanged, {SCENE_EDIT_UNIT, INFINITY}, "not a number of length units"},
     };
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         scene s;

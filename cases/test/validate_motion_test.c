@@ -211,12 +211,12 @@ static const refusal refusals[] = {
     {integrator_unknown, "analysis 1: ", "no such integrator"},
     {starts_nowhere, "analysis 1: ", "spin = nan"},
     {without_mass, "analysis 1: ", "the structure has no mass"},
-    {after_linear, "analysis 2: ", "what it follows is linear"},
+    {after_linear, "analysis 2: ", "it follows linear"},
     {modes_of_motion, "analysis 2: ", "it is about a motion"},
     {unknown_driver, "driver slide: ", "it is unknown"},
     {values_over_no_path, "driver push: ", "its values are over a path"},
     {factors_over_no_path, "load 0: ", "its factors are over a path"},
-    {begins_elsewhere, "driver push: ", "at 0 s it is 0, and a motion starts with it at 1"},
+    {begins_elsewhere, "driver push: ", "at 0 s its value is 0, but a motion starts from 1"},
     {driver_jumps, "driver push: ", "its value jumps at 1 s"},
     {driver_hits, "driver push: ", "its velocity jumps at 1 s"},
     {driver_without_acceleration, "driver push: ", "at 0 s its value, velocity or acceleration"},
@@ -538,7 +538,7 @@ static void largest_of_frequencies(scene *s)
 }
 
 static const refusal wanted_refusals[] = {
-    {follows_itself, "analysis 0: ", "does not come before it"},
+    {follows_itself, "analysis 0: ", "an analysis that is not before it"},
     {stations, "analysis 0: ", "must ascend"},
     {no_station, "analysis 0: ", "needs a station"},
     {spin, "analysis 0: ", "omega = "},

@@ -140,7 +140,7 @@ status stress_points_of(const section_spec *spec, const section *constants, stre
     }
     return fault_set(f, STATUS_REFUSED,
                      "stresses of a section that is given by numbers: it has no points; describe "
-                     "it by sizes or walls, or ask for resultants");
+                     "it by sizes or walls, or request resultants");
 }
 
 /* Stresses at a fibre, along it and across it in y and z. */

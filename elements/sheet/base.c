@@ -54,8 +54,8 @@ status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *o
         return STATUS_OK;
     if ((request->features & FEATURE_CURVATURE) && request->curvature[0] != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "initial torsion %g 1/m: the Wagner torque is not defined "
-                         "with it; remove one of them",
+                         "initial torsion %g 1/m: the Wagner torque is not defined with initial "
+                         "torsion; remove one of them",
                          request->curvature[0]);
     quadrature_points(SHEET_WAGNER_POINTS, x, w);
     for (int i = 0; i < SHEET_WAGNER_POINTS; i++) {

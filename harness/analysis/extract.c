@@ -10,9 +10,9 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
-static const char *const no_frequency = "the mesh has no mode of this kind that is distinguishable "
-                                        "from round-off: coordinates without mass, "
-                                        "or with hardly any beside the heaviest, have none";
+static const char *const no_frequency =
+    "the mesh has no mode of this kind that is distinguishable from round-off; coordinates with no "
+    "or hardly any mass have no mode";
 
 /* Has a node its own angle about this component? */
 static int is_turned(const scene *s, int node, int component, fault *f)

@@ -236,8 +236,8 @@ static status walk(search *s, fault *f)
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
                      "no critical load from path 0 to %g: there is no divergence%s", s->last.path,
-                     s->of.massless ? " there, and the structure has no mass, so that flutter was "
-                                      "not searched for: give a section a density"
+                     s->of.massless ? " there, and flutter was not searched for, because the "
+                                      "structure has no mass; add a density to a section"
                                     : " or flutters there");
 }
 

@@ -231,11 +231,12 @@ static status factor_at(vibration *v, double hertz, fault *f)
                                : factor_direct(v, 2 * PI * hertz, &why);
     if (outcome != STATUS_SINGULAR)
         return outcome == STATUS_OK ? outcome : fault_set(f, outcome, "%s", why.text);
-    return fault_set(f, STATUS_SINGULAR,
-                     hertz == 0 ? "at %g Hz nothing holds the structure; begin above"
-                                : "at %g Hz something vibrates by itself that nothing damps: take "
-                                  "another frequency, or give damping",
-                     hertz);
+    return fault_set(
+        f, STATUS_SINGULAR,
+        hertz == 0
+            ? "at %g Hz the structure is free to move; start at a higher frequency"
+            : "%g Hz is a natural frequency without damping; use another frequency, or add damping",
+        hertz);
 }
 
 /* Right-hand side of an input; a prescribed motion is 1 in x[all]. */

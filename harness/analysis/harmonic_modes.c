@@ -166,7 +166,7 @@ static status all_modes(vibration *v, harmonic_modes *m, fault *f)
     return info == 0    ? STATUS_OK
            : info == -1 ? no_memory(f)
                         : fault_set(f, STATUS_NOT_CONVERGED,
-                                    "all modes of %d coordinates: LAPACK says %d", m->n, info);
+                                    "all modes of %d coordinates: LAPACK returned %d", m->n, info);
 }
 
 /* The first modes, and the frequency of the next. */
@@ -526,8 +526,8 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
     m->positive = m->complete ? 1 : positive_part(v, m, w);
     if (!(m->positive > 0))
         return fault_set(f, STATUS_NOT_CONVERGED,
-                         "at %g Hz the first %d modes bound no error: give more modes, whose "
-                         "frequencies reach well beyond, or leave solution: modal out",
+                         "at %g Hz the first %d modes give no error bound; use more modes, up to "
+                         "frequencies well above it, or remove solution: modal",
                          w / (2 * PI), m->kept);
     v->c->run->counters.dense_operations += (double)count * (double)count * (double)count;
     if (size == 0)

@@ -75,7 +75,7 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
     status outcome = flutter_system_alloc(n, &of, f);
     if (outcome == STATUS_OK && of.massless)
         outcome =
-            fault_set(f, STATUS_REFUSED, "the structure has no mass: there are no frequencies");
+            fault_set(f, STATUS_REFUSED, "the structure has no mass, so it has no frequencies");
     if (outcome == STATUS_OK)
         outcome = flutter_motions(n, &of, modal_wanted(c, analysis), 1, &r, f);
     snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->scene, of.damped));
@@ -168,8 +168,8 @@ static status begin_at_rest(newton_run *n, fault *f)
     return factor_count(n->factor).negative_pivots == 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "critical loads are those of a stable state: neither the one to start "
-                           "from is one, nor that at path 0");
+                           "critical loads require a stable state; neither the start state nor the "
+                           "state at path 0 is stable");
 }
 
 static int loads_wanted(const analysis_context *c, int analysis)
@@ -551,7 +551,7 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
         snprintf(c->result->reason, sizeof c->result->reason,
                  "stability is lost at path %.6g: %s%s%s", first.path, first.what, how,
                  first.massless
-                     ? "; the structure has no mass, so that flutter was not searched for"
+                     ? "; flutter was not searched for, because the structure has no mass"
                      : "");
     return STATUS_OK;
 }
@@ -564,10 +564,10 @@ static status run(analysis_context *c, int analysis, loaded_search *s, outcome_s
     TRY(search_alloc(c, analysis, s, f));
     if (!factor_is_symmetric(s->n.factor) &&
         scene_rotates(&c->scene->analysis[c->scene->analysis[analysis].follows]))
-        return fault_set(f, STATUS_REFUSED,
-                         "critical loads in rotating axes need loads that have a potential: how "
-                         "others make it flutter hangs on Coriolis forces, which are not counted; "
-                         "ask for a motion");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "critical loads in rotating axes require loads that have a potential; flutter under "
+            "other loads depends on Coriolis forces, which are not included; use a motion");
     if (!factor_is_symmetric(s->n.factor))
         return find_without_potential(c, s, out, f);
     TRY(find_critical(s, f));

@@ -257,8 +257,8 @@ static void note_unproven(analysis_context *c, const rotation_modes *modes, doub
 {
     if (modes->unproven > 0 && c->result->reason[0] == '\0')
         snprintf(c->result->reason, sizeof c->result->reason,
-                 "at path %g the modes found leave %d negative eigenvalues of the stiffness "
-                 "unexplained: others may grow",
+                 "at path %g the modes found do not account for %d negative eigenvalues of the "
+                 "stiffness; other modes may grow",
                  path, modes->unproven);
 }
 

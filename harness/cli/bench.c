@@ -89,13 +89,12 @@ const verb verb_bench = {
     "[CASE...]",
     "error against run time, and the lowest cost for an error",
     "Times every formulation and mesh of the cases named (or, without one, of all cases at all "
-    "parameter points that have a reference value, selected with -k): the least of enough "
-    "repetitions in "
-    "five alternating rounds on one processor, set-up and solution apart, with the error. Times "
-    "whose rounds overlap are undecided. With --against FORMULATION: both at equal error, each "
-    "with the least elements from which on the error of every quantity (-k: of those selected) is "
-    "within it, in alternation until the noise allows an answer; with -n: at these meshes. With "
-    "--against PROGRAM: the same cell of another build.",
+    "parameter points that have a reference value, selected with -k): the minimum of many "
+    "repetitions in five alternating rounds on one processor, separately for set-up and solution, "
+    "with the error. Times whose rounds overlap are undecided. With --against FORMULATION: both at "
+    "equal error, in alternation until noise permits a result. Each uses the smallest number of "
+    "elements from which on the error of every quantity (-k: of those selected) is within the "
+    "tolerance; with -n: these meshes. With --against PROGRAM: the same cell of another build.",
     "beamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
     "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"
     "beamwork bench --scene leaf.yaml --against ../before/beamwork",

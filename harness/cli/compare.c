@@ -107,8 +107,8 @@ static status check_sweeps(const command_line *l, const stored_results *before,
     if (l->argument[1] == NULL || before->swept == after->swept)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%.80s is a sweep and %.80s is none: give two sweeps, or two runs of verify; "
-                     "of files that hold both, --experiment sweep",
+                     "%.80s is a sweep, but %.80s is not; give two sweeps, or two runs of verify. "
+                     "For files that contain both, use --experiment sweep",
                      before->swept ? l->argument[0] : l->argument[1],
                      before->swept ? l->argument[1] : l->argument[0]);
 }
@@ -138,8 +138,9 @@ static int print_hashes(const command_line *l, const compare_request *r)
     results_hash h[2] = {{.values = 0}};
     fault f = {""};
     if (r->output != NULL || r->threshold != NULL || r->select != NULL || r->experiment != NULL)
-        return message_fail(STATUS_REFUSED, "--hash is of whole files: leave -o, -k, --threshold "
-                                            "and --experiment away");
+        return message_fail(
+            STATUS_REFUSED,
+            "--hash applies to whole files; remove -o, -k, --threshold and --experiment");
     for (int i = 0; i < l->arguments; i++) {
         if (results_hash_of(l->argument[i], &h[i], &f) != STATUS_OK)
             return trouble(&f);
@@ -196,8 +197,8 @@ const verb verb_compare = {
     "previous run is not a reference value. Two runs of 'sweep -o' are compared point by point, by "
     "the values of their parameters: errors, values, references (a line '.../reference'), statuses "
     "and costs (threshold work=); points, formulations and meshes that only one of them has are "
-    "named. What was not requested of one of them (verify -k, -f, --scene), and new formulations "
-    "in one of them, are counted, not reported as changes. -o with OLD alone writes its short "
+    "named. Results that only one of them requested (verify -k, -f, --scene), and formulations "
+    "that are new in one, are counted, not reported as changes. -o with OLD alone writes its short "
     "table. --hash prints SHA-256 of all values, without times, machines and versions, and the "
     "number of values; two runs with equal hashes have equal results. Exit status: 0 the same "
     "within the thresholds, 1 something is worse, better, changed, gone or new, 2 trouble (file, "

@@ -219,8 +219,8 @@ static status check_models(const sweep *s, fault *f)
     for (int i = 0; i < s->seriess; i++)
         if (s->series[i].without.other)
             return fault_set(f, STATUS_REFUSED,
-                             "%.60s solves another model of %.60s, without %.100s: there is no "
-                             "error to compare at; give -n for meshes of your choice",
+                             "%.60s solves another model of %.60s, without %.100s, so there is no "
+                             "common error; select meshes with -n",
                              s->series[i].formulation.key, s->point[s->series[i].point].type->name,
                              s->series[i].without.words);
     return STATUS_OK;

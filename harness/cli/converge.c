@@ -92,7 +92,7 @@ const verb verb_converge = {
     "Solves one case on several meshes and prints errors, observed order and limit: for several "
     "formulations one table for each quantity; for one formulation, or with -v for each, also "
     "values and times. Without -f: all formulations that support the case; without -n: the meshes "
-    "of the case. The last line gives the formulations that reach 1 %, or the error given by "
+    "of the case. The last line lists the formulations that reach 1 %, or the error given by "
     "--error, with their numbers of elements.",
     "beamwork converge c_column -k buckling_load\n"
     "beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32",

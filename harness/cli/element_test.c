@@ -76,7 +76,7 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(element_test_request, at)
 static const verb_option own[] = {
     {"verbose", 'v', NULL, "every check with its numbers", IN(verbose), .traits = OPTION_ASIDE},
-    {"quiet", 'q', NULL, "only what is broken", IN(quiet), .traits = OPTION_ASIDE},
+    {"quiet", 'q', NULL, "violated requirements only", IN(quiet), .traits = OPTION_ASIDE},
     {0}};
 static const verb_group shared[] = {SHARED(formulations, chosen),
                                     SHARED(time_limit, chosen),
@@ -89,14 +89,13 @@ const verb verb_element_test = {
     "element-test",
     "[FORMULATION...|all]",
     "checks a formulation against the interface: what to correct, and what it supports",
-    "Holds a formulation against the interface: derivatives against differences, energy, symmetry, "
-    "rigid motion, calls without memory, bounds, mass; each failure says what to correct. And "
-    "measures what a paper should print of it: uniform and linear states, locking, orders of "
-    "convergence. Of a formulation of your own (--element) it needs no name. It is written as text "
-    "or json. A part that takes longer than the time limit (60 s) fails. Exit status: 0 the "
-    "requirements are satisfied, 1 one is violated, a uniform or linear state has a wrong limit "
-    "(a stiffness of the section), or an order is below the declared one, 2 refused, 4 file, disk "
-    "or memory.",
+    "Checks a formulation against the interface requirements: derivatives against differences, "
+    "energy, symmetry, rigid motion, calls without memory, bounds, mass; each failure states what "
+    "to correct. It also measures uniform and linear states, locking and orders of convergence. "
+    "With --element no name is needed. A part that takes longer than the time limit (60 s) fails. "
+    "Exit status: 0 the requirements are satisfied, 1 one is violated, a uniform or linear state "
+    "has a wrong limit (a stiffness of the section), or an order is below the declared one, 2 "
+    "refused, 4 file, disk or memory.",
     "beamwork element-test collocation\n"
     "beamwork element-test --element ./mine.so\n"
     "beamwork element-test all -o build/results.h5",

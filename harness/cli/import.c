@@ -123,7 +123,7 @@ const verb verb_import = {
     "Reads results of other programs for a case or scene: CSV with a header "
     "(harness/exchange/import.md). Names, units and parameters are checked, and values converted. "
     "-o FILE has the schema of results of verify, whose option --imported compares it as another "
-    "program. --format json: the mistakes of each file, for editors.",
+    "program. --format json: the errors of each file, for editors.",
     "beamwork import theirs.csv -o theirs.h5",
     shared,
     own,

@@ -364,10 +364,9 @@ const verb verb_list = {
     "list",
     "[cases|formulations|CASE|FORMULATION]",
     "cases and formulations; of one: parameters, quantities, orders, findings",
-    "Lists all cases and formulations; of a case its parameters, quantities and the "
-    "formulations that "
-    "support it; of a formulation its theory, orders, options, features, limitations, known "
-    "deviations and the cases that it runs on.",
+    "Lists all cases and formulations; for a case its parameters, quantities and the formulations "
+    "that support it; for a formulation its theory, orders, options, features, limitations, known "
+    "deviations and the cases that it supports.",
     "beamwork list\n"
     "beamwork list c_column\n"
     "beamwork list collocation",

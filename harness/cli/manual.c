@@ -147,9 +147,8 @@ void manual_write_program(FILE *to, const manual_program *p)
     fprintf(to, ".Sh SYNOPSIS\n.Nm beamwork\n.Ar VERB\n.Op Ar OPTION ...\n.Nm beamwork\n"
                 ".Cm help\n.Ar VERB\n.Nm beamwork\n.Fl \\-version\n.Sh DESCRIPTION\n");
     roff_text(to, p->question);
-    fprintf(to, "All values are SI.\n"
-                "Each verb has a page of its own; its options stand there, and in\n"
-                ".Ql beamwork VERB \\-h .\n");
+    fprintf(to, "All values are SI.\nEach verb has its own page with its options; they are also "
+                "printed by\n.Ql beamwork VERB \\-h .\n");
     write_verbs(to, p->verbs);
     fprintf(to, ".Sh ENVIRONMENT\n");
     write_rows(to, "BEAMWORK_TRUTHS", variables);
@@ -293,10 +292,9 @@ void manual_write_scene(FILE *to)
         {"beamwork", 1}, {"beamwork-scene", 1}, {"beamwork-solve", 1}};
     roff_page(to, "beamwork-scene", 5, "your structures, for beamwork");
     fprintf(to, ".Sh DESCRIPTION\n");
-    roff_text(
-        to,
-        "A scene file is YAML; all values are SI, numbers are expressions, and there is "
-        "nothing to compile. All errors of a file are reported in one run, with line and column.");
+    roff_text(to,
+              "A scene file is YAML; all values are SI, and numbers may be expressions. Nothing is "
+              "compiled. All errors of a file are reported in one run, with line and column.");
     fprintf(to, ".Pp\n");
     roff_text(to, key_list_head[0]);
     fprintf(to, ".Ss Every entry\n");

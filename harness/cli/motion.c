@@ -100,7 +100,7 @@ static const verb_option own[] = {
      "divided by 100 repeatedly",
      IN(tolerances)},
     {"conservation-only", 0, NULL,
-     "only energy and momenta: no reference solution is computed, and no step is halved",
+     "only energy and momenta, without a reference solution and without halved steps",
      IN(conservation_only)},
     {"expected", 0, "FILE.csv", "table of expected verdicts, instead of a case", IN(expected),
      .traits = OPTION_INPUT},

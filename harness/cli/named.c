@@ -63,12 +63,12 @@ static const verb_option both[] = {
      .member = offsetof(chosen_formulations, element), .traits = OPTION_REPEATS | OPTION_INPUT,
      .most = FORMULATIONS_MOST_LOADED},
     {0}};
-static const verb_option limit[] = {
-    {"time-limit", 0, "SECONDS",
-     "of one cell (default 120; element-test: 60, of one part; 0: none); a cell that exceeds it is "
-     "a failure of that name",
-     .member = offsetof(chosen_formulations, time_limit), .most = 1000000},
-    {0}};
+static const verb_option limit[] = {{"time-limit", 0, "SECONDS",
+                                     "time limit of a cell (default 120; element-test: 60 for each "
+                                     "part; 0: none); a cell that exceeds it fails as 'timeout'",
+                                     .member = offsetof(chosen_formulations, time_limit),
+                                     .most = 1000000},
+                                    {0}};
 const option_group options_formulations = {both, begin, end, NULL};
 const option_group options_element = {both + 1, begin, end, NULL};
 const option_group options_time_limit = {limit, NULL, NULL, NULL};

@@ -13,23 +13,21 @@ const char *const results_about[] = {
     "clock (UTC), threads, unfinished_cells (of an interrupted run). Below /cases/CASE "
     "(attributes: summary, source) stands a table for each kind of record; attributes of a table: "
     "units and summaries of its columns, in their order.",
-    "The same names stand in JSON and CSV; fields marked * are said there only, in HDF5 by what is "
-    "around them. Numbers that do not exist are NaN (JSON: null). [unit]: that of the column "
-    "'unit'.",
+    "JSON and CSV use the same names. Fields marked * exist there only; in HDF5 the group or "
+    "attribute gives them. Missing numbers are NaN (JSON: null). [unit]: see the column 'unit'.",
     "curve_x, curve_value: the points of all curves of a case, one after the other.",
     "shapes/POINT (verify --shapes, solve --shapes; attributes formulation, elements): members "
     "(nodes p, q, section), first_point, bodies of the nodes (body or -1, held components as "
     "bits), released (components at both ends of members, as bits), sections/I (corners of walls, "
     "y and z in m), and of every state kind, analysis, value, scale and [states x points] "
     "position, orientation (quaternion), force, moment, bimoment, nodes.",
-    "points has a column for each parameter of the case besides. Keyed by point, formulation and "
+    "points also has a column for each parameter of the case. The keys are point, formulation and "
     "elements.",
-    "Below /experiments/NAME stands what stress, motion, element-test, bench, converge and sweep "
-    "have "
-    "left with -o, each with the attributes of the root for its own run: a later run of the same "
-    "experiment replaces its group, verify what is outside of /experiments. bench and converge: "
-    "declarations and cases/CASE, as the root has them. The tables of the others have the fields "
-    "marked * as columns, too.",
+    "/experiments/NAME contains the results of stress, motion, element-test, bench, converge and "
+    "sweep (option -o), each with the root attributes of its own run. A later run of the same "
+    "experiment replaces its group; verify replaces everything outside /experiments. bench and "
+    "converge: declarations and cases/CASE, as in the root. The tables of the others also have the "
+    "fields marked * as columns.",
     NULL};
 
 /* Entry i of a NULL-terminated list; decreases i by the length if it is beyond the end, and returns
@@ -142,8 +140,8 @@ static const verb_group shared[] = {SHARED(format, format), {NULL, 0}};
 const verb verb_schema = {"schema",
                           "",
                           "what the result file consists of: tables, columns, units",
-                          "Describes the file of results that experiments share (-o FILE), that of "
-                          "solve, and the records of JSON and CSV.",
+                          "Describes the results file that experiments share (-o FILE), the file "
+                          "of solve, and the records of JSON and CSV.",
                           "beamwork schema --format json",
                           shared,
                           NULL,

@@ -323,8 +323,8 @@ static const verb_option own[] = {
      "most 5); -o FILE becomes HDF5 for ParaView",
      IN(shapes), .least = 1, .most = SHAPES_ALL},
     {"follow", 0, "NAME=A..B/N",
-     "modes over a parameter, in N equal parts or smaller ones: matched by their shapes, so that "
-     "those that cross keep their number",
+     "modes over a parameter, in N equal or smaller steps; modes are matched by their shapes, so "
+     "crossing modes keep their numbers",
      IN(follow)},
     {"matrices", 0, "FOLDER",
      "also stiffness, mass and gyroscopic matrices about every state, as Matrix Market, with a "
@@ -348,15 +348,15 @@ const verb verb_solve = {
     "CASE",
     "one case, one formulation, one mesh: every quantity with its error",
     "Solves one case with one formulation and one mesh and shows every quantity with its error. "
-    "Without -n elements are refined until no value changes by more than 0.1 % (--error) from the "
-    "mesh before: on the case's meshes, then doubled, up to 1024 or to 2 s of counted work; where "
-    "values change still, the status is not_converged. Values are printed to the second digit of "
-    "their last change from mesh to mesh; that is no bound of their error. Without -f "
-    "as well it is done with up to five formulations that offer what the case needs and have no "
-    "known defect there, the cheapest next mesh first, and the first that settles is taken; with "
-    "-n the one of the highest order. The output says which, and why. An analysis that no quantity "
-    "reads is not run, unless a scene has no quantities, or its states are drawn or written; -k "
-    "asks for some of the quantities only.",
+    "Without -n the mesh is refined until no value changes by more than 0.1 % (--error) from the "
+    "previous mesh: first the meshes of the case, then doubling, up to 1024 elements or 2 s of "
+    "counted work. If values still change, the status is not_converged. Values are printed to the "
+    "second digit of their last change between meshes, which is not a bound of their error. "
+    "Without -f up to five formulations are tried that support the physics of the case and have no "
+    "known defect there, the cheapest next mesh first; the first that converges is used, with -n "
+    "the one of the highest order. The output gives the choice and the reason. An analysis that no "
+    "quantity uses is not run, unless the scene has no quantities, or its states are drawn or "
+    "written; -k selects quantities.",
     "beamwork solve elastica\n"
     "beamwork solve c_column -f beamw -n 8 --set section_data=printed\n"
     "beamwork solve c_column -k buckling_load\n"

@@ -288,7 +288,7 @@ static const verb_option own[] = {
      "scene 4 s)",
      IN(derive)},
     {"error", 0, "R", "requested error (default 1%)", IN(error), .read = option_error},
-    {"verbose", 'v', NULL, "also the least elements for each quantity", IN(verbose),
+    {"verbose", 'v', NULL, "also the smallest number of elements for each quantity", IN(verbose),
      .traits = OPTION_ASIDE},
     {"quiet", 'q', NULL, "no tables", IN(shards.quiet), .traits = OPTION_ASIDE},
     {0}};
@@ -309,17 +309,17 @@ const verb verb_sweep = {
     "one case over ranges of its parameters: where is the error target met?",
     "Solves a case, or a structure of your own (--scene FILE), at many points of its parameters "
     "and shows where formulations are within an error (--error, default 1 %): the share of points "
-    "with each mesh, the least number of elements over the parameters, the worst points. --vary "
-    "NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these values, or "
-    "words of a choice. Several make a grid, the last one changing first. --design sobol, halton "
-    "or random --points N: N points in the box of --vary NAME=A..B (or A..B:log). Errors refer to "
-    "a reference value stored for the point, with --compute-references to one computed there, "
-    "otherwise to the limit of the meshes of all formulations with the same physics; points whose "
-    "limit has an uncertainty above half of the error are reported. A point without a scene and a "
-    "failed run are reported as results. -o FILE: all values in a results file, and the worst "
-    "points as scenes in FILE.worst. Finished batches are stored in FILE.batches until all are "
-    "complete: the same command resumes from them. Exit status: 0 done, 2 refused, 4 file, disk or "
-    "memory, 5 incomplete.",
+    "for each mesh, the smallest number of elements over the parameters, and the worst points. "
+    "--vary NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these "
+    "values, or words of a choice. Several options make a grid; the last one changes first. "
+    "--design sobol, halton or random --points N: N points in the box of --vary NAME=A..B (or "
+    "A..B:log). Errors refer to a reference value stored for the point, with --compute-references "
+    "to one computed there, otherwise to the limit of the meshes of all formulations with the same "
+    "physics; points whose limit has an uncertainty above half of the error are reported. A point "
+    "without a scene and a failed run are reported as results. -o FILE: all values in a results "
+    "file, and the worst points as scenes in FILE.worst. Finished batches are stored in "
+    "FILE.batches until all are complete: the same command resumes from them. Exit status: 0 done, "
+    "2 refused, 4 file, disk or memory, 5 incomplete.",
     "beamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
     "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --compute-references -o "
     "column.h5\n"
@@ -352,7 +352,7 @@ status spread_asked(const shard_options *r, int *asked, fault *f)
     words_quoted(r->into, folder, sizeof folder);
     return fault_set(f, STATUS_REFUSED,
                      "--into writes batches; results are written by 'beamwork merge %.100s -o "
-                     "FILE': leave other outputs away",
+                     "FILE'; remove other outputs",
                      folder);
 }
 

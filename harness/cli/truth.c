@@ -78,9 +78,9 @@ static status print_derived(const case_type *type, const double parameter[], fau
     int count;
     if (case_omits_nothing(type, parameter))
         return fault_set(f, STATUS_REFUSED,
-                         "nothing is stored of %s with omit=none, and the program of the case "
-                         "derives it as its source has it; write it as a scene, 'beamwork scene %s "
-                         "--set omit=none', and derive that with --scene",
+                         "no reference value of %s is stored for omit=none, and the program of the "
+                         "case derives only the model of its source; write a scene with 'beamwork "
+                         "scene %s --set omit=none' and derive its values with --scene",
                          type->name, type->name);
     TRY(derive_script("at.py", script, f));
     parameters_source_text(type, parameter, text, sizeof text);

@@ -87,7 +87,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     }
     const int code = judgement_exit(j);
     if (code == EXIT_NOTHING)
-        fprintf(stderr, "beamwork: nothing was judged: there is no reference value; see %s\n",
+        fprintf(stderr, "beamwork: no verdict, because there is no reference value; see %s\n",
                 r->scenes.scene.count > 0 ? "'truths' in 'beamwork scene --keys'"
                                           : "'beamwork list' and -k");
     return r->exit_zero ? EXIT_AS_EXPECTED : code;
@@ -105,8 +105,8 @@ static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
                          path, left.first);
     if (left.series == left.all)
         fprintf(stderr,
-                "beamwork: %s: nothing of it was run: it is of %s; select that with -k, or give "
-                "its --scene\n",
+                "beamwork: %s: nothing of it was run; it belongs to %s; select that with -k, or "
+                "give its --scene\n",
                 path, left.first);
     else if (left.series > 0)
         fprintf(stderr,
@@ -238,8 +238,7 @@ static int answer(const command_line *l, void *request)
     if (l->arguments > 0)
         return message_fail(STATUS_REFUSED, "verify takes no case; select with -k");
     if (r->imported_must_pass && r->imported.count == 0)
-        return message_fail(STATUS_REFUSED,
-                            "--imported-must-pass: of what? Give --imported FILE.h5 too");
+        return message_fail(STATUS_REFUSED, "--imported-must-pass requires --imported FILE.h5");
     if (r->verbose && r->shards.quiet)
         return message_fail(STATUS_REFUSED, "--verbose and --quiet: give one of them");
     int code = scenes_read(l, &r->scenes, &own);
@@ -300,19 +299,16 @@ const verb verb_verify = {
     "",
     "every formulation on every case, with verdicts against stored reference values",
     "Computes every formulation on every case and parameter point that has a reference value, and "
-    "assigns verdicts. A formulation that -f names or --element loads affects the exit status: its "
-    "own known deviations apply (--deviations; none by default), and the interface requirements "
-    "are "
-    "checked first (element-test). A formulation of the tree that is not accepted yet affects it "
-    "only where it is named. Exit status: 0 every verdict as expected; 1 a verdict differs, or an "
-    "interface requirement is violated (undecided did not pass: it differs unless a known "
-    "deviation "
-    "expects it; more meshes, --refine, or a larger --tolerance may decide it); 2 invalid "
-    "input; "
-    "3 no verdict; 4 file, disk or memory; 5 interrupted (Ctrl-C, SIGTERM): finished verdicts are "
-    "in files named .partial. With --exit-zero 0 instead of 1 and 3. With --shard K/N --into "
-    "FOLDER: computes a part, 0 when it is complete, 5 when batches are missing (start it again); "
-    "'beamwork merge' assigns the verdicts",
+    "assigns verdicts. A formulation that is named with -f or loaded with --element affects the "
+    "exit status: its own known deviations apply (--deviations; none by default), and the "
+    "interface requirements are checked first (element-test). A built-in formulation that is not "
+    "accepted yet affects it only if it is named. Exit status: 0 every verdict as expected; 1 a "
+    "verdict differs, or an interface requirement is violated (undecided did not pass: it differs "
+    "unless a known deviation expects it; more meshes, --refine, or a larger --tolerance may "
+    "decide it); 2 invalid input; 3 no verdict; 4 file, disk or memory; 5 interrupted (Ctrl-C, "
+    "SIGTERM): finished verdicts are in files named .partial. With --exit-zero 0 instead of 1 and "
+    "3. With --shard K/N --into FOLDER: computes a part, 0 when it is complete, 5 when batches are "
+    "missing (start it again); 'beamwork merge' assigns the verdicts",
     "beamwork verify -k \"c_column and collocation\"\n"
     "beamwork verify --shard 1/4 --into parts\n"
     "beamwork verify -o build/results.h5",

@@ -89,7 +89,7 @@ static void theories(const element_type *t, claim *one)
     const int flexible = (t->offers & FEATURE_SHEAR) != 0,
               own = (t->shear_theories & SHEAR_OWN) != 0;
     claims_asks(one, flexible == (t->shear_theories != 0),
-                flexible ? "shear_theories: it offers shear and names no theory of it; set "
+                flexible ? "shear_theories: the type supports shear but declares no theory; set "
                            "SHEAR_ENGESSER, SHEAR_HARINGX or SHEAR_OWN"
                          : "shear_theories: it has a theory of shear and does not support "
                            "FEATURE_SHEAR; set one or remove the other");
@@ -103,7 +103,7 @@ static void theories(const element_type *t, claim *one)
                 "shear_theories: SHEAR_OWN excludes other theories; "
                 "set it alone");
     claims_asks(one, own == (t->own_theory != NULL),
-                own ? "own_theory: say in a line what SHEAR_OWN is and where it is derived"
+                own ? "own_theory: describe SHEAR_OWN and its source in one line"
                     : "own_theory: it is given, and shear_theories has no SHEAR_OWN");
 }
 
@@ -146,9 +146,10 @@ static void sizes(const formulation *chosen, claim *one)
     const element_type *t = chosen->type;
     const int inner = element_inner(t, chosen->option), memory = element_memory(t, chosen->option);
     claims_asks(one, inner == 0 || t->update != NULL,
-                "update: it has %d unknowns of its own, which nothing corrects", inner);
+                "update: the type has %d internal unknowns, but no function that corrects them",
+                inner);
     claims_asks(one, inner == 0 || memory > 0,
-                "memory: it has %d unknowns of its own, and nothing is kept for update", inner);
+                "memory: the type has %d internal unknowns, but no memory for update", inner);
     claims_asks(one, inner >= 0 && memory >= 0, "inner, memory: %d and %d are negative", inner,
                 memory);
 }
@@ -166,7 +167,7 @@ static void options(const element_type *t, claim *one)
                                 : o->value >= o->min && o->value <= o->max,
                     "options: the default of '%s' is outside its range", o->name);
         claims_asks(one, o->summary != NULL && o->summary[0] != '\0',
-                    "options: say in a line what '%s' does", o->name);
+                    "options: describe '%s' in one line", o->name);
     }
 }
 

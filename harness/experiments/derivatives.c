@@ -140,7 +140,7 @@ void checks_derivatives(const formulation *chosen, claims *out)
 {
     const element_type *t = chosen->type;
     if (t->force != NULL) {
-        claims_not_made(out, claim_J, "known by its force: has no strains of its own");
+        claims_not_made(out, claim_J, "provides forces: has no strains of its own");
         return;
     }
     if (t->leaves & LEAVES_J)

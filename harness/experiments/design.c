@@ -39,10 +39,10 @@ static status check_box(const design *d, fault *f)
                                              : (int)gsl_qrng_halton->max_dimension;
     for (int i = 0; i < d->axes; i++)
         if (d->axis[i].count > 0 && d->axis[i].value == NULL)
-            return fault_set(f, STATUS_REFUSED,
-                             "--vary %s: parts belong to a grid; remove '/%d', --points says "
-                             "how many points there are",
-                             d->axis[i].of->name, d->axis[i].count - 1);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "--vary %s: '/%d' is for a grid; remove it; --points gives the number of points",
+                d->axis[i].of->name, d->axis[i].count - 1);
     if (d->kind != DESIGN_RANDOM && d->axes > most)
         return fault_set(f, STATUS_REFUSED, "--design %s has at most %d parameters; take random",
                          design_name(d->kind), most);

@@ -188,7 +188,7 @@ void checks_energy(const formulation *chosen, claims *out)
 {
     if (chosen->type->force != NULL) {
         claims_not_made(out, "stress is the gradient of the energy",
-                        "known by its force: has no stresses of its own");
+                        "provides forces: has no stresses of its own");
         return;
     }
     specimens_each(chosen, out, check);

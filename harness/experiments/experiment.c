@@ -233,7 +233,7 @@ static const schema_field key_of_family[] = {
 static const schema_field fields_of_certificate[] = {
     {"summary", "", FIELD_TEXT, "of the formulation", .get = get_summary},
     {"source", "", FIELD_TEXT, "of the formulation", .get = get_source},
-    {"leaves", "", FIELD_TEXT, "what it leaves to the adapters", .get = get_leaves},
+    {"leaves", "", FIELD_TEXT, "functions provided by adapters", .get = get_leaves},
     {"kept", "", FIELD_FLAG, "no claim is broken", .get = get_kept},
     {"compared", "1", FIELD_INT, "numbers, and questions of yes and no", .get = get_compared},
     {0}};

@@ -269,29 +269,30 @@ static const char *word_of_outcome(int kind)
 
 static const schema_field fields_of_place[] = {
     {"extreme", "", FIELD_TEXT, "name of the extreme", .get = get_extreme},
-    {"group", "", FIELD_TEXT, "of extremes", .get = get_group},
-    {"case", "", FIELD_TEXT, "that is driven there", .get = get_base},
-    {"x", "1", FIELD_DOUBLE, "what it is driven to", AT(extreme_outcome, x)},
+    {"group", "", FIELD_TEXT, "group of the extreme", .get = get_group},
+    {"case", "", FIELD_TEXT, "case at the extreme", .get = get_base},
+    {"x", "1", FIELD_DOUBLE, "extreme value", AT(extreme_outcome, x)},
     {0}};
 static const schema_field fields_of_outcome[] = {
     {"quantity", "", FIELD_TEXT, "name of the quantity", .get = get_quantity},
-    {"outcome", "", FIELD_ENUM, "of the run", AT(extreme_outcome, kind), .word = word_of_outcome,
-     .words = OUTCOME_KINDS},
-    {"as_expected", "", FIELD_FLAG, "a value, coarse, or what a finding says",
+    {"outcome", "", FIELD_ENUM, "outcome of the run", AT(extreme_outcome, kind),
+     .word = word_of_outcome, .words = OUTCOME_KINDS},
+    {"as_expected", "", FIELD_FLAG, "accurate, under-resolved, or as given by a known deviation",
      AT(extreme_outcome, as_expected)},
-    {"value", "unit", FIELD_DOUBLE, "that came out", AT(extreme_outcome, result)},
-    {"reference", "unit", FIELD_DOUBLE, "exact value, or that without the extreme",
+    {"value", "unit", FIELD_DOUBLE, "computed value", AT(extreme_outcome, result)},
+    {"reference", "unit", FIELD_DOUBLE, "exact value, or the value without the extreme",
      AT(extreme_outcome, reference)},
-    {"error", "1", FIELD_DOUBLE, "relative", AT(extreme_outcome, error)},
-    {"neighbour_error_1", "1", FIELD_DOUBLE, "on another mesh, where it was needed",
+    {"error", "1", FIELD_DOUBLE, "relative error", AT(extreme_outcome, error)},
+    {"neighbour_error_1", "1", FIELD_DOUBLE, "error on another mesh, if needed",
      AT(extreme_outcome, neighbour_error[0])},
-    {"neighbour_error_2", "1", FIELD_DOUBLE, "on the one that has more elements",
+    {"neighbour_error_2", "1", FIELD_DOUBLE, "error on the mesh with more elements",
      AT(extreme_outcome, neighbour_error[1])},
-    {"condition", "1", FIELD_DOUBLE, "estimate of the tangent's", .get = get_condition},
-    {"iterations", "1", FIELD_LONG, "of Newton", OF(CELL, cell_result, counters.iterations)},
+    {"condition", "1", FIELD_DOUBLE, "estimated condition of the tangent", .get = get_condition},
+    {"iterations", "1", FIELD_LONG, "Newton iterations",
+     OF(CELL, cell_result, counters.iterations)},
     {"reason", "", FIELD_TEXT, "reason for a missing value",
      TEXT_OF(RECORD, extreme_outcome, reason)},
-    {"proof", "", FIELD_TEXT, "of the finding that expects it", .get = get_proof},
+    {"proof", "", FIELD_TEXT, "proof of the known deviation that expects it", .get = get_proof},
     {0}};
 const record_type record_outcome = {
     "outcome",
@@ -305,31 +306,33 @@ static const char *word_of_judge(int judge)
 }
 
 static const schema_field fields_of_extreme[] = {
-    {"name", "", FIELD_TEXT, "of the extreme", TEXT_OF(RECORD, extreme, name)},
-    {"group", "", FIELD_TEXT, "the same kind of it on several cases",
+    {"name", "", FIELD_TEXT, "name of the extreme", TEXT_OF(RECORD, extreme, name)},
+    {"group", "", FIELD_TEXT, "group: one kind of extreme on several cases",
      TEXT_OF(RECORD, extreme, group)},
     {"summary", "", FIELD_TEXT, "what is varied", TEXT_OF(RECORD, extreme, summary)},
-    {"case", "", FIELD_TEXT, "that is driven there", TEXT_OF(RECORD, extreme, base)},
+    {"case", "", FIELD_TEXT, "case at the extreme", TEXT_OF(RECORD, extreme, base)},
     {"fixed", "", FIELD_TEXT, "parameters that differ from the defaults",
      TEXT_OF(RECORD, extreme, fixed)},
-    {"x_name", "", FIELD_TEXT, "what it is driven to", TEXT_OF(RECORD, extreme, x_name)},
-    {"x_unit", "", FIELD_TEXT, "its unit", TEXT_OF(RECORD, extreme, x_unit)},
+    {"x_name", "", FIELD_TEXT, "extreme value", TEXT_OF(RECORD, extreme, x_name)},
+    {"x_unit", "", FIELD_TEXT, "unit of the varied value", TEXT_OF(RECORD, extreme, x_unit)},
     {"judge", "", FIELD_ENUM, "an exact value, or the value at another x", AT(extreme, judge),
      .word = word_of_judge, .words = EXTREME_SAME + 1},
-    {"tolerance", "1", FIELD_DOUBLE, "relative, of a value", AT(extreme, tolerance)},
+    {"tolerance", "1", FIELD_DOUBLE, "relative tolerance of a value", AT(extreme, tolerance)},
     {0}};
 const record_type record_extreme = {
-    "extreme", "extremes", "what cases are driven to", {fields_of_extreme}};
+    "extreme", "extremes", "extremes of cases", {fields_of_extreme}};
 
 static const schema_field fields_of_count[] = {
-    {"tried", "1", FIELD_INT, "cells: an extreme at one x, as bad as its worst quantity",
+    {"tried", "1", FIELD_INT, "cells: an extreme at one x, counted by its worst quantity",
      AT(extreme_count, tried)},
-    {"survived", "1", FIELD_INT, "of them, with values or coarse", AT(extreme_count, survived)},
-    {"coarse", "1", FIELD_INT, "of these, coarse", AT(extreme_count, coarse)},
-    {"named_failures", "1", FIELD_INT, "not converged, singular, refused, no value",
+    {"survived", "1", FIELD_INT, "accurate or under-resolved cells", AT(extreme_count, survived)},
+    {"coarse", "1", FIELD_INT, "under-resolved cells", AT(extreme_count, coarse)},
+    {"named_failures", "1", FIELD_INT,
+     "cells with a reported failure: not converged, singular, refused, no value",
      AT(extreme_count, named)},
-    {"wrong", "1", FIELD_INT, "numbers that are neither", AT(extreme_count, wrong)},
-    {"faults", "1", FIELD_INT, "crashed, or out of memory", AT(extreme_count, faults)},
+    {"wrong", "1", FIELD_INT, "cells with wrong values", AT(extreme_count, wrong)},
+    {"faults", "1", FIELD_INT, "cells that crashed or ran out of memory",
+     AT(extreme_count, faults)},
     {0}};
 static const schema_field key_of_count[] = {
     {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
@@ -341,25 +344,25 @@ const record_type record_extreme_count = {
 /* x, or the name of a quantity, of an extreme. */
 static const schema_field key_of_extreme[] = {
     {"extreme", "", FIELD_TEXT, "name of the extreme", .get = get_owner, .key = KEY}, {0}};
-static const schema_field field_of_x[] = {
-    {"x", "1", FIELD_DOUBLE, "what it is driven to", .get = get_x}, {0}};
+static const schema_field field_of_x[] = {{"x", "1", FIELD_DOUBLE, "extreme value", .get = get_x},
+                                          {0}};
 static const record_type record_extreme_x = {
-    "x", "extreme_values", "to what an extreme drives", {key_of_extreme, field_of_x}};
+    "x", "extreme_values", "values of an extreme", {key_of_extreme, field_of_x}};
 static const schema_field field_of_quantity[] = {
     {"quantity", "", FIELD_TEXT, "name of the quantity", TEXT_OF(RECORD, extreme_quantity, name)},
     {0}};
 static const record_type record_extreme_quantity = {"extreme_quantity",
                                                     "extreme_quantities",
-                                                    "what is looked at",
+                                                    "quantities of an extreme",
                                                     {key_of_extreme, field_of_quantity}};
 
 static const schema_field fields_of_all[] = {
-    {"unexpected", "1", FIELD_INT, "outcomes that no finding expects",
+    {"unexpected", "1", FIELD_INT, "outcomes that no known deviation expects",
      AT(extreme_sweep, unexpected)},
-    {"unobserved_findings", "1", FIELD_INT, "findings of which nothing is seen",
+    {"unobserved_findings", "1", FIELD_INT, "known deviations that were not observed",
      AT(extreme_sweep, unobserved)},
     {0}};
-const record_type record_extremes_all = {"extremes", "", "of the run", {fields_of_all}};
+const record_type record_extremes_all = {"extremes", "", "outcome of the run", {fields_of_all}};
 
 static subject subject_of_outcome(const extreme_sweep *s, const extreme_outcome *o)
 {

@@ -158,7 +158,7 @@ static void judge_value(const scene_quantity *q, double value, double uncertaint
     o->result = value;
     o->error = verdict_error(q, value, o->reference);
     if (e->judge == EXTREME_SAME && !isfinite(o->reference))
-        set_kind(o, OUTCOME_WRONG, "there is nothing to compare with: the base has no value");
+        set_kind(o, OUTCOME_WRONG, "no comparison is possible: the base has no value");
     else
         o->kind = fabs(o->error) <= e->tolerance + uncertainty ? OUTCOME_VALUE : OUTCOME_WRONG;
 }

@@ -23,43 +23,42 @@ static void get_wanted(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_run[] = {
-    {"integrator", "", FIELD_TEXT, "with its parameter, where it has one",
+    {"integrator", "", FIELD_TEXT, "integrator with its parameter, if any",
      AT(pace_run, method.name), .key = KEY},
-    {"step", "s", FIELD_DOUBLE, "of the integration; with a tolerance the first one",
-     AT(pace_run, step), .key = KEY},
-    {"tolerance", "1", FIELD_DOUBLE, "of the error of a step; 0: all steps are equal",
+    {"step", "s", FIELD_DOUBLE, "time step; with a tolerance the initial one", AT(pace_run, step),
+     .key = KEY},
+    {"tolerance", "1", FIELD_DOUBLE, "tolerance for the error of a step; 0: equal steps",
      AT(pace_run, tolerance), .key = KEY},
-    {"status", "", FIELD_ENUM, "of the motion", AT(pace_run, status),
+    {"status", "", FIELD_ENUM, "status of the motion", AT(pace_run, status),
      .word = fields_keys_word_of_status, .words = STATUSES},
-    {"reason", "", FIELD_TEXT, "why it ended too early", TEXT_OF(RECORD, pace_run, reason)},
-    {"stopped", "s", FIELD_DOUBLE, "last instant of a motion that ended too early",
-     AT(pace_run, stopped)},
+    {"reason", "", FIELD_TEXT, "reason for an early end", TEXT_OF(RECORD, pace_run, reason)},
+    {"stopped", "s", FIELD_DOUBLE, "end time of a motion that ended early", AT(pace_run, stopped)},
     {"error", "1", FIELD_DOUBLE,
-     "of time: largest over stations, of places in parts of the size and of turns [rad]",
+     "largest time error over stations, of positions relative to the size and of rotations [rad]",
      AT(pace_run, error)},
-    {"order", "1", FIELD_DOUBLE, "of the error, against the run before, of a longer step",
-     AT(pace_run, order)},
+    {"order", "1", FIELD_DOUBLE,
+     "order of the error, compared with the previous run with a longer step", AT(pace_run, order)},
     {"cost", "s", FIELD_DOUBLE, "counted work at the project's cost coefficients",
      AT(pace_run, cost)},
-    {"seconds", "s", FIELD_DOUBLE, "that the processor took", AT(pace_run, seconds)},
-    {"steps", "1", FIELD_LONG, "that were kept", AT(pace_run, steps)},
+    {"seconds", "s", FIELD_DOUBLE, "processor time", AT(pace_run, seconds)},
+    {"steps", "1", FIELD_LONG, "accepted steps", AT(pace_run, steps)},
     {"rejected", "1", FIELD_LONG, "rejected steps", AT(pace_run, rejected)},
-    {"iterations_per_step", "1", FIELD_DOUBLE, "of Newton, of a step", AT(pace_run, iterations)},
+    {"iterations_per_step", "1", FIELD_DOUBLE, "Newton iterations per step",
+     AT(pace_run, iterations)},
     {"energy_drift", "1", FIELD_DOUBLE,
-     "largest change of the energy since nothing acts, relative; of fixed or prescribed "
-     "coordinates: of the "
-     "energy less the work",
+     "largest relative change of the energy after the last load; with fixed or prescribed "
+     "coordinates: of energy minus work",
      AT(pace_run, energy)},
     {"momentum_drift", "1", FIELD_DOUBLE,
-     "largest change of momentum and angular momentum since nothing acts, relative",
+     "largest relative change of momentum and angular momentum after the last load",
      AT(pace_run, momentum)},
-    {"largest_energy", "1", FIELD_DOUBLE, "in parts of that when nothing acts any more",
-     AT(pace_run, largest)},
-    {"last_energy", "1", FIELD_DOUBLE, "in parts of that when nothing acts any more",
+    {"largest_energy", "1", FIELD_DOUBLE,
+     "largest energy, relative to the energy after the last load", AT(pace_run, largest)},
+    {"last_energy", "1", FIELD_DOUBLE, "final energy, relative to the energy after the last load",
      AT(pace_run, last)},
-    {"outcome", "", FIELD_ENUM, "grows, stops, bounded or exact; empty: something acts on it",
+    {"outcome", "", FIELD_ENUM, "grows, stops, bounded or exact; empty: loads act until the end",
      AT(pace_run, fate), .word = word_of_fate, .words = PACE_FATES},
-    {"has_reference", "", FIELD_FLAG, "0: only what becomes of it is looked at", .get = get_wanted},
+    {"has_reference", "", FIELD_FLAG, "0: only energy and momenta are compared", .get = get_wanted},
     {0}};
 #define KEYS keys_of_point, keys_of_series, key_of_mesh
 const record_type record_pace_run = {
@@ -72,14 +71,14 @@ static void get_quantity_error(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_error[] = {
-    {"integrator", "", FIELD_TEXT, "of the run", AT(pace_run, method.name), .key = KEY},
-    {"step", "s", FIELD_DOUBLE, "of the run", AT(pace_run, step), .key = KEY},
-    {"tolerance", "1", FIELD_DOUBLE, "of the run", AT(pace_run, tolerance), .key = KEY},
+    {"integrator", "", FIELD_TEXT, "integrator of the run", AT(pace_run, method.name), .key = KEY},
+    {"step", "s", FIELD_DOUBLE, "step of the run", AT(pace_run, step), .key = KEY},
+    {"tolerance", "1", FIELD_DOUBLE, "tolerance of the run", AT(pace_run, tolerance), .key = KEY},
     {"quantity", "", FIELD_TEXT, "name of the quantity", OF(QUANTITY, scene_quantity, name)},
-    {"error", "1", FIELD_DOUBLE, "relative, of time", .get = get_quantity_error},
+    {"error", "1", FIELD_DOUBLE, "relative time error", .get = get_quantity_error},
     {0}};
 static const record_type record_pace_error = {
-    "error", "errors", "of a quantity of a run", {KEYS, fields_of_error}};
+    "error", "errors", "the error of a quantity of a run", {KEYS, fields_of_error}};
 
 static const pace_group *group_of(const subject *s)
 {
@@ -114,21 +113,23 @@ static void get_reference_integrator(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_reference[] = {
-    {"integrator", "", FIELD_TEXT, "that it is computed by", .get = get_reference_integrator},
-    {"tolerance", "1", FIELD_DOUBLE, "of the error of a step", .get = get_reference_tolerance},
-    {"steps", "1", FIELD_INT, "that were kept", .get = get_reference_steps},
-    {"status", "", FIELD_ENUM, "of the motion", .get = get_reference_status,
+    {"integrator", "", FIELD_TEXT, "integrator of the reference solution",
+     .get = get_reference_integrator},
+    {"tolerance", "1", FIELD_DOUBLE, "tolerance for the error of a step",
+     .get = get_reference_tolerance},
+    {"steps", "1", FIELD_INT, "accepted steps", .get = get_reference_steps},
+    {"status", "", FIELD_ENUM, "status of the motion", .get = get_reference_status,
      .word = fields_keys_word_of_status, .words = STATUSES},
-    {"reason", "", FIELD_TEXT, "why there is none", AT(pace_group, reason)},
-    {"uncertainty", "1", FIELD_DOUBLE, "of it, at most", AT(pace_group, uncertainty)},
-    {"order", "1", FIELD_DOUBLE, "of it, by the steps and errors of its checks",
+    {"reason", "", FIELD_TEXT, "reason for a missing reference", AT(pace_group, reason)},
+    {"uncertainty", "1", FIELD_DOUBLE, "bound of its uncertainty", AT(pace_group, uncertainty)},
+    {"order", "1", FIELD_DOUBLE, "its observed order, from the steps and errors of its checks",
      AT(pace_group, order)},
-    {"end", "s", FIELD_DOUBLE, "of the motion", AT(pace_group, end)},
-    {"alone_from", "s", FIELD_DOUBLE, "from here on nothing acts; infinite: never",
-     AT(pace_group, from)},
+    {"end", "s", FIELD_DOUBLE, "status of the motion", AT(pace_group, end)},
+    {"alone_from", "s", FIELD_DOUBLE,
+     "time after which no load acts; infinite: loads act until the end", AT(pace_group, from)},
     {0}};
 static const record_type record_pace_reference = {
-    "reference", "references", "what errors of time are against", {KEYS, fields_of_reference}};
+    "reference", "references", "reference solutions for time errors", {KEYS, fields_of_reference}};
 
 static void get_integrator(const subject *s, field_value *out)
 {
@@ -153,20 +154,22 @@ static void get_standing(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_ladder[] = {
-    {"integrator", "", FIELD_TEXT, "with its parameter, where it has one", .get = get_integrator,
+    {"integrator", "", FIELD_TEXT, "integrator with its parameter, if any", .get = get_integrator,
      .key = KEY},
-    {"nominal", "1", FIELD_DOUBLE, "order that it has where all is resolved", .get = get_nominal},
-    {"order", "1", FIELD_DOUBLE, "of the last two errors above the floor", AT(pace_ladder, order)},
-    {"order_before", "1", FIELD_DOUBLE, "of the two before", AT(pace_ladder, before)},
-    {"floor", "1", FIELD_DOUBLE, "below which an error is the reference's or of rounding",
+    {"nominal", "1", FIELD_DOUBLE, "nominal order of the integrator", .get = get_nominal},
+    {"order", "1", FIELD_DOUBLE, "order from the last two errors above the floor",
+     AT(pace_ladder, order)},
+    {"order_before", "1", FIELD_DOUBLE, "order from the two errors before them",
+     AT(pace_ladder, before)},
+    {"floor", "1", FIELD_DOUBLE, "error level of the reference solution and of rounding",
      AT(pace_ladder, floor)},
-    {"verdict", "", FIELD_ENUM, "on the order", AT(pace_ladder, kind), .word = word_of_order,
-     .words = PACE_ORDER_KINDS},
+    {"verdict", "", FIELD_ENUM, "verdict on the order", AT(pace_ladder, kind),
+     .word = word_of_order, .words = PACE_ORDER_KINDS},
     {"not_converging", "", FIELD_TEXT, "quantities whose errors do not fall with the step",
      .get = get_standing},
     {0}};
 static const record_type record_pace_ladder = {
-    "order", "orders", "an integrator with steps that are halved", {KEYS, fields_of_ladder}};
+    "order", "orders", "an integrator with successively halved steps", {KEYS, fields_of_ladder}};
 
 /* An error, and who comes within it. */
 typedef struct record_reached {
@@ -186,39 +189,41 @@ static void get_reached_tolerance(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_reached[] = {
-    {"error", "1", FIELD_DOUBLE, "of time", AT(record_reached, error)},
-    {"integrator", "", FIELD_TEXT, "that comes within it",
+    {"error", "1", FIELD_DOUBLE, "time error", AT(record_reached, error)},
+    {"integrator", "", FIELD_TEXT, "integrator that reaches the error",
      TEXT_OF(RECORD, record_reached, integrator)},
-    {"cost", "s", FIELD_DOUBLE, "counted work where the error is just that",
-     AT(record_reached, way.cost)},
-    {"step", "s", FIELD_DOUBLE, "of the run that is within it", .get = get_reached_step},
-    {"tolerance", "1", FIELD_DOUBLE, "of that run", .get = get_reached_tolerance},
+    {"cost", "s", FIELD_DOUBLE, "counted work at this error", AT(record_reached, way.cost)},
+    {"step", "s", FIELD_DOUBLE, "step of the run that reaches the error", .get = get_reached_step},
+    {"tolerance", "1", FIELD_DOUBLE, "tolerance of that run", .get = get_reached_tolerance},
     {0}};
 static const record_type record_pace_reached = {
-    "reached", "reached", "what an error costs", {KEYS, fields_of_reached}};
+    "reached", "reached", "cost of reaching an error", {KEYS, fields_of_reached}};
 
 static const schema_field fields_of_verdict[] = {
-    {"judged", "", FIELD_TEXT, "order, energy, momentum, tolerance or fate",
+    {"judged", "", FIELD_TEXT,
+     "property with a verdict: order, energy, momentum, tolerance or fate",
      TEXT_OF(RECORD, pace_verdict, judged)},
     {"case", "", FIELD_TEXT, "name of the case", TEXT_OF(RECORD, pace_verdict, case_name)},
-    {"parameters", "", FIELD_TEXT, "where they differ from the defaults",
+    {"parameters", "", FIELD_TEXT, "parameters that differ from the defaults",
      TEXT_OF(RECORD, pace_verdict, parameters)},
     {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
      TEXT_OF(RECORD, pace_verdict, formulation)},
     {"elements", "1", FIELD_INT, "elements of each member", AT(pace_verdict, elements)},
-    {"integrator", "", FIELD_TEXT, "with its parameter, where it has one",
+    {"integrator", "", FIELD_TEXT, "integrator with its parameter, if any",
      TEXT_OF(RECORD, pace_verdict, integrator)},
-    {"steps", "", FIELD_TEXT, "or tolerances, as the table says them",
+    {"steps", "", FIELD_TEXT, "steps or tolerances, as in the table",
      TEXT_OF(RECORD, pace_verdict, steps)},
-    {"verdict", "", FIELD_TEXT, "what was found", AT(pace_verdict, found)},
-    {"expected", "", FIELD_TEXT, "what the table expects", TEXT_OF(RECORD, pace_verdict, expected)},
-    {"as_expected", "", FIELD_FLAG, "the two agree", AT(pace_verdict, as_expected)},
-    {"why", "", FIELD_TEXT, "it is expected", TEXT_OF(RECORD, pace_verdict, why)},
+    {"verdict", "", FIELD_TEXT, "observed verdict", AT(pace_verdict, found)},
+    {"expected", "", FIELD_TEXT, "verdict that the table expects",
+     TEXT_OF(RECORD, pace_verdict, expected)},
+    {"as_expected", "", FIELD_FLAG, "observed and expected verdict agree",
+     AT(pace_verdict, as_expected)},
+    {"why", "", FIELD_TEXT, "reason for the expectation", TEXT_OF(RECORD, pace_verdict, why)},
     {0}};
 static const record_type record_pace_verdict = {
     "verdict",
     "verdicts",
-    "of an integrator, against the table of what is expected",
+    "an integrator's verdict, compared with the table of expected verdicts",
     {fields_of_verdict}};
 
 static void get_growth(const subject *s, field_value *out)
@@ -240,7 +245,7 @@ static void get_momentum(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_all[] = {
-    {"growth", "1", FIELD_DOUBLE, "of energy, relative: more is an outcome of that name",
+    {"growth", "1", FIELD_DOUBLE, "relative growth of energy above which the outcome is 'grows'",
      .get = get_growth},
     {"exact_energy", "1", FIELD_DOUBLE, "relative drift up to which energy is exact",
      .get = get_energy},

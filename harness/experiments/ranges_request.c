@@ -379,24 +379,23 @@ void ranges_table_map(FILE *to, const tally *t, int every)
 {
     const parameter_ranges *r = t->of;
     if (t->columns == 0) {
-        fprintf(to, "\nno map: there are %d axes; the page of the sweep draws slices\n",
-                r->design.axes);
+        fprintf(to, "\nno map for %d axes; the page of the sweep draws slices\n", r->design.axes);
         return;
     }
     fprintf(to, "\n");
-    paragraph_say(to, fprintf(to, "least n "), 2,
-                  "from which on every mesh is within %g %%; -: not even with n = %d%s%s%s%s%s",
-                  100 * r->request.tolerance, r->mesh[r->meshes - 1],
-                  has_other(t) ? "; o: another model" : "",
-                  has_unknown(t, 0) ? "; ?: without a reference" : "",
-                  has_unknown(t, 1) ? "; a number with ?: some of its points are without" : "",
-                  has_mixed(t)
-                      ? "; *: against a reference value, elsewhere against limits of meshes, which "
-                        "do not show what a theory leaves out"
-                      : "",
-                  is_coarse(t) ? "; a field holds what all its points need, and begins where its "
-                                 "column and line say"
-                               : "");
+    paragraph_say(
+        to, fprintf(to, "least n "), 2,
+        "from which on every mesh is within %g %%; -: not even with n = %d%s%s%s%s%s",
+        100 * r->request.tolerance, r->mesh[r->meshes - 1],
+        has_other(t) ? "; o: another model" : "",
+        has_unknown(t, 0) ? "; ?: without a reference" : "",
+        has_unknown(t, 1) ? "; a number with ?: some of its points are without" : "",
+        has_mixed(t) ? "; *: against a reference value, elsewhere against limits of meshes, which "
+                       "do not show what a theory leaves out"
+                     : "",
+        is_coarse(t)
+            ? "; a field contains what all its points need; column and line give its lower ends"
+            : "");
     for (int q = 0; q < r->quantities && every && r->quantities > 1; q++)
         write_maps_of(to, t, q);
     write_maps_of(to, t, r->quantities > 1 ? r->quantities : 0);

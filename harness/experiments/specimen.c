@@ -36,13 +36,13 @@ status specimen_make(const specimen_request *what, specimen *out, fault *f)
     out->coordinates = NODE_COORDINATES * out->nodes;
     if (!fits(out))
         return fault_set(f, STATUS_FAULT,
-                         "%d unknowns of its own with %d doubles of memory are "
-                         "more than the checks have room for (%d and %d)",
+                         "%d internal unknowns and %d doubles of memory exceed the limits of the "
+                         "checks (%d and %d)",
                          out->inner, out->memory, SPECIMEN_INNER, SPECIMEN_MEMORY);
     out->size = out->type.data_size(&out->request);
     out->data = calloc(1, out->size > 0 ? out->size : 1);
     if (out->data == NULL)
-        return fault_set(f, STATUS_FAULT, "data_size asks for %zu bytes, which there are not",
+        return fault_set(f, STATUS_FAULT, "data_size requests %zu bytes, which are not available",
                          out->size);
     return out->type.prepare(&out->request, out->data, f);
 }

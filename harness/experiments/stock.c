@@ -82,8 +82,8 @@ static status look_inside(stock *s, const shard_work *w, const char *path, int b
     status outcome = batch_belongs(&label, w, path, f);
     if (outcome == STATUS_OK && (label.batch != batch || label.batches != w->batches))
         outcome = fault_set(f, STATUS_REFUSED,
-                            "%.200s: is batch %d of %d, not what it is called; remove it", path,
-                            label.batch + 1, label.batches);
+                            "%.200s is batch %d of %d, which differs from its name; remove it",
+                            path, label.batch + 1, label.batches);
     if (outcome == STATUS_OK)
         outcome = add(s, &label, path, folder, f);
     batch_label_free(&label);

@@ -43,7 +43,7 @@ status tally_alloc(const parameter_ranges *r, tally *out, fault *f)
     return out->series != NULL && out->map != NULL && out->failed != NULL && out->ran != NULL &&
                    out->cost != NULL && out->seconds != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for what a sweep comes to");
+               : fault_set(f, STATUS_FAULT, "out of memory for the results of a sweep");
 }
 
 void tally_free(tally *t)

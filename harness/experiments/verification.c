@@ -351,8 +351,8 @@ static status compare(const stored_results *former, const char *name, const stor
         fclose(to) == 0 ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a comparison");
     if (outcome == STATUS_OK && c.pairs == 0)
         outcome = fault_set(f, STATUS_REFUSED,
-                            "--not-worse-than %.120s: it has nothing of what was run; give a run "
-                            "of the same formulations and cases",
+                            "--not-worse-than %.120s has no results of this run; give a run of the "
+                            "same formulations and cases",
                             name);
     if (outcome == STATUS_OK)
         outcome = add_lines(text, j, f);

@@ -248,8 +248,8 @@ status handshake_read(const char *who, const char *line, size_t length, handshak
     if (!json_is_object(r.said)) {
         json_decref(r.said);
         return fault_set(f, STATUS_REFUSED,
-                         "%.100s: began with '%.60s', which is not a line of JSON as "
-                         "harness/formulations/protocol.md says; print to standard error",
+                         "%.100s: began with '%.60s', which is not a line of JSON as in "
+                         "harness/formulations/protocol.md; print to standard error",
                          who, line);
     }
     const status outcome = read_all(&r, out);

@@ -131,7 +131,7 @@ static status start_again(process *p, fault *f)
         again.type.spreads == p->type.spreads && again.constants.strains == p->constants.strains &&
         again.constants.nodes == p->constants.nodes;
     return same ? STATUS_OK
-                : channel_break(&p->to, "says something else of itself when it starts again", f);
+                : channel_break(&p->to, "gives different declarations when it starts again", f);
 }
 
 static void put(char **to, const void *from, size_t bytes)

@@ -43,7 +43,7 @@ status words_split(const char *command, char ***words, fault *f)
     else if (*from != '\0')
         why = "too many words; put them into a script";
     else if (count == 0 || out[0][0] == '\0')
-        why = "there is no command; give one such as 'exec:python3 my_beam.py'";
+        why = "no command is given; give one such as 'exec:python3 my_beam.py'";
     if (why == NULL) {
         *words = out;
         return STATUS_OK;

@@ -396,17 +396,17 @@ static status rest_of(channel *c, size_t least, size_t most, size_t had, size_t 
     memcpy(head, c->in.at + sizeof mark, sizeof head);
     if (memcmp(c->in.at, mark, sizeof mark) != 0) {
         snprintf(why, sizeof why,
-                 "its process wrote '%.*s' where an answer was due; print to standard error",
+                 "its process wrote '%.*s' instead of an answer; print to standard error",
                  (int)(had < 40 ? had : 40), c->in.at);
         return channel_break(c, why, f);
     }
     if (head[0] < STATUS_OK || head[0] > STATUS_REFUSED || head[1] < 0)
-        return channel_break(c, "an answer has an outcome that is none of 0 to 3", f);
+        return channel_break(c, "an answer has an outcome outside 0 to 3", f);
     if (head[0] != STATUS_OK)
         return refused(c, (status)head[0], (size_t)head[1], had, f);
     *count = (size_t)head[1];
     if (*count != least && *count != most) {
-        snprintf(why, sizeof why, "an answer has %zu bytes where %zu were asked for", *count, most);
+        snprintf(why, sizeof why, "an answer has %zu bytes instead of %zu", *count, most);
         return channel_break(c, why, f);
     }
     if (had > CHANNEL_ANSWER + *count)

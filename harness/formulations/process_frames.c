@@ -25,7 +25,7 @@ static status known(const frame_question *q, fault *f)
     if (lost && c->trouble[0] != '\0')
         return fault_set(f, STATUS_FAULT, "%s", c->trouble);
     if (lost)
-        return channel_break(c, "its process was started anew between two requests", f);
+        return channel_break(c, "its process was restarted between two requests", f);
     return many ? channel_break(c, "more than 65536 kinds of elements at once", f) : STATUS_OK;
 }
 
@@ -79,7 +79,7 @@ static int frame_nodes(const element_data *d)
 
 /* Strains, stresses and forces of many elements in one request each. */
 
-_Static_assert(sizeof(node_state) == 16 * sizeof(double), "a node is sent as it stands");
+_Static_assert(sizeof(node_state) == 16 * sizeof(double), "a node is sent as its bytes");
 
 static status strain_frame(const frame_question *q, const node_state x[], strain_output out[],
                            fault *f)

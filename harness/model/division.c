@@ -210,8 +210,8 @@ static status check_between(const model *m, int member, const section *c, fault 
     if (limit == NULL)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%s: its section has between its ends what they have not: %s; put a node with "
-                     "a section of its own there",
+                     "%s: its section has a property between its ends that the ends do not have: "
+                     "%s; put a node with another section there",
                      scene_called(m->scene, SCENE_MEMBERS, member).text, limit);
 }
 

@@ -85,11 +85,11 @@ static status note_dashpots(model *m, fault *f)
     const scene *s = m->scene;
     for (int i = 0; i < s->springs && !has_rates(s); i++)
         if (scene_spring_damps(&s->spring[i]))
-            return coordinates_note_left_out(
-                m, f,
-                "damping of %s%s: in no analysis of the scene it has "
-                "a part; ask for a motion, a harmonic analysis or damped modes",
-                scene_called(s, SCENE_SPRINGS, i).text, s->springs > i + 1 ? " and others" : "");
+            return coordinates_note_left_out(m, f,
+                                             "damping of %s%s: no analysis of the scene uses it; "
+                                             "add a motion, a harmonic analysis or damped modes",
+                                             scene_called(s, SCENE_SPRINGS, i).text,
+                                             s->springs > i + 1 ? " and others" : "");
     return STATUS_OK;
 }
 

@@ -163,7 +163,7 @@ status chain_stiffness(const chain *s, double K[], fault *f)
     double stiffness[CHAIN_JOINT * CHAIN_JOINT], KA[CHAIN_JOINT * CHAIN_JOINT],
         whole[CHAIN_JOINT * CHAIN_JOINT];
     if (symmetric_inverse(c, s->F, stiffness) < 0)
-        return fault_set(f, STATUS_SINGULAR, "a member is at a critical state of its own");
+        return fault_set(f, STATUS_SINGULAR, "a single member is at a critical state");
     dense_mul(c, c, c, stiffness, s->A, KA);
     congruence(c, c, s->A, stiffness, whole);
     for (int i = 0; i < c; i++)

@@ -404,7 +404,7 @@ status internal_largest(const equations *eq, const internal_state *s, int member
     if (axes_turned(m, member, 0, model_element(m, model_first_element(m, member))) != 0 ||
         axes_turned(m, member, 1, model_element(m, model_first_element(m, member + 1) - 1)) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the axes of its sections turn along it; ask at places of it",
+                         "%s: the axes of its sections rotate along it; request single positions",
                          scene_called(model_scene(m), SCENE_MEMBERS, member).text);
     span_grid_make(&g);
     *out = -INFINITY;

@@ -380,8 +380,8 @@ static status judge_strayed(const newton_use *use, const watch *w, double path, 
     if (use->on == NULL || w->largest <= astray || w->largest <= behind_first * w->first)
         return STATUS_OK;
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "at path %g Newton strayed by %.2g rad or lengths and may have found another "
-                     "equilibrium: use smaller steps, or follow a continuation",
+                     "at path %g Newton's method moved by %.2g rad or lengths and may have found "
+                     "another equilibrium: use smaller steps or a continuation",
                      path, w->largest);
 }
 

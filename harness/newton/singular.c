@@ -93,7 +93,7 @@ static void name_motion(const scene *s, int node, const double motion[6], double
     const double *v = turns ? turn : shift, size = vec3_norm(v);
     fault_set(f, STATUS_SINGULAR,
               "%s at (%.4g, %.4g, %.4g) is not held, nor what it is joined to: it can %s (%.3g, "
-              "%.3g, %.3g); hold it against that",
+              "%.3g, %.3g); hold this motion",
               scene_called(s, SCENE_NODES, node).text, at[0], at[1], at[2],
               turns ? "turn about" : "move along", v[0] / size, v[1] / size, v[2] / size);
 }

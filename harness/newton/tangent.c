@@ -443,8 +443,8 @@ status refinement_refuse(const solution_refinement *r, const char *what, fault *
 {
     const int digits = r->last < 1 ? (int)-log10(r->last) : 0; /* NAN: none */
     return fault_set(f, STATUS_SINGULAR,
-                     "%s is lost in round-off: %d of its digits are sure (corrections settle at "
-                     "%.1e of it); use fewer elements or a less slender structure",
+                     "%s is lost in round-off: %d of its digits are significant (relative "
+                     "corrections stay at %.1e); use fewer elements or a less slender structure",
                      what, digits, r->last);
 }
 

@@ -322,10 +322,10 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
     fill_dense(e->K, 1, K);
     const int info = LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', n, x, n, K, n, mu);
     free(K);
-    return info == 0
-               ? STATUS_OK
-               : fault_set(f, STATUS_NOT_CONVERGED,
-                           "a dense eigenvalue problem of %d unknowns: LAPACK says %d", n, info);
+    return info == 0 ? STATUS_OK
+                     : fault_set(f, STATUS_NOT_CONVERGED,
+                                 "a dense eigenvalue problem of %d unknowns: LAPACK returned %d", n,
+                                 info);
 }
 
 /* Candidates of one or both sides (NULL: not requested), taken from all eigenvectors; mu[n], x[n x

@@ -261,12 +261,10 @@ static status find_shift(gyroscopic_solver *s, fault *f)
     }
     for (s->shift = fmax(1e-12 * k / mass, s->least);; s->shift *= 10) {
         if (!(s->shift < 1e3 * k / mass))
-            return fault_set(
-                f, STATUS_REFUSED,
-                "the stiffness is indefinite where there is no mass, so that no motion follows "
-                "from "
-                "it: elements may be too long for the axial force in them; take more, or another "
-                "formulation");
+            return fault_set(f, STATUS_REFUSED,
+                             "the stiffness is indefinite for coordinates without mass, so the "
+                             "motion is not defined; elements may be too long for their axial "
+                             "force; use more elements, or another formulation");
         for (int i = 0; i < K->column[K->n]; i++)
             s->shifted.value[i] = K->value[i] + s->shift * M->value[i];
         const status factored = factor_numeric(s->p->K_factor, &s->shifted, f);

@@ -134,7 +134,7 @@ static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, d
              w->vectors, w->basis, n, w->parameter, w->pointer, w->vector, w->work, w->size, &info);
     if (info != 0)
         return fault_set(f, STATUS_NOT_CONVERGED,
-                         "the eigenvectors were not found (ARPACK says %d)", info);
+                         "the eigenvectors were not found (ARPACK returned %d)", info);
     for (int i = 0; i < found; i++)
         mu[i] = w->value[found - 1 - i];
     reverse((size_t)n, found, w->basis);
@@ -155,7 +155,7 @@ static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, 
     const int info = iterate(p, w, solutions);
     *found = info == 0 ? wanted : w->parameter[CONVERGED];
     if (info != 0 && (info != ENDED_EARLY || *found == 0))
-        return fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK says %d)",
+        return fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK returned %d)",
                          *found, wanted, info);
     return take_vectors(w, n, wanted, *found, mu, x, f);
 }

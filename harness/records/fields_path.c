@@ -52,38 +52,41 @@ static void get_prediction_error(const subject *s, field_value *out)
 
 #define VALUE(member) AT(quantity_result, member)
 static const schema_field fields_of_quantity[] = {
-    {"moments", "", FIELD_TEXT, "what a moment does while its node turns", .get = get_moments},
-    {"status", "", FIELD_ENUM, "ok: there is a value", VALUE(status),
+    {"moments", "", FIELD_TEXT, "convention of moments while their node rotates",
+     .get = get_moments},
+    {"status", "", FIELD_ENUM, "ok: a value exists", VALUE(status),
      .word = fields_keys_word_of_status, .words = STATUSES},
-    {"reason", "", FIELD_TEXT, "why there is none", VALUE(reason)},
+    {"reason", "", FIELD_TEXT, "reason for a missing value", VALUE(reason)},
     {"value", OWN_UNIT, FIELD_DOUBLE, "the value", VALUE(value)},
     {"meaning", "", FIELD_TEXT,
-     "of an envelope, which combination governs; of a frequency, whether damped; of a critical "
-     "load of loads without a potential, how stability is lost",
+     "envelope: governing combination; frequency: damped or not; critical load of loads without a "
+     "potential: kind of instability",
      VALUE(meaning)},
-    {"not_modelled", "", FIELD_TEXT, "physics that the formulation leaves out where that matters",
+    {"not_modelled", "", FIELD_TEXT, "omitted physics of the formulation that affects the value",
      .get = get_not_modelled},
-    {"truth", OWN_UNIT, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
-    {"error", "1", FIELD_DOUBLE, "(value - truth)/|truth|, by near_zero where that is larger",
+    {"truth", OWN_UNIT, FIELD_DOUBLE, "reference value of the same continuum model",
+     OF(TRUTH, truth, value)},
+    {"error", "1", FIELD_DOUBLE, "(value - truth)/|truth|, divided by near_zero if that is larger",
      .get = get_error},
     {"model_error", "1", FIELD_DOUBLE, "the same against the reference value of another model",
      .get = get_model_error},
-    {"x", "x_unit", FIELD_DOUBLE, "where a maximum or minimum was found", VALUE(x)},
-    {"x_name", "", FIELD_TEXT, "what it is, of a curve", OF(QUANTITY, scene_quantity, x.name)},
-    {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x.unit)},
+    {"x", "x_unit", FIELD_DOUBLE, "location of a maximum or minimum", VALUE(x)},
+    {"x_name", "", FIELD_TEXT, "name of the abscissa of a curve",
+     OF(QUANTITY, scene_quantity, x.name)},
+    {"x_unit", "", FIELD_TEXT, "unit of the abscissa", OF(QUANTITY, scene_quantity, x.unit)},
     {"rounding", "1", FIELD_DOUBLE,
-     "estimate of its round-off, or of what reading a motion between its steps adds, or the most "
-     "that omitted modes add, by the value, of a curve by its largest; 0: none was made",
+     "estimated relative error by round-off, by interpolation between steps of a motion, or by "
+     "omitted modes (bound); a curve: relative to its largest value; 0: no estimate",
      VALUE(rounding)},
     {"change", "1", FIELD_DOUBLE,
-     "of a mesh that solve chose: change from the mesh before it, by the value; of a curve, by its "
-     "largest",
+     "mesh chosen by solve: relative change from the previous mesh; a curve: relative to its "
+     "largest value",
      VALUE(change)},
     {"near_zero", OWN_UNIT, FIELD_DOUBLE, "values below it count as zero",
      OF(QUANTITY, scene_quantity, near_zero)},
-    {"prediction", OWN_UNIT, FIELD_DOUBLE, "of an analytic model, not judged",
+    {"prediction", OWN_UNIT, FIELD_DOUBLE, "value of an analytic estimate; no verdict",
      .get = get_prediction},
-    {"prediction_error", "1", FIELD_DOUBLE, "of the prediction against the reference value",
+    {"prediction_error", "1", FIELD_DOUBLE, "relative error of the prediction",
      .get = get_prediction_error},
     {"predicted_by", "", FIELD_TEXT, "source of the prediction",
      TEXT_OF(QUANTITY, scene_quantity, prediction.source)},
@@ -91,32 +94,33 @@ static const schema_field fields_of_quantity[] = {
 const record_type record_quantity = {
     "quantity",
     "quantities",
-    "a value that a cell was asked for",
+    "a requested value of a cell",
     {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_quantity}};
 
 static const schema_field fields_of_truth[] = {
-    {"truth", OWN_UNIT, FIELD_DOUBLE, "its value", OF(TRUTH, truth, value)},
-    {"truth_uncertainty", OWN_UNIT, FIELD_DOUBLE, "of it", OF(TRUTH, truth, uncertainty)},
+    {"truth", OWN_UNIT, FIELD_DOUBLE, "reference value", OF(TRUTH, truth, value)},
+    {"truth_uncertainty", OWN_UNIT, FIELD_DOUBLE, "uncertainty of the reference value",
+     OF(TRUTH, truth, uncertainty)},
     {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(TRUTH, truth, kind)},
-    {"model", "", FIELD_TEXT, "same: the continuum of the case; other: another",
+    {"model", "", FIELD_TEXT, "same: continuum of the case; other: a different model",
      TEXT_OF(TRUTH, truth, model)},
-    {"source", "", FIELD_TEXT, "of the reference value", TEXT_OF(TRUTH, truth, source)},
-    {"error", "1", FIELD_DOUBLE, "of the value against it", .get = get_error},
+    {"source", "", FIELD_TEXT, "source of the reference value", TEXT_OF(TRUTH, truth, source)},
+    {"error", "1", FIELD_DOUBLE, "relative error of the value", .get = get_error},
     {0}};
 const record_type record_truth = {
-    "truth", "truths", "what is known of a quantity", {fields_of_truth}};
+    "truth", "truths", "reference value of a quantity", {fields_of_truth}};
 
 static const schema_field fields_of_curve[] = {
     {"x_name", "", FIELD_TEXT, "name of the abscissa", OF(QUANTITY, scene_quantity, x.name)},
-    {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x.unit)},
-    {"first", "1", FIELD_INT, "where its points begin in the arrays curve_x and curve_value",
+    {"x_unit", "", FIELD_TEXT, "unit of the abscissa", OF(QUANTITY, scene_quantity, x.unit)},
+    {"first", "1", FIELD_INT, "index of its first point in the arrays curve_x and curve_value",
      OF(SUBJECT, subject, group)},
-    {"points", "1", FIELD_INT, "their number", VALUE(curve.points)},
+    {"points", "1", FIELD_INT, "number of points", VALUE(curve.points)},
     {0}};
 const record_type record_curve = {
     "curve",
     "curves",
-    "a quantity along a path; its points stand in arrays",
+    "a quantity along a path; its points are in arrays",
     {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_curve}};
 
 static void get_analysis(const subject *s, int analysis, field_value *out)
@@ -142,38 +146,40 @@ static void get_stability(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_step[] = {
-    {"step", "1", FIELD_INT, "its number, from 0", OF(SUBJECT, subject, index)},
-    {"path", "1", FIELD_DOUBLE, "path parameter that was reached", STEP(path)},
-    {"increment", "1", FIELD_DOUBLE, "of the path parameter", STEP(increment)},
-    {"iterations", "1", FIELD_INT, "until the criterion was met", STEP(iterations)},
-    {"rejected", "1", FIELD_INT, "tries of longer steps before it", STEP(rejected)},
-    {"analysis", "1", FIELD_INT, "of the scene", STEP(analysis)},
-    {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_step},
-    {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", STEP(negative_pivots)},
+    {"step", "1", FIELD_INT, "number of the step, from 0", OF(SUBJECT, subject, index)},
+    {"path", "1", FIELD_DOUBLE, "path parameter at the end of the step", STEP(path)},
+    {"increment", "1", FIELD_DOUBLE, "increment of the path parameter", STEP(increment)},
+    {"iterations", "1", FIELD_INT, "iterations to convergence", STEP(iterations)},
+    {"rejected", "1", FIELD_INT, "rejected longer steps before it", STEP(rejected)},
+    {"analysis", "1", FIELD_INT, "index in the scene", STEP(analysis)},
+    {"analysis_name", "", FIELD_TEXT, "name in the scene", .get = get_analysis_of_step},
+    {"negative_pivots", "1", FIELD_INT, "negative pivots of the tangent; -1: not symmetric",
+     STEP(negative_pivots)},
     {"stability", "", FIELD_TEXT,
-     "of the state where it ended: stable, unstable (negative pivots); where the tangent is not "
-     "symmetric unstable "
-     "(eigenvalues that have passed zero), no divergence (without mass), undecided; "
-     "in rotating axes: stable, unstable: grows, stable without damping, undecided",
+     "stability of its last state: stable, unstable (negative pivots); if the tangent is not "
+     "symmetric: unstable (eigenvalues that have passed zero), no divergence (without mass), "
+     "undecided; in rotating axes: stable, unstable: grows, stable without damping, undecided",
      .get = get_stability},
-    {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", STEP(residual)},
-    {"correction", "1", FIELD_DOUBLE, "of its last iteration", STEP(correction)},
-    {"remaining", "1", FIELD_DOUBLE, "what another one would change, predicted", STEP(remaining)},
+    {"residual", "1", FIELD_DOUBLE, "before its last iteration, relative to the first",
+     STEP(residual)},
+    {"correction", "1", FIELD_DOUBLE, "correction of its last iteration", STEP(correction)},
+    {"remaining", "1", FIELD_DOUBLE, "predicted correction of a further iteration",
+     STEP(remaining)},
     {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it", STEP(incompatibility)},
     {"energy", "J", FIELD_DOUBLE, "r . K^-1 r of the first iteration", STEP(energy)},
     {0}};
 const record_type record_step = {"step",
                                  "steps",
-                                 "a load step that was kept",
+                                 "an accepted load step",
                                  {keys_of_point, keys_of_series, key_of_mesh, fields_of_step}};
 
 #define ITERATION(member) AT(iteration_record, member)
 static const schema_field fields_of_iteration[] = {
-    {"step", "1", FIELD_INT, "that it belongs to", OF(SUBJECT, subject, group)},
-    {"iteration", "1", FIELD_INT, "its number in the step, from 0", OF(SUBJECT, subject, index)},
-    {"residual", "1", FIELD_DOUBLE, "sqrt(r . K^-1 r) before it, by the first",
+    {"step", "1", FIELD_INT, "step of the iteration", OF(SUBJECT, subject, group)},
+    {"iteration", "1", FIELD_INT, "number in the step, from 0", OF(SUBJECT, subject, index)},
+    {"residual", "1", FIELD_DOUBLE, "sqrt(r . K^-1 r) before it, relative to the first",
      ITERATION(residual)},
-    {"correction", "1", FIELD_DOUBLE, "what it changed", ITERATION(correction)},
+    {"correction", "1", FIELD_DOUBLE, "correction by the iteration", ITERATION(correction)},
     {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it",
      ITERATION(incompatibility)},
     {0}};
@@ -206,53 +212,58 @@ static void get_node(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_event[] = {
-    {"event", "", FIELD_ENUM, "what happened", EVENT(kind), .word = word_of_event,
+    {"event", "", FIELD_ENUM, "kind of event", EVENT(kind), .word = word_of_event,
      .words = EVENT_KINDS},
-    {"analysis", "1", FIELD_INT, "of the scene", EVENT(analysis)},
-    {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_event},
-    {"negative_before", "1", FIELD_INT, "negative pivots; -1: not symmetric",
+    {"analysis", "1", FIELD_INT, "index in the scene", EVENT(analysis)},
+    {"analysis_name", "", FIELD_TEXT, "name in the scene", .get = get_analysis_of_event},
+    {"negative_before", "1", FIELD_INT, "negative pivots before it; -1: not symmetric",
      EVENT(negative_before)},
-    {"negative_after", "1", FIELD_INT, "the same behind it", EVENT(negative_after)},
-    {"factor", "1", FIELD_DOUBLE, "of the loads", EVENT(factor)},
-    {"control", "m", FIELD_DOUBLE, "coordinate that the path is controlled by", EVENT(control)},
-    {"other_factor", "1", FIELD_DOUBLE, "of a jump: on the other branch", EVENT(other_factor)},
+    {"negative_after", "1", FIELD_INT, "negative pivots after it; -1: not symmetric",
+     EVENT(negative_after)},
+    {"factor", "1", FIELD_DOUBLE, "load factor", EVENT(factor)},
+    {"control", "m", FIELD_DOUBLE, "value of the controlling coordinate", EVENT(control)},
+    {"other_factor", "1", FIELD_DOUBLE, "jump: load factor on the other branch",
+     EVENT(other_factor)},
     {"measure", "1", FIELD_DOUBLE,
-     "work of the loads on the null vector; of a jump: distance of the branches", EVENT(measure)},
+     "work of the loads on the null vector; jump: distance of the branches", EVENT(measure)},
     {0}};
 const record_type record_event = {"event",
                                   "events",
-                                  "what a continued path met",
+                                  "an event of a continuation",
                                   {keys_of_point, keys_of_series, key_of_mesh, fields_of_event}};
 
 #define MOTION(member) AT(motion_record, at.member)
 #define BALANCE(of)    AT(motion_record, at.balance[of])
 static const schema_field fields_of_motion[] = {
-    {"analysis", "1", FIELD_INT, "of the scene", AT(motion_record, analysis)},
-    {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_motion},
-    {"time", "s", FIELD_DOUBLE, "where the step ended; the first record: the start", MOTION(time)},
-    {"step", "s", FIELD_DOUBLE, "its length; of the start 0", MOTION(step)},
-    {"iterations", "1", FIELD_INT, "of Newton's method", MOTION(iterations)},
-    {"rejected", "1", FIELD_INT, "longer steps that were tried before it", MOTION(rejected)},
+    {"analysis", "1", FIELD_INT, "index in the scene", AT(motion_record, analysis)},
+    {"analysis_name", "", FIELD_TEXT, "name in the scene", .get = get_analysis_of_motion},
+    {"time", "s", FIELD_DOUBLE, "end of the step; first record: start of the motion", MOTION(time)},
+    {"step", "s", FIELD_DOUBLE, "length of the step; first record: 0", MOTION(step)},
+    {"iterations", "1", FIELD_INT, "iterations of Newton's method", MOTION(iterations)},
+    {"rejected", "1", FIELD_INT, "rejected longer steps before it", MOTION(rejected)},
     {"error", "1", FIELD_DOUBLE,
-     "estimate of what it adds to places, by the size; 0: none was made", MOTION(error)},
-    {"kinetic", "J", FIELD_DOUBLE, "energy of motion", BALANCE(SCENE_KINETIC)},
+     "estimated error of the step in positions, relative to the size; 0: no estimate",
+     MOTION(error)},
+    {"kinetic", "J", FIELD_DOUBLE, "kinetic energy", BALANCE(SCENE_KINETIC)},
     {"strain", "J", FIELD_DOUBLE, "energy stored in members and springs", BALANCE(SCENE_STRAIN)},
-    {"work", "J", FIELD_DOUBLE, "of loads and of prescribed coordinates, since the start",
+    {"work", "J", FIELD_DOUBLE, "work of loads and of prescribed coordinates, since the start",
      BALANCE(SCENE_WORK)},
-    {"dissipated", "J", FIELD_DOUBLE, "by damping, since the start", BALANCE(SCENE_DISSIPATED)},
-    {"drift", "J", FIELD_DOUBLE, "both energies and what was dissipated, less work and the start",
+    {"dissipated", "J", FIELD_DOUBLE, "energy dissipated by damping, since the start",
+     BALANCE(SCENE_DISSIPATED)},
+    {"drift", "J", FIELD_DOUBLE, "energy plus dissipation, minus initial energy and work",
      BALANCE(SCENE_DRIFT)},
-    {"px", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PX)},
-    {"py", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PY)},
-    {"pz", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PZ)},
-    {"lx", "kg m^2/s", FIELD_DOUBLE, "angular momentum about the origin", BALANCE(SCENE_LX)},
-    {"ly", "kg m^2/s", FIELD_DOUBLE, "the same about y", BALANCE(SCENE_LY)},
-    {"lz", "kg m^2/s", FIELD_DOUBLE, "the same about z", BALANCE(SCENE_LZ)},
+    {"px", "kg m/s", FIELD_DOUBLE, "momentum along x", BALANCE(SCENE_PX)},
+    {"py", "kg m/s", FIELD_DOUBLE, "momentum along y", BALANCE(SCENE_PY)},
+    {"pz", "kg m/s", FIELD_DOUBLE, "momentum along z", BALANCE(SCENE_PZ)},
+    {"lx", "kg m^2/s", FIELD_DOUBLE, "angular momentum about x, at the origin", BALANCE(SCENE_LX)},
+    {"ly", "kg m^2/s", FIELD_DOUBLE, "angular momentum about y, at the origin", BALANCE(SCENE_LY)},
+    {"lz", "kg m^2/s", FIELD_DOUBLE, "angular momentum about z, at the origin", BALANCE(SCENE_LZ)},
     {0}};
-const record_type record_motion = {"motion",
-                                   "motion",
-                                   "a motion in time at its start and where its steps ended",
-                                   {keys_of_point, keys_of_series, key_of_mesh, fields_of_motion}};
+const record_type record_motion = {
+    "motion",
+    "motion",
+    "energies and momenta at the start of a motion and after each step",
+    {keys_of_point, keys_of_series, key_of_mesh, fields_of_motion}};
 
 static void get_path(const subject *s, field_value *out)
 {
@@ -270,19 +281,20 @@ static void get_stiffness(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_matrix[] = {
-    {"node", "1", FIELD_INT, "of the scene", AT(nodal_matrices, node)},
-    {"node_name", "", FIELD_TEXT, "as the scene calls it", .get = get_node},
-    {"moments", "", FIELD_ENUM, "what a moment does while its node turns",
+    {"node", "1", FIELD_INT, "index in the scene", AT(nodal_matrices, node)},
+    {"node_name", "", FIELD_TEXT, "name in the scene", .get = get_node},
+    {"moments", "", FIELD_ENUM, "convention of moments while their node rotates",
      AT(nodal_matrices, moments), .word = fields_keys_word_of_moments,
      .words = SCENE_MOMENTS_SYMMETRISED + 1},
     {"path", "1", FIELD_DOUBLE, "path parameter of the state", .get = get_path},
-    {"compliance", "SI", FIELD_DOUBLE, "ux uy uz thx thy thz by Fx Fy Fz Mx My Mz",
+    {"compliance", "SI", FIELD_DOUBLE, "ux uy uz thx thy thz for unit Fx Fy Fz Mx My Mz",
      .get = get_compliance, .count = 36},
-    {"stiffness", "SI", FIELD_DOUBLE, "its inverse", .get = get_stiffness, .count = 36},
+    {"stiffness", "SI", FIELD_DOUBLE, "inverse of the compliance", .get = get_stiffness,
+     .count = 36},
     {0}};
 const record_type record_matrix = {"matrix",
                                    "matrices",
-                                   "small motions of a node at a station of a path",
+                                   "compliance and stiffness of a node at a station of a path",
                                    {keys_of_point, keys_of_series, key_of_mesh, fields_of_matrix}};
 
 /* Declarations of a formulation with its present options. */
@@ -306,12 +318,12 @@ static void get_limits(const subject *s, field_value *out)
         const char *words;
     } limit[] = {
         {LIMIT_DOUBLY_SYMMETRIC, "shear centre at the centroid, no coupled shear"},
-        {LIMIT_ORDER_DEPENDENT, "exchanging the ends of an element changes the answer, by an error "
+        {LIMIT_ORDER_DEPENDENT, "exchanging the ends of an element changes the result, by an error "
                                 "that vanishes with more elements"},
         {LIMIT_QUARTER_TURN, "less than a quarter turn between the ends of an element"},
         {LIMIT_HALF_TURN, "less than half a turn between the ends of an element"},
-        {LIMIT_TENSION, "no element that is too long for the axial force in it, which its "
-                        "stiffness across it does not bear"},
+        {LIMIT_TENSION, "no element that is too long for its axial force, which would make its "
+                        "transverse stiffness indefinite"},
         {LIMIT_EIGHTH_TWIST, "less than an eighth of a turn of twist in an element"},
         {LIMIT_WARPING_RIGID, "warping does not shear: no closed cells that warp"},
         {LIMIT_FLAT_ARC, "the arc of a curved element rises by less than 2 radii of gyration of "
@@ -419,41 +431,42 @@ static const schema_field fields[] = {
     {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
      OF(SERIES, series, formulation.key), .key = KEY},
     {"type", "", FIELD_TEXT, "name without options", TEXT_OF(FORMULATION, element_type, name)},
-    {"summary", "", FIELD_TEXT, "what it is", TEXT_OF(FORMULATION, element_type, summary)},
-    {"source", "", FIELD_TEXT, "where it is published", TEXT_OF(FORMULATION, element_type, source)},
-    {"family", "", FIELD_TEXT, "those of one family share code or theory",
+    {"summary", "", FIELD_TEXT, "description", TEXT_OF(FORMULATION, element_type, summary)},
+    {"source", "", FIELD_TEXT, "publication", TEXT_OF(FORMULATION, element_type, source)},
+    {"family", "", FIELD_TEXT, "formulations of a family share code or theory",
      TEXT_OF(FORMULATION, element_type, family)},
-    {"offers", "", FIELD_TEXT, "physics that it has, between commas", .get = get_offers},
-    {"limits", "", FIELD_TEXT, "what it is restricted to", .get = get_limits},
-    {"lacks", "", FIELD_TEXT, "what it offers in one direction only", .get = get_lacks},
-    {"differences", "", FIELD_TEXT, "what it leaves to differences: its times are not ranked",
+    {"offers", "", FIELD_TEXT, "supported physics, separated by commas", .get = get_offers},
+    {"limits", "", FIELD_TEXT, "restrictions", .get = get_limits},
+    {"lacks", "", FIELD_TEXT, "features that it supports in one direction only", .get = get_lacks},
+    {"differences", "", FIELD_TEXT, "functions computed by differences: its times are not ranked",
      .get = get_differences},
     {"misprint", "", FIELD_TEXT,
-     "what is misprinted in the equations that it keeps: it is not ranked",
+     "misprint in the equations that it implements as printed: it is not ranked",
      TEXT_OF(FORMULATION, element_type, misprint)},
     {"process", "", FIELD_FLAG, "computed by another process: its times are not ranked",
      .get = get_process},
     {"is_new", "", FIELD_FLAG, "not accepted yet: its verdicts do not affect the exit status",
      .get = get_is_new},
-    {"shear_theory", "", FIELD_TEXT, "of shear in stability", .get = get_theory},
+    {"shear_theory", "", FIELD_TEXT, "theory of shear in stability", .get = get_theory},
     {"statics_least", "1", FIELD_INT, "order of convergence in statics", .get = get_order},
-    {"statics_highest", "1", FIELD_INT, "the same where leading terms vanish", .offset = 1,
+    {"statics_highest", "1", FIELD_INT, "the same if leading terms vanish", .offset = 1,
      .get = get_order},
     {"vibration_least", "1", FIELD_INT, "order in vibration", .offset = 2, .get = get_order},
-    {"vibration_highest", "1", FIELD_INT, "the same where leading terms vanish", .offset = 3,
+    {"vibration_highest", "1", FIELD_INT, "the same if leading terms vanish", .offset = 3,
      .get = get_order},
     {"motion_least", "1", FIELD_INT, "order in motions in time", .get = get_motion},
-    {"motion_highest", "1", FIELD_INT, "the same where leading terms vanish", .offset = 1,
+    {"motion_highest", "1", FIELD_INT, "the same if leading terms vanish", .offset = 1,
      .get = get_motion},
     {"buckling_least", "1", FIELD_INT, "order in linear buckling", .offset = 4, .get = get_order},
-    {"buckling_highest", "1", FIELD_INT, "the same where leading terms vanish", .offset = 5,
+    {"buckling_highest", "1", FIELD_INT, "the same if leading terms vanish", .offset = 5,
      .get = get_order},
-    {"nodes", "1", FIELD_INT, "of an element", .get = get_nodes},
+    {"nodes", "1", FIELD_INT, "nodes of an element", .get = get_nodes},
     {"strains", "1", FIELD_INT, "generalized strains of an element", .get = get_strains},
-    {"inner", "1", FIELD_INT, "unknowns inside an element", .get = get_inner},
-    {"options", "", FIELD_TEXT, "a line each; between tabs name, choices, default and summary",
+    {"inner", "1", FIELD_INT, "internal unknowns of an element", .get = get_inner},
+    {"options", "", FIELD_TEXT,
+     "one line per option: name, choices, default and summary, separated by tabs",
      .get = get_options},
     {0}};
 
 const record_type record_declaration = {
-    "declaration", "declarations", "what a formulation says of itself", {fields}};
+    "declaration", "declarations", "declarations of a formulation", {fields}};

@@ -66,16 +66,16 @@ static const schema_field key_of_case[] = {
     {"case", "", FIELD_TEXT, "name of the case", TEXT_OF(CASE, case_type, name), .key = KEY_AROUND},
     {0}};
 static const schema_field fields_of_parameter[] = {
-    {"parameter", "", FIELD_TEXT, "its name", .get = get_name},
-    {"unit", "", FIELD_TEXT, "of its value; 1: a number", .get = get_unit},
-    {"default", "", FIELD_TEXT, "the value where nothing else is said", .get = get_default},
-    {"min", OWN_UNIT, FIELD_DOUBLE, "least value", .get = get_min},
-    {"max", OWN_UNIT, FIELD_DOUBLE, "largest value", .get = get_max},
-    {"choices", "", FIELD_TEXT, "words that it can be, with bars between", .get = get_choices},
-    {"summary", "", FIELD_TEXT, "what it is, in one line", .get = get_summary},
+    {"parameter", "", FIELD_TEXT, "name of the parameter", .get = get_name},
+    {"unit", "", FIELD_TEXT, "unit of its value; 1: a number", .get = get_unit},
+    {"default", "", FIELD_TEXT, "default value", .get = get_default},
+    {"min", OWN_UNIT, FIELD_DOUBLE, "minimum", .get = get_min},
+    {"max", OWN_UNIT, FIELD_DOUBLE, "maximum", .get = get_max},
+    {"choices", "", FIELD_TEXT, "allowed words, separated by bars", .get = get_choices},
+    {"summary", "", FIELD_TEXT, "description in one line", .get = get_summary},
     {0}};
 const record_type record_parameter = {
-    "parameter", "parameters", "what can be set of a case", {key_of_case, fields_of_parameter}};
+    "parameter", "parameters", "parameters of a case", {key_of_case, fields_of_parameter}};
 
 static void get_kind(const subject *s, field_value *out)
 {
@@ -111,16 +111,17 @@ static void get_assumption(const subject *s, field_value *out)
 
 static const schema_field fields_of_assumption[] = {
     {"kind", "", FIELD_ENUM,
-     "not known: the numbers of the section do not say it; not modelled: no formulation has it",
+     "not known: the numbers of the section do not determine it; not modelled: no formulation "
+     "supports it",
      .get = get_kind, .word = assumptions_kind, .words = ASSUMPTION_KINDS},
     {"section", "", FIELD_TEXT, "name of the section", .get = get_section},
-    {"physics", "", FIELD_TEXT, "of what, in words of 'omit'; empty: none of these",
+    {"physics", "", FIELD_TEXT, "physics, in words of 'omit'; empty: none of these",
      .get = get_physics},
-    {"text", "", FIELD_TEXT, "what is assumed, in words", .get = get_assumption},
+    {"text", "", FIELD_TEXT, "assumption in words", .get = get_assumption},
     {0}};
 const record_type record_assumption = {"assumption",
                                        "assumptions",
-                                       "what is assumed of a section of your scene",
+                                       "an assumption about a section of your scene",
                                        {keys_of_point, fields_of_assumption}};
 
 static void get_meaning(const subject *s, field_value *out)
@@ -135,12 +136,12 @@ static void get_curve(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_meaning[] = {
-    {"meaning", "", FIELD_TEXT, "what it is, in one line", .get = get_meaning},
+    {"meaning", "", FIELD_TEXT, "description in one line", .get = get_meaning},
     {"curve", "", FIELD_FLAG, "it has a value at every station of a path", .get = get_curve},
     {0}};
 const record_type record_meaning = {"meaning",
                                     "meanings",
-                                    "what a quantity of a point is",
+                                    "description of a quantity of a point",
                                     {keys_of_point, names_of_quantity, fields_of_meaning}};
 
 /* Records of the evaluation: verdicts, and agreement with stored discrete values. */
@@ -202,56 +203,65 @@ static void get_reach(const subject *s, field_value *out)
 
 /* Add new fields of a verdict here, one line each. */
 static const schema_field fields_of_verdict[] = {
-    {"verdict", "", FIELD_ENUM, "of the judge", AT(verdict, kind), .word = word_of_verdict,
+    {"verdict", "", FIELD_ENUM, "verdict", AT(verdict, kind), .word = word_of_verdict,
      .words = VERDICT_KINDS},
-    {"expected", "", FIELD_ENUM, "of it: pass, or what a finding says", AT(verdict, expected),
-     .word = word_of_verdict, .words = VERDICT_KINDS},
-    {"as_expected", "", FIELD_FLAG, "the exit status is 1 where it is not", AT(verdict, matches)},
+    {"expected", "", FIELD_ENUM, "expected verdict: pass, or as given by a known deviation",
+     AT(verdict, expected), .word = word_of_verdict, .words = VERDICT_KINDS},
+    {"as_expected", "", FIELD_FLAG, "verdict as expected; if not, the exit status is 1",
+     AT(verdict, matches)},
     {"message", "", FIELD_TEXT, "the verdict in words", .get = get_message},
-    {"reason", "", FIELD_TEXT, "why it was skipped, refused, has no value", AT(verdict, reason)},
+    {"reason", "", FIELD_TEXT, "reason for a missing value", AT(verdict, reason)},
     {"finding", "", FIELD_TEXT, "the known deviation that explains it", .get = get_finding},
-    {"cause", "", FIELD_TEXT, "that the finding names", .get = get_cause},
-    {"proof", "", FIELD_TEXT, "of the cause", .get = get_proof},
-    {"value", OWN_UNIT, FIELD_DOUBLE, "on the finest mesh", AT(verdict, finest)},
-    {"limit", OWN_UNIT, FIELD_DOUBLE, "for infinitely many elements", AT(verdict, fit.limit)},
-    {"limit_uncertainty", OWN_UNIT, FIELD_DOUBLE, "of it", AT(verdict, fit.limit_uncertainty)},
-    {"order", "1", FIELD_DOUBLE, "of convergence in the number of elements",
-     AT(verdict, fit.order)},
-    {"order_uncertainty", "1", FIELD_DOUBLE, "of it", AT(verdict, fit.order_uncertainty)},
-    {"limit_kind", "", FIELD_ENUM, "what the meshes look like", AT(verdict, fit.kind),
+    {"cause", "", FIELD_TEXT, "cause of the known deviation", .get = get_cause},
+    {"proof", "", FIELD_TEXT, "proof of the cause", .get = get_proof},
+    {"value", OWN_UNIT, FIELD_DOUBLE, "value on the finest mesh", AT(verdict, finest)},
+    {"limit", OWN_UNIT, FIELD_DOUBLE, "limit for infinitely many elements", AT(verdict, fit.limit)},
+    {"limit_uncertainty", OWN_UNIT, FIELD_DOUBLE, "uncertainty of the limit",
+     AT(verdict, fit.limit_uncertainty)},
+    {"order", "1", FIELD_DOUBLE, "order of convergence", AT(verdict, fit.order)},
+    {"order_uncertainty", "1", FIELD_DOUBLE, "uncertainty of the order",
+     AT(verdict, fit.order_uncertainty)},
+    {"limit_kind", "", FIELD_ENUM, "convergence over the meshes", AT(verdict, fit.kind),
      .word = word_of_limit, .words = LIMIT_KINDS},
-    {"asymptotic_from", "1", FIELD_INT, "coarsest mesh that the limit rests on; 0: none",
+    {"asymptotic_from", "1", FIELD_INT, "coarsest mesh used for the limit; 0: none",
      AT(verdict, fit.from)},
-    {"noise", OWN_UNIT, FIELD_DOUBLE, "of the value on the finest mesh, as reckoned with",
+    {"noise", OWN_UNIT, FIELD_DOUBLE,
+     "rounding scatter of the value on the finest mesh, as used for the verdict",
      AT(verdict, fit.noise)},
-    {"noise_measured", "", FIELD_FLAG, "the finest mesh was run again in other words",
+    {"noise_measured", "", FIELD_FLAG,
+     "the scatter was measured by an equivalent second run of the finest mesh",
      .get = get_noise_measured},
-    {"truth", OWN_UNIT, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
-    {"truth_uncertainty", OWN_UNIT, FIELD_DOUBLE, "of it", OF(TRUTH, truth, uncertainty)},
+    {"truth", OWN_UNIT, FIELD_DOUBLE, "reference value of the same continuum model",
+     OF(TRUTH, truth, value)},
+    {"truth_uncertainty", OWN_UNIT, FIELD_DOUBLE, "uncertainty of the reference value",
+     OF(TRUTH, truth, uncertainty)},
     {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(TRUTH, truth, kind)},
-    {"theory", "", FIELD_TEXT, "of shear in stability that the reference value follows",
+    {"theory", "", FIELD_TEXT, "theory of shear in stability of the reference value",
      TEXT_OF(TRUTH, truth, theory)},
-    {"source", "", FIELD_TEXT, "of the reference value", TEXT_OF(TRUTH, truth, source)},
-    {"below_digits", "", FIELD_FLAG, "the error is less than the reference value is uncertain",
+    {"source", "", FIELD_TEXT, "source of the reference value", TEXT_OF(TRUTH, truth, source)},
+    {"below_digits", "", FIELD_FLAG, "the error is below the uncertainty of the reference value",
      AT(verdict, below_digits)},
-    {"predicted", OWN_UNIT, FIELD_DOUBLE, "limit that was derived for the formulation",
+    {"predicted", OWN_UNIT, FIELD_DOUBLE, "limit derived for the formulation",
      .get = get_predicted},
-    {"contradicted", OWN_UNIT, FIELD_DOUBLE, "published value that the limit cannot be",
+    {"contradicted", OWN_UNIT, FIELD_DOUBLE, "published value that the limit excludes",
      .get = get_contradicted},
-    {"error", "1", FIELD_DOUBLE, "of the limit against the reference value", AT(verdict, error)},
-    {"tolerance", OWN_UNIT, FIELD_DOUBLE, "of it, uncertainty included", AT(verdict, tolerance)},
-    {"model_truth", OWN_UNIT, FIELD_DOUBLE, "of another model or theory: never judged by",
+    {"error", "1", FIELD_DOUBLE, "relative error of the limit", AT(verdict, error)},
+    {"tolerance", OWN_UNIT, FIELD_DOUBLE, "tolerance of the limit, uncertainty included",
+     AT(verdict, tolerance)},
+    {"model_truth", OWN_UNIT, FIELD_DOUBLE,
+     "reference value of another model or theory; not used for verdicts",
      OF(MODEL_TRUTH, truth, value)},
     {"model_truth_kind", "", FIELD_TEXT, "exact, independent, ...",
      TEXT_OF(MODEL_TRUTH, truth, kind)},
-    {"model_theory", "", FIELD_TEXT, "of shear in stability that it follows",
+    {"model_theory", "", FIELD_TEXT, "theory of shear in stability of this value",
      TEXT_OF(MODEL_TRUTH, truth, theory)},
-    {"model_error", "1", FIELD_DOUBLE, "of the limit against it", AT(verdict, model_error)},
-    {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
+    {"model_error", "1", FIELD_DOUBLE, "relative error of the limit against this value",
+     AT(verdict, model_error)},
+    {"omitted", "", FIELD_TEXT, "physics that the scene would require but omits",
      .get = fields_keys_omitted},
-    {"assumed", "", FIELD_TEXT, "of its sections: see the table 'assumptions'",
+    {"assumed", "", FIELD_TEXT, "assumptions about sections: see the table 'assumptions'",
      .get = fields_keys_assumed},
-    {"reach_10", "1", FIELD_INT, "elements from which on every mesh is within 10 %; 0: none",
+    {"reach_10", "1", FIELD_INT, "elements from which every mesh is within 10 %; 0: none",
      .get = get_reach},
     {"reach_1", "1", FIELD_INT, "the same, 1 %", .offset = 1, .get = get_reach},
     {"reach_0.1", "1", FIELD_INT, "the same, 0.1 %", .offset = 2, .get = get_reach},
@@ -260,14 +270,14 @@ static const schema_field fields_of_verdict[] = {
 const record_type record_verdict = {
     "verdict",
     "verdicts",
-    "what the judge says of a quantity over the meshes",
+    "verdict on a quantity over the meshes",
     {keys_of_point, keys_of_series, names_of_quantity, fields_of_verdict}};
 
 static const schema_field fields_of_agreement[] = {
-    {"value", OWN_UNIT, FIELD_DOUBLE, "of the cell", AT(agreement, value)},
-    {"truth", OWN_UNIT, FIELD_DOUBLE, "stored for this formulation and mesh",
+    {"value", OWN_UNIT, FIELD_DOUBLE, "value of the cell", AT(agreement, value)},
+    {"truth", OWN_UNIT, FIELD_DOUBLE, "value stored for this formulation and mesh",
      OF(TRUTH, truth, value)},
-    {"source", "", FIELD_TEXT, "of the reference value", TEXT_OF(TRUTH, truth, source)},
+    {"source", "", FIELD_TEXT, "source of the reference value", TEXT_OF(TRUTH, truth, source)},
     {"agrees", "", FIELD_FLAG, "within the reference value's uncertainty", AT(agreement, good)},
     {0}};
 const record_type record_agreement = {
@@ -293,13 +303,14 @@ static void get_covered(const subject *s, field_value *out)
 
 static const schema_field fields_of_coverage[] = {
     {"case", "", FIELD_TEXT, "name of the case", TEXT_OF(CASE, case_type, name), .key = KEY_AROUND},
-    {"formulation", "", FIELD_TEXT, "name, whatever its options", .get = get_formulation,
-     .key = KEY},
+    {"formulation", "", FIELD_TEXT, "name without options", .get = get_formulation, .key = KEY},
     {"left_out", "1", FIELD_INT, "finest meshes that were not used", OF(SUBJECT, subject, index),
      .key = KEY},
-    {"series", "1", FIELD_INT, "with an exact reference value and three meshes", .get = get_series},
+    {"series", "1", FIELD_INT, "mesh series with an exact reference value and three meshes",
+     .get = get_series},
     {"covered", "1", FIELD_INT,
-     "of them, whose limit is within its uncertainty of the reference value", .get = get_covered},
+     "mesh series whose limit is within its uncertainty of the reference value",
+     .get = get_covered},
     {0}};
 const record_type record_coverage = {
     "coverage",

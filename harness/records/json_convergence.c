@@ -208,7 +208,7 @@ static void write_ranking(FILE *to, const reach_question *q, const reached list[
             fputs(": costs tie", to);
     }
     if (sound == 0)
-        fputs("no formulation that passes in all of it", to);
+        fputs("no formulation passes everywhere", to);
     write_defective(to, q, list + sound, count - sound);
 }
 

@@ -202,7 +202,7 @@ static int of_section(const scene *s, assumption *a)
     }
     scene_omission_words(features_not_given(s, a->section), a->physics);
     snprintf(a->text, sizeof a->text,
-             "%s of section %s, whose numbers say nothing of it: taken as zero", a->physics,
+             "%s of section %s is not given by its numbers: assumed to be zero", a->physics,
              name.text);
     return a->physics[0] != '\0';
 }

@@ -163,7 +163,7 @@ static status check_form(const char *path, const file_place *to, output_form for
     if (to->kind == PLACE_STREAM && form == OUTPUT_WHOLE_FILE)
         return fault_set(f, STATUS_REFUSED,
                          "%.200s is %s; HDF5 needs a regular file: give the name of one", path,
-                         to->descriptor >= 0 ? "where standard output or error goes"
+                         to->descriptor >= 0 ? "the file of standard output or error"
                                              : "a pipe or a device");
     if (to->kind != PLACE_FREE && access(to->path, W_OK) != 0)
         return fail(path, errno, f);

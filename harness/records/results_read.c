@@ -483,8 +483,8 @@ static status read_file(const char *path, const char *experiment, hid_t file, st
     if (at < 0)
         return experiment == NULL ? results_case_damaged(path, "", "cases", f)
                                   : fault_set(f, STATUS_FAULT,
-                                              "%.120s: nothing of '%.40s' is there that could be "
-                                              "compared; verify, bench and sweep leave such",
+                                              "%.120s: no results of '%.40s' that can be compared; "
+                                              "verify, bench and sweep write them",
                                               path, experiment);
     const status outcome = read_group(path, at, out, f);
     H5Gclose(at);

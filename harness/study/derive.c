@@ -105,7 +105,7 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
             !take_text(&rest, v->convention, sizeof v->convention) ||
             !take_text(&rest, v->source, sizeof v->source))
             return fault_set(f, STATUS_FAULT,
-                             "the deriving program says '%.80s', which is not a value", line);
+                             "the deriving program printed '%.80s', which is not a value", line);
         ++*count;
     }
     return STATUS_OK;

@@ -84,8 +84,8 @@ static status step_to(follow_walk *w, double to, fault *f)
         target = least >= follow_sure ? to : at + (target - at) / 2;
         if (fabs(target - at) < least_step && at != to)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "a mode is lost behind %.6g: of some shape only %.2f is in the modes "
-                             "there; begin elsewhere, or ask for more frequencies",
+                             "a mode is lost beyond %.6g: the modes there represent only %.2f of "
+                             "its shape; start elsewhere, or request more frequencies",
                              at, least);
     }
     return STATUS_OK;

@@ -134,8 +134,7 @@ static void check_prediction(findings_reader *r, const char *word)
     const char *slash = strchr(word, '/');
     snprintf(of, sizeof of, "%.*s", (int)strcspn(word, "/"), word);
     if (slash == NULL || slash[1] == '\0' || own_names_case(r->run, of) == NULL)
-        WRONG(r, PREDICTED, "prediction '%.60s' is not case/quantity of a case that there is",
-              word);
+        WRONG(r, PREDICTED, "prediction '%.60s' is not case/quantity of an existing case", word);
 }
 
 static void check_list(findings_reader *r, int column,

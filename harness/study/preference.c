@@ -165,7 +165,7 @@ static status find(const scene *s, const rule_subject *where, const rule *rules,
              rules == NULL                ? ""
              : against[AGAINST_HERE] == 0 ? ", no known deviation here"
                                           : ", but has a known defect here",
-             against[AGAINST_THEORY] ? ", another theory of shear than asked for" : "");
+             against[AGAINST_THEORY] ? ", not the requested theory of shear" : "");
     return STATUS_OK;
 }
 

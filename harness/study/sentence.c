@@ -106,8 +106,7 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     case VERDICT_BIASED_AS_PREDICTED:
     case VERDICT_WRONG_AS_PREDICTED:
         snprintf(text, size,
-                 "converges to the limit that was derived for it, %.10g: %+.3g %% from the "
-                 "reference value",
+                 "converges to its derived limit %.10g: %+.3g %% from the reference value",
                  v->predicted->value, 100 * v->error);
         return;
     case VERDICT_LOW_ORDER:
@@ -168,7 +167,7 @@ static void failures(const judgement *j, char *text, size_t size)
 {
     int parts = 0;
     count_part(text, size, &parts, j->breaches, "formulation violates the interface requirements",
-               "formulations break the contract of the interface");
+               "formulations violate the interface requirements");
     count_part(text, size, &parts, j->unexpected, "verdict differs from the expected one",
                "verdicts differ from the expected ones");
     count_part(text, size, &parts, count_undecided(j), "of them is undecided",
@@ -270,9 +269,8 @@ void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size
         snprintf(text, size, "%s: %s.", word, more);
     else
         snprintf(text, size, "%s: %s%s%s%s.", word, of,
-                 j->proposed > 0
-                     ? "nothing that affects the exit status differs from what is expected"
-                     : "every verdict is as expected",
+                 j->proposed > 0 ? "everything that affects the exit status is as expected"
+                                 : "every verdict is as expected",
                  more[0] != '\0' ? "; " : "", more);
 }
 

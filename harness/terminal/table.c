@@ -97,8 +97,8 @@ void table_omitted(FILE *to, const sweep_point *p)
                       "nothing, as without omit=none, which shows the values that are stored");
     else if (whole)
         paragraph_say(to, fprintf(to, "omitted: "), INDENT,
-                      "nothing, where the source of the case leaves out %s: values that are stored "
-                      "of it are of another model, and not shown",
+                      "nothing, although the source of the case omits %s; its stored values belong "
+                      "to another model and are not shown",
                       words);
 }
 

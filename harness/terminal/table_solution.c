@@ -550,8 +550,8 @@ static void jump_lines(FILE *to, const scene *s, int analysis, double path)
         if (fabs(held - value[0]) > 1e-9 * fmax(fabs(held), fabs(value[0])))
             paragraph_say(to, fprintf(to, "load: "), MOTION_INDENT,
                           "%s is at factor %g where the path ends, at %g where the motion begins: "
-                          "it jumps; one that acts in the motion only has path: [0, 1], factor: "
-                          "[0, 0] beside its function",
+                          "it jumps; a load of the motion only needs path: [0, 1], factor: [0, 0] "
+                          "in addition to its function",
                           scene_name(s, SCENE_LOADS, i).text, held, value[0]);
     }
 }

@@ -176,9 +176,9 @@ static status refuse(const model *m, int vertex, const char *what, fault *f)
     if (vertex < model_scene(m)->nodes)
         whose = scene_called(model_scene(m), SCENE_NODES, vertex);
     return fault_set(f, STATUS_REFUSED,
-                     "integrator explicit: the %s of %s has no inertia, so that its acceleration "
-                     "is not determined; give what has none a mass or an inertia (members: "
-                     "do not omit rotary_inertia), or take alpha, conserving or radau",
+                     "integrator explicit: the %s of %s has no inertia, so its acceleration is not "
+                     "determined; add a mass or an inertia (members: do not omit rotary_inertia), "
+                     "or use alpha, conserving or radau",
                      what, whose.text);
 }
 
@@ -218,7 +218,7 @@ status explicit_check(const model *m, const carried_masses *masses, fault *f)
     if (model_releases(m) > 0)
         return fault_set(f, STATUS_REFUSED,
                          "integrator explicit: released ends of members have no inertia of their "
-                         "own; alpha, conserving and radau take them");
+                         "own; use alpha, conserving or radau");
     int *heavy = calloc(all, sizeof *heavy);
     double *rest = calloc(all, sizeof *rest);
     status outcome = heavy != NULL && rest != NULL
@@ -231,10 +231,9 @@ status explicit_check(const model *m, const carried_masses *masses, fault *f)
             outcome = check_vertex(m, i, heavy, f);
     for (int w = 0; w < model_warps(m) && outcome == STATUS_OK; w++)
         if (model_warp(m, w) < model_unknowns(m) && !heavy[model_warp(m, w)])
-            outcome =
-                fault_set(f, STATUS_REFUSED,
-                          "integrator explicit: warping has no inertia; alpha, conserving and "
-                          "radau take what has none");
+            outcome = fault_set(
+                f, STATUS_REFUSED,
+                "integrator explicit: warping has no inertia; use alpha, conserving or radau");
     free(heavy);
     free(rest);
     return outcome;

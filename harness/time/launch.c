@@ -97,8 +97,8 @@ static status check_field(const model *m, const model_state *s, const scene_star
                 fabs(r.w[k] - field->spin[k]) > nothing * spin)
                 return fault_set(
                     f, STATUS_REFUSED,
-                    "%s is held or driven otherwise than the axes turn that the motion starts "
-                    "from: drive it so that it turns with them from 0 s on",
+                    "%s is held or driven differently from the rotating axes at the start of the "
+                    "motion; drive it so that it rotates with them from 0 s on",
                     scene_called(model_scene(m), SCENE_NODES, i).text);
     }
     return STATUS_OK;

@@ -290,10 +290,9 @@ status massless_readings(const model *m, const carried_masses *masses, const mod
         if (outcome == STATUS_OK && is_moved(m, s, scene_component_of(q), dx))
             outcome =
                 fault_set(f, STATUS_REFUSED,
-                          "quantity %s: node %s has no inertia against that motion, so that "
-                          "its acceleration is not defined; name a node that has one, or give it a "
-                          "mass or an inertia, or "
-                          "its members a density, and do not omit rotary_inertia",
+                          "quantity %s: node %s has no inertia for this motion, so its "
+                          "acceleration is not defined; name another node, add a mass or an "
+                          "inertia, or a density of its members, and do not omit rotary_inertia",
                           q->name, scene_name(of, SCENE_NODES, scene_component_of(q)->node).text);
     }
     free(dx);
@@ -419,11 +418,11 @@ static status balance(motion_stage *s, const double zero[], instant *now, double
     const status outcome = newton_iterate(s->c, &use, &s->arrival, &record, f);
     history_drop_step(s->c->result, &record);
     if (outcome == STATUS_NOT_CONVERGED)
-        return fault_set(f, outcome,
-                         "at %g s what has no inertia comes into no balance with loads and "
-                         "gyroscopic moments (correction %.1e in iteration %d): give it "
-                         "inertia, or less spin",
-                         now->time, record.correction, record.iterations);
+        return fault_set(
+            f, outcome,
+            "at %g s no equilibrium of the coordinates without inertia with loads and gyroscopic "
+            "moments was found (correction %.1e in iteration %d); add inertia, or reduce the spin",
+            now->time, record.correction, record.iterations);
     if (outcome == STATUS_OK)
         instant_remember(&s->arrival, now);
     return outcome;

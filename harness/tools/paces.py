@@ -21,7 +21,7 @@ import time
 
 TABLE = pathlib.Path(__file__).resolve().parents[1] / "experiments" / "paces.csv"
 EXPLICIT = "1e-11,1e-13"  # tolerances of its steps
-CELL, CHECK = "60", "60"  # [s] that a motion may take, of them all and of the explicit ones
+CELL, CHECK = "60", "60"  # time limits of a motion [s]: all integrators, explicit ones
 LEVEL = 1e-4  # of the lines that are shown
 
 

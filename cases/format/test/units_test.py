@@ -455,7 +455,7 @@ class Doubtful(SceneCase):
 
     def test_density(self):
         self.assertEqual(self.told("7.85e-9", "1").stderr, "")
-        self.assertIn("is no solid, and looks like other units; numbers are in the 'units' of the scene: with mm, N, MPa "
+        self.assertIn("is not a solid, and looks like other units; numbers are in the 'units' of the scene: with mm, N, MPa "
                       "densities are in t/mm^3", self.told("7850", "1").stderr)
 
     def test_larger_than_the_structure(self):

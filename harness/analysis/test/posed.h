@@ -112,7 +112,7 @@ static void add(scene *s, const char *name)
         scene_add_load(s, SCENE_FORCE, MIDDLE, 20, 50, -30);
     else if (IS("force that follows"))
         follow(s, scene_add_load(s, SCENE_FORCE, MIDDLE, 20, 50, -30));
-    else if (IS("force beside its node"))
+    else if (IS("force at an offset from its node"))
         scene_load_at(s, scene_add_load(s, SCENE_FORCE, TIP, 10, 50, -30))->at[1] = 0.1;
     else if (IS("moment"))
         scene_add_load(s, SCENE_MOMENT, TIP, 20, 30, 40);

@@ -87,7 +87,7 @@ FAULTS = {
         "offers shear, but nothing changes with it", "do not declare it"),
     "theory": (
         ("    .shear_theories = SHEAR_HARINGX,\n", ""),
-        "shear_theories: it offers shear and names no theory of it"),
+        "shear_theories: the type supports shear but declares no theory"),
     "rotary": (
         ("FEATURE_MASS | FEATURE_ROTARY_INERTIA", "FEATURE_ROTARY_INERTIA"),
         "offers: FEATURE_ROTARY_INERTIA requires FEATURE_MASS"),

@@ -27,7 +27,7 @@ class OmitTest(SceneCase):
             self.assertEqual([q["quantity"] for q in solved["quantities"] if q.get("truth") is not None], [], case)
         for case in ("angle_column", "elastica", "elbow", "hexapod", "moment_buckling", "sheet_wagner"):
             said = " ".join(self.answered("solve", case, *WHOLE).stdout.split())
-            left_out = re.search("omitted: nothing, where the source of the case leaves out ([a-z_, ]*): values", said)
+            left_out = re.search("omitted: nothing, although the source of the case omits ([a-z_, ]*); its stored values", said)
             text = " ".join(self.answered("solve", case).stdout.split())
             self.assertEqual("omitted: " in text, left_out is not None, case)
             if left_out:
@@ -180,7 +180,7 @@ quantities:
         """One list: text, CSV, JSON, HDF5, JUnit and Markdown."""
         scene = ("--scene", self.scene(self.loaded_bar(", Iw: 0")))
         physics = "shear, wagner_torque"
-        said = physics + " of section bar, whose numbers say nothing of it: taken as zero"
+        said = physics + " of section bar is not given by its numbers: assumed to be zero"
         line = "not known: " + said
         one = {"kind": "not known", "section": "bar", "physics": physics, "text": said}
         for words in (("solve", ), ("converge", ), ("bench", "-f", "beamw", "-n", 1),

@@ -335,7 +335,7 @@ class Refusals(ProgramTest):
                 self.answered(*solve("warping_torsion"), code=4, stdout=full)
 
     def test_nothing_checked(self):
-        self.refused(3, "nothing was judged", "verify", "-k", "elastica and hexapod",
+        self.refused(3, "no verdict, because there is no reference value", "verify", "-k", "elastica and hexapod",
                      silent=False)
 
     def test_misspelt_selection(self):

@@ -422,7 +422,7 @@ class NotAccepted(ProgramTest):
         out = " ".join(self.verified("new").split())
         self.assertIn("(new)", out)
         for text in (out, " ".join(self.verified("new", "-q").split())):
-            self.assertRegex(text, r"nothing that affects the exit status differs from what is expected; without effect on the exit status: "
+            self.assertRegex(text, r"everything that affects the exit status is as expected; without effect on the exit status: "
                              r"\d+ of \d+ verdicts of new formulations")
             self.assertNotIn("every verdict is as expected", text)
 

@@ -175,7 +175,7 @@ class Import(ProgramTest):
         elsewhere = run("verify", "-k", "elastica/default", "-f", "collocation", "--imported",
                         self.folder / "theirs.h5")
         self.assertEqual(elsewhere.returncode, 0)
-        self.assertIn("theirs.h5: nothing of it was run: it is of sheet_cantilever/",
+        self.assertIn("theirs.h5: nothing of it was run; it belongs to sheet_cantilever/",
                       elsewhere.stderr)
         self.assertEqual(len(elsewhere.stderr.splitlines()), 1, elsewhere.stderr)
 
@@ -218,7 +218,7 @@ class Import(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("/mine: gone: give it with --imported", " ".join(done.stdout.split()))
         self.assertEqual(run("compare", old, self.folder / "new.h5").returncode, 1)
-        self.refused(2, "--imported-must-pass: of what?", *select, "--imported-must-pass")
+        self.refused(2, "--imported-must-pass requires --imported FILE.h5", *select, "--imported-must-pass")
         self.refused(2, "nothing of", "verify", "-k", "roll_up/default", "-f", "collocation", "--imported",
                      self.folder / "theirs.h5", "--imported-must-pass")
         self.refused(2, "no imported value was judged", "verify", "-k", "elastica/default and u_over_L", "-f",

@@ -15,9 +15,9 @@ class Refused(Speaker):
         self.refuse(f"exec:{ROOT / 'README.md'}", "README.md", "Permission denied")
 
     def test_no_command(self):
-        self.refuse("exec:", "there is no command")
-        self.refuse("exec:  ", "there is no command")
-        self.refuse("exec:''", "there is no command")
+        self.refuse("exec:", "no command is given")
+        self.refuse("exec:  ", "no command is given")
+        self.refuse("exec:''", "no command is given")
         self.refuse("exec:python3 'my beam.py", "a quote does not end")
         self.refuse("exec:" + 70 * "a ", "too many words")
 
@@ -115,8 +115,8 @@ class Evaluated(Speaker):
                       "time.sleep(600)")
 
     def test_wrong_sizes(self):
-        self.one_line(["bytes where", "were asked for"], "answer(body[8:]); continue")
-        self.one_line(["bytes where", "were asked for"], "answer(body + body); continue")
+        self.one_line(["bytes instead of"], "answer(body[8:]); continue")
+        self.one_line(["bytes instead of"], "answer(body + body); continue")
         self.one_line(["outcome"], "answer(b'', 9); continue")
         self.one_line(["outcome"], "write(struct.pack('<8sqq', b'beamwork', 0, -8)); continue")
 

@@ -328,4 +328,4 @@ class Hash(ProgramTest):
 
     def test_refused(self):
         self.refused(2, ["not a file of this program"], "compare", "--hash", PROGRAM)
-        self.refused(2, ["--hash is of whole files"], "compare", "--hash", self.old, "-k", "beamw")
+        self.refused(2, ["--hash applies to whole files"], "compare", "--hash", self.old, "-k", "beamw")

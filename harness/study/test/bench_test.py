@@ -151,7 +151,7 @@ class Bench(ProgramTest):
         text = self.answered("bench", "--scene", LEAF, "-f", "sheet_third", "--against",
                              "collocation", "-k", "k_pushed").stdout
         self.assertEqual(re.findall(r"(?m)^at ([\d.]+) %: ", text), ["10", "1", "0.1"])
-        self.assertRegex(text, r"(?m)^sheet_third, k_pushed: converges to the limit that was deri")
+        self.assertRegex(text, r"(?m)^sheet_third, k_pushed: converges to its derived limit")
 
     def test_another_build(self):
         """A case and a scene, at equal n; formulation and elements are chosen where not given."""

@@ -17,9 +17,7 @@ static void predictions(void)
     truth *derived = bench_add_prediction(&b, 3.003);
     derived->uncertainty = 1e-8;
     bench_expect(&b, VERDICT_WRONG_AS_PREDICTED, 1, "a wrong limit that was derived");
-    bench_says(
-        &b,
-        "converges to the limit that was derived for it, 3.003: +0.1 % from the reference value");
+    bench_says(&b, "converges to its derived limit 3.003: +0.1 % from the reference value");
     derived->value = 3.0041;
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "another wrong limit than the one that was derived");
     gsl_test(strstr(b.j.verdict[0].reason, "3.0041") == NULL, "says which: %s",

@@ -170,7 +170,7 @@ static void single_ones(void)
              "the exit status: "
              "none needs a known deviation.");
     r.j.proposed = 1;
-    says(&r, "PASS: nothing that affects the exit status differs from what is expected; without "
+    says(&r, "PASS: everything that affects the exit status is as expected; without "
              "effect on the exit status: "
              "1 of 2 verdicts "
              "of new formulations is not a pass and would need a known deviation "
@@ -178,7 +178,7 @@ static void single_ones(void)
              "writes it "
              "down).");
     r.j.proposed = 2;
-    says(&r, "PASS: nothing that affects the exit status differs from what is expected; without "
+    says(&r, "PASS: everything that affects the exit status is as expected; without "
              "effect on the exit status: "
              "2 of 2 verdicts "
              "of new formulations are not a pass and would need a known deviation "
@@ -186,7 +186,7 @@ static void single_ones(void)
              "writes them "
              "down).");
     r.j.is_new = r.j.proposed = 1;
-    says(&r, "PASS: nothing that affects the exit status differs from what is expected; without "
+    says(&r, "PASS: everything that affects the exit status is as expected; without "
              "effect on the exit status: "
              "1 of 1 verdict of "
              "a new formulation is not a pass and would need a known deviation "
