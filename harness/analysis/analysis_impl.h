@@ -383,6 +383,9 @@ double complex harmonic_dynamic(const vibration *, double w, int k);
 
 status harmonic_modes_find(vibration *, fault *);
 void harmonic_modes_free(harmonic_modes *);
+/* Natural frequencies without damping [Hz], at least those below a frequency, ascending; the caller
+ * frees *hertz. None where the stiffness is unsymmetric or there are too many. */
+status harmonic_natural(vibration *, double below, int *count, double **hertz, fault *);
 /* Modes with damping ratios: C + U U^T with U [count x free]. */
 int harmonic_modes_damped(const harmonic_modes *, const double **U);
 /* U^T of the displacements due to a unit displacement of the driven coordinate at rest, [count]. */

@@ -243,16 +243,12 @@ void harmonic_modes_carried(const vibration *v, int driven, double out[])
     }
 }
 
-status harmonic_modes_find(vibration *v, fault *f)
+/* wanted 0: all. */
+static status find(vibration *v, harmonic_modes *m, int wanted, fault *f)
 {
-    const scene_analysis *a = &v->c->scene->analysis[v->analysis];
-    harmonic_modes *m = calloc(1, sizeof *m);
-    v->modes = m;
-    if (m == NULL)
-        return no_memory(f);
     const size_t n = (size_t)v->free;
-    const int all = a->modes == 0 || a->modes >= v->free;
-    const size_t kept = all ? n : (size_t)a->modes;
+    const int all = wanted == 0 || wanted >= v->free;
+    const size_t kept = all ? n : (size_t)wanted;
     m->n = v->free;
     m->least = INFINITY;
     m->V = calloc((all && v->free > MOST_DENSE ? 0 : kept * n) + 1, sizeof *m->V);
@@ -262,8 +258,51 @@ status harmonic_modes_find(vibration *v, fault *f)
         return no_memory(f);
     TRY(free_blocks(v, m, f));
     TRY(factor_stiffness(v, m, f));
-    TRY(all ? all_modes(v, m, f) : first_modes(v, m, a->modes, f));
-    return damp(v, m, f);
+    return all ? all_modes(v, m, f) : first_modes(v, m, wanted, f);
+}
+
+status harmonic_modes_find(vibration *v, fault *f)
+{
+    v->modes = calloc(1, sizeof *v->modes);
+    if (v->modes == NULL)
+        return no_memory(f);
+    TRY(find(v, v->modes, v->c->scene->analysis[v->analysis].modes, f));
+    return damp(v, v->modes, f);
+}
+
+static status take_frequencies(const harmonic_modes *m, int *count, double **hertz, fault *f)
+{
+    *hertz = calloc((size_t)m->kept + 1, sizeof **hertz);
+    if (*hertz == NULL)
+        return no_memory(f);
+    for (int i = 0; i < m->kept; i++)
+        if (isfinite(m->square[i]) && m->square[i] > m->shift)
+            (*hertz)[(*count)++] = sqrt(m->square[i] - m->shift) / (2 * PI);
+    return STATUS_OK;
+}
+
+status harmonic_natural(vibration *v, double below, int *count, double **hertz, fault *f)
+{
+    const double square = pow(2 * PI * below, 2);
+    status outcome = STATUS_OK;
+    *count = 0;
+    *hertz = NULL;
+    for (int wanted = 16, enough = 0; outcome == STATUS_OK && !enough; wanted *= 4) {
+        fault why = {""};
+        harmonic_modes *m = calloc(1, sizeof *m);
+        if (m == NULL)
+            return no_memory(f);
+        outcome = find(v, m, wanted, &why);
+        enough = outcome == STATUS_REFUSED || m->complete || m->least - m->shift > square;
+        if (outcome == STATUS_OK && enough)
+            outcome = take_frequencies(m, count, hertz, f);
+        else if (outcome == STATUS_REFUSED)
+            outcome = STATUS_OK;
+        else if (outcome != STATUS_OK)
+            fault_set(f, outcome, "%s", why.text);
+        harmonic_modes_free(m);
+    }
+    return outcome;
 }
 
 /* B <= g (M + K/least), and M <= K/least beyond the modes. */
