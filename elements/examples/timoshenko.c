@@ -26,8 +26,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const section *c = request->section;
     const double l = request->length;
     (void)f;
-    /* Transverse forces: shear if requested, and the bending that a uniform curvature cannot
-     * represent. */
+    /* Transverse: shear if requested, and the bending that a uniform curvature lacks. */
     out->length = l;
     const double shear = request->features & FEATURE_SHEAR ? l / c->shear_modulus : 0;
     const double Fy = shear * c->F[0] + l * l * l / (12 * c->young * c->Iz);
@@ -73,8 +72,7 @@ static void strain(const element_data *d, const node_state x[], strain_output *o
     between(x[0].R, x[1].R, psi);
     transposed(x[0].R, chord, p);
     transposed(x[1].R, chord, q);
-    /* Normal to psi the mean of both is that of the middle, shortened by the factor c; along psi
-     * all are equal. */
+    /* Normal to psi their mean is that of the middle times c; along psi all are equal. */
     const double square = psi[0] * psi[0] + psi[1] * psi[1] + psi[2] * psi[2];
     const double c = cos(sqrt(square) / 2), k = square > 0 ? (1 - 1 / c) / square : 0;
     const double along = psi[0] * p[0] + psi[1] * p[1] + psi[2] * p[2];

@@ -69,8 +69,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
     const double coords[6] = {0, 0, 0, d->length, 0, 0}, zero[N] = {0}, step = 1;
     double rhs[N] = {0}, K[N * N] = {0}, svars[STATES] = {0}, energy[8] = {0}, pnewdt = 1;
     double u[N];
-    for (int k = 0; k < 2;
-         k++) { /* relative to the element along x, so that a rigid motion is zero */
+    for (int k = 0; k < 2; k++) { /* relative to the element along x: zero in a rigid motion */
         for (int i = 0; i < 3; i++)
             u[6 * k + i] = x[k].r[i] - coords[3 * k + i];
         rotation_vector(x[k].R, u + 6 * k + 3);
@@ -87,8 +86,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
     if (out->K != NULL)
         memset(out->K, 0, 4 * NODE_COORDINATES * NODE_COORDINATES * sizeof *out->K);
     for (int i = 0; i < N; i++) {
-        const int row = i + i / 6; /* the seventh coordinate of a node is warping, which this
-                                      element does not have */
+        const int row = i + i / 6; /* the seventh coordinate of a node is warping, unused here */
         if (out->F != NULL)
             out->F[row] = -rhs[i];
         for (int j = 0; j < N && out->K != NULL; j++)

@@ -236,9 +236,8 @@ static status walk(search *s, fault *f)
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
                      "no critical load from path 0 to %g: there is no divergence%s", s->last.path,
-                     s->of.massless ? " there, and flutter was not searched for, because the "
-                                      "structure has no mass; add a density to a section"
-                                    : " or flutters there");
+                     s->of.massless ? ", and flutter needs mass: add a density to a section"
+                                    : " and no flutter");
 }
 
 /* Zero of the measure, from the unstable stations p[0] < p[1] < .. */

@@ -346,7 +346,7 @@ class Discretised(ProgramTest):
                         self.assertLess(abs(values["u"] / exact - 1), 0.5 if n == 1 and most == 12 else 0.17, (formulation, n))
                     else:
                         self.assertEqual(status, 1, (formulation, n, said))
-                        self.assertRegex(said, r"element \d+ of %d of (member )?wire is too long for the axial force in it, by "
+                        self.assertRegex(said, r"element \d+ of %d of (member )?wire is too long for its axial force in it, by "
                                          r"a factor of 1[.\d]*, at path 0?\.[\d]+: %s loses its stiffness across it; use %d elements"
                                          % (n, formulation.split(":")[0], n + 1))
                         self.assertIsNone(values.get("u"))
@@ -358,8 +358,8 @@ class Discretised(ProgramTest):
                 if done == 0:
                     self.assertLess(abs(values["u"] / (-2e5 * math.sqrt(2) / 2e9 * 2) - 1), 1e-3, formulation)
         for formulation in ("geometrically_exact:nodes=2", "geometrically_exact", "sheet_third"):
-            self.assertIn("too long for the axial force", " ".join(run("list", formulation.split(":")[0]).stdout.split()))
-        self.assertNotIn("too long for the axial force", " ".join(run("list", "collocation").stdout.split()))
+            self.assertIn("too long for its axial force", " ".join(run("list", formulation.split(":")[0]).stdout.split()))
+        self.assertNotIn("too long for its axial force", " ".join(run("list", "collocation").stdout.split()))
 
     def test_tension_with_shear(self):
         """Three nodes that shear have no bending in the place of shear; with two it is beside the shear."""

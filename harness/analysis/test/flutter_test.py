@@ -130,7 +130,7 @@ class Flutter(ProgramTest):
     def test_what_was_meant(self):
         self.assertRegex(self.values(COLUMN % {**DEFAULT, "load": tip_force(1)})[1], r"flutter, undamped at 1\.75")
         _, said = self.values(COLUMN % {**DEFAULT, "load": tip_force(1), "density": ""}, status=1)
-        self.assertRegex(said, "no critical load from path 0 to .* the structure has no mass, so that flutter was not searched for")
+        self.assertRegex(said, "no critical load from path 0 to .* no divergence, and flutter needs mass: add a density to a section")
 
     def test_of_the_mesh(self):
         """Without a mass Beck's column has no critical load: what diverges on a coarse mesh is its elements alone."""

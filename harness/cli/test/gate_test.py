@@ -106,7 +106,7 @@ truths:
 omit: all
 meshes: [1, 2, 4, 8, 16, 32]
 """
-OUTCOMES = {"pass": 0, "fail": 1, "no verdict, because there is no reference value": 3}
+OUTCOMES = {"pass": 0, "fail": 1, "nothing was judged": 3}
 PYTHON = """
 import beamwork as bw, json, sys
 bw.load(sys.argv[1])
@@ -161,14 +161,14 @@ class Gate(ProgramTest):
         self.assertTrue(files["md"].read_text(encoding="utf-8").startswith(f"## beamwork: {outcome}\n"))
         end = max(done.stdout.rfind(f"\n{word}: ") for word in ("PASS", "FAIL"))
         paragraph = " ".join(done.stdout[end:].split())
-        if outcome == "no verdict, because there is no reference value":
+        if outcome == "nothing was judged":
             self.assertIn("no verdict, because there is no reference value", done.stderr)
         else:
             self.assertTrue(paragraph.startswith(outcome.upper() + ":"), done.stdout)
         with h5py.File(files["h5"]) as file:
             self.assertEqual(file.attrs["outcome"].decode(), outcome)
             sentence = file.attrs["sentence"].decode().strip("\0")
-        if outcome != "no verdict, because there is no reference value":
+        if outcome != "nothing was judged":
             self.assertEqual(" ".join(sentence.split()), paragraph)
         return document, failures
 
@@ -237,7 +237,7 @@ class Gate(ProgramTest):
     def test_nothing_judged(self):
         """It cannot run there, or is another model, or no truth is known."""
         done, files = self.verified("right", what=NOWHERE)
-        document, failures = self.check_doors(done, files, "no verdict, because there is no reference value", 3)
+        document, failures = self.check_doors(done, files, "nothing was judged", 3)
         self.assertEqual(document["judged"], 0)
         self.assertIn("judged nothing", failures[0].get("message"))
 
@@ -247,7 +247,7 @@ class Gate(ProgramTest):
             done, files = self.verified(name, "--exit-zero", what=what)
             first = done.stdout.splitlines()[0]
             self.assertEqual(first, "exploring: the exit status is 0 whatever the verdicts are (--exit-zero)")
-            outcome = "no verdict, because there is no reference value" if what == NOWHERE else "fail"
+            outcome = "nothing was judged" if what == NOWHERE else "fail"
             self.check_doors(done, files, outcome, 0)
         self.refused(2, "--no_such_option", "verify", "--exit-zero", "--no_such_option", silent=False)
 
@@ -277,7 +277,7 @@ class Gate(ProgramTest):
     @unittest.skipIf(sanitized(), "needs a library without sanitizers")
     def test_python(self):
         for name, what, said in (("right", RUN[1], "True pass"), ("stiffness", RUN[1], "False fail"),
-                                 ("stub", RUN[1], "False fail"), ("right", NOWHERE[1], "False no verdict, because there is no reference value")):
+                                 ("stub", RUN[1], "False fail"), ("right", NOWHERE[1], "False nothing was judged")):
             self.check_python(name, what, said)
 
 

@@ -139,7 +139,7 @@ quantities:
             scene = self.scene(self.BAR.format(parameters="", section=section, load=10, analysis=analysis, more=more))
             for verb in (("solve", ), ("converge", "-f", "collocation", "-n", 2)):
                 said = " ".join(self.answered(verb[0], "--scene", scene, *verb[1:]).stdout.split())
-                found = re.findall("not known: ([a-z_, ]*) of section bar, whose numbers", said)
+                found = re.findall("not known: ([a-z_, ]*) of section bar is not given by its numbers", said)
                 self.assertEqual(found, [told] if told else [], (section, analysis, more, verb))
 
     def test_what_is_not_modelled(self):

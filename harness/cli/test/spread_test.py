@@ -173,7 +173,7 @@ class Verify(SpreadTest):
         body = line + b"\n" + rest[:-40]
         (other / name).write_bytes(body + b"beamwork-seal %016x %08x\n" % (
             len(body), zlib.crc32(body)))
-        self.refused(2, [f"parts/{name}", f"other/{name}", "different answers"], "merge",
+        self.refused(2, [f"parts/{name}", f"other/{name}", "the same batch with different results"], "merge",
                      self.folder / "parts", other)
 
     def test_no_room(self):
