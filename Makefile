@@ -291,4 +291,4 @@ include harness/library/packaging/install.mk
 
 FORCE:
 
--include $(OBJECTS:.o=.d) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.d) $(TEST_SOURCES:%.c=$(BUILD)/%.d) $(KIT:.o=.d) $(FUZZED:.o=.d)
+-include $(OBJECTS:.o=.d) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.d) $(TEST_SOURCES:%.c=$(BUILD)/%.d) $(BUILD)/harness/tools/plant.d $(BUILD)/harness/tools/pack_case.d $(KIT:.o=.d) $(FUZZED:.o=.d)
