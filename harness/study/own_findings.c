@@ -119,9 +119,12 @@ static void check_verdicts(findings_reader *r)
         for (int k = 0; k < VERDICT_KINDS; k++)
             found |= k != VERDICT_PASS && k != VERDICT_SKIP && k != VERDICT_NO_TRUTH &&
                      k != VERDICT_OTHER_MODEL && strcmp(verdict_name((verdict_kind)k), word) == 0;
+        const char *nearest = choice_nearest(word, verdict_at, NULL);
         if (!found)
             WRONG(r, VERDICTS, "'%.60s' is not a verdict that a known deviation explains%s", word,
-                  mistakes_remedy(choice_nearest(word, verdict_at, NULL), "", near));
+                  nearest != NULL && strcmp(nearest, word) == 0
+                      ? ""
+                      : mistakes_remedy(nearest, "", near));
         if (at[length] == '\0')
             return;
         at += length + 1;

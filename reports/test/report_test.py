@@ -222,8 +222,8 @@ class SceneReport(ProgramTest):
         drawn = report(results, site)
         self.assertEqual(drawn.returncode, 0, drawn.stderr)
         page = (site / "bar.html").read_text(encoding="utf-8")
-        self.assertIn("<p class=\"small\">Not known: shear of section leaf, whose numbers say nothing of it: taken as"
-                      " zero.</p>", page)
+        self.assertIn("<p class=\"small\">Not known: shear of section leaf is not given by its numbers: assumed"
+                      " to be zero.</p>", page)
 
     def test_motion_without_summary(self):
         """Only what a file must say is there: pages and film say nothing in the place of the rest."""

@@ -346,7 +346,7 @@ class Discretised(ProgramTest):
                         self.assertLess(abs(values["u"] / exact - 1), 0.5 if n == 1 and most == 12 else 0.17, (formulation, n))
                     else:
                         self.assertEqual(status, 1, (formulation, n, said))
-                        self.assertRegex(said, r"element \d+ of %d of (member )?wire is too long for its axial force in it, by "
+                        self.assertRegex(said, r"element \d+ of %d of (member )?wire is too long for the axial force in it, by "
                                          r"a factor of 1[.\d]*, at path 0?\.[\d]+: %s loses its stiffness across it; use %d elements"
                                          % (n, formulation.split(":")[0], n + 1))
                         self.assertIsNone(values.get("u"))

@@ -141,7 +141,7 @@ static void design_tests(void)
     axis_read(&box, "a=0..1/4", &parted, NULL);
     is_refused(DESIGN_GRID, open, 0, "give the number of parts");
     is_refused(DESIGN_SOBOL, open, 0, "--points");
-    is_refused(DESIGN_SOBOL, &parted, 10, "remove '/4'");
+    is_refused(DESIGN_SOBOL, &parted, 10, "'/4' is for a grid; remove it");
 }
 
 /* Orders and what an error costs, of runs whose errors are made up. */

@@ -134,7 +134,7 @@ static void foreign(void)
     batch_name(stem, 4, name);
     const folder_entry other = folder_path(&of.of, name);
     gsl_test(rename(of.path.text, other.text) != 0, "in the place of another");
-    is_refused(&of, "is batch 4 of 40, not what it is called");
+    is_refused(&of, "is batch 4 of 40, which differs from its name");
     folder_remove(&of.of);
 }
 

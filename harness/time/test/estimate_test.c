@@ -340,7 +340,7 @@ static void refuse(void)
     flying f;
     build(&s, SCENE_ALPHA, 0.01);
     const status outcome = flying_begin(&s, &element_geometrically_exact, 2, &f);
-    gsl_test(outcome != STATUS_NOT_CONVERGED || strstr(f.why.text, "no balance") == NULL,
+    gsl_test(outcome != STATUS_NOT_CONVERGED || strstr(f.why.text, "no equilibrium") == NULL,
              "without a balance: %s", f.why.text);
     flying_end(&f);
     scene_free(&s);

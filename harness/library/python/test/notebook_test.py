@@ -50,7 +50,7 @@ class Notebook(ModuleTest):
         claims = next(text for text in told if "N says" in text)
         self.assertEqual((claims.count("<td>reproduced</td>"), claims.count("<td>not so</td>")),
                          (7, 1))
-        limits = next(text for text in told if "derived limit" in text)
+        limits = next(text for text in told if "derived for it" in text)
         for word in ("+0.25812 %", "+0.12193 %", "-0.03620 %"):
             self.assertIn(word, limits)
         self.assertTrue(any("for 1 % in every quantity" in text and "sheet_third n = 1 (" in text
