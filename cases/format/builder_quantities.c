@@ -115,12 +115,11 @@ static void read_abscissa(const fields *f, scene_quantity *q)
 /* Reads the stations: `at` a value, or last, max, min, curve. */
 static void read_stations(const fields *entry, const fields *what, scene_quantity *q)
 {
-    const int taken = fields_word(what, "take", SCENE_TAKE_CHOICES, 0);
-    q->reduction = (scene_reduction)(taken + (taken >= SCENE_AT));
-    if (q->reduction >= SCENE_REDUCTIONS) {
-        q->transform = (scene_transform)(SCENE_SPECTRUM + q->reduction - SCENE_REDUCTIONS);
-        q->reduction = SCENE_CURVE;
-    }
+    const int taken = fields_word(what, "take", SCENE_TAKE_CHOICES, 0),
+              word = taken + (taken >= SCENE_AT), transformed = word >= SCENE_REDUCTIONS;
+    q->reduction = transformed ? SCENE_CURVE : (scene_reduction)word;
+    if (transformed)
+        q->transform = (scene_transform)(SCENE_SPECTRUM + word - SCENE_REDUCTIONS);
     if (fields_have(what, "at"))
         scene_set_at(q, fields_number(what, "at", 0));
     if (q->reduction == SCENE_CURVE)
