@@ -119,7 +119,7 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
               word = taken + (taken >= SCENE_AT), transformed = word >= SCENE_REDUCTIONS;
     q->reduction = transformed ? SCENE_CURVE : (scene_reduction)word;
     if (transformed)
-        q->transform = (scene_transform)(SCENE_SPECTRUM + word - SCENE_REDUCTIONS);
+        q->transform = word == SCENE_REDUCTIONS ? SCENE_SPECTRUM : SCENE_PSD;
     if (fields_have(what, "at"))
         scene_set_at(q, fields_number(what, "at", 0));
     if (q->reduction == SCENE_CURVE)

@@ -164,7 +164,7 @@ static int motion_at(const scene *s, scene_tie at)
 static status join(const scene *s, int constraint, int k, int component, scene_tie tie[], fault *f)
 {
     const scene_constraint *c = &s->constraint[constraint];
-    int at[2], motion;
+    int at[2] = {0, 0}, motion;
     TRY(coordinate_of(s, constraint, c->node[0], component, &at[0], &motion, f));
     TRY(coordinate_of(s, constraint, c->node[k], component, &at[1], &motion, f));
     const scene_tie first = follow(tie, c->node[0], at[0]), other = follow(tie, c->node[k], at[1]);
