@@ -474,7 +474,10 @@ int scene_node_axes(const scene_node *n, double R[9])
     if (!(vec3_norm(n->axes[0]) > 0))
         return 0;
     rotation_triad(n->axes[0], n->axes[1], R);
-    return memcmp(R, scene_axes, sizeof scene_axes) != 0;
+    int differ = 0;
+    for (int i = 0; i < 9; i++)
+        differ |= R[i] != scene_axes[i];
+    return differ;
 }
 
 void scene_fork(scene *s, int node, const double axis[3], const double web[3])
