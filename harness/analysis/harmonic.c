@@ -623,9 +623,8 @@ static status sample(vibration *v, const outcome_path *path, samples *s, fault *
     for (int i = 0; outcome == STATUS_OK && i < path->stations; i++)
         insert(s, path->value[i], i);
     for (int i = 0; outcome == STATUS_OK && i < 2 * SIDES * natural; i++) {
-        const double one = hertz[i / (2 * SIDES)],
-                     away = pow(10, -(1 + i % (2 * SIDES) / 2)) * (i % 2 ? 1 : -1),
-                     at = one * (1 + away);
+        const int mode = i / (2 * SIDES), digits = 1 + i % (2 * SIDES) / 2;
+        const double at = hertz[mode] * (1 + pow(10, -digits) * (i % 2 ? 1 : -1));
         if (at > low && at < high)
             insert(s, at, SCENE_NONE);
     }
@@ -687,7 +686,7 @@ static status refine_extremes(vibration *v, outcome_harmonic *o, fault *f)
             (q->reduction != SCENE_MAX && q->reduction != SCENE_MIN) ||
             q->what.of.response.part == SCENE_PHASE)
             continue;
-        if (at.count == 0)
+        if (at.hertz == NULL)
             outcome = sample(v, &o->path, &at, f);
         if (outcome == STATUS_OK)
             outcome = refine(v, k, &at, o, f);

@@ -215,7 +215,7 @@ static status solutions_alloc(const analysis_context *c, int analysis, outcome_l
     const model_size size = model_sizes(c->model);
     const scene *s = c->scene;
     const int all = scene_solves_all(s, analysis), most = all ? s->combinations + s->cases : 1;
-    l->coordinates = (size_t)(size.free + size.driven);
+    l->coordinates = (size_t)size.free + (size_t)size.driven;
     l->acting = calloc((size_t)most, sizeof *l->acting);
     if (l->acting == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for load cases");
