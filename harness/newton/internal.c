@@ -308,7 +308,7 @@ status internal_moved(const equations *eq, const internal_state *s, int member, 
         model_first_element(m, member) + division_at(model_division(m), member, place, 0, &x);
     span_grid g;
     span_fields fields;
-    span_move moved;
+    span_move moved = {.turn = {0}};
     span_grid_make(&g);
     TRY(recover_moved(eq, s, i, &g, x, &moved, &fields, f));
     memcpy(out, moved.displacement, sizeof moved.displacement);
