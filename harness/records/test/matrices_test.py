@@ -284,7 +284,7 @@ class Places(Matrices):
         there.mkdir()
         (there / "mine").write_text("mine", encoding="utf-8")
         self.refused(2, "not empty", *self.WORK, there)
-        self.refused(2, "no folder", *self.WORK, there / "mine")
+        self.refused(2, "is not a folder", *self.WORK, there / "mine")
         self.refused(2, "without a name", *self.WORK, "")
         self.refused(4, "cannot be written", *self.WORK, self.folder / "none" / "new")
         self.refused(4, "cannot be written", *self.WORK, self.folder / ("x" * 300))
