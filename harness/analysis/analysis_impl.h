@@ -379,6 +379,14 @@ typedef struct vibration {
 /* Entry k of K, M, ... in D. */
 double complex harmonic_dynamic(const vibration *, double w, int k);
 
+/* Largest and least amplitudes, real and imaginary parts between the frequencies of the analysis; a
+ * phase turns over (harmonic_extremes.c). */
+
+/* One quantity at a frequency; sign * value is to be large. */
+typedef status harmonic_value(vibration *, int quantity, double sign, double hertz, outcome_peak *,
+                              fault *);
+status harmonic_extremes_refine(vibration *, harmonic_value *, outcome_harmonic *, fault *);
+
 /* Modes without damping, of the free coordinates, and the solution by them (harmonic_modes.c). */
 
 status harmonic_modes_find(vibration *, fault *);

@@ -1,0 +1,154 @@
+/* Extremes of harmonic responses between the frequencies of the analysis. */
+#include "harness/analysis/analysis_impl.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Golden sections between two frequencies: the largest of sign * value, where there is one only. */
+static status refine_between(vibration *v, harmonic_value *respond, int quantity, double sign,
+                             double low, double high, outcome_peak *best, fault *f)
+{
+    const double part = 0.6180339887498949, narrow = 1e-10, settled = 1e-3;
+    outcome_peak a, b;
+    TRY(respond(v, quantity, sign, high - part * (high - low), &a, f));
+    TRY(respond(v, quantity, sign, low + part * (high - low), &b, f));
+    while (high - low > narrow * high && isfinite(a.value) && isfinite(b.value)) {
+        if (sign * a.value >= sign * b.value) {
+            high = b.hertz;
+            b = a;
+            TRY(respond(v, quantity, sign, high - part * (high - low), &a, f));
+        } else {
+            low = a.hertz;
+            a = b;
+            TRY(respond(v, quantity, sign, low + part * (high - low), &b, f));
+        }
+    }
+    *best = sign * a.value >= sign * b.value ? a : b;
+    best->known = 1;
+    best->unbounded = !isfinite(best->value) ||
+                      fabs(a.value - b.value) > settled * fmax(fabs(a.value), fabs(b.value));
+    return STATUS_OK;
+}
+
+/* Frequencies at which extremes are looked for: those of the analysis, some on both sides of each
+ * natural frequency between them, closer than any peak is wide, and some between two of these,
+ * where responses have their minima. */
+typedef struct samples {
+    int count;
+    double *hertz, *value;
+    int *station; /* SCENE_NONE: between those of the analysis */
+} samples;
+
+enum { SIDES = 5, BETWEEN = 9 }; /* of a natural frequency: at 1 +- 10^-1 ... 10^-5 of it */
+
+static void samples_free(samples *s)
+{
+    free(s->hertz);
+    free(s->value);
+    free(s->station);
+}
+
+/* Inserts a frequency unless it is there; ascending. */
+static void insert(samples *s, double hertz, int station)
+{
+    int at = s->count;
+    while (at > 0 && s->hertz[at - 1] >= hertz)
+        at--;
+    if (at < s->count && s->hertz[at] == hertz)
+        return;
+    for (int i = s->count++; i > at; i--) {
+        s->hertz[i] = s->hertz[i - 1];
+        s->station[i] = s->station[i - 1];
+    }
+    s->hertz[at] = hertz;
+    s->station[at] = station;
+}
+
+static status sample(vibration *v, const outcome_path *path, samples *s, fault *f)
+{
+    const double low = path->value[0], high = path->value[path->stations - 1];
+    int natural;
+    double *hertz;
+    status outcome = harmonic_natural(v, high, &natural, &hertz, f);
+    const size_t room = (size_t)path->stations + (2 * SIDES + BETWEEN) * ((size_t)natural + 1) + 1;
+    s->hertz = calloc(room, sizeof *s->hertz);
+    s->value = calloc(room, sizeof *s->value);
+    s->station = calloc(room, sizeof *s->station);
+    if (outcome == STATUS_OK && (s->hertz == NULL || s->value == NULL || s->station == NULL))
+        outcome = fault_set(f, STATUS_FAULT, "out of memory for a harmonic analysis");
+    for (int i = 0; outcome == STATUS_OK && i < path->stations; i++)
+        insert(s, path->value[i], i);
+    for (int i = 0; outcome == STATUS_OK && i < 2 * SIDES * natural; i++) {
+        const int mode = i / (2 * SIDES), digits = 1 + i % (2 * SIDES) / 2;
+        const double at = hertz[mode] * (1 + pow(10, -digits) * (i % 2 ? 1 : -1));
+        if (at > low && at < high)
+            insert(s, at, SCENE_NONE);
+    }
+    double from = low;
+    for (int i = 0; outcome == STATUS_OK && i <= natural && from < high; i++) {
+        const double to = fmin(high, i < natural ? fmax(hertz[i], from) : high);
+        for (int k = 1; k <= BETWEEN && to > from; k++)
+            insert(s, from + (to - from) * k / (BETWEEN + 1), SCENE_NONE);
+        from = to;
+    }
+    free(hertz);
+    return outcome;
+}
+
+/* The extreme of a quantity: from every value that is so beside its neighbours, between these. */
+static status refine(vibration *v, harmonic_value *respond, int quantity, samples *at,
+                     outcome_harmonic *o, fault *f)
+{
+    const scene_quantity *q = &v->c->scene->quantity[quantity];
+    const int last = at->count - 1;
+    const double *known = o->response + (size_t)quantity * (size_t)o->path.stations;
+    double *value = at->value, most = -INFINITY, size = 0;
+    const double sign = (q->reduction == SCENE_MAX) == (q->factor > 0) ? 1 : -1;
+    static const double boundless = 1e8; /* times the values at the frequencies of the analysis */
+    for (int i = 0; i <= last; i++) {
+        outcome_peak one = {0};
+        if (at->station[i] != SCENE_NONE) {
+            value[i] = known[at->station[i]];
+            most = fmax(most, sign * value[i]);
+            size = fmax(size, fabs(value[i]));
+            continue;
+        }
+        TRY(respond(v, quantity, sign, at->hertz[i], &one, f));
+        value[i] = one.value;
+    }
+    for (int i = 0; i <= last && last > 0; i++) {
+        const int before = i > 0 ? i - 1 : i, after = i < last ? i + 1 : i;
+        outcome_peak one;
+        if (sign * value[i] < sign * value[before] || sign * value[i] < sign * value[after])
+            continue;
+        TRY(refine_between(v, respond, quantity, sign, at->hertz[before], at->hertz[after], &one,
+                           f));
+        one.unbounded |= size > 0 && fabs(one.value) > boundless * size;
+        if (sign * one.value <= most)
+            continue;
+        most = sign * one.value;
+        o->peak[quantity] = one;
+    }
+    return STATUS_OK;
+}
+
+status harmonic_extremes_refine(vibration *v, harmonic_value *respond, outcome_harmonic *o,
+                                fault *f)
+{
+    const scene *s = v->c->scene;
+    samples at = {0};
+    status outcome = STATUS_OK;
+    for (int k = 0; outcome == STATUS_OK && k < s->quantities; k++) {
+        const scene_quantity *q = &s->quantity[k];
+        if (!scene_asks(q, v->analysis, SCENE_RESPONSE) ||
+            (q->reduction != SCENE_MAX && q->reduction != SCENE_MIN) ||
+            q->what.of.response.part == SCENE_PHASE)
+            continue;
+        if (at.hertz == NULL)
+            outcome = sample(v, &o->path, &at, f);
+        if (outcome == STATUS_OK)
+            outcome = refine(v, respond, k, &at, o, f);
+    }
+    samples_free(&at);
+    return outcome;
+}
