@@ -33,6 +33,7 @@ PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py
 
 REGISTRY := $(BUILD)/registry.c
 QUANTITIES := $(BUILD)/quantities.h
+VERBS := $(BUILD)/verbs.h
 PRICES := $(BUILD)/price_table.c
 EXPENSES := $(BUILD)/expense_table.c
 # Scene files among the cases are read while the program is built, and are C in it.
@@ -169,7 +170,7 @@ asan:
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" PLAIN=-O0 PYTHON_TESTS="$(ASAN_PYTHON)" TEST_SOURCES="$(filter-out $(ASAN_WITHOUT:%=%.c),$(TEST_SOURCES))" test
 
 # One version, that both Debian 12 and 13 have (harness/tools/dependencies.sh): others lay out and find otherwise.
-tidy: needs-layout $(QUANTITIES)
+tidy: needs-layout $(QUANTITIES) $(VERBS)
 	@printf '%s\0' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) | xargs -0 -n 20 -P "$$(nproc)" sh -c 'clang-tidy-19 --quiet --warnings-as-errors="*" "$$@" -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION=\"\" -DBEAMWORK_RELEASED=\"\" -DBEAMWORK_COMMIT=\"\" -DBEAMWORK_CFLAGS=\"\" 2>/dev/null' tidy
 
 # Rewrites the C sources in the project's layout.
@@ -201,11 +202,13 @@ needs-docs needs-report needs-test needs-truths needs-layout:
 $(REGISTRY): FORCE
 	@harness/tools/registry.sh $@ $(FORMULATIONS) $(CASES)
 
-# A word for each kind of quantity: the names of the files.
+# A word for each kind of quantity, the name of its file, and for each verb.
 $(QUANTITIES): LIST = \#define QUANTITY_TYPES(each) $(patsubst cases/quantities/%.c,each(%),$(sort $(wildcard cases/quantities/*.c)))
-$(QUANTITIES): FORCE
+$(VERBS): LIST = \#define VERB_TYPES(each) $(shell sed -n 's/^const verb verb_\([a-z_]*\) = {.*/each(\1)/p' $(sort $(wildcard harness/cli/*.c)))
+$(QUANTITIES) $(VERBS): FORCE
 	@mkdir -p $(@D); echo '$(LIST)' | cmp -s - $@ || echo '$(LIST)' >$@
-$(BUILD)/cases/scene/quantity.o: $(QUANTITIES)
+$(BUILD)/cases/scene/quantity.o $(BUILD)/cases/scene/quantity_type.o: $(QUANTITIES)
+$(BUILD)/harness/cli/verb_table.o: $(VERBS)
 
 $(PACK_CASE): $(BUILD)/harness/tools/pack_case.o $(filter $(addprefix $(BUILD)/,cases/format/% cases/scene/% cases/quantities/% elements/math/% elements/section/% elements/shared/%),$(OBJECTS))
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)

@@ -101,5 +101,6 @@ const verb verb_bench = {
     shared,
     own,
     sizeof(bench_options),
+    .place = VERB_JUDGE + 20,
     .answer = answer,
     .before = before};

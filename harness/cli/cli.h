@@ -46,6 +46,9 @@ struct verb_option {
     option_reader *read; /* NULL: the default described above */
 };
 
+/* Headings of the help. */
+enum { VERB_LOOK = 100, VERB_COMPUTE = 200, VERB_JUDGE = 300, VERB_EXCHANGE = 400 };
+
 typedef struct verb verb;
 typedef struct experiment_type experiment_type; /* harness/experiments/experiments.h */
 
@@ -89,6 +92,7 @@ struct verb {
     const verb_group *shared;     /* ends with group NULL */
     const verb_option *own;       /* ends with name NULL; NULL: no options */
     size_t request;
+    int place; /* in the help: a heading, and a number below it */
     int (*answer)(const command_line *,
                   void *request);     /* returns the exit status; NULL: a heading */
     void (*before)(char **arguments); /* called before options are read; NULL: none */
@@ -295,35 +299,6 @@ void guard_formulation(const formulation *chosen, int seconds);
  * SIGHUP, SIGINT) and crashes first delete unfinished output files. A crash, or a call of exit() by
  * a library or an element, is reported in one line. */
 void ending_begin(void);
-
-/* Verbs of the command line. */
-
-/* In the order of the help, below headings. A new verb needs its file and a line here. */
-#define VERBS(HEADING, VERB)                                                                       \
-    HEADING(look)                                                                                  \
-    VERB(list)                                                                                     \
-    VERB(explain)                                                                                  \
-    HEADING(compute)                                                                               \
-    VERB(solve)                                                                                    \
-    VERB(converge)                                                                                 \
-    VERB(sweep)                                                                                    \
-    VERB(truth)                                                                                    \
-    VERB(scene)                                                                                    \
-    HEADING(judge_and_compare)                                                                     \
-    VERB(verify)                                                                                   \
-    VERB(bench)                                                                                    \
-    VERB(stress)                                                                                   \
-    VERB(motion)                                                                                   \
-    VERB(element_test)                                                                             \
-    VERB(merge)                                                                                    \
-    VERB(compare)                                                                                  \
-    HEADING(exchange)                                                                              \
-    VERB(export)                                                                                   \
-    VERB(import)                                                                                   \
-    VERB(schema)
-#define VERB_DECLARED(name) extern const verb verb_##name;
-#define NO_HEADING(name)
-VERBS(NO_HEADING, VERB_DECLARED)
 
 /* Runs `beamwork VERB ...`, `beamwork help [VERB]`, --help and --version; returns the exit status.
  * arguments[0] is the program. */

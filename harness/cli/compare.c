@@ -209,4 +209,5 @@ const verb verb_compare = {
     shared,
     own,
     sizeof(compare_request),
+    .place = VERB_JUDGE + 70,
     .answer = answer};

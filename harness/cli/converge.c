@@ -99,4 +99,5 @@ const verb verb_converge = {
     shared,
     own,
     sizeof(converge_request),
+    .place = VERB_COMPUTE + 20,
     .answer = answer};

@@ -363,4 +363,5 @@ const verb verb_explain = {"explain",
                            shared,
                            NULL,
                            sizeof(explain_request),
+                           .place = VERB_LOOK + 20,
                            .answer = answer};

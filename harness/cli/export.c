@@ -87,4 +87,5 @@ const verb verb_export = {
     shared,
     own,
     sizeof(export_request),
+    .place = VERB_EXCHANGE + 10,
     .answer = answer};

@@ -128,4 +128,5 @@ const verb verb_import = {
     shared,
     own,
     sizeof(import_request),
+    .place = VERB_EXCHANGE + 20,
     .answer = answer};

@@ -373,4 +373,5 @@ const verb verb_list = {
     shared,
     NULL,
     sizeof(list_request),
+    .place = VERB_LOOK + 10,
     .answer = answer};

@@ -150,4 +150,5 @@ const verb verb_merge = {
     shared,
     own,
     sizeof(merge_request),
+    .place = VERB_JUDGE + 60,
     .answer = answer};

@@ -126,5 +126,6 @@ const verb verb_motion = {
     shared,
     own,
     sizeof(motion_options),
+    .place = VERB_JUDGE + 40,
     .answer = answer,
     .experiment = &experiment_motion};

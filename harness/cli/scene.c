@@ -74,4 +74,5 @@ const verb verb_scene = {
     shared,
     own,
     sizeof(scene_request),
+    .place = VERB_COMPUTE + 50,
     .answer = answer};

@@ -23,11 +23,11 @@ const char *const results_about[] = {
     "position, orientation (quaternion), force, moment, bimoment, nodes.",
     "points also has a column for each parameter of the case. The keys are point, formulation and "
     "elements.",
-    "/experiments/NAME contains the results of stress, motion, element-test, bench, converge and "
-    "sweep (option -o), each with the root attributes of its own run. A later run of the same "
-    "experiment replaces its group; verify replaces everything outside /experiments. bench and "
-    "converge: declarations and cases/CASE, as in the root. The tables of the others also have the "
-    "fields marked * as columns.",
+    "/experiments/NAME contains the results of the verb NAME (option -o; all but verify), each "
+    "with the root attributes of its own run. A later run of the same experiment replaces its "
+    "group; verify replaces everything outside /experiments. bench and converge: declarations and "
+    "cases/CASE, as in the root. The tables of the others also have the fields marked * as "
+    "columns.",
     NULL};
 
 /* Entry i of a NULL-terminated list; decreases i by the length if it is beyond the end, and returns
@@ -146,4 +146,5 @@ const verb verb_schema = {"schema",
                           shared,
                           NULL,
                           sizeof(schema_request),
+                          .place = VERB_EXCHANGE + 30,
                           .answer = answer};

@@ -365,4 +365,5 @@ const verb verb_solve = {
     shared,
     own,
     sizeof(solve_request),
+    .place = VERB_COMPUTE + 10,
     .answer = answer};

@@ -60,5 +60,6 @@ const verb verb_stress = {
     shared,
     NULL,
     sizeof(stress_request),
+    .place = VERB_JUDGE + 30,
     .answer = answer,
     .experiment = &experiment_stress};

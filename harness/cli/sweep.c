@@ -327,6 +327,7 @@ const verb verb_sweep = {
     shared,
     own,
     sizeof(sweep_options),
+    .place = VERB_COMPUTE + 30,
     .answer = answer};
 
 static void begin(void *group, command_line *l)

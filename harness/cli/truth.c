@@ -208,4 +208,5 @@ const verb verb_truth = {
     shared,
     NULL,
     sizeof(truth_request),
+    .place = VERB_COMPUTE + 40,
     .answer = answer};

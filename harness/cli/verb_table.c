@@ -6,14 +6,30 @@
 #include "elements/shared/choice.h"
 #include "harness/terminal/terminal.h"
 
-static const verb look = {.name = "look"};
-static const verb compute = {.name = "compute"};
-static const verb judge_and_compare = {.name = "judge and compare"};
-static const verb exchange = {.name = "exchange"};
-#define HEADING_OF(name) &name,
-#define VERB_OF(name)    &verb_##name,
-static const verb *const verbs[] = {VERBS(HEADING_OF, VERB_OF) NULL};
+#include "verbs.h"
+
+#define VERB_DECLARED(name) extern const verb verb_##name;
+VERB_TYPES(VERB_DECLARED)
+
+static const verb look = {.name = "look", .place = VERB_LOOK};
+static const verb compute = {.name = "compute", .place = VERB_COMPUTE};
+static const verb judge = {.name = "judge and compare", .place = VERB_JUDGE};
+static const verb exchange = {.name = "exchange", .place = VERB_EXCHANGE};
+#define VERB_OF(name) &verb_##name,
+/* verbs.h has a word for each verb of the files in cli/, in any order. */
+static const verb *verbs[] = {&look, &compute, &judge, &exchange, VERB_TYPES(VERB_OF) NULL};
 enum { COUNT = sizeof verbs / sizeof verbs[0] - 1 };
+
+/* Puts the verbs in the order of the help. */
+static void arrange(void)
+{
+    for (int i = 1; i < COUNT; i++)
+        for (int k = i; k > 0 && verbs[k]->place < verbs[k - 1]->place; k--) {
+            const verb *const later = verbs[k - 1];
+            verbs[k - 1] = verbs[k];
+            verbs[k] = later;
+        }
+}
 
 static const char *name_at(const void *context, int i)
 {
@@ -178,6 +194,7 @@ static int version(void)
 int verb_table_run(int count, char **arguments)
 {
     const char *first = count > 1 ? arguments[1] : "help";
+    arrange();
     if (strcmp(first, "help") == 0 && count > 2 && strcmp(arguments[2], "--man") == 0)
         return count > 3 ? write_page(arguments[3]) : list_pages();
     if (strcmp(first, "help") == 0 && count > 3 && strcmp(arguments[2], "--complete") == 0)

@@ -315,4 +315,5 @@ const verb verb_verify = {
     shared,
     own,
     sizeof(verify_request),
+    .place = VERB_JUDGE + 10,
     .answer = answer};
