@@ -134,7 +134,10 @@ const char *const scene_column_name[SCENE_COLUMNS] = {"linear",
                                                       "compliance",
                                                       "compliance about a path",
                                                       "rotation",
-                                                      "motion"};
+                                                      "motion",
+                                                      "harmonic",
+                                                      "harmonic about a linear analysis",
+                                                      "harmonic about a path"};
 
 static int called(const scene *s, scene_list list, int i, char *who, int size)
 {
@@ -326,6 +329,8 @@ static const char *const
                         "rest; request it about a static path that presses on one side",
     *const no_constraint = "ties components of nodes, which motions in time do not support; join "
                            "the nodes by a stiff spring, or into one body by part_of",
+    *const no_strains = "has stresses that the undeformed state has not; request it about a static "
+                        "or a linear analysis",
     *const no_drive =
         "is moved, but a continuation changes loads only; remove it, or use a static path",
     *const no_spin = "turns, and this analysis does not count the Coriolis "
@@ -333,56 +338,57 @@ static const char *const
                      "with that omega for frequencies";
 
 /* Columns: linear, static, continuation, buckling and about a path, modal and about a linear
- * analysis and a path, compliance and about a path, rotation, motion. */
+ * analysis and a path, compliance and about a path, rotation, motion, harmonic and about a linear
+ * analysis and a path. */
 const scene_input scene_inputs[] = {
-    {"force", "uuuuu-uu-uuu", NULL, has_force},
-    {"force that follows", "uusxu-xu-usu", no_potential, has_following_force},
-    {"force at an offset from its node", "uuusu-su-uuu", NULL, has_force_beside},
-    {"moment", "uussu-su-usu", NULL, has_moment},
-    {"moment that follows", "uusxu-xu-usu", no_potential, has_following_moment},
-    {"load along a member", "uuuuu-uu-uuu", NULL, has_line},
-    {"load along a member that follows", "uusxu-xu-usu", no_potential, has_following_line},
-    {"load along a part of a member", "uuuuu-uu-uuu", NULL, has_part_of_line},
-    {"load that changes along a member", "uuuuu-uu-uuu", NULL, has_varying_line},
-    {"lumped load along a member", "uuuuu-uu-uuu", NULL, has_lumped_line},
-    {"moments along a member", "uusxu-xu-usu", no_potential, has_line_of_moments},
-    {"force within a member", "uuuuu-uu-uuu", NULL, has_force_within},
-    {"force within a member that follows", "uusxu-xu-usu", no_potential,
+    {"force", "uuuuu-uu-uuu-uu", NULL, has_force},
+    {"force that follows", "uusxu-xu-usu-xu", no_potential, has_following_force},
+    {"force at an offset from its node", "uuusu-su-uuu-su", NULL, has_force_beside},
+    {"moment", "uussu-su-usu-su", NULL, has_moment},
+    {"moment that follows", "uusxu-xu-usu-xu", no_potential, has_following_moment},
+    {"load along a member", "uuuuu-uu-uuu-uu", NULL, has_line},
+    {"load along a member that follows", "uusxu-xu-usu-xu", no_potential, has_following_line},
+    {"load along a part of a member", "uuuuu-uu-uuu-uu", NULL, has_part_of_line},
+    {"load that changes along a member", "uuuuu-uu-uuu-uu", NULL, has_varying_line},
+    {"lumped load along a member", "uuuuu-uu-uuu-uu", NULL, has_lumped_line},
+    {"moments along a member", "uusxu-xu-usu-xu", no_potential, has_line_of_moments},
+    {"force within a member", "uuuuu-uu-uuu-uu", NULL, has_force_within},
+    {"force within a member that follows", "uusxu-xu-usu-xu", no_potential,
      has_following_force_within},
-    {"moment within a member", "uusxu-xu-usu", no_potential, has_moment_within},
-    {"gravity on members", "uuuuu-uu-uuu", NULL, has_gravity},
-    {"weight of a body", "uuuuu-uu-uuu", NULL, has_weight},
-    {"temperature", "uuuuu-uu-uuu", NULL, has_temperature},
-    {"load that stays", "uuuuu-uu-uuu", NULL, has_staying},
-    {"strain of a member", "uuuuuuuuuuuu", NULL, has_strain},
-    {"pretension", "uuuuuuuuuuuu", NULL, has_pretension},
-    {"unstressed length", "uuuuuuuuuuuu", NULL, has_unstressed_length},
-    {"free curvature", "uuuuuuuuuuuu", NULL, has_free_curvature},
-    {"load of a case", "uuuuu-uu-uuu", NULL, has_of_case},
-    {"initial curvature", "uuuuuuuuuuuu", NULL, has_curvature},
-    {"imperfection", "uuuuuuuuuuuu", NULL, has_imperfection},
-    {"taper", "uuuuuuuuuuuu", NULL, has_taper},
-    {"section by its matrices", "uuuuuuuuuuuu", NULL, has_matrices},
-    {"spring", "uuuuuuuuuuuu", NULL, has_spring},
-    {"offset of an end", "uuuuuuuuuuuu", NULL, has_offset},
-    {"foundation", "uuuuuuuuuuuu", NULL, has_foundation},
-    {"spring by a table", "uuuuuuuuuuuu", NULL, has_table},
-    {"spring with a kink at rest", "xuuxuxxuxuuu", no_tangent, has_kink},
-    {"release", "uuuuuuuuuuuu", NULL, has_release},
-    {"warping held", "uuuuuuuuuuuu", NULL, has_held_warping},
-    {"warping shared", "uuuuuuuuuuuu", NULL, has_shared_warping},
-    {"node that another carries", "uuuuuuuuuuuu", NULL, has_tied},
-    {"supports in axes of their own", "uuuuuuuuuuuu", NULL, has_axes},
-    {"constraint", "uuuuuuuuuuux", no_constraint, has_constraint},
-    {"fork", "uuuuuuuuuuuu", NULL, has_fork},
-    {"mass of a node", "-ii-iuuu-iuu", NULL, has_mass},
-    {"inertia of a node", "-ii-iuuu-iuu", NULL, has_inertia},
-    {"motion of a case", "uuxuu-uu-uuu", no_drive, has_drive_of_case},
-    {"motion of a node", "uuxuu-uu-uuu", no_drive, has_drive},
-    {"velocity at the start", "-----------u", NULL, has_start},
-    {"axes that turn", "-uu-u--x-uuu", no_spin, has_spin},
-    {"damping", "----i--i---u", NULL, has_damping},
-    {"dashpot", "----i--i---u", NULL, has_dashpot},
+    {"moment within a member", "uusxu-xu-usu-xu", no_potential, has_moment_within},
+    {"gravity on members", "uuuuu-uu-uuu-uu", NULL, has_gravity},
+    {"weight of a body", "uuuuu-uu-uuu-uu", NULL, has_weight},
+    {"temperature", "uuuuu-uu-uuu-uu", NULL, has_temperature},
+    {"load that stays", "uuuuu-uu-uuu-uu", NULL, has_staying},
+    {"strain of a member", "uuuuuuuuuuuuxuu", no_strains, has_strain},
+    {"pretension", "uuuuuuuuuuuuxuu", no_strains, has_pretension},
+    {"unstressed length", "uuuuuuuuuuuuxuu", no_strains, has_unstressed_length},
+    {"free curvature", "uuuuuuuuuuuuxuu", no_strains, has_free_curvature},
+    {"load of a case", "uuuuu-uu-uuu-uu", NULL, has_of_case},
+    {"initial curvature", "uuuuuuuuuuuuuuu", NULL, has_curvature},
+    {"imperfection", "uuuuuuuuuuuuuuu", NULL, has_imperfection},
+    {"taper", "uuuuuuuuuuuuuuu", NULL, has_taper},
+    {"section by its matrices", "uuuuuuuuuuuuuuu", NULL, has_matrices},
+    {"spring", "uuuuuuuuuuuuuuu", NULL, has_spring},
+    {"offset of an end", "uuuuuuuuuuuuuuu", NULL, has_offset},
+    {"foundation", "uuuuuuuuuuuuuuu", NULL, has_foundation},
+    {"spring by a table", "uuuuuuuuuuuuuuu", NULL, has_table},
+    {"spring with a kink at rest", "xuuxuxxuxuuuxxu", no_tangent, has_kink},
+    {"release", "uuuuuuuuuuuuuuu", NULL, has_release},
+    {"warping held", "uuuuuuuuuuuuuuu", NULL, has_held_warping},
+    {"warping shared", "uuuuuuuuuuuuuuu", NULL, has_shared_warping},
+    {"node that another carries", "uuuuuuuuuuuuuuu", NULL, has_tied},
+    {"supports in axes of their own", "uuuuuuuuuuuuuuu", NULL, has_axes},
+    {"constraint", "uuuuuuuuuuuxuuu", no_constraint, has_constraint},
+    {"fork", "uuuuuuuuuuuuuuu", NULL, has_fork},
+    {"mass of a node", "-ii-iuuu-iuuuuu", NULL, has_mass},
+    {"inertia of a node", "-ii-iuuu-iuuuuu", NULL, has_inertia},
+    {"motion of a case", "uuxuu-uu-uuu-uu", no_drive, has_drive_of_case},
+    {"motion of a node", "uuxuu-uu-uuu-uu", no_drive, has_drive},
+    {"velocity at the start", "-----------u---", NULL, has_start},
+    {"axes that turn", "-uu-u--x-uuu--x", no_spin, has_spin},
+    {"damping", "----i--i---uuuu", NULL, has_damping},
+    {"dashpot", "----i--i---uuuu", NULL, has_dashpot},
     {NULL, "", NULL, NULL}};
 
 scene_column scene_column_of(const scene *s, int analysis)
@@ -397,8 +403,11 @@ scene_column scene_column_of(const scene *s, int analysis)
         return SCENE_OF_CONTINUATION;
     case SCENE_BUCKLING:
         return a->follows == SCENE_NONE ? SCENE_OF_BUCKLING : SCENE_OF_BUCKLING_ABOUT;
+    case SCENE_HARMONIC:
+        return a->follows == SCENE_NONE                       ? SCENE_OF_HARMONIC
+               : s->analysis[a->follows].kind == SCENE_LINEAR ? SCENE_OF_HARMONIC_LINEAR
+                                                              : SCENE_OF_HARMONIC_ABOUT;
     case SCENE_MODAL:
-    case SCENE_HARMONIC: /* has the same states; damping, which it includes, has no row */
         return a->follows == SCENE_NONE                       ? SCENE_OF_MODAL
                : s->analysis[a->follows].kind == SCENE_LINEAR ? SCENE_OF_MODAL_LINEAR
                                                               : SCENE_OF_MODAL_ABOUT;

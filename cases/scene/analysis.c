@@ -69,6 +69,13 @@ int scene_add_compliance(scene *s, int follows, scene_compliance what)
                       .kind = SCENE_COMPLIANCE, .follows = follows, .of = {.compliance = what}});
 }
 
+int scene_add_harmonic(scene *s, int follows, int frequencies, const double hertz[])
+{
+    return add(s, (scene_analysis){.kind = SCENE_HARMONIC,
+                                   .follows = follows,
+                                   .of = {.harmonic = path_of(s, frequencies, hertz)}});
+}
+
 int scene_add_continuation(scene *s, int stations, const double path[], scene_control control)
 {
     const scene_continuation what = {.path = path_of(s, stations, path), .control = control};

@@ -77,6 +77,11 @@ scene_extract scene_balance_of(scene_balance what)
     return what < SCENE_PX ? EXTRACT(energy, .balance = what) : EXTRACT(momentum, .balance = what);
 }
 
+scene_extract scene_response_to(scene_response what)
+{
+    return (scene_extract){SCENE_RESPONSE, &quantity_response, {.response = what}};
+}
+
 scene_extract scene_relative_to(int node, int component, int from)
 {
     return EXTRACT(relative, .relative = {node, component, from});

@@ -174,6 +174,7 @@ int scene_add_static(scene *s, int stations, const double path[], int steps_betw
 int scene_add_buckling(scene *s, int follows);
 int scene_add_modal(scene *s, int follows);
 int scene_add_compliance(scene *s, int follows, scene_compliance what);
+int scene_add_harmonic(scene *s, int follows, int frequencies, const double hertz[]);
 int scene_add_continuation(scene *s, int stations, const double path[], scene_control control);
 int scene_add_rotation(scene *s, int stations, const double path[], int steps_between, int modes,
                        scene_rotating_frame frame);
@@ -555,6 +556,7 @@ scene_extract scene_rate(int node, int component);
 scene_extract scene_orientation_entry(int node, int row, int column);
 scene_extract scene_balance_of(scene_balance what);
 scene_extract scene_relative_to(int node, int component, int from);
+scene_extract scene_response_to(scene_response what);
 /* place: 0 at p .. 1 at q, on the side of q */
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
@@ -1282,6 +1284,9 @@ typedef enum scene_column {
     SCENE_OF_COMPLIANCE_ABOUT,
     SCENE_OF_ROTATION,
     SCENE_OF_MOTION,
+    SCENE_OF_HARMONIC,
+    SCENE_OF_HARMONIC_LINEAR,
+    SCENE_OF_HARMONIC_ABOUT,
     SCENE_COLUMNS
 } scene_column;
 

@@ -335,6 +335,39 @@ static void law_of_buckling_about(const scene_input *in, const element_type *e, 
                  "%s: buckling about a path, %s: the first critical point", e->name, in->name);
 }
 
+/* At rest it is the compliance; shaking, all modes give it too. */
+static void law_of_harmonic(const scene_input *in, scene_column column, const element_type *e,
+                            const answer *with)
+{
+    static answer a, by_modes;
+    static const char *const at_rest[] = {"cx", "cy", "cz", NULL}, *const all[] = {"cx", "cy", "cz",
+                                                                                   "rx", "ry", "rz",
+                                                                                   "ix", "iy", "iz",
+                                                                                   NULL};
+    posed p = pose(
+        in->name,
+        column == SCENE_OF_HARMONIC_ABOUT ? SCENE_OF_COMPLIANCE_ABOUT : SCENE_OF_COMPLIANCE, 1);
+    scene s;
+    if (column != SCENE_OF_HARMONIC_LINEAR) {
+        solve(&p, e, &a);
+        const double off = largest_apart(with, &a, at_rest);
+        gsl_test(!(off <= 1e-7), "%s: %s, %s: at 0 Hz the compliance (%g)", e->name,
+                 scene_column_name[column], in->name, off);
+    }
+    p.column = column;
+    structure(&p, &s);
+    const int analysis = analyse(&s, &p);
+    begin(&s, &p);
+    want(&s, column, analysis);
+    s.analysis[analysis].by_modes = 1;
+    answer_to(&s, &p, e, &by_modes);
+    if (by_modes.status == STATUS_REFUSED && strstr(by_modes.reason, "unsymmetric") != NULL)
+        return;
+    const double off = largest_apart(with, &by_modes, all);
+    gsl_test(!(off <= 1e-8), "%s: %s, %s: by all modes (%g; %s)", e->name,
+             scene_column_name[column], in->name, off, by_modes.reason);
+}
+
 /* A path in rotating axes ends where the rotation does. */
 static void law_of_rotation(const scene_input *in, const element_type *e, const answer *with)
 {
@@ -412,6 +445,11 @@ static void obey(const scene_input *in, scene_column column, const element_type 
     case SCENE_OF_COMPLIANCE_ABOUT:
         law_of_compliance(in, column, e, with);
         break;
+    case SCENE_OF_HARMONIC:
+    case SCENE_OF_HARMONIC_LINEAR:
+    case SCENE_OF_HARMONIC_ABOUT:
+        law_of_harmonic(in, column, e, with);
+        break;
     case SCENE_OF_ROTATION:
         law_of_rotation(in, e, with);
         break;
@@ -454,7 +492,8 @@ static void cell(const scene_input *in, scene_column column, const element_type 
         return;
     counts[part == 'x' ? 1 : part == '-' ? 2 : 0]++;
     const int refused = with.status == STATUS_REFUSED;
-    if (column == SCENE_OF_MODAL_LINEAR && in->part[SCENE_OF_LINEAR] == SCENE_PART_REFUSED)
+    if ((column == SCENE_OF_MODAL_LINEAR || column == SCENE_OF_HARMONIC_LINEAR) &&
+        in->part[SCENE_OF_LINEAR] == SCENE_PART_REFUSED)
         where = scene_column_name[SCENE_OF_LINEAR]; /* which is refused before */
     if (part == SCENE_PART_REFUSED) {
         gsl_test(!refused || strstr(with.reason, in->name) == NULL ||

@@ -324,15 +324,33 @@ static posed pose(const char *name, scene_column column, int with)
                    .follows = flutters(name, column)};
 }
 
+static const double shaking = 17; /* [Hz] */
+
+/* Of a node for a force or a moment at it, by the real or the imaginary part. */
+static void respond(scene *s, const char *name, int analysis, int node, int component, int along,
+                    scene_vibration_part part, double at)
+{
+    const scene_response what = {.node = node,
+                                 .component = component,
+                                 .from = SCENE_NONE,
+                                 .forced = node,
+                                 .forced_along = along,
+                                 .driver = SCENE_NONE,
+                                 .part = part};
+    const char *unit = along < SCENE_RX ? "m/N" : "rad/(N m)";
+    scene_set_at(scene_add_quantity(s, name, unit, analysis, scene_response_to(what)), at);
+}
+
 /* The analysis of a column; what follows has its own before it. */
 static int analyse(scene *s, const posed *p)
 {
     const scene_column column = p->column;
     const int about_path = column == SCENE_OF_BUCKLING_ABOUT || column == SCENE_OF_MODAL_ABOUT ||
-                           column == SCENE_OF_COMPLIANCE_ABOUT,
-              path = about_path                        ? scene_add_static(s, 1, &p->end, 2)
-                     : column == SCENE_OF_MODAL_LINEAR ? scene_add_linear(s)
-                                                       : SCENE_NONE;
+                           column == SCENE_OF_COMPLIANCE_ABOUT || column == SCENE_OF_HARMONIC_ABOUT,
+              about_linear = column == SCENE_OF_MODAL_LINEAR || column == SCENE_OF_HARMONIC_LINEAR,
+              path = about_path     ? scene_add_static(s, 1, &p->end, 2)
+                     : about_linear ? scene_add_linear(s)
+                                    : SCENE_NONE;
     const int still = strcmp(p->name, "axes that turn") == 0 && !p->turns;
     switch (column) {
     case SCENE_OF_LINEAR:
@@ -357,6 +375,10 @@ static int analyse(scene *s, const posed *p)
         return scene_add_rotation(
             s, 1, &end, 2, 1,
             (scene_rotating_frame){.omega = {0, still ? 0 : turning[1], still ? 0 : turning[2]}});
+    case SCENE_OF_HARMONIC:
+    case SCENE_OF_HARMONIC_LINEAR:
+    case SCENE_OF_HARMONIC_ABOUT:
+        return scene_add_harmonic(s, path, 2, (const double[]){0, shaking});
     default:
         return scene_add_motion(s, SCENE_NONE, 1, (const double[]){0.02},
                                 (scene_motion){.scheme = SCENE_ALPHA,
@@ -398,6 +420,17 @@ static void want(scene *s, scene_column column, int analysis)
                                scene_compliance_entry(i, SCENE_UY));
         scene_add_quantity(s, "turn", "rad/(N m)", analysis,
                            scene_compliance_entry(SCENE_RX, SCENE_RX));
+        break;
+    case SCENE_OF_HARMONIC:
+    case SCENE_OF_HARMONIC_LINEAR:
+    case SCENE_OF_HARMONIC_ABOUT:
+        for (int i = 0; i < 3; i++) {
+            const char *const name[] = {"cx", "cy", "cz", "rx", "ry", "rz", "ix", "iy", "iz"};
+            respond(s, name[i], analysis, TIP, i, SCENE_UY, SCENE_REAL, 0);
+            respond(s, name[3 + i], analysis, TIP, i, SCENE_UY, SCENE_REAL, shaking);
+            respond(s, name[6 + i], analysis, TIP, i, SCENE_UY, SCENE_IMAGINARY, shaking);
+        }
+        respond(s, "turn", analysis, MIDDLE, SCENE_RX, SCENE_RX, SCENE_REAL, shaking);
         break;
     default:
         for (int i = 0; i < 6; i++) {
