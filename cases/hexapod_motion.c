@@ -13,7 +13,7 @@ static const parameter_type timed[] = {
     TIMED_HOW(0.01, "a fiftieth of the drive's time", 1e-3),
     [CRANK_ANGLE] = {"crank_angle", "rad", 0.2613, -1, 1, NULL,
                      "final angle of the cranks: for a stroke of 50 mm"},
-    [DURATION] = {"duration", "s", 0.5, 1e-3, 100, NULL, "of the drive, which is smooth"},
+    [DURATION] = {"duration", "s", 0.5, 1e-3, 100, NULL, "duration of the drive, which is smooth"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 

@@ -134,7 +134,7 @@ static double part_of(const fields *f, const char *key, double otherwise)
     if (part >= 0 && part <= 1)
         return part;
     document_mistake(f->b->mistakes, document_find(f->map, key), 0,
-                     "%s = %g; give a part of the member's length, from 0 to 1", key, part);
+                     "%s = %g; give a fraction of the member's length, from 0 to 1", key, part);
     return otherwise;
 }
 
@@ -154,7 +154,7 @@ static void check_keys(const fields *f, int given)
         document_mistake(f->b->mistakes, document_find(f->map, of_range[k]), 0,
                          "%s: this key is for a distributed load; %s", of_range[k],
                          given == OF_TEMPERATURE
-                             ? "a temperature is the same from 'from' to 'to'; remove it"
+                             ? "a temperature is constant from 'from' to 'to'; remove it"
                          : given == SCENE_GRAVITY
                              ? "gravity acts on the whole member; remove it"
                              : "a force or a moment within a member acts at one position, 'where'");
@@ -285,8 +285,9 @@ static int spring_matrix(builder *b, const fields *f, const char *key, double ou
         for (int k = 0; k < 6; k++)
             out[7 * k] = given[k];
     if (count != 6 && count != 36)
-        document_mistake(b->mistakes, at, 0, "%s: %d numbers; give six, or the 36 of a matrix", key,
-                         count);
+        document_mistake(b->mistakes, at, 0,
+                         "%s: the list has %d numbers; give six, or the 36 entries of a matrix",
+                         key, count);
     else
         turn_stiffness(f->placed, out);
     return 1;
@@ -301,8 +302,9 @@ void builder_springs(builder *b)
                   damps = spring_matrix(b, &f, "damping", damping);
         const document_node *tables = document_find(f.map, "tables");
         if (!stiff && !damps && (tables == NULL || tables->count == 0))
-            document_mistake(b->mistakes, f.map, 0,
-                             "neither stiffness nor damping nor tables; give one of them");
+            document_mistake(
+                b->mistakes, f.map, 0,
+                "the spring has neither stiffness nor damping nor tables; give one of them");
         if (tables != NULL && f.placed != NULL && f.placed->turned)
             document_mistake(
                 b->mistakes, tables, 0,
@@ -322,7 +324,7 @@ static void read_equal(const fields *f, int index)
 {
     const document_node *n = document_find(f->map, "equal");
     if (n->kind != DOCUMENT_LIST || n->count < 2) {
-        document_mistake(f->b->mistakes, n, 0, "equal: give a list of two nodes or more");
+        document_mistake(f->b->mistakes, n, 0, "equal: give a list of at least two nodes");
         return;
     }
     for (int i = 0; i < n->count; i++)
@@ -451,8 +453,9 @@ void builder_read_cases(builder *b)
     const scene *s = b->scene;
     for (int i = 0; i < s->cases && s->quantities > 0; i++)
         if (!is_read(s, i))
-            document_mistake(b->mistakes, b->list[SCENE_CASES].entry[i].place, 0,
-                             "load case '%.40s' acts nowhere: no combination, analysis or quantity "
-                             "has it; correct the name, or give it a factor of 0",
-                             s->load_case[i].name);
+            document_mistake(
+                b->mistakes, b->list[SCENE_CASES].entry[i].place, 0,
+                "load case '%.40s' is not used by any combination, analysis or quantity; correct "
+                "the name, or give it a factor of 0 in a combination",
+                s->load_case[i].name);
 }

@@ -48,7 +48,7 @@ static void read_warping(const fields *f, scene_member *m)
         return;
     }
     if (n->kind == DOCUMENT_LIST && n->count != 2) {
-        document_mistake(f->b->mistakes, n, 0, "warping: one value, or [at from, at to]");
+        document_mistake(f->b->mistakes, n, 0, "warping: give one value, or [at from, at to]");
         return;
     }
     m->warp_p = warping_of(f, n->kind == DOCUMENT_LIST ? n->item[0] : n);
@@ -81,7 +81,8 @@ static void read_sections(const fields *f, scene_member *m)
         return;
     }
     if (n->count != 2) {
-        document_mistake(f->b->mistakes, n, 0, "section: a name, or two names [at from, at to]");
+        document_mistake(f->b->mistakes, n, 0,
+                         "section: give a name, or two names [at from, at to]");
         return;
     }
     m->section = fields_entry_of(f, n->item[0], SCENE_SECTIONS);
@@ -101,8 +102,8 @@ static void read_released(const fields *f, const char *key, int member, int end)
         const document_node *word = n->kind == DOCUMENT_LIST ? n->item[i] : n;
         const int c = fields_word_of(f, word, "release", fields_components, -1);
         if (c >= 0 && told >> c & 1u)
-            document_mistake(f->b->mistakes, word, 0, "release: '%s' twice at this end; remove one",
-                             word->text);
+            document_mistake(f->b->mistakes, word, 0,
+                             "release: '%s' is given twice at this end; remove one", word->text);
         else if (c >= 0)
             scene_release_end(f->b->scene, member, end, c);
         told |= c >= 0 ? 1u << c : 0;
@@ -207,7 +208,7 @@ static void complete(const fields *f, int index, scene_analysis *a)
         builder_in_time(&motion, &a->of.motion);
     if (a->follows >= index) {
         document_mistake(f->b->mistakes, document_find(what.map, "about"), 0,
-                         "'%s' is defined after this one; move it before",
+                         "'%s' is defined after this entry; move it before",
                          fields_text(&what, "about", ""));
         a->follows = SCENE_NONE;
     }
@@ -237,7 +238,7 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
                      scene_analysis_name((scene_analysis_kind)k));
         }
     document_mistake(what->b->mistakes, document_find(what->map, "analysis"), 0,
-                     "'%s' is %s and has no %s; name an analysis that has: %s", a->name,
+                     "'%s' is %s and has no %s; name an analysis that has one: %s", a->name,
                      scene_analysis_name(a->kind), key, who);
 }
 
@@ -281,8 +282,8 @@ static int put_name(const fields *f, const document_node *n, int *at, written_ou
         const scope *known = scope_find(f->names, name, (size_t)length);
         if (known != NULL)
             document_mistake(f->b->mistakes, n, from,
-                             "'%.*s' is a word of functions of time and a name of this file; "
-                             "rename the latter",
+                             "'%.*s' has a meaning in functions of time and is also a name in this "
+                             "file; rename the latter",
                              length, name);
         *at += length;
         return known == NULL && put(to, name, (size_t)length, from);
@@ -341,7 +342,7 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
     double before = -INFINITY;
     if (list->count == 0)
         document_mistake(f->b->mistakes, list, 0,
-                         "no piece; give [{until: [s], is: ...}, {is: ...}]");
+                         "the list has no piece; give [{until: [s], is: ...}, {is: ...}]");
     for (int i = 0; i < list->count; i++) {
         fields piece = *f;
         piece.map = list->item[i];
@@ -417,8 +418,8 @@ static void add_table(const fields *f, int index, builder_piece *add, int spline
         ascends &= at[k] > at[k - 1];
     if (count != values || count < 2 || !ascends) {
         document_mistake(f->b->mistakes, document_find(f->map, "at"), 0,
-                         "a table has two instants or more, ascending, and as many values; 'at' "
-                         "has %d and 'value' %d",
+                         "a table needs at least two ascending instants and a value for each; 'at' "
+                         "has %d and 'value' has %d",
                          count, values);
         return;
     }
@@ -459,8 +460,9 @@ int builder_stations(const fields *f, const char *values, double **path, double 
     const int stations = fields_values(f, "path", path), count = fields_values(f, values, value);
     if (stations == count)
         return count;
-    document_mistake(
-        f->b->mistakes, document_find(f->map, fields_have(f, values) ? values : "path"), 0,
-        "'path' has %d values and '%s' %d; give as many of both", stations, values, count);
+    document_mistake(f->b->mistakes,
+                     document_find(f->map, fields_have(f, values) ? values : "path"), 0,
+                     "'path' has %d values and '%s' has %d; give the same number of both", stations,
+                     values, count);
     return 0;
 }

@@ -98,7 +98,8 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     const scene_member *m = &s->member[member];
     double R[9], chord[3];
     if (m->p != node && m->q != node) {
-        document_mistake(axes->b->mistakes, name, 0, "axes: no end of %.40s is at the node",
+        document_mistake(axes->b->mistakes, name, 0,
+                         "axes: %.40s does not end at the node; name a member that does",
                          name->text);
         return;
     }
@@ -134,9 +135,10 @@ static void turn_about_axes(const fields *f, scene_node *n)
     if (moving == 0 || (moving == 3 && driven == 0))
         return;
     if (moving > 1) {
-        document_mistake(f->b->mistakes, f->place, 0,
-                         "axes: of its turns none, one or all may move about axes of their own; "
-                         "hold others by rotation: {sequence: [{axis: [...], angle: free}, ...]}");
+        document_mistake(
+            f->b->mistakes, f->place, 0,
+            "axes: with 'axes', none, one or all three rotations may move; for other combinations "
+            "write rotation: {sequence: [{axis: [...], angle: free}, ...]}");
         return;
     }
     n->rotation = SCENE_ROTATION_SEQUENCE;
@@ -208,7 +210,8 @@ static void read_sequence(const fields *f, const document_node *list, scene_node
     unrolled *turns;
     const int count = unroll_entries(list, f->names, f->b->arena, f->b->mistakes, &turns);
     if (count < 1 || count > 3) {
-        document_mistake(f->b->mistakes, list, 0, "%d rotations; give one to three", count);
+        document_mistake(f->b->mistakes, list, 0,
+                         "the sequence has %d rotations; give one to three", count);
         return;
     }
     n->rotation = SCENE_ROTATION_SEQUENCE;
@@ -245,8 +248,8 @@ static void check_masters(const fields *f, const scene_node *n)
     const document_node *rotation = document_find(f->map, "rotation");
     if (document_find(rotation, "vector") != NULL && f->placed != NULL && f->placed->turned)
         document_mistake(f->b->mistakes, rotation, 0,
-                         "rotation: its components are not along axes of the scene, in a part that "
-                         "is turned; name them at a node of the scene, and connect it");
+                         "rotation: in a rotated part its components are not along the axes of the "
+                         "scene; give them to a node of the scene, and connect that node");
     if (rotation != NULL && (held || fields_have(f, "fork")))
         document_mistake(f->b->mistakes, rotation, 0,
                          "'rotation' sets all rotations; remove rx, ry, rz and forks");
@@ -320,8 +323,8 @@ static void read_walls(const fields *f, section_spec *spec)
     spec->walls = count;
     if (spec->points > SECTION_MAX_POINTS || count > SECTION_MAX_WALLS || count == 0) {
         document_mistake(f->b->mistakes, f->place, 0,
-                         "%d points and %d walls; give 1 to %d of each", spec->points, count,
-                         SECTION_MAX_WALLS);
+                         "the section has %d points and %d walls; give 1 to %d of each",
+                         spec->points, count, SECTION_MAX_WALLS);
         spec->points = spec->walls = 0;
         return;
     }
@@ -375,8 +378,9 @@ static void read_matrix(const fields *f, const char *key, double out[36])
         out[7 * k] = given[k];
     if (fields_have(f, key) && count != 6 && count != 36)
         document_mistake(f->b->mistakes, document_find(f->map, key), 0,
-                         "%s: %d numbers; give the 36 of a matrix, or the six of its diagonal", key,
-                         count);
+                         "%s: the list has %d numbers; give the 36 entries of a matrix, or the six "
+                         "of its diagonal",
+                         key, count);
 }
 
 static void read_matrices(const fields *f, section_spec *spec)

@@ -55,11 +55,11 @@ static void read_unit(const fields *f, scene_quantity *q)
                              "unit '%.40s': %sthe value is in %s; write that, remove it, or %s%s%s",
                              unit->text, f->b->units.given ? "with the units of this scene " : "",
                              own, factor ? "'unit: " : "give a factor", factor ? unit->text : "",
-                             factor ? ", factor: 1' if a load of 1 is 1 of it" : "");
+                             factor ? ", factor: 1' if the load has the value 1 in this unit" : "");
     }
     if (unit != NULL && strlen(unit->text) >= sizeof q->unit)
-        document_mistake(f->b->mistakes, unit, 0, "a unit of more than %zu characters; shorten it",
-                         sizeof q->unit - 1);
+        document_mistake(f->b->mistakes, unit, 0,
+                         "the unit has more than %zu characters; shorten it", sizeof q->unit - 1);
     snprintf(q->unit, sizeof q->unit, "%s", unit != NULL ? unit->text : own);
 }
 
@@ -165,7 +165,7 @@ static void check_wanted(builder *b)
         const int asked = asked_of(b->scene, i);
         if (fields_have(&f, "wanted") && fields_whole(&f, "wanted", 0, 1, ENTRY_MOST_ORDER) < asked)
             document_mistake(b->mistakes, document_find(f.map, "wanted"), 0,
-                             "quantities ask for %d of this analysis; write %d, or remove it",
+                             "quantities need %d modes of this analysis; write %d, or remove it",
                              asked, asked);
     }
 }
@@ -176,7 +176,8 @@ static void read_overs(const fields *what, scene_quantity *q)
     const document_node *n = document_find(what->map, "combinations");
     const int count = n == NULL ? 0 : n->kind == DOCUMENT_LIST ? n->count : 1;
     if (n != NULL && (q->envelope == SCENE_ENVELOPE_NONE || count == 0))
-        document_mistake(what->b->mistakes, n, 0, "combinations: of an envelope, one at least; %s",
+        document_mistake(what->b->mistakes, n, 0,
+                         "combinations: this key lists the combinations of an envelope; %s",
                          count == 0 ? "name one, or remove it for all"
                                     : "add envelope: max, min or largest, or write combination:");
     for (int i = 0; i < count; i++) {
@@ -435,10 +436,11 @@ void units_check(const document_node *unit, mistakes *m)
                              foreign[i].remedy);
             return;
         }
-    document_mistake(m, unit, 0,
-                     "unit '%.40s' is unknown; all values are SI, as m, rad, N, N m, N/m, Pa, "
-                     "kg/m^3, Hz, 1",
-                     unit->text);
+    document_mistake(
+        m, unit, 0,
+        "unit '%.40s' is unknown; all values are in SI units, such as m, rad, N, N m, N/m, Pa, "
+        "kg/m^3, Hz, 1",
+        unit->text);
 }
 
 typedef struct named_unit {
@@ -485,10 +487,11 @@ static int units_read_unit(const document_node *n, const char *word, size_t leng
         *stress = S->value;
         snprintf(out->name_of_stress, sizeof out->name_of_stress, "%s", S->name);
     } else {
-        document_mistake(m, n, 0,
-                         "units: '%.*s'; give one of m, cm, mm, um, in, ft and one of N, mN, kN, "
-                         "MN, lbf, and for stress Pa, kPa, MPa, GPa or psi, as mm, N, MPa",
-                         (int)length, word);
+        document_mistake(
+            m, n, 0,
+            "units: '%.*s' is unknown; give one of m, cm, mm, um, in, ft and one of N, mN, kN, "
+            "MN, lbf, and for stress Pa, kPa, MPa, GPa or psi, such as mm, N, MPa",
+            (int)length, word);
         return 0;
     }
     return 1;
@@ -502,7 +505,7 @@ void units_read(const document_node *n, mistakes *m, unit_system *out)
     if (n == NULL)
         return;
     if (n->kind == DOCUMENT_MAP) {
-        document_mistake(m, n, 0, "units: a text is expected, as mm, N, MPa");
+        document_mistake(m, n, 0, "units: a text is expected, such as mm, N, MPa");
         return;
     }
     for (int i = 0; n->kind == DOCUMENT_LIST && good && i < n->count; i++) {
@@ -518,7 +521,8 @@ void units_read(const document_node *n, mistakes *m, unit_system *out)
     if (!good)
         return;
     if (out->name_of_length == NULL || out->name_of_force == NULL) {
-        document_mistake(m, n, 0, "units: of length and of force, as mm, N, MPa");
+        document_mistake(m, n, 0,
+                         "units: give a unit of length and one of force, such as mm, N, MPa");
         return;
     }
     const double own = out->force / (out->length * out->length);

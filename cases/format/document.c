@@ -40,7 +40,7 @@ static void tell_syntax(reader *r)
                      p->problem_offset, problem);
     else if (strstr(problem, "cannot start any token") != NULL &&
              p->buffer.pointer < p->buffer.last && *p->buffer.pointer == '\t')
-        mistakes_add(r->mistakes, line, column, "a tab; indent with spaces");
+        mistakes_add(r->mistakes, line, column, "the line is indented with a tab; use spaces");
     else if (in_flow)
         mistakes_add(r->mistakes, line, column,
                      "the %s opened in line %d, column %d is not closed here (%s); close it, or "
@@ -64,7 +64,7 @@ static int next(reader *r, yaml_event_t *event)
 static document_node *new_node(reader *r, document_kind kind, yaml_mark_t at)
 {
     if (r->nodes++ >= MOST_NODES)
-        return refuse(r, at, "more than 100000 entries; write a smaller file");
+        return refuse(r, at, "the file has more than 100000 entries; write a smaller one");
     document_node *n = arena_take(r->arena, sizeof *n);
     if (n == NULL) {
         r->mistakes->out_of_memory = 1;
@@ -94,11 +94,12 @@ static document_node *read_text(reader *r, const yaml_event_t *event)
     while (length > 0 && value[length - 1] == '\n')
         length--;
     if (length > MOST_TEXT)
-        return refuse(r, from, "a text of more than 4000 characters; shorten it");
+        return refuse(r, from, "the text has more than 4000 characters; shorten it");
     for (size_t i = 0; i < length; i++)
         if ((unsigned char)value[i] < ' ' || value[i] == 0x7f)
-            return refuse(r, from,
-                          "a text with a control character; write it in one line, without tabs");
+            return refuse(
+                r, from,
+                "the text contains a control character; write it in one line, without tabs");
     document_node *n = new_node(r, DOCUMENT_TEXT, from);
     if (n == NULL)
         return NULL;
@@ -176,7 +177,7 @@ static int read_entries(reader *r, document_node *n, int depth, yaml_event_type_
         }
         if (n->count == DOCUMENT_ENTRIES) {
             document_mistake(r->mistakes, item, 0,
-                             "more than 10000 entries in one place; write a smaller file");
+                             "a list or map has more than 10000 entries; write a smaller one");
             return 0;
         }
         if (!add_entry(r, n, key, item))
@@ -200,8 +201,8 @@ static document_node *read_node(reader *r, const yaml_event_t *event, int depth)
 {
     static const char anchor[] = "anchors are not supported; write the entry where it is needed, "
                                  "or use 'for', 'let' or 'parts'";
-    static const char tag[] = "tags are not supported; remove it: the key decides whether a value "
-                              "is text, number or word";
+    static const char tag[] = "tags are not supported; remove the tag: the key determines whether "
+                              "a value is a text, a number or a word";
     switch (event->type) {
     case YAML_ALIAS_EVENT:
         return refuse(
@@ -240,11 +241,12 @@ static document_node *read_stream(reader *r)
             break;
         case YAML_DOCUMENT_START_EVENT:
             if (root != NULL)
-                refuse(r, at, "a second YAML document; put it into another file");
+                refuse(r, at, "the file contains a second YAML document; move it to another file");
             if (event.data.document_start.version_directive != NULL ||
                 event.data.document_start.tag_directives.start !=
                     event.data.document_start.tag_directives.end)
-                refuse(r, at, "a YAML directive; remove lines that begin with '%'");
+                refuse(r, at,
+                       "YAML directives are not supported; remove lines that begin with '%'");
             done = root != NULL;
             break;
         case YAML_STREAM_END_EVENT:
@@ -266,7 +268,7 @@ document_node *document_read(const char *bytes, size_t size, arena *a, mistakes 
 {
     reader r = {.arena = a, .mistakes = m};
     if (size > DOCUMENT_BYTES) {
-        mistakes_add(m, 1, 1, "more than 1 MB; write a smaller file");
+        mistakes_add(m, 1, 1, "the file is larger than 1 MB; write a smaller one");
         return NULL;
     }
     if (!yaml_parser_initialize(&r.parser)) {
@@ -447,7 +449,7 @@ status mistakes_json(const mistakes *m, FILE *to, fault *f)
     const int written = all != NULL && json_dumpf(all, to, JSON_INDENT(1)) == 0;
     json_decref(all);
     if (!written)
-        return fault_set(f, STATUS_FAULT, "the list of mistakes cannot be written");
+        return fault_set(f, STATUS_FAULT, "the list of errors cannot be written");
     fputc('\n', to);
     return STATUS_OK;
 }

@@ -13,15 +13,16 @@ static int tell_unknown(const name_context *c, const char *text, int from, int l
     snprintf(name, sizeof name, "%.*s", length, text + from);
     const int is_time = c->in_time && (strcmp(name, "time") == 0 || strcmp(name, "T") == 0);
     const char *known = strcmp(name, "t") == 0 ? NULL : scope_nearest(c->names, name);
-    expression_wrong(why, from, "unknown name '%s'%s", name,
-                     mistakes_remedy(is_time ? "t" : known,
-                                     c->in_time
-                                         ? "; a function of time has t, pi, deg, functions such as "
-                                           "sin and exp, and the names of 'parameters' and 'let'"
-                                     : known == NULL && strcmp(name, "t") == 0
-                                         ? "; the time t is in functions of time only"
-                                         : "; define it under 'parameters' or 'let', above",
-                                     remedy));
+    expression_wrong(
+        why, from, "unknown name '%s'%s", name,
+        mistakes_remedy(is_time ? "t" : known,
+                        c->in_time
+                            ? "; a function of time may contain t, pi, deg, functions such as "
+                              "sin and exp, and the names of 'parameters' and 'let'"
+                        : known == NULL && strcmp(name, "t") == 0
+                            ? "; the time t is available in functions of time only"
+                            : "; define it under 'parameters' or 'let', above",
+                        remedy));
     return 0;
 }
 
@@ -86,7 +87,7 @@ int expression_number(const document_node *n, const scope *names, mistakes *m, d
     *out = 0;
     if (n->kind == DOCUMENT_TEXT)
         return expression_part(n, 0, (int)strlen(n->text), names, m, out);
-    document_mistake(m, n, 0, "a %s where one number is expected",
+    document_mistake(m, n, 0, "found a %s where one number is expected",
                      n->kind == DOCUMENT_LIST ? "list" : "map");
     return 0;
 }
@@ -151,7 +152,8 @@ static int divide(const document_node *n, double from, double to, int at, const 
         return -1;
     }
     if (!(parts >= 1 && parts < MOST) || parts != floor(parts)) {
-        document_mistake(m, n, at, "%g parts; give a whole number from 1 to %d", parts, MOST - 1);
+        document_mistake(m, n, at, "the range has %g parts; give a whole number from 1 to %d",
+                         parts, MOST - 1);
         return -1;
     }
     const int count = (int)parts + 1;
@@ -184,14 +186,14 @@ static int read_range(const document_node *n, int dots, const scope *names, aren
         return divide(n, from, to, slash + 1, names, a, m, out);
     const double steps = (to - from) / step;
     if (!(step != 0 && steps >= -1e-9)) {
-        document_mistake(
-            m, n, word >= 0 ? word + 6 : 0,
-            "from %g to %g in steps of %g is empty; correct the ends or the sign of the step", from,
-            to, step);
+        document_mistake(m, n, word >= 0 ? word + 6 : 0,
+                         "the range from %g to %g in steps of %g is empty; correct the ends or the "
+                         "sign of the step",
+                         from, to, step);
         return -1;
     }
     if (steps >= MOST) {
-        document_mistake(m, n, 0, "more than %d values; take larger steps", MOST);
+        document_mistake(m, n, 0, "the range has more than %d values; use larger steps", MOST);
         return -1;
     }
     return fill(from, to, step, (int)floor(steps + 1e-9) + 1, a, m, out);

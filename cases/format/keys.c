@@ -98,9 +98,9 @@ const entry_field keys_loop[] = {
     {"let", ENTRY_NAMES, .below = keys_let, .summary = "values derived for this entry",
      .left_out = "none"},
     {"if", ENTRY_FORMS,
-     .summary =
-         "{NAME: VALUE, NAME: [VALUE, ...], ...}: values of names for which the entry exists",
-     .left_out = "it always exists"},
+     .summary = "{NAME: VALUE, NAME: [VALUE, ...], ...}: the entry exists only where these names "
+                "have these values",
+     .left_out = "the entry always exists"},
     {.name = NULL}};
 
 #define PHYSICS "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping"
@@ -136,16 +136,18 @@ const entry_field keys_root[] = {
     {"combinations", ENTRY_ENTRIES, .below = entry_combination,
      .summary = "{CASE: FACTOR, ...}: load cases that act together", .left_out = "none"},
     {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "analyses to run",
-     .left_out = "static, to the end of the paths of motions; linear without motions"},
+     .left_out =
+         "a static analysis to the end of the paths of motions; without motions a linear one"},
     {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "requested results",
      .left_out = "the usual ones of each analysis: displacements "
                  "of loaded or driven nodes, the first eigenvalue"},
     {"truths", ENTRY_LIST, .below = keys_truth, .summary = "reference values", .left_out = "none"},
     {"plane", ENTRY_WORD, .words = SCENE_PLANE_CHOICES,
-     .summary = "plane in which all nodes, also those of the mesh, are held", .left_out = "none"},
+     .summary = "plane in which all nodes, including those of the mesh, are held",
+     .left_out = "none"},
     {"omit", ENTRY_FORMS, .words = PHYSICS "|all|none",
      .summary = "omitted physics: a word, a list of words, or {WORD: yes, WORD: {NAME: VALUE}} "
-                "with values that names have if it is omitted",
+                "with the values that names take if it is omitted",
      .left_out = "none: all physics that sections, loads and analyses require is on"},
     {"shear_theory", ENTRY_WORD, .words = "haringx|engesser|own",
      .summary = "theory of shear in stability; own: that of each formulation", .usual = "haringx"},
@@ -154,8 +156,8 @@ const entry_field keys_root[] = {
                 "(also in motions in time without their own setting)",
      .usual = "consistent"},
     {"needs", ENTRY_WORDS, .words = PHYSICS "|engesser|haringx",
-     .summary = "of earlier versions: all physics except that "
-                "listed (and warping) is omitted; use omit instead",
+     .summary = "key of earlier versions: all physics not listed here, except warping, is omitted; "
+                "use omit instead",
      .left_out = "as given by omit"},
     {"meshes", ENTRY_FORMS,
      .summary = "elements per member: [EXPR, ...], or a choice of lists: {NAME: {VALUE: [...]}}",
@@ -307,7 +309,7 @@ static const char *elsewhere(const entry_field *table, const char *name)
         if (strcmp(name, acting[i]) == 0 && (table == entry_analysis || table == entry_quantity))
             return table == entry_analysis
                        ? "; write it within the kind: {static: {combination: NAME}}"
-                       : "; write it beside analysis: {analysis: NAME, "
+                       : "; write it next to analysis: {analysis: NAME, "
                          "combination: NAME}";
     return NULL;
 }

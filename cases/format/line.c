@@ -160,7 +160,7 @@ static void put_sentence(const scene *s, const scene_quantity *q, char *text, si
     if (!type->names_analysis)
         meaning_state(to, s, q);
     if (q->factor == -1)
-        fputs(", with the other sign", to);
+        fputs(", with the opposite sign", to);
     else if (q->factor != 1)
         fprintf(to, ", times %.10g", q->factor);
     if (q->offset != 0)
@@ -281,7 +281,7 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
         fprintf(to, ", largest value along the %s", name);
         break;
     case SCENE_MIN:
-        fprintf(to, ", least value along the %s", name);
+        fprintf(to, ", smallest value along the %s", name);
         break;
     case SCENE_CURVE:
         if (q->transform == SCENE_HISTORY)

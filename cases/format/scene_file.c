@@ -43,9 +43,10 @@ static void read_name(scene_file *file, mistakes *m)
     file->type.name = text;
     const size_t length = strlen(text);
     if (length == 0 || length >= SCENE_NAME || expression_name_length(text) != length)
-        document_mistake(m, n != NULL ? n : file->root, 0,
-                         "name '%.60s': use at most %d letters, digits and _, a letter first", text,
-                         SCENE_NAME - 1);
+        document_mistake(
+            m, n != NULL ? n : file->root, 0,
+            "name '%.60s': use at most %d letters, digits and _, beginning with a letter", text,
+            SCENE_NAME - 1);
 }
 
 static const char *line_of(const scene_file *file, const char *key)
@@ -296,7 +297,7 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
     fields_word(f, "model", "plate|solid", 0);
     if (!(t.uncertainty >= 0))
         document_mistake(m, document_find(f->map, "uncertainty"), 0,
-                         "an uncertainty of %g; give none, or one above zero", t.uncertainty);
+                         "the uncertainty is %g; give a positive one, or remove it", t.uncertainty);
     if ((strcmp(t.kind, "predicted") == 0) != (t.formulation[0] != '\0'))
         document_mistake(
             m, f->place, 0,

@@ -98,7 +98,7 @@ void parameter_table_read(scene_file *file, mistakes *m)
             const document_node *entry = all->item[i], *choices = document_find(entry, "choices");
             if (file->parameters == CASE_MAX_PARAMETERS) {
                 document_mistake(m, all->key[i], 0,
-                                 "more than %d parameters; put others under 'let'",
+                                 "the scene has more than %d parameters; move some to 'let'",
                                  CASE_MAX_PARAMETERS);
                 break;
             }
@@ -146,13 +146,14 @@ static void check_name(const builder *b, scene_list list, int i)
     const unrolled *entry = &b->list[list].entry[i];
     const size_t length = strlen(entry->name);
     if (length == 0 || length >= SCENE_NAME)
-        document_mistake(b->mistakes, entry->place, 0, "a name of %zu characters; give 1 to %d",
+        document_mistake(b->mistakes, entry->place, 0, "the name has %zu characters; use 1 to %d",
                          length, SCENE_NAME - 1);
     for (int k = 0; k < i; k++)
         if (strcmp(b->list[list].entry[k].name, entry->name) == 0) {
-            document_mistake(b->mistakes, entry->place, 0,
-                             "the name '%s' is used twice; put the loop variable into it: NAME_$i",
-                             entry->name);
+            document_mistake(
+                b->mistakes, entry->place, 0,
+                "the name '%s' is used twice; include the loop variable in it: NAME_$i",
+                entry->name);
             return;
         }
 }
@@ -226,7 +227,7 @@ static int is_omitted(const fields *f, const document_node *n)
     if (n->kind == DOCUMENT_TEXT && strcmp(n->text, "yes") == 0)
         return 1;
     document_mistake(f->b->mistakes, n, 0,
-                     "give yes, or the values that names have if it is omitted: {NAME: VALUE}");
+                     "give yes, or the values that names take if it is omitted: {NAME: VALUE}");
     return 0;
 }
 
@@ -264,7 +265,7 @@ static void read_physics(builder *b)
         if (strcmp(b->root->key[i]->text, "omit") == 0 ||
             strcmp(b->root->key[i]->text, "shear_theory") == 0)
             document_mistake(b->mistakes, b->root->key[i], 0,
-                             "%s: 'needs' of earlier versions is given too; remove 'needs'",
+                             "%s: 'needs' of earlier versions is also given; remove 'needs'",
                              b->root->key[i]->text);
     read_needs(&f);
 }
@@ -296,12 +297,13 @@ static void read_meshes(builder *b)
         return;
     }
     if (count > SCENE_MESHES)
-        document_mistake(b->mistakes, n, 0, "%d meshes; give at most %d", count, SCENE_MESHES);
+        document_mistake(b->mistakes, n, 0, "the list has %d meshes; give at most %d", count,
+                         SCENE_MESHES);
     for (int i = 0; i < count && i < SCENE_MESHES; i++) {
         mesh[i] = value[i] >= 1 && value[i] <= 1e7 ? (int)value[i] : 1;
         if (mesh[i] != value[i])
-            document_mistake(b->mistakes, n, 0, "a mesh of %g elements; give whole numbers from 1",
-                             value[i]);
+            document_mistake(b->mistakes, n, 0,
+                             "a mesh has %g elements; give positive whole numbers", value[i]);
     }
     scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }

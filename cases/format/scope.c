@@ -73,11 +73,10 @@ int scope_accepts(const scope *names, const document_node *key, mistakes *m)
 {
     const size_t length = strlen(key->text);
     if (length == 0 || expression_name_length(key->text) != length || length > 40) {
-        document_mistake(
-            m, key, 0,
-            "'%.60s' is not a valid name of a value; use at most 40 letters, digits and _, a "
-            "letter first",
-            key->text);
+        document_mistake(m, key, 0,
+                         "'%.60s' is not a valid name of a value; use at most 40 letters, digits "
+                         "and _, beginning with a letter",
+                         key->text);
         return 0;
     }
     if (expression_is_word(key->text, length)) {
@@ -143,13 +142,14 @@ static int value_text(const document_node *n, int at, size_t length, int said, c
     if (known != NULL) {
         document_mistake(m, n, at,
                          "$%s is %g: only whole numbers and words can be part of names; count with "
-                         "one loop name and compute with 'let'",
+                         "a loop name and compute the value with 'let'",
                          known->name, known->number);
         return 0;
     }
     snprintf(word, sizeof word, "%.*s", (int)(length < 40 ? length : 40), name);
-    document_mistake(m, n, at, "unknown loop name '$%s'%s", word,
-                     mistakes_remedy(scope_nearest(names, word), "; name it under 'for'", remedy));
+    document_mistake(
+        m, n, at, "unknown loop name '$%s'%s", word,
+        mistakes_remedy(scope_nearest(names, word), "; define it under 'for'", remedy));
     return 0;
 }
 

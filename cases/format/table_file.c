@@ -49,9 +49,10 @@ static int column_of(const table_file *t, const document_node *of, int header)
     for (int i = 0; header && i < t->columns; i++) {
         if (strcmp(t->field[i], of->text) == 0) {
             if (found >= 0) {
-                document_mistake(t->mistakes, of, 0,
-                                 "%.80s:%d: two columns are called '%.40s'; give its number",
-                                 t->name, t->line, of->text);
+                document_mistake(
+                    t->mistakes, of, 0,
+                    "%.80s:%d: two columns are called '%.40s'; give the number of the column",
+                    t->name, t->line, of->text);
                 return -1;
             }
             found = i;
@@ -64,8 +65,8 @@ static int column_of(const table_file *t, const document_node *of, int header)
     if (found < 0 && *of->text != '\0' && *end == '\0' && number >= 1 && number <= t->columns)
         found = (int)number - 1;
     if (found < 0 && header)
-        document_mistake(t->mistakes, of, 0, "%.80s:%d: no column '%.40s'; there are %s", t->name,
-                         t->line, of->text, known);
+        document_mistake(t->mistakes, of, 0, "%.80s:%d: no column '%.40s'; the columns are %s",
+                         t->name, t->line, of->text, known);
     else if (found < 0)
         document_mistake(t->mistakes, of, 0,
                          "%.80s:%d: no column '%.40s': without a header give its number, 1 to %d",
@@ -124,15 +125,16 @@ static int read_row(table_file *t, char *line)
             return 1;
     }
     if (count != t->columns)
-        return wrong(t, "another number of columns than in the first row", "",
-                     "; decimals have points, and columns commas between them");
+        return wrong(t, "the number of columns differs from that of the first row", "",
+                     "; write decimals with points, and commas between columns");
     for (int k = 0; k < 2; k++) {
         double value;
         const char *field = t->field[t->column[k]];
         if (!line_number(field, &value))
             return wrong(t, "no number: '", field, "'");
         if (k == 0 && t->list[0]->count > 0 && !(value > t->last))
-            return wrong(t, "'at' does not ascend at ", field, "; sort the rows, and omit repeats");
+            return wrong(t, "'at' does not ascend at ", field,
+                         "; sort the rows, and remove repeated ones");
         if (t->list[k]->count == DOCUMENT_ENTRIES)
             return wrong(t, "more than 10000 rows", "", "; write a smaller table");
         if (k == 0)
@@ -149,7 +151,7 @@ static int read_rows(table_file *t, FILE *from)
     while (fgets(t->text, sizeof t->text, from) != NULL) {
         t->line++;
         if (strlen(t->text) + 1 == sizeof t->text)
-            return wrong(t, "a line of more than 8000 characters", "",
+            return wrong(t, "a line has more than 8000 characters", "",
                          "; keep the columns that are needed");
         char *line = line_trim(t->text);
         if (!line_is_text(line))
@@ -160,7 +162,8 @@ static int read_rows(table_file *t, FILE *from)
     if (ferror(from))
         return wrong(t, "cannot be read further", "", "");
     if (t->list[0]->count < 2)
-        return wrong(t, "the file ends with fewer than two rows", "", "; a table has two or more");
+        return wrong(t, "the file ends with fewer than two rows", "",
+                     "; a table needs at least two");
     return 1;
 }
 
@@ -190,25 +193,27 @@ static void read_table(document_node *map, const char *beside, arena *a, mistake
         return;
     for (int k = 0; k < 2; k++)
         if (t.of[k] == NULL || t.of[k]->kind != DOCUMENT_TEXT) {
-            document_mistake(m, t.of[k] != NULL ? t.of[k] : file, 0,
-                             "with 'file', 'at' and 'value' are columns of it: names in its "
-                             "header, or numbers");
+            document_mistake(
+                m, t.of[k] != NULL ? t.of[k] : file, 0,
+                "with 'file', 'at' and 'value' are its columns: names in its header, or numbers");
             return;
         }
     if (file->kind != DOCUMENT_TEXT) {
-        document_mistake(m, file, 0, "'file' is the path of a CSV file, from the scene file");
+        document_mistake(m, file, 0,
+                         "'file' is the path of a CSV file, relative to the scene file");
         return;
     }
     if (beside == NULL) {
         document_mistake(m, file, 0,
-                         "a scene that is given as text has no folder with files; give the path of "
+                         "a scene that is given as text has no folder for files; give the path of "
                          "a scene file, or write the values");
         return;
     }
     t.name = file->text;
     FILE *from = open_beside(beside, file->text, a);
     if (from == NULL) {
-        document_mistake(m, file, 0, "%.120s cannot be read: %s; paths are from the scene file",
+        document_mistake(m, file, 0,
+                         "%.120s cannot be read: %s; paths are relative to the scene file",
                          file->text, strerror(errno));
         return;
     }

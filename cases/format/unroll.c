@@ -19,7 +19,7 @@ static void add(unroller *u, const scope *names)
 {
     const document_node *place = u->key != NULL ? u->key : u->value;
     if (u->count == UNROLL_MOST) {
-        document_mistake(u->mistakes, place, 0, "more than %d entries when loops are written out",
+        document_mistake(u->mistakes, place, 0, "loops expand to more than %d entries; reduce them",
                          UNROLL_MOST);
         u->failed = 1;
         return;
@@ -206,14 +206,15 @@ const document_node *choose_value(const document_node *n, const scope *names, mi
     if (n->kind != DOCUMENT_MAP)
         return n;
     if (n->count != 1 || n->item[0]->kind != DOCUMENT_MAP) {
-        document_mistake(m, n, 0, "a choice is one name: {NAME: {VALUE: ..., else: ...}}");
+        document_mistake(m, n, 0, "a choice depends on one name: {NAME: {VALUE: ..., else: ...}}");
         return NULL;
     }
     const int before = m->count;
     const scope *known = find(n->key[0], names, m);
     const document_node *found = known != NULL ? entry_of(known, n->item[0], names, m) : NULL;
     if (found == NULL && m->count == before)
-        document_mistake(m, n->key[0], 0, "no entry for the value of %s; add one, or else: ...",
+        document_mistake(m, n->key[0], 0,
+                         "the choice has no entry for the value of %s; add one, or 'else: ...'",
                          n->key[0]->text);
     return found != NULL ? choose_value(found, names, m) : NULL;
 }
@@ -267,7 +268,9 @@ static void read_turn(const document_node *turn, const scope *names, mistakes *m
     static const char axis[] = "x|y|z";
     double phi[3] = {0}, angle, q[4];
     if (turn->count != 1) {
-        document_mistake(m, turn, 0, "turn: one angle is expected, as {z: pi/2}; give 'axes' else");
+        document_mistake(
+            m, turn, 0,
+            "turn: one angle is expected, such as {z: pi/2}; for other rotations give 'axes'");
         return;
     }
     if (expression_number(turn->item[0], names, m, &angle))
@@ -298,8 +301,9 @@ static void check_ports(const document_node *part, const unrolled *instance, con
     if (places != NULL && places->kind != DOCUMENT_LIST)
         document_mistake(m, places, 0, "places: a list of names is expected");
     else if (p->connect != NULL && p->connect->count > connected)
-        document_mistake(m, p->connect, 0, "the part has %d places, not %d; connect those", ports,
-                         p->connect->count);
+        document_mistake(m, p->connect, 0,
+                         "the part has %d places, but %d are connected; connect only the former",
+                         ports, p->connect->count);
 }
 
 static const placement *read_placement(const document_node *part, const unrolled *instance,
@@ -339,7 +343,7 @@ static void add_entries(const document_node *part, const placement *p, const sco
         for (int i = 0; i < entries; i++) {
             if (count[k] >= UNROLL_MOST) {
                 document_mistake(m, own[i].place, 0,
-                                 "more than %d entries when instances are written out",
+                                 "instances expand to more than %d entries; reduce them",
                                  UNROLL_MOST);
                 return;
             }

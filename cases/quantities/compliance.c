@@ -27,7 +27,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     const scene_entry *e = &q->what.of.entry;
     fputs(e->row < SCENE_RX ? "displacement" : "rotation", to);
     meaning_node(to, s, "of", scene_compliance_of(&s->analysis[q->analysis])->node);
-    fprintf(to, " %s %c for a small unit %s %c there", e->row < SCENE_RX ? "along" : "about",
+    fprintf(to, " %s %c for a unit %s %c there, linearised", e->row < SCENE_RX ? "along" : "about",
             meaning_axis(e->row), meaning_load(e->column), meaning_axis(e->column));
 }
 

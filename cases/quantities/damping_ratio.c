@@ -30,8 +30,7 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     if (s->analysis[q->analysis].damped)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "quantity %s: the modes of %s are those without damping; give that damped: "
-                     "yes",
+                     "quantity %s: the modes of %s are undamped; add damped: yes to that analysis",
                      q->name, scene_called(s, SCENE_ANALYSES, q->analysis).text);
 }
 

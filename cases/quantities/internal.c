@@ -9,7 +9,7 @@ static const entry_field fields[] = {
     {"where", ENTRY_NUMBER, .needed = 1, .group = 2,
      .summary = "position in the member, from 0 at its start to 1 at its end",
      ENTRY_IN(scene_quantity, what.of.internal.place), .most = 1,
-     .range = "a part of the member's length, from 0 to 1"},
+     .range = "a fraction of the member's length, from 0 to 1"},
     {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to", .summary = "end of the member",
      ENTRY_IN(scene_quantity, what.of.internal.place)},
     {"along", ENTRY_WORD, .needed = 1, .group = 2, .words = "max|min|largest",

@@ -25,7 +25,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
         return;
     fputs(" for which the ", to);
     meaning_coordinate(to, s, d->condition_node, d->condition_component);
-    fprintf(to, " is that of the motion %s", s->driver[d->condition_driver].name);
+    fprintf(to, " equals that of the motion %s", s->driver[d->condition_driver].name);
 }
 
 static double read(const scene_quantity *q, const quantity_state *state)

@@ -45,13 +45,13 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     const scene_rate_of what = q->what.of.rated.rate;
     if (what == SCENE_SPEEDING && scheme == SCENE_CONSERVING)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: conserving steps know the mean acceleration of each step "
-                         "only; take integrator: radau, alpha or explicit",
+                         "quantity %s: the integrator conserving provides only the mean "
+                         "acceleration of each step; use integrator: radau, alpha or explicit",
                          q->name);
     if (what == SCENE_JERK && scheme != SCENE_RADAU && scheme != SCENE_EXPLICIT)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: integrators of order 2 know no jerk; take integrator: radau "
-                         "or explicit",
+                         "quantity %s: integrators of order 2 provide no jerk; use integrator: "
+                         "radau or explicit",
                          q->name);
     return STATUS_OK;
 }

@@ -5,7 +5,7 @@ static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     QUANTITY_NODE(component.node),
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS "|turn_1",
-     .summary = "coordinate of the node; turn_1: about the first axis of its sequence",
+     .summary = "coordinate of the node; turn_1: the rotation about the first axis of its sequence",
      ENTRY_IN(scene_quantity, what.of.component.component), .turns = ENTRY_COMPONENT},
     QUANTITY_ACTING,
     QUANTITY_TAKEN,
@@ -58,7 +58,7 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
             return NULL;
         }
     *key = "component";
-    return "turn_1 is for a node with a sequence whose first axis is x, y or z; use rx, ry or rz";
+    return "turn_1 requires a node with a sequence whose first axis is x, y or z; use rx, ry or rz";
 }
 
 static double read(const scene_quantity *q, const quantity_state *state)

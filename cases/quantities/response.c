@@ -65,7 +65,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     meaning_node(to, s, "of", r->node);
     fprintf(to, " %s %c", turns ? "about" : "along", meaning_axis(r->component));
     if (r->from != SCENE_NONE)
-        meaning_node(to, s, "less that of", r->from);
+        meaning_node(to, s, "minus that of", r->from);
     if (r->driver != SCENE_NONE) {
         fprintf(to, " for a unit motion %s", s->driver[r->driver].name);
         return;
@@ -87,18 +87,18 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_response *r = &q->what.of.response;
     if ((r->driver == SCENE_NONE) == (r->forced == SCENE_NONE))
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its input is not known; name the node of a force, or a "
-                         "motion with drive",
-                         q->name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "quantity %s: its input is missing; name the node of a force, or a motion with 'drive'",
+            q->name);
     if (r->of == SCENE_REACTING && r->from != SCENE_NONE)
-        return fault_set(f, STATUS_REFUSED, "quantity %s: a reaction is of one node; remove from",
-                         q->name);
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: a reaction belongs to one node; remove 'from'", q->name);
     if (r->driver == SCENE_NONE || s->driver[r->driver].condition_driver == SCENE_NONE)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "quantity %s: motion %s is unknown, and a response is that for a known one; "
-                     "name another",
+                     "quantity %s: the value of motion %s is unknown, but a response requires a "
+                     "known one; name another motion",
                      q->name, s->driver[r->driver].name);
 }
 

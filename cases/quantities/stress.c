@@ -5,13 +5,13 @@
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
-    {"member", ENTRY_NAME, .needed = 1, .summary = "member; its section not given by constants",
+    {"member", ENTRY_NAME, .needed = 1, .summary = "member whose section is not given by constants",
      ENTRY_IN(scene_quantity, what.of.stress.member), .of = SCENE_MEMBERS},
     {"where", ENTRY_NUMBER,
      .summary = "position in the member, from 0 at its start to 1 at its end",
      ENTRY_IN(scene_quantity, what.of.stress.place), .otherwise = NAN,
      .left_out = "the whole member", .most = 1,
-     .range = "a part of the member's length, from 0 to 1"},
+     .range = "a fraction of the member's length, from 0 to 1"},
     QUANTITY_SIDE(stress.before),
     {"measure", ENTRY_WORD, .words = SCENE_STRESS_CHOICES,
      .summary = "measure of stress at the points of the section", .usual = "von_mises",
@@ -32,7 +32,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     static const char *const measure[] = {
         [SCENE_VON_MISES] = "largest von Mises stress",
         [SCENE_NORMAL_MAX] = "largest normal stress (tension is positive)",
-        [SCENE_NORMAL_MIN] = "least normal stress (compression is negative)"};
+        [SCENE_NORMAL_MIN] = "smallest normal stress (compression is negative)"};
     const scene_stress *c = &q->what.of.stress;
     fputs(measure[c->measure], to);
     if (c->whole)

@@ -81,8 +81,8 @@ along_path_words along_path_end(const scene *s, int acting)
                  "; no load changes along the path: give a load that grows");
     else
         snprintf(out.text, sizeof out.text,
-                 "; nothing changes outside path %g to %g, where %s has its last value: give it "
-                 "values further on; a load without path and factor grows with the path",
+                 "; nothing changes outside path %g to %g, where %s keeps its last value: extend "
+                 "its values; a load without path and factor grows with the path",
                  c.begin, c.end, c.last.text);
     return out;
 }
@@ -105,8 +105,8 @@ static int is_straight(int stations, const double path[], const double value[])
 status along_path_proportional(const scene *s, int acting, fault *f)
 {
     static const char words[] =
-        "from path 0 to 1 its values are not on a line: the critical load of "
-        "a linear prestress has no sense; follow a static path";
+        "its values from path 0 to 1 are not on a straight line, so a critical load of a linear "
+        "prestress has no meaning; follow a static path";
     for (int i = 0; i < s->loads; i++) {
         const scene_load *load = &s->load[i];
         if (load->stations > 0 && !is_straight(load->stations, load->path, load->factor) &&
@@ -325,41 +325,39 @@ static int has_spin(const scene *s, int analysis, char *who, int size)
 static const char *const
     no_potential = "has no potential: the tangent is not symmetric, and flutter is possible; "
                    "request it about a static path, or use a motion",
-    *const no_tangent = "has a different stiffness on each side, and this analysis needs one at "
-                        "rest; request it about a static path that presses on one side",
+    *const no_tangent = "has a different stiffness on each side, but this analysis needs a single "
+                        "one at rest; request it about a static path that presses on one side",
     *const no_constraint = "ties components of nodes, which motions in time do not support; join "
                            "the nodes by a stiff spring, or into one body by part_of",
-    *const no_strains = "has stresses that the undeformed state has not; request it about a static "
+    *const no_strains = "has stresses that the undeformed state lacks; request it about a static "
                         "or a linear analysis",
     *const no_drive =
         "is moved, but a continuation changes loads only; remove it, or use a static path",
-    *const no_spin = "turns, and this analysis does not count the Coriolis "
-                     "forces on what moves there; use a 'rotation' analysis "
-                     "with that omega for frequencies";
+    *const no_spin = "rotates, but this analysis omits the Coriolis forces on moving masses; use a "
+                     "'rotation' analysis with that omega for frequencies";
 
 /* Columns: linear, static, continuation, buckling and about a path, modal and about a linear
  * analysis and a path, compliance and about a path, rotation, motion, harmonic and about a linear
  * analysis and a path. */
 const scene_input scene_inputs[] = {
     {"force", "uuuuu-uu-uuu-uu", NULL, has_force},
-    {"force that follows", "uusxu-xu-usu-xu", no_potential, has_following_force},
+    {"follower force", "uusxu-xu-usu-xu", no_potential, has_following_force},
     {"force at an offset from its node", "uuusu-su-uuu-su", NULL, has_force_beside},
     {"moment", "uussu-su-usu-su", NULL, has_moment},
-    {"moment that follows", "uusxu-xu-usu-xu", no_potential, has_following_moment},
+    {"follower moment", "uusxu-xu-usu-xu", no_potential, has_following_moment},
     {"load along a member", "uuuuu-uu-uuu-uu", NULL, has_line},
-    {"load along a member that follows", "uusxu-xu-usu-xu", no_potential, has_following_line},
+    {"follower load along a member", "uusxu-xu-usu-xu", no_potential, has_following_line},
     {"load along a part of a member", "uuuuu-uu-uuu-uu", NULL, has_part_of_line},
-    {"load that changes along a member", "uuuuu-uu-uuu-uu", NULL, has_varying_line},
+    {"load that varies along a member", "uuuuu-uu-uuu-uu", NULL, has_varying_line},
     {"lumped load along a member", "uuuuu-uu-uuu-uu", NULL, has_lumped_line},
     {"moments along a member", "uusxu-xu-usu-xu", no_potential, has_line_of_moments},
     {"force within a member", "uuuuu-uu-uuu-uu", NULL, has_force_within},
-    {"force within a member that follows", "uusxu-xu-usu-xu", no_potential,
-     has_following_force_within},
+    {"follower force within a member", "uusxu-xu-usu-xu", no_potential, has_following_force_within},
     {"moment within a member", "uusxu-xu-usu-xu", no_potential, has_moment_within},
     {"gravity on members", "uuuuu-uu-uuu-uu", NULL, has_gravity},
     {"weight of a body", "uuuuu-uu-uuu-uu", NULL, has_weight},
     {"temperature", "uuuuu-uu-uuu-uu", NULL, has_temperature},
-    {"load that stays", "uuuuu-uu-uuu-uu", NULL, has_staying},
+    {"constant load", "uuuuu-uu-uuu-uu", NULL, has_staying},
     {"strain of a member", "uuuuuuuuuuuuxuu", no_strains, has_strain},
     {"pretension", "uuuuuuuuuuuuxuu", no_strains, has_pretension},
     {"unstressed length", "uuuuuuuuuuuuxuu", no_strains, has_unstressed_length},
@@ -377,8 +375,8 @@ const scene_input scene_inputs[] = {
     {"release", "uuuuuuuuuuuuuuu", NULL, has_release},
     {"warping held", "uuuuuuuuuuuuuuu", NULL, has_held_warping},
     {"warping shared", "uuuuuuuuuuuuuuu", NULL, has_shared_warping},
-    {"node that another carries", "uuuuuuuuuuuuuuu", NULL, has_tied},
-    {"supports in axes of their own", "uuuuuuuuuuuuuuu", NULL, has_axes},
+    {"node attached to another", "uuuuuuuuuuuuuuu", NULL, has_tied},
+    {"supports in rotated axes", "uuuuuuuuuuuuuuu", NULL, has_axes},
     {"constraint", "uuuuuuuuuuuxuuu", no_constraint, has_constraint},
     {"fork", "uuuuuuuuuuuuuuu", NULL, has_fork},
     {"mass of a node", "-ii-iuuu-iuuuuu", NULL, has_mass},
@@ -386,7 +384,7 @@ const scene_input scene_inputs[] = {
     {"motion of a case", "uuxuu-uu-uuu-uu", no_drive, has_drive_of_case},
     {"motion of a node", "uuxuu-uu-uuu-uu", no_drive, has_drive},
     {"velocity at the start", "-----------u---", NULL, has_start},
-    {"axes that turn", "-uu-u--x-uuu--x", no_spin, has_spin},
+    {"rotating axes", "-uu-u--x-uuu--x", no_spin, has_spin},
     {"damping", "----i--i---uuuu", NULL, has_damping},
     {"dashpot", "----i--i---uuuu", NULL, has_dashpot},
     {NULL, "", NULL, NULL}};

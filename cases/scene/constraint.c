@@ -110,13 +110,13 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
     const scene_node *n = &s->node[node];
     const int angle = component < SCENE_RX ? 0 : angle_of(s, node, component);
     if (n->attached != SCENE_NONE)
-        return fault_set(f, STATUS_REFUSED, "%s: %s moves with %s; name that one",
+        return fault_set(f, STATUS_REFUSED, "%s: %s moves with %s; name the latter instead",
                          scene_called(s, SCENE_CONSTRAINTS, constraint).text,
                          scene_called(s, SCENE_NODES, node).text,
                          scene_called(s, SCENE_NODES, n->attached).text);
     if (leaves_plane(s, node, component))
         return refuse(s, constraint, node, component,
-                      "leaves the plane of the scene, so that it is held; remove it", f);
+                      "leaves the plane of the scene and is therefore held; remove it", f);
     *coordinate = component;
     if (component >= SCENE_RX && turns_together(n, &s->constraint[constraint]) &&
         s->plane == SCENE_SPACE) {
@@ -125,17 +125,17 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
     }
     if (angle == SCENE_NONE)
         return refuse(s, constraint, node, component,
-                      "is not a turn about a fixed axis; hold the node's two other turns, or name "
-                      "rx, ry and rz of nodes that turn freely",
+                      "is not a rotation about a fixed axis; hold the node's two other rotations, "
+                      "or name rx, ry and rz of nodes that rotate freely",
                       f);
     *coordinate = component < SCENE_RX ? component : SCENE_RX + angle;
     *motion = component < SCENE_RX ? n->translation[component] : n->angle[angle];
     if (*motion == SCENE_HELD)
         return refuse(s, constraint, node, component,
-                      "is held and in a constraint; take one of them away", f);
+                      "is both held and constrained; remove one of them", f);
     if (is_condition(s, node, component, *motion))
         return refuse(s, constraint, node, component,
-                      "belongs to a motion of unknown value; take the constraint away", f);
+                      "belongs to a motion of unknown value; remove the constraint", f);
     return STATUS_OK;
 }
 
@@ -172,11 +172,10 @@ static status join(const scene *s, int constraint, int k, int component, scene_t
     const double ratio = c->ratio * first.ratio / other.ratio;
     if (first.node == other.node && first.coordinate == other.coordinate)
         return refuse(s, constraint, c->node[k], component,
-                      "follows already from other constraints; remove it", f);
+                      "already follows from other constraints; remove it", f);
     if (motion_at(s, first) >= 0 && motion_at(s, other) >= 0)
         return refuse(s, constraint, c->node[k], component,
-                      "is driven twice, by a motion and by the constraint; take one of them away",
-                      f);
+                      "is driven twice, by a motion and by the constraint; remove one of them", f);
     const int reversed = motion_at(s, other) >= 0 ||
                          (motion_at(s, first) < 0 && ALL * other.node + other.coordinate <
                                                          ALL * first.node + first.coordinate);
@@ -193,25 +192,26 @@ static status check_names(const scene *s, int i, fault *f)
     const scene_words who = scene_called(s, SCENE_CONSTRAINTS, i);
     int single = c->components != 0 && (c->components & (c->components - 1)) == 0;
     if (c->components == 0 || c->components >> ALL != 0)
-        return fault_set(f, STATUS_REFUSED, "%s: it has no components; give ux, uy, uz, rx, ry, rz",
-                         who.text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: no components are given; give ux, uy, uz, rx, ry, rz", who.text);
     if (c->nodes < 2)
-        return fault_set(f, STATUS_REFUSED, "%s: it has not two nodes; give two or more", who.text);
+        return fault_set(f, STATUS_REFUSED, "%s: it has fewer than two nodes; give two or more",
+                         who.text);
     if (!isfinite(c->ratio) || !(fabs(c->ratio) >= 1e-6 && fabs(c->ratio) <= 1e6))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: ratio = %g; give one of size 1e-6 to 1e6, or hold the component",
+                         "%s: ratio = %g; give a magnitude from 1e-6 to 1e6, or hold the component",
                          who.text, c->ratio);
     if (c->ratio != 1 && !(single && c->nodes == 2))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a ratio is of one component of two nodes; write one entry for each",
+                         "%s: a ratio relates one component of two nodes; write one entry for each",
                          who.text);
     for (int k = 0; k < c->nodes; k++) {
         if (c->node[k] < 0 || c->node[k] >= s->nodes)
-            return fault_set(f, STATUS_REFUSED, "%s: a node of it does not exist; add it first",
+            return fault_set(f, STATUS_REFUSED, "%s: one of its nodes does not exist; add it first",
                              who.text);
         for (int j = 0; j < k; j++)
             if (c->node[j] == c->node[k])
-                return fault_set(f, STATUS_REFUSED, "%s: %s is in it twice; name another node",
+                return fault_set(f, STATUS_REFUSED, "%s: %s is named twice; name another node",
                                  who.text, scene_called(s, SCENE_NODES, c->node[k]).text);
     }
     return STATUS_OK;

@@ -90,8 +90,8 @@ static status reverse(scene *s, fault *f)
         const int p = m->p, warp_p = m->warp_p, section_p = m->section;
         if (m->curvature[0] != 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: initially twisted: its y axis at the other end is not known "
-                             "here; keep its order of nodes",
+                             "%s: is initially twisted, so its y axis at the other end is not "
+                             "known here; keep its order of nodes",
                              scene_called(s, SCENE_MEMBERS, i).text);
         for (int k = 0; k < 2 && m->half_waves > 0 && m->half_waves % 2 == 0; k++)
             m->bow[k] = -m->bow[k];
@@ -123,8 +123,8 @@ static status reverse(scene *s, fault *f)
             q->what.of.deflection.place = 1 - q->what.of.deflection.place;
         else if (quantity_type_of(q) == &quantity_hinge)
             return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: of a released end, whose axes turn where its member is "
-                             "reversed; remove it",
+                             "quantity %s: reads a released end, whose axes change when its member "
+                             "is reversed; remove it",
                              q->name);
     }
     return STATUS_OK;
@@ -148,7 +148,7 @@ static status split_quantity(scene_quantity *q, double fraction, int second, fau
         (stress && scene_stress_of(q)->whole))
         return fault_set(
             f, STATUS_REFUSED,
-            "quantity %s is for all of member 0, which is split; request a position of it",
+            "quantity %s covers the whole of member 0, which is split; request a position on it",
             q->name);
     if (internal) {
         const scene_internal what = *scene_internal_of(q);
@@ -251,9 +251,9 @@ static status split(scene *s, double fraction, fault *f)
     scene_chord(s, 0, chord);
     for (int k = 0; k < 3; k++) {
         if (first.curvature[k] != 0 || first.bow[0] != 0 || first.bow[1] != 0)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "member 0: curved, only straight members are split; use more elements instead");
+            return fault_set(f, STATUS_REFUSED,
+                             "member 0 is curved, but only straight members can be split; use more "
+                             "elements instead");
         between[k] = start[k] + fraction * chord[k];
     }
     const int name = unused_name(s), middle = scene_add_node(s, between[0], between[1], between[2]);

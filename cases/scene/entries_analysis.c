@@ -174,14 +174,14 @@ static const entry_field start[] = {
     {.name = NULL}};
 
 #define OF_MODES                                                                                   \
-    "of modes, which motions do not use; at a frequency f mass: 4*pi*f*ratio has that ratio, or "  \
-    "damping: ratio/(pi*f) of members"
+    "for modes, which motions do not use; at a frequency f, mass: 4*pi*f*ratio gives that ratio, " \
+    "or damping: ratio/(pi*f) of members"
 static const entry_field of_masses[] = {
     {"mass", ENTRY_NUMBER, .needed = 1, .unit = "1/s",
-     .summary = "force per momentum of all masses, in fixed axes; not with conserving",
+     .summary = "damping force over momentum, for all masses in fixed axes; not with conserving",
      ENTRY_IN(scene_analysis, damping.mass), .most = INFINITY},
     {"stiffness", ENTRY_LATER,
-     .summary = "not of a motion; give it as damping: b [s] of each member, and b times their "
+     .summary = "not for motions; give it as damping: b [s] of each member, and b times their "
                 "stiffness as damping of springs"},
     {"ratio", ENTRY_LATER, .summary = OF_MODES},
     {"ratios", ENTRY_LATER, .summary = OF_MODES},

@@ -21,7 +21,7 @@ static const entry_field fork_[] = {
 
 static const entry_field turn[] = {
     {"axis", ENTRY_FORMS, .needed = 1,
-     .summary = "x, y, z or [3]; it rotates with the angles before it"},
+     .summary = "x, y, z or [3]; it rotates with the preceding angles"},
     {"angle", ENTRY_NAME, .needed = 1, .summary = "free, held or the name of a motion"},
     {.name = NULL}};
 
@@ -163,7 +163,8 @@ const entry_field entry_member[] = {
     {.name = NULL}};
 
 #define FILE_OF_TABLE                                                                              \
-    "CSV file, path from the scene file; then 'at' and 'value' are its columns, by header or "     \
+    "CSV file, path relative to the scene file; then 'at' and 'value' are its columns, by header " \
+    "or "                                                                                          \
     "number"
 #define NO_FILE "none: numbers here"
 #define TABLE(which, k, length, force)                                                             \
@@ -173,7 +174,7 @@ const entry_field entry_member[] = {
          .summary = "displacements or rotations, ascending", ENTRY_IN(scene_spring, table[k].at)}, \
         {"value", ENTRY_NUMBERS, .needed = 1, .unit = (force),                                     \
          .summary =                                                                                \
-             "forces or moments at these, not decreasing, 0 at 0; linear between and beyond",      \
+             "forces or moments at these, not decreasing, 0 at 0; linear between and beyond them", \
          ENTRY_IN(scene_spring, table[k].value)},                                                  \
         {.name = NULL}};
 TABLE(ux, 0, "m", "N")
@@ -238,7 +239,8 @@ const entry_field entry_driver[] = {
      .left_out = "unit of the driven component"},
     {"path", ENTRY_NUMBERS, .summary = "path parameter, ascending",
      .left_out = "none; required with value"},
-    {"value", ENTRY_NUMBERS, .summary = "at these, linear between; in time what it has at the end",
+    {"value", ENTRY_NUMBERS,
+     .summary = "values at these, linear between; a motion in time uses the last one",
      .left_out = "none; for a motion in time, or unknown"},
     {"such_that", ENTRY_MAP, .group = 1, .below = condition,
      .summary = "condition that determines an unknown motion", .left_out = "the motion is known"},
@@ -435,7 +437,7 @@ static const entry_field given[] = {
 
 /* Sizes refer to the centre lines of the walls. */
 static const entry_field flanged[] = {
-    {"depth", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "distance of the flanges"},
+    {"depth", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "distance between the flanges"},
     {"flange", ENTRY_NUMBER, .needed = 1, .unit = "m",
      .summary = "width of a flange; channel, zed: from the web"},
     {"flange_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m",
@@ -491,19 +493,19 @@ const entry_field entry_section[] = {
                 "diagonal",
      .usual = "[0, 0, 0, 0, 0, 0]"},
     {"shear_factor", ENTRY_FORMS, .summary = "rectangle: k, or [k_y, k_z]",
-     .left_out = "5/6, with the warping's own shear"},
+     .left_out = "5/6, with the shear of the warping itself"},
     {"thickness_terms", ENTRY_WORD, .words = "no|yes", .summary = "walls: include t^3 terms",
      .usual = "no", ENTRY_IN(section_spec, thickness_terms)},
-    {"cells", ENTRY_WHOLE, .summary = "number of cells that the walls close", .usual = "0",
+    {"cells", ENTRY_WHOLE, .summary = "number of closed cells that the walls form", .usual = "0",
      ENTRY_IN(section_spec, cells), .most = SECTION_MAX_WALLS},
     {"given", ENTRY_MAP, .below = given, .summary = "constants that replace computed ones",
      .left_out = "none"},
     {"young", ENTRY_NUMBER, .unit = "Pa",
-     .summary = "modulus of elasticity; for all sections but stiffness",
+     .summary = "modulus of elasticity; for all sections except those given by stiffness",
      .left_out = "required, unless stiffness is given", ENTRY_IN(section_spec, young),
      .otherwise = 1, .always = 1},
     {"shear_modulus", ENTRY_NUMBER, .unit = "Pa",
-     .summary = "E/(2 (1 + nu)); for all sections but stiffness",
+     .summary = "E/(2 (1 + nu)); for all sections except those given by stiffness",
      .left_out = "required, unless stiffness is given", ENTRY_IN(section_spec, shear_modulus),
      .otherwise = 1, .always = 1},
     {"density", ENTRY_NUMBER, .unit = "kg/m^3", .summary = "density; 0: no inertia", .usual = "0",

@@ -346,7 +346,7 @@ static status read_literal(reader *r)
     const int from = r->at, length = number_length(r->text + from, r->end - from);
     char digits[NUMBER_TEXT];
     if (length == 0 || (length == 1 && !is_digit(r->text[from])))
-        return WRONG(r, from, "a point without digits; write a number");
+        return WRONG(r, from, "a decimal point without digits; write a number");
     if (length >= NUMBER_TEXT)
         return WRONG(r, from, "a number of more than 60 characters; shorten it");
     memcpy(digits, r->text + from, (size_t)length);
@@ -376,8 +376,8 @@ static status read_arguments(reader *r, const expression_function *f, int word, 
         TRY(read_sum(r));
         const double *given = number_from(r, first);
         if (given == NULL && f->in_time == JET_NUMBER)
-            return WRONG(r, word, "%s is of numbers only, and t is in it; %s", f->name,
-                         f->kinked ? "it makes kinks, where steps must end; give pieces instead"
+            return WRONG(r, word, "%s takes numbers only, but its argument contains t; %s", f->name,
+                         f->kinked ? "it has kinks, where steps must end; give pieces instead"
                                    : "write it with atan or sqrt");
         if ((*count)++ == 0 || given == NULL)
             continue;
@@ -399,14 +399,14 @@ static status read_call(reader *r, const expression_function *f, int word)
     TRY(read_arguments(r, f, word, &count));
     if (f->arguments < 0 ? count < 2 : count != f->arguments)
         return WRONG(r, word, "%s takes %s, not %d", f->name,
-                     f->arguments < 0 ? "two arguments or more" : several[f->arguments], count);
+                     f->arguments < 0 ? "two or more arguments" : several[f->arguments], count);
     double *number = number_from(r, first);
     if (number == NULL)
         return emit(r, f->in_time, 0, 0);
     *number = f->of_one != NULL ? f->of_one(*number) : *number;
     return isfinite(*number)
                ? STATUS_OK
-               : WRONG(r, word, "%s has no value there; look at its arguments", f->name);
+               : WRONG(r, word, "%s has no value there; check its arguments", f->name);
 }
 
 static status read_name(reader *r)
@@ -422,10 +422,10 @@ static status read_name(reader *r)
         return emit(r, JET_TIME, 0, 1);
     }
     if (f == NULL && r->find == NULL)
-        return WRONG(
-            r, from,
-            "no such name; there are %spi, deg, and functions such as sin, cosh, exp, sqrt",
-            r->in_time ? "t, " : "");
+        return WRONG(r, from,
+                     "unknown name; the known ones are %spi, deg, and functions such as sin, cosh, "
+                     "exp, sqrt",
+                     r->in_time ? "t, " : "");
     if (f == NULL)
         return r->find(r->names, r->text, &r->at, &value, r->mistake)
                    ? emit(r, JET_NUMBER, value, 1)
@@ -529,7 +529,7 @@ static status read_all(reader *r)
     const char rest = here(r);
     if (rest == '\0')
         return STATUS_OK;
-    return rest == '.' ? WRONG(r, r->at, "a range where one number is expected")
+    return rest == '.' ? WRONG(r, r->at, "found a range where one number is expected")
                        : WRONG(r, r->at, "'%.20s' after the expression; is an operator missing?",
                                r->text + r->at);
 }

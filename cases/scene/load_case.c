@@ -86,15 +86,16 @@ static status check_loads(const scene *s, fault *f)
 {
     for (int i = 0; i < s->loads; i++)
         if (s->cases > 0 && s->load[i].load_case == SCENE_NONE)
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: it has no case, and others have one; give it case: NAME, as "
-                             "%s",
-                             scene_called(s, SCENE_LOADS, i).text, s->load_case[0].name);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: it has no load case, but others have one; give it case: NAME, such as %s",
+                scene_called(s, SCENE_LOADS, i).text, s->load_case[0].name);
     for (int i = 0; i < s->drivers; i++)
         if (s->driver[i].value == NULL && s->driver[i].load_case != SCENE_NONE)
-            return fault_set(f, STATUS_REFUSED,
-                             "driver %s: it is unknown and follows from what acts; remove its case",
-                             s->driver[i].name);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "driver %s: its value is unknown and follows from the loads; remove its case",
+                s->driver[i].name);
     return STATUS_OK;
 }
 
@@ -104,23 +105,23 @@ static status check_combination(const scene *s, int i, fault *f)
     const scene_words who = scene_called(s, SCENE_COMBINATIONS, i);
     if (c->terms == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it has no load case of this scene, so that nothing acts; give it "
+                         "%s: it contains no load case of this scene, so nothing acts; give it "
                          "{CASE: FACTOR}, or the conditions 'if' of its loads",
                          who.text);
     for (int k = 0; k < s->cases; k++)
         if (strcmp(s->load_case[k].name, c->name) == 0)
-            return fault_set(f, STATUS_REFUSED, "%s: a load case has this name; rename one of them",
-                             who.text);
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: a load case has the same name; rename one of them", who.text);
     for (int k = 0; k < c->terms; k++) {
         if (c->term[k].load_case < 0 || c->term[k].load_case >= s->cases ||
             !isfinite(c->term[k].factor))
             return fault_set(f, STATUS_REFUSED,
-                             "%s: term %d is no load case with a finite factor; give both",
+                             "%s: term %d is not a load case with a finite factor; give both",
                              who.text, k);
         for (int j = 0; j < k; j++)
             if (c->term[j].load_case == c->term[k].load_case)
                 return fault_set(f, STATUS_REFUSED,
-                                 "%s: load case %s is in it twice; add up its factors", who.text,
+                                 "%s: load case %s is listed twice; add up its factors", who.text,
                                  s->load_case[c->term[k].load_case].name);
     }
     return STATUS_OK;
@@ -153,23 +154,24 @@ status scene_validate_acting(const scene *s, int i, fault *f)
                                                                 a->kind != SCENE_HARMONIC;
     if (own > 0 && a->follows != SCENE_NONE)
         return fault_set(
-            f, STATUS_REFUSED, "%s: it is about %s, and the loads of that act; remove its %s",
+            f, STATUS_REFUSED, "%s: its base state is that of %s, whose loads act; remove its %s",
             scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
             a->acting.combination != SCENE_NONE ? "combination" : "case");
     if (own > 0 && !loaded)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: no load acts in it; name a state with 'about', and the loads there",
+                         "%s: no load acts in this analysis; name a base state with 'about', and "
+                         "give that analysis the loads",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (a->follows != SCENE_NONE && scene_solves_all(s, a->follows))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it is about %s, which solves every load case and combination; give "
-                         "that one %s",
+                         "%s: its base state is that of %s, which solves every load case and "
+                         "combination; give that analysis %s",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          scene_name(s, SCENE_ANALYSES, a->follows).text, example(s).text);
     if (s->cases == 0 || own > 0 || !loaded || a->follows != SCENE_NONE || scene_solves_all(s, i))
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%s: loads have cases, and it does not say which of them act; give it %s%s",
+                     "%s: loads have cases, but this analysis does not select any; give it %s%s",
                      scene_called(s, SCENE_ANALYSES, i).text, example(s).text,
                      s->combinations > 0 ? "" : ", or combinations: {all: {CASE: 1, CASE: 1}}");
 }
@@ -181,17 +183,18 @@ status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
     const scene_words of = scene_name(s, SCENE_ANALYSES, q->analysis);
     if (all && !says)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: %s solves every load case and combination; say which with "
-                         "%s, or take the envelope: max, min or largest",
+                         "quantity %s: %s solves every load case and combination; select one with "
+                         "%s, or request an envelope: max, min or largest",
                          q->name, of.text, example(s).text);
     if (!all && says && scene_acting_of(s, q->analysis) == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: %s has no load cases or combinations; remove which it is of",
+                         "quantity %s: %s has no load cases or combinations; remove 'case', "
+                         "'combination' and 'envelope'",
                          q->name, of.text);
     if (!all && says)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: %s is of %s alone; remove which it is of, or name a linear "
-                         "analysis without one",
+                         "quantity %s: %s is solved for %s alone; remove 'case', 'combination' and "
+                         "'envelope', or name a linear analysis without one",
                          q->name, of.text,
                          scene_acting_called(s, scene_acting_of(s, q->analysis)).text);
     for (int i = 0; i < q->overs; i++)

@@ -175,5 +175,5 @@ void meaning_place(FILE *to, double where, int before)
     if (where == 0 || where == 1)
         fprintf(to, " at the %s", where == 0 ? "beginning" : "end");
     else
-        fprintf(to, "%s at %.10g of the length", before ? " right before what acts" : "", where);
+        fprintf(to, "%s at %.10g of the length", before ? " just before the load" : "", where);
 }

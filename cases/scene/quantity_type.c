@@ -9,7 +9,7 @@ static const entry_field abscissa[] = {
      .left_out = "the path, time or frequency"},
     {"name", ENTRY_TEXT, .summary = "its name", .left_out = "path, time or frequency"},
     {"unit", ENTRY_TEXT, .summary = "its unit",
-     .left_out = "1; with factor 1 over time s, over frequency Hz"},
+     .left_out = "1; with factor 1: s over time, Hz over frequency"},
     {"factor", ENTRY_NUMBER, .summary = "factor of the path parameter", .usual = "1"},
     {"offset", ENTRY_NUMBER, .summary = "added to it", .usual = "0"},
     {.name = NULL}};

@@ -393,18 +393,18 @@ status scene_member_elongation(const scene *s, int member, double length, double
     const scene_member *m = &s->member[member];
     *out = m->unstressed_length != 0 ? (m->unstressed_length - length) / length : 0;
     if (!(fabs(*out) <= most_misfit))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: unstressed_length = %g m, of %g m as drawn; strains are of the length "
-            "as drawn, so give one within 1 %%, or draw it unstressed and move its end",
-            scene_called(s, SCENE_MEMBERS, member).text, m->unstressed_length, length);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: unstressed_length = %g m differs by more than 1 %% from the length "
+                         "as drawn, %g m, to which strains refer; give one within 1 %%, or draw "
+                         "the member unstressed and move its end",
+                         scene_called(s, SCENE_MEMBERS, member).text, m->unstressed_length, length);
     if (m->pretension == 0)
         return STATUS_OK;
     const double EA = axial_stiffness(s, m);
     if (!(EA > 0))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: pretension needs one section all along, whose axial force makes an "
-                         "elongation alone; give its unstressed_length",
+                         "%s: pretension requires one section along the whole member, in which an "
+                         "axial force causes elongation only; give its unstressed_length instead",
                          scene_called(s, SCENE_MEMBERS, member).text);
     *out = -m->pretension / EA;
     return STATUS_OK;

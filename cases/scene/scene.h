@@ -1493,14 +1493,14 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
      ENTRY_NAME,                                                                                   \
      .group = 3,                                                                                   \
      .summary = "load case, of a linear analysis that solves all",                                 \
-     .left_out = "as the analysis says",                                                           \
+     .left_out = "as given by the analysis",                                                       \
      ENTRY_IN(scene_quantity, acting.load_case),                                                   \
      .of = SCENE_CASES},                                                                           \
         {"combination",                                                                            \
          ENTRY_NAME,                                                                               \
          .group = 3,                                                                               \
          .summary = "of load cases, likewise",                                                     \
-         .left_out = "as the analysis says",                                                       \
+         .left_out = "as given by the analysis",                                                   \
          ENTRY_IN(scene_quantity, acting.combination),                                             \
          .of = SCENE_COMBINATIONS},                                                                \
         {"envelope",                                                                               \

@@ -72,7 +72,8 @@ static status scale_drivers(scene *s, double x, fault *f)
         const int length = is_length(s, i);
         if (length < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "driver '%s' moves lengths and angles: it has no unit of length",
+                             "driver '%s' prescribes both lengths and angles, so it has no unit of "
+                             "length; use one driver for each",
                              s->driver[i].name);
         if (s->driver[i].value == NULL || !length)
             continue;

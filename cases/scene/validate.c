@@ -41,7 +41,7 @@ static status check_member(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_MEMBERS, i).text);
     if (!(across > 0) || !(across * length - along * along > 1e-12 * across * length))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: its y axis is parallel to it; give one that points across",
+                         "%s: its y axis is parallel to the member; give one across it",
                          scene_called(s, SCENE_MEMBERS, i).text);
     if (scene_member_tapers(m))
         TRY(check_taper(s, i, f));
@@ -98,16 +98,18 @@ static const char *table_mistake(const scene_table *t)
     double most = fmax(fabs(t->value.value[0]), fabs(t->value.value[n - 1]));
     return fabs(scene_table_at(t, 0, &slope)) <= 1e-12 * most
                ? NULL
-               : "its value at 0 is not 0, and springs have no stress at rest; move it by that";
+               : "its value at 0 is not 0, but springs have no stress at rest; shift the values so "
+                 "that it is";
 }
 
 static status check_spring(const scene *s, int i, fault *f)
 {
     const scene_spring *p = &s->spring[i];
     if (p->p == p->q)
-        return fault_set(
-            f, STATUS_REFUSED, "%s: both its ends are %s; join two, or one and the ground",
-            scene_called(s, SCENE_SPRINGS, i).text, scene_called(s, SCENE_NODES, p->q).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: both its ends are %s; connect two nodes, or one node and the ground",
+                         scene_called(s, SCENE_SPRINGS, i).text,
+                         scene_called(s, SCENE_NODES, p->q).text);
     for (int k = 0; k < 6; k++) {
         static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
         const char *mistake = table_mistake(&p->table[k]);
@@ -117,14 +119,15 @@ static status check_spring(const scene *s, int i, fault *f)
     }
     if (!(p->asymmetry <= SECTION_MATRICES_SYMMETRIC) || !is_stiffness(p->stiffness))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: its stiffness is not symmetric, or gives energy away; give six "
-                         "numbers that are not negative, or such a matrix",
+                         "%s: its stiffness is not symmetric, or would supply energy; give six "
+                         "non-negative numbers, or a symmetric matrix without negative eigenvalues",
                          scene_called(s, SCENE_SPRINGS, i).text);
     if (!(p->damping_asymmetry <= SECTION_MATRICES_SYMMETRIC) || !is_stiffness(p->damping))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: its damping is not symmetric, or gives energy to a motion; give six "
-                         "numbers that are not negative, or such a matrix",
-                         scene_called(s, SCENE_SPRINGS, i).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: its damping is not symmetric, or would supply energy to a motion; give six "
+            "non-negative numbers, or a symmetric matrix without negative eigenvalues",
+            scene_called(s, SCENE_SPRINGS, i).text);
     return STATUS_OK;
 }
 
@@ -198,8 +201,8 @@ static status check_range(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->lumped && (!scene_load_along(load) || within))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it acts at one position, and only loads along a member are lumped; "
-                         "remove that",
+                         "%s: it acts at one position, but only loads along a member can be "
+                         "lumped; remove 'lumped'",
                          scene_called(s, SCENE_LOADS, i).text);
     if (within)
         return r[0] >= 0 && r[0] <= 1 && r[1] == r[0]
@@ -216,9 +219,11 @@ static status check_range(const scene *s, int i, fault *f)
                                "increasing fractions from 0 to 1",
                                scene_called(s, SCENE_LOADS, i).text, r[0], r[1]);
     if (r[0] != 0 || r[1] != (load->kind == SCENE_GRAVITY))
-        return fault_set(f, STATUS_REFUSED, "%s: a part of a member, and it is %s; remove that",
-                         scene_called(s, SCENE_LOADS, i).text,
-                         load->kind == SCENE_GRAVITY ? "the weight of all of one" : "at a node");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: it has 'from' and 'to' of a part of a member, but is %s; remove these",
+            scene_called(s, SCENE_LOADS, i).text,
+            load->kind == SCENE_GRAVITY ? "the weight of all of one" : "at a node");
     return STATUS_OK;
 }
 
@@ -233,8 +238,8 @@ static status check_temperature(const scene *s, int i, fault *f)
     if (load->lumped || load->follower || load->axes != SCENE_AXES_FIXED ||
         vec3_norm(load->at) > 0 || load->varies)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a temperature is of the sections of its member; take 'to_value', "
-                         "'lumped', 'at', 'axes' and 'follower' away",
+                         "%s: a temperature belongs to the sections of its member; remove "
+                         "'to_value', 'lumped', 'at', 'axes' and 'follower'",
                          scene_called(s, SCENE_LOADS, i).text);
     if (!isfinite(load->temperature) || !isfinite(load->gradient[0]) ||
         !isfinite(load->gradient[1]))
@@ -243,10 +248,10 @@ static status check_temperature(const scene *s, int i, fault *f)
     for (int k = 0; k < 2; k++)
         expands |= scene_constants(s, profile[k], &c, NULL) != STATUS_OK || c.expansion != 0;
     if (!expands)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: a temperature of %s, whose section has no expansion; give one [1/K]",
-                         scene_called(s, SCENE_LOADS, i).text,
-                         scene_called(s, SCENE_MEMBERS, load->where).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a temperature of %s, whose section has no expansion; give 'expansion' [1/K]",
+            scene_called(s, SCENE_LOADS, i).text, scene_called(s, SCENE_MEMBERS, load->where).text);
     return STATUS_OK;
 }
 
@@ -263,13 +268,13 @@ static status check_load_kind(const scene *s, int i, fault *f)
     if (vec3_norm(load->at) > 0 &&
         (scene_load_turns(load) || load->kind == SCENE_GRAVITY || load->kind == SCENE_WEIGHT))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: only forces act at an offset, moments are the same everywhere and "
-                         "gravity acts at the centres of mass; take 'at' away",
+                         "%s: only forces act at an offset; moments are the same everywhere, and "
+                         "gravity acts at the centres of mass; remove 'at'",
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->axes == SCENE_AXES_MEMBER && !scene_load_along(load))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it is in a member's axes and acts on a node; give fixed axes, or put "
-                         "it on a member",
+                         "%s: it is given in a member's axes but acts on a node; give fixed axes, "
+                         "or put it on a member",
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->kind != SCENE_GRAVITY && load->kind != SCENE_WEIGHT)
         return STATUS_OK;

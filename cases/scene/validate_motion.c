@@ -6,18 +6,19 @@
 static status check_steps(const scene *s, const scene_motion *m, int i, fault *f)
 {
     if (!(m->step > 0 && isfinite(m->step)))
-        return fault_set(f, STATUS_REFUSED, "%s: a step of %g s; give a positive one",
+        return fault_set(f, STATUS_REFUSED, "%s: its step is %g s; give a positive one",
                          scene_called(s, SCENE_ANALYSES, i).text, m->step);
     if (!(m->tolerance >= 0 && m->tolerance < 1))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a tolerance of %g; give a part of the size of the structure, 1e-4 or "
-                         "so, or 0: all steps are equal",
+                         "%s: its tolerance is %g; give a fraction of the size of the structure, "
+                         "such as 1e-4, or 0 for equal steps",
                          scene_called(s, SCENE_ANALYSES, i).text, m->tolerance);
     for (int k = 0; k < m->path.stations; k++)
         if (!(m->path.value[k] >= 0 && isfinite(m->path.value[k])))
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: a station at %g s; a motion begins at 0, give later instants",
-                             scene_called(s, SCENE_ANALYSES, i).text, m->path.value[k]);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: it has a station at %g s, but a motion starts at 0 s; give later times",
+                scene_called(s, SCENE_ANALYSES, i).text, m->path.value[k]);
     return STATUS_OK;
 }
 
@@ -55,7 +56,7 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
         if (start->velocity[k] != 0 || start->spin[k] != 0)
             return fault_set(
                 f, STATUS_REFUSED,
-                "%s: it continues a motion, with the velocities of that; remove its start",
+                "%s: it continues a motion with the velocities of that motion; remove its 'start'",
                 scene_called(s, SCENE_ANALYSES, i).text);
     if (scene_path_of(a)->value[0] < before->value[before->stations - 1])
         return fault_set(
@@ -85,7 +86,7 @@ static status check_follows(const scene *s, int i, fault *f)
         return fault_set(
             f, STATUS_REFUSED,
             "%s: a motion starts from the last state of a static path, a continuation, a rotation "
-            "or a motion, but it follows %s; follow one of these, or nothing",
+            "or a motion, but it follows %s; follow one of these, or none",
             scene_called(s, SCENE_ANALYSES, i).text,
             scene_analysis_name(s->analysis[follows].kind));
     if (follows != SCENE_NONE && s->analysis[follows].kind == SCENE_MOTION)
@@ -116,8 +117,8 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     int derivative;
     if (driver->value == NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "driver %s: it is unknown, and motions in time take known ones; give its "
-                         "values",
+                         "driver %s: its value is unknown, but motions in time require known ones; "
+                         "give its values",
                          driver->name);
     const scene_path *before = origin != SCENE_NONE ? scene_path_of(&s->analysis[origin]) : NULL;
     const double starts = before == NULL
@@ -126,11 +127,10 @@ static status check_driver(const scene *s, int d, int i, fault *f)
                                             before->value[before->stations - 1]);
     if (driver->function.pieces == 0) {
         if (before == NULL && (driver->stations > 1 || driver->value[0] != 0))
-            return fault_set(
-                f, STATUS_REFUSED,
-                "driver %s: its values are over a path, and a motion follows none; give a "
-                "function of time, or a static path to follow",
-                driver->name);
+            return fault_set(f, STATUS_REFUSED,
+                             "driver %s: its values are given over a path, but a motion follows "
+                             "none; give a function of time, or a static path to follow",
+                             driver->name);
         return STATUS_OK;
     }
     if (!function_finite(&driver->function, end, 2, &time))
@@ -166,20 +166,19 @@ static status check_temperature(const scene *s, int l, int i, fault *f)
         before == NULL ? at[0] : along_path_factor(load, before->value[before->stations - 1]);
     if (scene_motion_of(&s->analysis[i])->scheme == SCENE_CONSERVING)
         return fault_set(f, STATUS_REFUSED,
-                         "%s (conserving): %s changes in time and puts energy in; take the "
-                         "integrator alpha or radau, or a temperature that stays",
+                         "%s (conserving): %s changes in time and supplies energy; use the "
+                         "integrator alpha or radau, or a constant temperature",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          scene_called(s, SCENE_LOADS, l).text);
     if (!(fabs(at[0] - begin) <= 1e-9 * (1 + fabs(begin))))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: at 0 s its factor is %g, and the motion starts with a temperature of "
-                         "factor %g; begin there",
+                         "%s: at 0 s its factor is %g, but the motion starts with a temperature of "
+                         "factor %g; start with that factor",
                          scene_called(s, SCENE_LOADS, l).text, at[0], begin);
     if (!function_smooth(&load->function, path->value[path->stations - 1], &time, &derivative) &&
         derivative == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a temperature cannot jump, as it does at %g s; let it rise over a "
-                         "time",
+                         "%s: a temperature cannot jump, as it does at %g s; change it gradually",
                          scene_called(s, SCENE_LOADS, l).text, time);
     return STATUS_OK;
 }
@@ -192,8 +191,8 @@ static status check_load(const scene *s, int l, int i, fault *f)
     if (load->function.pieces == 0) {
         if (load->stations > 0 && s->analysis[i].follows == SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: its factors are over a path, and a motion follows none; give a "
-                             "function of time, or a static path to follow",
+                             "%s: its factors are given over a path, but a motion follows none; "
+                             "give a function of time, or a static path to follow",
                              scene_called(s, SCENE_LOADS, l).text);
         return STATUS_OK;
     }
@@ -212,8 +211,8 @@ static status scene_validate_motion(const scene *s, int i, fault *f)
     TRY(check_scheme(s, m, i, f));
     if (s->analysis[i].damping.mass > 0 && m->scheme == SCENE_CONSERVING)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the integrator conserving has no damping of masses; give integrator: "
-                         "radau, alpha or explicit, or dashpots in its place",
+                         "%s: the integrator conserving does not support damping of masses; use "
+                         "integrator: radau, alpha or explicit, or dashpots instead",
                          scene_called(s, SCENE_ANALYSES, i).text);
     TRY(check_follows(s, i, f));
     for (int d = 0; d < s->drivers; d++)
@@ -239,8 +238,8 @@ static status check_function(const scene_function *of, int idle, fault *f)
         return STATUS_OK;
     TRY(function_check(of, f));
     return idle ? fault_set(f, STATUS_REFUSED,
-                            "a function of time, and no analysis is in time; add a motion, or give "
-                            "values over a path")
+                            "it is a function of time, but no analysis is in time; add a motion, "
+                            "or give values over a path")
                 : STATUS_OK;
 }
 
@@ -276,7 +275,7 @@ static status check_path(const scene *s, const scene_analysis *a, int i, fault *
 {
     const scene_path *path = scene_path_of(a);
     if (path->stations < 1)
-        return fault_set(f, STATUS_REFUSED, "%s: a path needs a station; give one at least",
+        return fault_set(f, STATUS_REFUSED, "%s: a path needs stations; give at least one",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (a->kind != SCENE_CONTINUATION)
         for (int k = 1; k < path->stations; k++)
@@ -291,7 +290,8 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
 {
     if (a->follows != SCENE_NONE && scene_path_of(&s->analysis[a->follows]) == NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a compliance follows a path or nothing; name a static analysis",
+                         "%s: a compliance is that of a static path, or of the undeformed "
+                         "structure; name a static analysis",
                          scene_called(s, SCENE_ANALYSES, i).text);
     return STATUS_OK;
 }
@@ -310,11 +310,11 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
             scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
             scene_analysis_name(about));
     return fault_set(f, STATUS_REFUSED,
-                     "%s: %s about a state are about the last one of a static path%s, and %s "
-                     "is a %s analysis; name a static one, or remove 'about'%s",
+                     "%s: %s about a state require the last one of a static path%s, but %s is a %s "
+                     "analysis; name a static one, or remove 'about'%s",
                      scene_called(s, SCENE_ANALYSES, i).text,
                      a->kind == SCENE_MODAL ? "frequencies" : "critical loads",
-                     a->kind == SCENE_MODAL ? ", or about a linear analysis" : "",
+                     a->kind == SCENE_MODAL ? ", or a linear analysis" : "",
                      scene_name(s, SCENE_ANALYSES, a->follows).text, scene_analysis_name(about),
                      about == SCENE_ROTATION && a->kind == SCENE_MODAL
                          ? ", or request the frequencies of the rotation itself"
@@ -339,7 +339,7 @@ static status check_harmonic(const scene *s, const scene_analysis *a, int i, fau
     for (int k = 0; k < ratios->stations; k++)
         if (!(ratios->value[k] >= 0 && isfinite(ratios->value[k])))
             return fault_set(f, STATUS_REFUSED,
-                             "%s: a damping ratio of %g; give none below 0, such as 0.02", who.text,
+                             "%s: a damping ratio is %g; give 0 or more, such as 0.02", who.text,
                              ratios->value[k]);
     if (a->modes > 0 && ratios->stations > a->modes)
         return fault_set(f, STATUS_REFUSED,
@@ -347,8 +347,8 @@ static status check_harmonic(const scene *s, const scene_analysis *a, int i, fau
                          ratios->stations, a->modes);
     if (a->modes > 0 && !a->by_modes && !scene_has_ratios(a))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: modes have no part in a direct solution without ratios of damping; "
-                         "add solution: modal, or remove modes",
+                         "%s: a direct solution without damping ratios does not use modes; add "
+                         "solution: modal, or remove modes",
                          who.text);
     return STATUS_OK;
 }
@@ -358,13 +358,13 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
     const scene_analysis *a = &s->analysis[i];
     if (a->follows != SCENE_NONE && (a->follows < 0 || a->follows >= i))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it follows an analysis that is not before it; name an earlier one",
+                         "%s: it follows an analysis that comes later; name an earlier one",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (a->follows != SCENE_NONE && a->kind != SCENE_MOTION &&
         s->analysis[a->follows].kind == SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it is about a motion, whose forces are not in balance without those "
-                         "of inertia; follow a static path",
+                         "%s: its base state is that of a motion, whose forces are not in "
+                         "equilibrium without inertia; follow a static path",
                          scene_called(s, SCENE_ANALYSES, i).text);
     TRY(scene_validate_acting(s, i, f));
     if (a->follows != SCENE_NONE &&
@@ -377,14 +377,14 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
     if (a->kind == SCENE_MOTION)
         return scene_validate_motion(s, i, f);
     if (a->kind == SCENE_HARMONIC && !(a->of.harmonic.value[0] >= 0))
-        return fault_set(f, STATUS_REFUSED, "%s: a frequency of %g Hz; give none below 0",
+        return fault_set(f, STATUS_REFUSED, "%s: a frequency is %g Hz; give 0 or more",
                          scene_called(s, SCENE_ANALYSES, i).text, a->of.harmonic.value[0]);
     if (a->kind == SCENE_HARMONIC)
         TRY(check_harmonic(s, a, i, f));
     if (a->kind == SCENE_MODAL && !a->damped && (a->damping.mass > 0 || a->damping.stiffness > 0))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: its frequencies are those without damping, and damping is given; add "
-                         "damped: yes, or remove it",
+                         "%s: damping is given, but its frequencies are undamped; add damped: yes, "
+                         "or remove the damping",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if ((a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC) && is_asked(s, i))
         return scene_validate_mass(s, i, f);
@@ -404,18 +404,17 @@ status scene_spectrum_stations(const scene *s, const scene_quantity *q, int *fir
     *first = begin;
     *count = end - begin;
     if (*count < 3)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "quantity %s: a spectrum of %d stations in its window; give %s 3 at least, "
-            "evenly spaced, as stations: 0..1/1000",
-            q->name, *count, scene_called(s, SCENE_ANALYSES, q->analysis).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: its window contains %d stations, and a spectrum needs at "
+                         "least 3; give %s evenly spaced ones, such as stations: 0..1/1000",
+                         q->name, *count, scene_called(s, SCENE_ANALYSES, q->analysis).text);
     const double step = (at[end - 1] - at[begin]) / (*count - 1);
     for (int i = begin; i < end; i++)
         if (!(fabs(at[i] - (at[begin] + (i - begin) * step)) <= 1e-6 * step))
             return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: a spectrum is of evenly spaced stations, and %g s of %s "
-                             "is not at %g s; give a range, as stations: 0..1/1000, or a window "
-                             "('when') in which they are",
+                             "quantity %s: a spectrum requires evenly spaced stations, but %g s of "
+                             "%s is not at %g s; give a range, such as stations: 0..1/1000, or a "
+                             "window ('when') in which they are evenly spaced",
                              q->name, at[i], scene_called(s, SCENE_ANALYSES, q->analysis).text,
                              at[begin] + (i - begin) * step);
     return STATUS_OK;
@@ -429,14 +428,14 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
         return p->taper == SCENE_TAPER_NONE
                    ? STATUS_OK
                    : fault_set(f, STATUS_REFUSED,
-                               "quantity %s: a taper is of a spectrum; take: spectrum or psd, or "
-                               "remove it",
+                               "quantity %s: a taper applies to spectra only; write take: spectrum "
+                               "or psd, or remove it",
                                q->name);
     if (s->analysis[q->analysis].kind != SCENE_MOTION)
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: spectra are those of a motion in time; name one, or take: "
-                         "curve",
-                         q->name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "quantity %s: spectra require a motion in time; name one, or write take: curve",
+            q->name);
     if (!(p->from >= 0) || !isfinite(p->until) || (p->until != 0 && !(p->until > p->from)))
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: its window from %g to %g s is invalid; start at 0 s or "
@@ -451,7 +450,9 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     const scene_analysis *a = &s->analysis[q->analysis];
     const scene_passing *p = &q->passing;
     if (q->reduction < SCENE_LAST || q->reduction >= SCENE_REDUCTIONS)
-        return fault_set(f, STATUS_REFUSED, "quantity %s: no such reduction", q->name);
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: its statistic ('take') does not exist; name a known one",
+                         q->name);
     const int stations =
         scene_path_of(a) != NULL || (a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE);
     if (q->reduction != SCENE_LAST && !stations)
@@ -504,13 +505,13 @@ static status check_abscissa(const scene *s, const scene_quantity *q, fault *f)
         return fault_set(
             f, STATUS_REFUSED,
             "quantity %s: its curve is over %s, which is not another quantity with take: curve, or "
-            "a spectrum is one of them; add take: curve there, or name one that has it",
+            "one of the two is a spectrum; add take: curve there, or name a quantity that has it",
             q->name, q->x.name);
     if (x->analysis < 0 || x->analysis >= s->analyses ||
         path_of_curve(s, q, &points) != path_of_curve(s, x, &others) || points != others)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its curve is over %s, which is of another path; name a "
-                         "quantity of the same one",
+                         "quantity %s: its curve is over %s, which belongs to another path; name a "
+                         "quantity of the same path",
                          q->name, x->name);
     return STATUS_OK;
 }
@@ -520,11 +521,12 @@ status scene_validate_quantity(const scene *s, int i, fault *f)
     const scene_quantity *q = &s->quantity[i];
     for (int k = 0; k < i; k++)
         if (strcmp(s->quantity[k].name, q->name) == 0)
-            return fault_set(f, STATUS_REFUSED, "quantity %s: two of that name; rename one",
-                             q->name);
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: two quantities have this name; rename one", q->name);
     if (!scene_gives(s->analysis[q->analysis].kind, q))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: an analysis of this kind does not have it; name another one",
+                         "quantity %s: its analysis does not provide this kind of quantity; name "
+                         "another analysis",
                          q->name);
     TRY(scene_validate_case_of(s, q, f));
     TRY(check_passing(s, q, f));

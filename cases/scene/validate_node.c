@@ -93,8 +93,8 @@ static status check_body(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_NODES, i).text);
     if (!is_inertia(I))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: no body has this inertia, a principal moment is above the sum of the "
-                         "other two; correct it",
+                         "%s: no body has this inertia, because a principal moment exceeds the sum "
+                         "of the other two; correct it",
                          scene_called(s, SCENE_NODES, i).text);
     if (!is_reached(s, i))
         return fault_set(
@@ -141,10 +141,11 @@ status scene_validate_node(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_NODES, n->attached).text);
     for (int k = 0; k < 3; k++)
         if (n->translation[k] != SCENE_FREE || n->angle[k] != SCENE_FREE)
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: contradictory supports, it moves with %s; hold that one instead",
-                             scene_called(s, SCENE_NODES, i).text,
-                             scene_called(s, SCENE_NODES, n->attached).text);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: its supports contradict its motion with %s; hold that node instead",
+                scene_called(s, SCENE_NODES, i).text,
+                scene_called(s, SCENE_NODES, n->attached).text);
     return STATUS_OK;
 }
 
@@ -167,7 +168,7 @@ static int is_beside(const scene *s, const double v[3])
 static status refuse(const scene *s, scene_words who, const char *what, fault *f)
 {
     return fault_set(f, STATUS_REFUSED,
-                     "%s: %s, and the scene is held in its plane: take that or plane: %s away",
+                     "%s: %s, but the scene is held in its plane: remove that, or plane: %s",
                      who.text, what, scene_plane_name(s));
 }
 
@@ -204,17 +205,18 @@ static status check_turns(const scene *s, int i, fault *f)
         double axis[3];
         axis_of(n, k, axis);
         if (n->angle[k] >= 0 && is_beside(s, axis))
-            return refuse(s, scene_called(s, SCENE_NODES, i), "it is turned out of the plane", f);
+            return refuse(s, scene_called(s, SCENE_NODES, i), "it is rotated out of the plane", f);
         if (n->angle[k] == SCENE_FREE && is_beside(s, axis) && is_across(s, axis))
             return refuse(s, scene_called(s, SCENE_NODES, i),
-                          "it turns about an axis that is neither in the plane nor across it", f);
+                          "it rotates about an axis that is neither in the plane nor normal to it",
+                          f);
     }
     if (n->rotation == SCENE_ROTATION_FORK && is_across(s, n->axis[0]))
         return refuse(s, scene_called(s, SCENE_NODES, i), "the axis of its fork leaves the plane",
                       f);
     if (n->rotation == SCENE_ROTATION_FORK && is_across(s, n->axis[1]) && is_beside(s, n->axis[1]))
         return refuse(s, scene_called(s, SCENE_NODES, i),
-                      "the web of its fork is neither in the plane nor across it", f);
+                      "the web of its fork is neither in the plane nor normal to it", f);
     return STATUS_OK;
 }
 
@@ -230,8 +232,8 @@ static status check_node(const scene *s, int i, fault *f)
     for (int k = 0; k < 3; k++) {
         const double axis[3] = {R[k], R[3 + k], R[6 + k]};
         if (is_across(s, axis) && is_beside(s, axis))
-            return refuse(s, who, "an axis of its supports is neither in the plane nor across it",
-                          f);
+            return refuse(s, who,
+                          "an axis of its supports is neither in the plane nor normal to it", f);
         along = is_across(s, axis) ? k : along;
     }
     if (n->translation[along] >= 0)
@@ -267,7 +269,7 @@ static status check_release(const scene *s, int i, const double R[9], fault *f)
             if (is_across(s, axis) && is_beside(s, axis))
                 return refuse(s, scene_called(s, SCENE_MEMBERS, i),
                               "it is released along or about an axis that is neither in the plane "
-                              "nor across it",
+                              "nor normal to it",
                               f);
         }
     }
@@ -318,8 +320,8 @@ static status check_load(const scene *s, int i, fault *f)
     to_fixed(R, l->at, at);
     for (int k = 0; k < 2; k++)
         if (turns ? is_beside(s, v[k]) : is_across(s, v[k]))
-            return refuse(s, who, turns ? "it turns out of the plane" : "it acts out of the plane",
-                          f);
+            return refuse(s, who,
+                          turns ? "it rotates out of the plane" : "it acts out of the plane", f);
     return is_across(s, at) ? refuse(s, who, "it acts outside the plane", f) : STATUS_OK;
 }
 
@@ -333,7 +335,7 @@ static status check_frame(const scene *s, int i, fault *f)
     const int along = !is_beside(s, r->omega);
     if (!along && (is_across(s, r->omega) || is_out(s, r->centre)))
         return refuse(s, scene_called(s, SCENE_ANALYSES, i),
-                      "it rotates about an axis that is neither in the plane nor across it", f);
+                      "it rotates about an axis that is neither in the plane nor normal to it", f);
     return STATUS_OK;
 }
 
@@ -374,11 +376,10 @@ static status check_quantity(const scene *s, int i, fault *f)
     const int entry =
         q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY;
     if (entry && (leaves(s, scene_entry_of(q)->row) || leaves(s, scene_entry_of(q)->column)))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "quantity %s: it is of a motion out of the plane, and the scene is held in "
-            "its plane: take that or plane: %s away",
-            q->name, scene_plane_name(s));
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: it reads a motion out of the plane, but the scene is held "
+                         "in its plane: remove that, or plane: %s",
+                         q->name, scene_plane_name(s));
     return STATUS_OK;
 }
 

@@ -24,7 +24,7 @@ static status check_end(const scene *s, const scene_release *r, int member, int 
             return fault_set(f, STATUS_REFUSED,
                              "%s: its end '%s' releases %s; give components of ux to rz once each",
                              scene_called(s, SCENE_MEMBERS, member).text, name_of_end[end],
-                             c < SCENE_UX || c > SCENE_RZ ? "what is none" : "one twice");
+                             c < SCENE_UX || c > SCENE_RZ ? "an unknown component" : "one twice");
     }
     return STATUS_OK;
 }
@@ -41,9 +41,9 @@ status scene_validate_release(const scene *s, int member, fault *f)
         if (times[0][c] && times[1][c])
             return fault_set(
                 f, STATUS_REFUSED,
-                "%s: both ends release %s, so nothing keeps it from %s; release it at one",
+                "%s: both ends release %s, so nothing prevents it from %s; release it at one end",
                 scene_called(s, SCENE_MEMBERS, member).text, name[c],
-                c == SCENE_RX ? "turning about its axis" : "shifting");
+                c == SCENE_RX ? "rotating about its axis" : "shifting");
     return STATUS_OK;
 }
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 static const char omitted[] = "omitted physics: the physics that the source of the case omits, or "
-                              "none. The values of the source do not apply to none";
+                              "none; with none, the values of the source do not apply";
 
 const parameter_type case_omit[] = {
     {"omit", "", 0, 0, 0, "source|none", omitted},

@@ -133,9 +133,14 @@ enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETE
 /* Defaults for the evaluation of meshes: error-controlled steps whose time error is far below the
  * error of the meshes; each case gives its value. */
 #define TIMED_HOW(step, rule, tolerance)                                                           \
-    [TIMED_INTEGRATOR] = {"integrator",          "", SCENE_RADAU, 0, 0, TIMED_INTEGRATORS,         \
-                          "how it is integrated"},                                                 \
-    [TIMED_STEP] = {"step", "s", step, 1e-9, 1e3, NULL, "of the integration: " rule},              \
+    [TIMED_INTEGRATOR] = {"integrator",                                                            \
+                          "",                                                                      \
+                          SCENE_RADAU,                                                             \
+                          0,                                                                       \
+                          0,                                                                       \
+                          TIMED_INTEGRATORS,                                                       \
+                          "integration method of the motion"},                                     \
+    [TIMED_STEP] = {"step", "s", step, 1e-9, 1e3, NULL, "time step of the integration: " rule},    \
     [TIMED_TOLERANCE] = {                                                                          \
         "tolerance",                                                                               \
         "1",                                                                                       \
@@ -143,7 +148,7 @@ enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETE
         0,                                                                                         \
         0.1,                                                                                       \
         NULL,                                                                                      \
-        "of the error of time, relative to the largest motion; 0: all steps are equal"}
+        "tolerance of the time error, relative to the largest motion; 0: all steps are equal"}
 
 /* A motion that ends at the time of observation; follows: SCENE_NONE, or a static path; start:
  * initial velocities. */

@@ -153,20 +153,21 @@ static void check_refusals(void)
     check_refused("(t", 1, "'(' is not closed");
     check_refused("t)", 2, "')' after the expression; is an operator missing?");
     check_refused("t t", 3, "is an operator missing?");
-    check_refused("2 + x*t", 5, "no such name; there are t, pi");
-    check_refused("abs(t)", 1, "abs is of numbers only, and t is in it; it makes kinks");
+    check_refused("2 + x*t", 5, "unknown name; the known ones are t, pi");
+    check_refused("abs(t)", 1, "abs takes numbers only, but its argument contains t; it has kinks");
     check_refused("max(t, 1)", 1, "give pieces");
     check_refused("2*max(1, t)", 3, "give pieces");
-    check_refused("atan2(t, 1)", 1, "of numbers only, and t is in it; write it with atan");
+    check_refused("atan2(t, 1)", 1,
+                  "numbers only, but its argument contains t; write it with atan");
     check_refused("sin(t, 1)", 1, "sin takes one argument, not 2");
     check_refused("sin(t, t)", 1, "sin takes one argument, not 2");
-    check_refused("min(1)*t", 1, "min takes two arguments or more, not 1");
+    check_refused("min(1)*t", 1, "min takes two or more arguments, not 1");
     check_refused("mod(1, 0)*t", 1, "mod has no value there");
     check_refused("3mm", 2, "20e-3 for 20 mm");
     check_refused("2*t + 4t", 8, "* between factors");
     check_refused("2 t", 3, "* between factors");
     check_refused("0x10", 2, "'x10' after a number");
-    check_refused(".", 1, "a point without digits");
+    check_refused(".", 1, "a decimal point without digits");
     check_refused("1e999*t", 1, "too large");
     check_refused("1e-999*t", 1, "too small");
     check_refused("1e300*1e300*t", 6, "too large for a number");

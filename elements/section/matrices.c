@@ -25,8 +25,8 @@ static status make_symmetric(double A[36], const char *name, double *asymmetry, 
             if (fabs(A[N * i + j] - A[N * j + i]) >
                 SECTION_MATRICES_SYMMETRIC * sqrt(fabs(A[7 * i] * A[7 * j])))
                 return fault_set(f, STATUS_REFUSED,
-                                 "section: the %s matrix is not symmetric to %g of its diagonal, "
-                                 "(%d, %d) is %.17g and (%d, %d) is %.17g; give both the same",
+                                 "section: the %s matrix is not symmetric to %g of its diagonal: "
+                                 "(%d, %d) is %.17g and (%d, %d) is %.17g; make them equal",
                                  name, SECTION_MATRICES_SYMMETRIC, j + 1, i + 1, A[N * j + i],
                                  i + 1, j + 1, A[N * i + j]);
     memcpy(mean, A, sizeof mean);
@@ -48,8 +48,8 @@ static status check_stiffness(const double C[36], fault *f)
         scaled[i] = C[i] / sqrt(C[7 * (i / N)] * C[7 * (i % N)]);
     if (dense_cholesky(N, scaled) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "section: the stiffness matrix is not positive definite, some strain "
-                         "would give energy away; make its terms off the diagonal smaller");
+                         "section: the stiffness matrix is not positive definite, so some strain "
+                         "would have negative energy; reduce its terms off the diagonal");
     return STATUS_OK;
 }
 

@@ -193,8 +193,8 @@ static status apply_given(const section_spec *s, section *out, fault *f)
     for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++)
         if (!isnan(whole[i].value) && s->kind != SECTION_WALLS)
             return fault_set(f, STATUS_REFUSED,
-                             "section: 'given: {%s}' is of thin walls; a section of that size has "
-                             "its own, or give 'constants'",
+                             "section: 'given: {%s}' applies to thin walls; other sections compute "
+                             "it from their sizes: remove it, or give 'constants'",
                              whole[i].name);
     override(&out->A, s->given.A);
     override(&out->Iy, s->given.Iy);

@@ -120,18 +120,19 @@ status section_taper_check(const section_spec *p, const section_spec *q,
 {
     static const char *const form[] = {"walls", "a rectangle", "a tube", "constants", "matrices"};
     if (p->kind != q->kind)
-        return fault_set(f, STATUS_REFUSED,
-                         "its section changes from %s to %s; give both ends the same form",
-                         form[p->kind], form[q->kind]);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "its section changes from %s to %s; give both ends the same kind of section",
+            form[p->kind], form[q->kind]);
     if (p->sheet_warping != q->sheet_warping || given_once(p, q) != NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "'%s' is given of its section at one end only; give it at both, or at "
-                         "none",
-                         given_once(p, q) != NULL ? given_once(p, q) : "sheet_warping");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "'%s' is given for its section at one end only; give it at both ends, or at neither",
+            given_once(p, q) != NULL ? given_once(p, q) : "sheet_warping");
     if (p->given.A != q->given.A && !isnan(p->given.A))
         return fault_set(f, STATUS_REFUSED,
-                         "its section changes from one rolled profile, or given A, to another, "
-                         "between which the constants are not known; give both by their sizes");
+                         "its section changes from one rolled profile, or given A, to another, and "
+                         "the constants between them are not known; give both by their sizes");
     if (p->kind == SECTION_WALLS)
         TRY(check_walls(p, q, f));
     return check_warping(p, q, ends, f);

@@ -83,7 +83,7 @@ static void check_mistakes(const scope *names)
                {"1 2", 12, "operator missing"},
                {"corner", 10, "choice of words"},
                {"__import__(\"os\")", 10, "unknown name '__import__'"},
-               {"2*t", 12, "the time t is in functions of time only"},
+               {"2*t", 12, "the time t is available in functions of time only"},
                {".", 10, "point without digits"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         mistakes m = {.file = "f"};
@@ -267,7 +267,7 @@ static void check_bad_loops(void)
                {"n_$i: {for: 0..2}\n", 13, "for: {i: 0..5}"},
                {"n_$i: {for: {i: 0..99999}}\n", 17, "more than 10000"},
                {"n_$i: {for: {pi: 0..2}}\n", 14, "function or constant"},
-               {"n_$i$j: {for: {i: 0..999, j: 0..999}}\n", 1, "when loops are written out"},
+               {"n_$i$j: {for: {i: 0..999, j: 0..999}}\n", 1, "loops expand to more than"},
                {"n_$i: {for: {i: 0..2}, let: {i: 3}}\n", 30, "is in use"},
                {"n_$i: {for: {i: 0..2}, let: {b: 3*x}}\n", 35, "unknown name 'x'"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {

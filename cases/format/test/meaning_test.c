@@ -123,8 +123,8 @@ static void check_words(void)
     scene_set_at(scene_add_quantity(&s, "M", "N m", states, scene_reaction(0, SCENE_RZ)), 0.5);
     meaning_of_quantity(&s, 0, text, sizeof text);
     gsl_test_str(text,
-                 "displacement of node_1 (0.25, 0, 0) along y for a small unit moment about z "
-                 "there, at the end of the static path, with the other sign",
+                 "displacement of node_1 (0.25, 0, 0) along y for a unit moment about z "
+                 "there, linearised, at the end of the static path, with the opposite sign",
                  "a compliance in words");
     meaning_of_quantity(&s, 1, text, sizeof text);
     gsl_test_str(text,
@@ -155,7 +155,7 @@ static void check_motion(void)
         {scene_orientation_entry(1, 0, 2), SCENE_MAX,
          "entry xz of the rotation matrix of node_1 (1, 0, 0), largest value along the motion"},
         {scene_relative_to(1, SCENE_UY, 0), SCENE_MIN,
-         "displacement of node_1 (1, 0, 0) along y as seen from node_0 (0, 0, 0), least value "
+         "displacement of node_1 (1, 0, 0) along y as seen from node_0 (0, 0, 0), smallest value "
          "along the motion"},
         {scene_balance_of(SCENE_LZ), SCENE_LAST,
          "angular momentum about the z axis, 2 s after the start of the motion"},

@@ -376,7 +376,7 @@ class UnitsTest(SceneCase):
 
     def test_refusals(self):
         leaf = filled(LEAF, **MILLIMETRES)
-        for units, words in (("mm, N, Pa", "Pa is not N/mm^2"), ("mm", "of length and of force"),
+        for units, words in (("mm, N, Pa", "Pa is not N/mm^2"), ("mm", "a unit of length and one of force"),
                              ("mm, N, MPa, kg", "'kg'"), ("furlong, N", "'furlong'"), ("[[mm], N]", "'?'"), ("mm, m, N", "'m'")):
             text = leaf.replace("beamwork: 1", f"beamwork: 1\nunits: {units}")
             self.refused(2, words, "solve", "--scene", self.scene(text))
@@ -471,7 +471,7 @@ class Doubtful(SceneCase):
         """The unit of a load is that of its factor: K in any units; another one needs a factor."""
         self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
                          r"\ndT +\S+ K")
-        self.refused(2, "or 'unit: MPa, factor: 1' if a load of 1 is 1 of it", "solve", "--scene",
+        self.refused(2, "or 'unit: MPa, factor: 1' if the load has the value 1 in this unit", "solve", "--scene",
                      self.scene(WARM.replace("unit: K", "unit: MPa")))
 
 

@@ -403,7 +403,7 @@ class CurvesTest(SceneCase):
                 ("x: {quantity: place}}\n  k_z", "x: {quantity: plane}}\n  k_z", "did you mean 'place'"),
                 ("x: {quantity: place}}\n  k_z", "x: {quantity: place, factor: 2}}\n  k_z", "uses the factor of"),
                 ("x: {quantity: place}}\n  k_z", "x: {quantity: force}}\n  k_z", "not another quantity"),
-                ("x: {quantity: place}}\n  k_z", "x: {quantity: away}}\n  k_z", "of another path")):
+                ("x: {quantity: place}}\n  k_z", "x: {quantity: away}}\n  k_z", "belongs to another path")):
             self.assertIn(before, FEW)
             text = FEW.replace(before, behind).replace("quantities:", """  second: {static: {stations: 1..2/20}}
 quantities:

@@ -200,7 +200,7 @@ static void law_of_compliance(const scene_input *in, scene_column column, const 
     static answer less, more;
     posed p = pose(in->name, SCENE_OF_STATIC, 1);
     if (column == SCENE_OF_COMPLIANCE) {
-        if (is_called(in, "load that stays"))
+        if (is_called(in, "constant load"))
             return;
         p.end = 1e-9;
         p.turns = 0;
@@ -229,7 +229,7 @@ static void law_of_modal(const scene_input *in, const element_type *e, const ans
     p.end = 1e-9;
     p.turns = 0;
     /* the bending by a free curvature changes it as much, and the undeformed structure has none */
-    if (is_called(in, "load that stays") || is_called(in, "free curvature"))
+    if (is_called(in, "constant load") || is_called(in, "free curvature"))
         return;
     solve(&p, e, &about);
     const double off = largest_apart(with, &about, modes);
@@ -253,7 +253,7 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
     p.size = 1e-9;
     solve(&p, e, &rest);
     /* the bending of a frame with a loop changes it as much, and a linear analysis leaves it out */
-    if (linear.values == 0 || path.values == 0 || is_called(in, "node that another carries"))
+    if (linear.values == 0 || path.values == 0 || is_called(in, "node attached to another"))
         return;
     for (int i = 0; modes[i] != NULL; i++) {
         const double f = answer_of(&rest, modes[i]), by_linear = answer_of(&linear, modes[i]) - f,
@@ -411,7 +411,7 @@ static void law_of_motion(const scene_input *in, const element_type *e, int cont
 static void obey(const scene_input *in, scene_column column, const element_type *e,
                  const answer *with)
 {
-    const int turns = is_called(in, "axes that turn");
+    const int turns = is_called(in, "rotating axes");
     switch (column) {
     case SCENE_OF_LINEAR:
         law_of_linear(in, e);
@@ -481,7 +481,7 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     const char *where = scene_column_name[column];
     /* a motion needs loads over time, and turns away with what it is fixed to */
     if (column == SCENE_OF_MOTION &&
-        (is_called(in, "load that stays") || is_motion(in) || is_called(in, "axes that turn")))
+        (is_called(in, "constant load") || is_motion(in) || is_called(in, "rotating axes")))
         return;
     posed p = pose(in->name, column, is_motion(in) /* or held there */ || divides(in->name));
     p.times = 0;
@@ -545,7 +545,7 @@ static void alike(const char *name, const char *other, scene_column column, cons
 static void start_turning(const element_type *e)
 {
     static answer a;
-    const posed p = pose("axes that turn", SCENE_OF_STATIC, 1);
+    const posed p = pose("rotating axes", SCENE_OF_STATIC, 1);
     const scene_motion how = {
         .scheme = SCENE_ALPHA, .alpha = scene_alpha_of_radius(0.9), .step = 2e-4};
     scene s;

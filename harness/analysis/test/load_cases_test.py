@@ -196,26 +196,26 @@ quantities:
         head = (HEAD + COMBINATIONS).replace("PRETENSION", "") + loads()
         u = "quantities: {u: {displacement: {analysis: x, WHICH node: c, component: uy}}}\n"
         rows = (
-            (head + "analyses: {x: {static: {stations: [1]}}}\n" + u, ["does not say which of them act", "combination: ULS"]),
+            (head + "analyses: {x: {static: {stations: [1]}}}\n" + u, ["does not select any", "combination: ULS"]),
             (head + "analyses: {x: {linear: {}}}\n" + u, ["u: x solves every load case", "combination: ULS"]),
             (head + "analyses: {x: {linear: {combination: ULS}}}\n" + u.replace("WHICH", "combination: SLS,"),
-             ["u: x is of combination ULS alone"]),
+             ["u: x is solved for combination ULS alone"]),
             (head + "analyses: {x: {linear: {combination: SUL}}}\n" + u, ["no combination 'SUL'", "'ULS'"]),
             (head + "analyses: {x: {linear: {case: ded}}}\n" + u, ["no load case 'ded'", "'dead'"]),
             (head + "analyses: {x: {linear: {}}, y: {modal: {about: x}}}\n"
-             + u.replace("WHICH", "case: dead,"), ["it is about x, which solves every"]),
+             + u.replace("WHICH", "case: dead,"), ["its base state is that of x, which solves every"]),
             (head + "analyses: {w: {static: {stations: [1], case: wind}}, x: {motion: {stations: [1], about: w, case: dead}}}\n" + u,
-             ["it is about w, and the loads of that act; remove its case"]),
+             ["base state is that of w, whose loads act; remove its case"]),
             (head.replace(", case: dead", "") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
              ["no load case 'dead'"]),
             (head.replace("on: all, case: dead", "on: all") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
              ["no load case 'dead'"]),
             (head.replace("on: c, case: wind", "on: c") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
-             ["hit: it has no case", "give it case: NAME"]),
+             ["hit: it has no load case", "give it case: NAME"]),
             (head.replace("on: c, case: wind", "on: c, case: wnd") + "analyses: {x: {linear: {}}}\n"
-             + u.replace("WHICH", "case: wind,"), ["'wnd' acts nowhere"]),
+             + u.replace("WHICH", "case: wind,"), ["'wnd' is not used by any"]),
             (head.replace("lift: {", "dead: {") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
-             ["dead: a load case has this name"]),
+             ["dead: a load case has the same name"]),
             (head.replace("lift: {wind: -2}", "lift: {}") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
              ["lift", "nothing acts"]),
             (head.replace("lift: {wind: -2}", "lift: {wnid: -2}") + "analyses: {x: {linear: {}}}\n"
@@ -225,7 +225,7 @@ quantities:
             (head + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "combination: ULS, case: dead,"),
              ["only one of case, combination, envelope"]),
             (head + "analyses: {x: {linear: {}, combination: ULS}}\n" + u, ["within the kind"]),
-            (head + "analyses: {x: {linear: {}}}\n" + u.replace("{displacement", "{envelope: max, displacement"), ["beside analysis"]),
+            (head + "analyses: {x: {linear: {}}}\n" + u.replace("{displacement", "{envelope: max, displacement"), ["next to analysis"]),
             (HEAD.replace("PRETENSION", "") + loads(FACTORS) + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "envelope: max,"),
              ["u: x has no load cases"]),
         )

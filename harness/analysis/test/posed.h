@@ -110,21 +110,21 @@ static void add(scene *s, const char *name)
 #define IS(text) (strcmp(name, text) == 0)
     if (IS("force"))
         scene_add_load(s, SCENE_FORCE, MIDDLE, 20, 50, -30);
-    else if (IS("force that follows"))
+    else if (IS("follower force"))
         follow(s, scene_add_load(s, SCENE_FORCE, MIDDLE, 20, 50, -30));
     else if (IS("force at an offset from its node"))
         scene_load_at(s, scene_add_load(s, SCENE_FORCE, TIP, 10, 50, -30))->at[1] = 0.1;
     else if (IS("moment"))
         scene_add_load(s, SCENE_MOMENT, TIP, 20, 30, 40);
-    else if (IS("moment that follows"))
+    else if (IS("follower moment"))
         follow(s, scene_add_load(s, SCENE_MOMENT, TIP, 20, 30, 40));
     else if (IS("load along a member"))
         scene_add_load(s, SCENE_DISTRIBUTED, 1, -70, 60, 50);
-    else if (IS("load along a member that follows"))
+    else if (IS("follower load along a member"))
         follow(s, scene_add_load(s, SCENE_DISTRIBUTED, 1, -70, 60, 50));
     else if (IS("load along a part of a member"))
         spread(s, 0.1, 0.7);
-    else if (IS("load that changes along a member")) {
+    else if (IS("load that varies along a member")) {
         scene_load *load = spread(s, 0, 1);
         load->varies = 1;
         load->last[1] = 150;
@@ -133,7 +133,7 @@ static void add(scene *s, const char *name)
         spread(s, 0, 1)->lumped = 1;
     else if (IS("force within a member"))
         scene_add_load_within(s, SCENE_MEMBER_FORCE, 1, 0.3, -20, 50, -30);
-    else if (IS("force within a member that follows"))
+    else if (IS("follower force within a member"))
         follow(s, scene_add_load_within(s, SCENE_MEMBER_FORCE, 1, 0.3, -20, 50, -30));
     else if (IS("moment within a member"))
         scene_add_load_within(s, SCENE_MEMBER_MOMENT, 1, 0.3, 20, 30, 40);
@@ -144,7 +144,7 @@ static void add(scene *s, const char *name)
     else if (IS("weight of a body")) {
         scene_set_body(s, TIP, (scene_body){.mass = 8});
         scene_add_load(s, SCENE_WEIGHT, TIP, -30, -9.81, 20);
-    } else if (IS("load that stays"))
+    } else if (IS("constant load"))
         scene_set_factor(s, scene_add_load(s, SCENE_FORCE, TIP, -300, 50, 20), 1, &from, &whole);
     else if (IS("temperature")) {
         scene_load *load = scene_load_at(s, scene_add_load(s, SCENE_TEMPERATURE, 1, 0, 0, 0));
@@ -215,7 +215,7 @@ static void add(scene *s, const char *name)
         double k[36] = {[28] = 500, [35] = 400};
         scene_release_end(s, 1, 0, SCENE_RZ);
         scene_add_spring(s, MIDDLE, TIP, k);
-    } else if (IS("supports in axes of their own")) {
+    } else if (IS("supports in rotated axes")) {
         static const double axes[2][3] = {{1, 0, 0}, {0, 0.8, 0.6}};
         memcpy(scene_node_at(s, TIP)->axes, axes, sizeof axes);
         scene_hold(s, TIP, SCENE_UZ, SCENE_UZ);
@@ -233,7 +233,7 @@ static void add(scene *s, const char *name)
         twist(s);
         scene_member_at(s, 0)->warp_p = SCENE_WARP_FIXED;
         scene_member_at(s, 0)->warp_q = scene_member_at(s, 1)->warp_p = 0;
-    } else if (IS("node that another carries")) {
+    } else if (IS("node attached to another")) {
         const int edge = scene_add_attached(s, TIP, 1, 0.2, 0);
         scene_add_member(s, MIDDLE, edge, s->member[0].section, y_axis);
     } else if (IS("mass of a node"))
@@ -256,7 +256,7 @@ static void add(scene *s, const char *name)
     } else if (IS("damping"))
         for (int i = 0; i < s->members; i++)
             scene_member_at(s, i)->damping = 1e-4;
-    else if (!IS("velocity at the start") && !IS("axes that turn")) /* which are the analysis's */
+    else if (!IS("velocity at the start") && !IS("rotating axes")) /* which are the analysis's */
         s->name[0] = '\0';
 #undef IS
 }
@@ -320,7 +320,7 @@ static posed pose(const char *name, scene_column column, int with)
                    .size = 1,
                    .grown = 1,
                    .end = 1,
-                   .turns = with && strcmp(name, "axes that turn") == 0,
+                   .turns = with && strcmp(name, "rotating axes") == 0,
                    .follows = flutters(name, column)};
 }
 
@@ -351,7 +351,7 @@ static int analyse(scene *s, const posed *p)
               path = about_path     ? scene_add_static(s, 1, &p->end, 2)
                      : about_linear ? scene_add_linear(s)
                                     : SCENE_NONE;
-    const int still = strcmp(p->name, "axes that turn") == 0 && !p->turns;
+    const int still = strcmp(p->name, "rotating axes") == 0 && !p->turns;
     switch (column) {
     case SCENE_OF_LINEAR:
         return scene_add_linear(s);

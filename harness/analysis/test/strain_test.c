@@ -412,7 +412,7 @@ static void staying_tests(void)
                                  "%s: half of it grows", e->name);
         }
         staying_refuses(e, CRITICAL, "critical without the scaled");
-        staying_refuses(e, BENT, "not on a line");
+        staying_refuses(e, BENT, "not on a straight line");
         ask_conclude(&tally, e, "loads that stay");
     }
 }

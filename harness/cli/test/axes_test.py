@@ -170,8 +170,8 @@ quantities: {r: {response: {analysis: h, node: b, component: ux, of: reaction, d
         text = EXAMPLE.read_text()
         for new, words in (("axes: {x: [1, 1, 0]}", "give two of x, y and z, or a member"),
                            ("axes: {x: [1, 1, 0], y: [1, 0, 0]}", "not at right angles"),
-                           ("axes: {member: left}", "no end of left is at the node"),
-                           ("axes: {x: [1, 1, 0], z: [0, 0, 1]}, drive: {rx: go}", "none, one or all may move"),
+                           ("axes: {member: left}", "left does not end at the node"),
+                           ("axes: {x: [1, 1, 0], z: [0, 0, 1]}, drive: {rx: go}", "none, one or all three rotations may move"),
                            ("axes: {x: [1, 1, 0], y: [0, 0, 1]}, rotation: {vector: [go, go, go]}", None)):
             path = self.folder / "bad.yaml"
             changed = text.replace("axes: {x: [cos(slope), sin(slope), 0], z: [0, 0, 1]}", new)
@@ -182,7 +182,7 @@ quantities: {r: {response: {analysis: h, node: b, component: ux, of: reaction, d
         plane = self.folder / "plane.yaml"
         plane.write_text(text.replace("x: [cos(slope), sin(slope), 0], z: [0, 0, 1]", "x: [1, 0, 1], y: [0, 1, 0]") +
                          "plane: xy\n")
-        self.refused(2, "neither in the plane nor across it", "scene", "--scene", plane)
+        self.refused(2, "neither in the plane nor normal to it", "scene", "--scene", plane)
         plane.write_text(HEAD + """
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], axes: {x: [1, 1, 0], z: [0, 0, 1]}, hold: [uy]}}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0], warping: fixed}}

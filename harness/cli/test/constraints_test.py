@@ -408,19 +408,19 @@ analyses: {L: {linear: {}}}
 quantities: {u: {displacement: {analysis: L, node: b, component: ux}}}
 """
         path = self.folder / "bad.yaml"
-        for new, words in (("{equal: [b, b], components: ux}", "x: node b is in it twice"),
-                           ("{equal: [a, b], components: ux}", "x: ux of node a is held and in a constraint"),
-                           ("{equal: [b, c], components: uz}", "uz of node b is held"),
+        for new, words in (("{equal: [b, b], components: ux}", "x: node b is named twice"),
+                           ("{equal: [a, b], components: ux}", "x: ux of node a is both held and constrained"),
+                           ("{equal: [b, c], components: uz}", "uz of node b is both held"),
                            ("{equal: [b, c], components: uy}", "uy of node c is driven twice"),
-                           ("{equal: [b, d], components: ux}", "node d moves with node c; name that one"),
-                           ("{equal: [b, c], components: rz}", "rz of node b is not a turn about a fixed axis"),
-                           ("{equal: [c, e], components: rz}", "rz of node e is not a turn about a fixed axis"),
+                           ("{equal: [b, d], components: ux}", "node d moves with node c; name the latter instead"),
+                           ("{equal: [b, c], components: rz}", "rz of node b is not a rotation about a fixed axis"),
+                           ("{equal: [c, e], components: rz}", "rz of node e is not a rotation about a fixed axis"),
                            ("{equal: [b, c, e], components: ux}, y: {equal: [e, b], components: [ux]}",
-                            "y: ux of node b follows already from other constraints"),
+                            "y: ux of node b already follows from other constraints"),
                            ("{node: b, component: ux, ratio: 0, of: c}", "ratio = 0"),
                            ("{node: b, component: ux, ratio: 2}", "give {equal: [NODE, NODE], components: [ux]}"),
                            ("{equal: [b, c], component: ux}", "give {equal: [NODE, NODE], components: [ux]}"),
-                           ("{equal: b, components: ux}", "equal: give a list of two nodes or more"),
+                           ("{equal: b, components: ux}", "equal: give a list of at least two nodes"),
                            ("{equal: [b, k], components: ux}", "no node 'k'")):
             path.write_text(text.replace("CONSTRAINT}", new + "}"))
             self.refused(2, words, "scene", "--scene", path)

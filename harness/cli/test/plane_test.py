@@ -168,7 +168,7 @@ class Plane(ProgramTest):
         node = "b: {at: [1, 0, 0]"
         changes = {
             "push: it acts out of the plane": ("[-1, 0, 0]", "[-1, 0, 1e-3]"),
-            "push: it turns out of the plane": ("force: [-1, 0, 0]", "moment: [1, 0, 0]"),
+            "push: it rotates out of the plane": ("force: [-1, 0, 0]", "moment: [1, 0, 0]"),
             "push: it acts outside the plane":
                 ("force: [-1, 0, 0]", "at: [0, 0, 0.1], force: [-1, 0, 0]"),
             "b: it does not lie in one plane": (node, "b: {at: [1, 0, 0.1]"),
@@ -210,7 +210,7 @@ class Plane(ProgramTest):
         self.assertLess(abs(found["k"] / (3 * E * THICK * HEIGHT**3 / 12) - 1), 1e-3)
         path = self.folder / "scene.yaml"
         path.write_text(text.replace("omit", extra % "uz") + "plane: xy\n")
-        self.refused(2, "k: it is of a motion out of the plane", "solve", "--scene", path)
+        self.refused(2, "k: it reads a motion out of the plane", "solve", "--scene", path)
 
     def test_decks(self):
         path = self.folder / "scene.yaml"

@@ -1,4 +1,4 @@
-/* A model whose last end is turned against its node, which no scene asks for. */
+/* A model whose last end is turned relative to its node, which no scene asks for. */
 #ifndef BEAMWORK_TEST_TURNED_END_H
 #define BEAMWORK_TEST_TURNED_END_H
 

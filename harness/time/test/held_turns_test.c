@@ -16,7 +16,8 @@ enum { HELD, RELEASED, INTEGRATOR };
 static const parameter_type parameter[] = {
     [HELD] = {"held", "1", 0, 0, 7, NULL, "bits of the turns of the pin"},
     [RELEASED] = {"released", "1", 0, 0, 7, NULL, "bits of turns of the second rod, at the first"},
-    [INTEGRATOR] = {"integrator", "", 0, 0, 0, TIMED_INTEGRATORS, "how it is integrated"},
+    [INTEGRATOR] = {"integrator", "", 0, 0, 0, TIMED_INTEGRATORS,
+                    "integration method of the motion"},
     {0}};
 
 static int add_rod(scene *s)

@@ -102,7 +102,7 @@ class MassDampingTest(ProgramTest):
         path = self.folder/"scene.yaml"
         path.write_text(FREE % ("integrator: conserving", 3), encoding="utf-8")
         done = run("solve", "--scene", path, "-f", "collocation", "-n", 1)
-        self.assertRegex(done.stdout + done.stderr, "conserving has no damping of masses")
+        self.assertRegex(done.stdout + done.stderr, "conserving does not support damping of masses")
 
     def test_light_dashpot(self):
         """A dashpot beside a spring by a table settles at the start as beside the same stiffness."""
