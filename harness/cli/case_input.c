@@ -195,7 +195,7 @@ static const case_type *named_case(const case_options *r)
     return type;
 }
 
-/* Treats the example as the value of --scene. */
+/* Treats the file as the value of --scene. */
 static void take_example(case_options *r, const char *path)
 {
     command_line *l = r->line;
@@ -213,6 +213,10 @@ void case_input_example(case_options *r)
     static const char *const folder[] = {"cases/examples", "examples/scenes"};
     char name[PATH_MAX], path[PATH_MAX];
     fault f;
+    const char *dot = r->name != NULL ? strrchr(r->name, '.') : NULL;
+    if (dot != NULL && r->scene_path == NULL && r->line->arguments == 1 &&
+        (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0))
+        take_example(r, r->name);
     if (r->name == NULL || r->scene_path != NULL || r->line->arguments > 1 ||
         strchr(r->name, '/') != NULL || case_find(r->name, &f) != NULL)
         return;

@@ -200,8 +200,8 @@ typedef struct case_options {
 extern const option_group options_case;  /* --scene, --set */
 extern const option_group options_scene; /* --scene alone */
 
-/* If the name is not a built-in case but an example (cases/examples/NAME.yaml), treats it as
- * --scene with that file. */
+/* If the name is that of a scene file (*.yaml), or not a built-in case but an example
+ * (cases/examples/NAME.yaml), treats it as --scene with that file. */
 void case_input_example(case_options *);
 /* The case of the request with its parameters; NULL after an error message. */
 const case_type *case_input_find(case_options *);

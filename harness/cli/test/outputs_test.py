@@ -1,4 +1,6 @@
 """Where outputs go, and what a screen shows."""
+import csv
+import json
 import os
 import pty
 import re
@@ -249,6 +251,86 @@ def on_terminal(*arguments, **changes):
             pass
     os.close(parent)
     return written.decode(), process.returncode
+
+
+class Pictures(ProgramTest):
+    """`plot`: pictures, and tables whose columns are the curves of `solve`."""
+    SCENE = """beamwork: 1
+sections:
+  tube: {tube: {diameter: 0.04, thickness: 2e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
+nodes:
+  wall: {at: [0, 0, 0], hold: all}
+  tip: {at: [1, 0, 0], mass: 0.5}
+members:
+  arm: {from: wall, to: tip, section: tube, y: [0, 1, 0], damping: 1e-4}
+loads:
+  push: {force: [0, 10, 0], on: tip, path: [0, 1], factor: [0, 1], time: sin(30*t)}
+analyses:
+  pull: {static: {stations: [1]}}
+  run: {motion: {stations: [0.1], step: 0.005}}
+  shake: {harmonic: {frequencies: 5..500/20:log}}
+  modes: {modal: {}}
+quantities:
+  bent: {displacement: {analysis: pull, node: tip, component: uy}}
+  last: {displacement: {analysis: run, node: tip, component: uy}}
+  most: {displacement: {analysis: run, node: tip, component: uy, take: max}}
+  late: {displacement: {analysis: run, node: tip, component: uy, take: max_time}}
+  gives: {response: {analysis: shake, node: tip, component: uy, force: tip, along: uy, take: max}}
+  first: {frequency: {analysis: modes, which: 0}}
+omit: [trapeze, wagner_moments, wagner_torque]
+"""
+
+    def setUp(self):
+        super().setUp()
+        self.scene = self.folder / "arm.yaml"
+        self.scene.write_text(self.SCENE, encoding="utf-8")
+
+    def plot(self, *options, code=0):
+        return self.answered("plot", self.scene, "-n", "1", *options, code=code, cwd=self.folder)
+
+    def table(self, *options):
+        self.plot(*options, "-o", self.folder / "arm.csv")
+        rows = list(csv.reader((self.folder / "arm.csv").read_text(encoding="utf-8").splitlines()))
+        columns = {}
+        for k, name in enumerate(rows[0]):
+            columns.setdefault(name, [float(r[k]) for r in rows[1:] if r[k] != ""])
+        return columns
+
+    def test_forms(self):
+        """The default name, and each form by its first bytes."""
+        self.assertEqual(self.plot("-f", "beamw").stdout, "arm.png\n")
+        for form, begin in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
+            path = self.folder / f"arm.{form}"
+            self.plot("-f", "beamw", "-f", "collocation", "-o", path)
+            self.assertTrue(path.read_bytes().startswith(begin))
+        words = (self.folder / "arm.svg").read_text(encoding="utf-8")
+        for word in ("time [s]", "frequency [Hz]", "gives [m/N]", "gives, phase [rad]",
+                     "collocation, n = 1", "last, most [m]"):
+            self.assertIn(word, words)
+
+    def test_columns(self):
+        """What is one value becomes a curve; times and frequencies of modes do not."""
+        of = self.table("-f", "beamw")
+        self.assertEqual(list(of), ["path", "bent [m]", "time [s]", "last [m]", "most [m]",
+                                    "frequency [Hz]", "gives [m/N]", "gives, phase [rad]"])
+        solved = json.loads(run("solve", self.scene, "-f", "beamw", "-n", "1", "--format",
+                                "json").stdout)
+        value = {q["quantity"]: q["value"] for q in solved["quantities"]}
+        self.assertEqual((len(of["path"]), len(of["time [s]"])), (21, 301))
+        self.assertAlmostEqual(of["bent [m]"][-1] / value["bent"], 1, 9)
+        self.assertAlmostEqual(of["bent [m]"][10] / value["bent"], 0.5, 3)
+        self.assertAlmostEqual(of["last [m]"][-1] / value["last"], 1, 9)
+        self.assertAlmostEqual(max(of["most [m]"]) / value["most"], 1, 3)
+        self.assertLess(max(of["gives, phase [rad]"]), 0)
+        two = self.table("-f", "beamw", "-f", "collocation", "-k", "last")
+        self.assertEqual(list(two), ["time [s]", "last [m] beamw, n = 1",
+                                     "last [m] collocation, n = 1"])
+
+    def test_refusals(self):
+        for words, options in (("no quantity has a curve", ("-k", "=first")),
+                               ("plot writes .png", ("-o", "arm.jpg")),
+                               ("plot takes one -n", ("-n", "2,4"))):
+            self.assertIn(words, self.plot("-f", "beamw", *options, code=2).stderr)
 
 
 class Screen(ProgramTest):

@@ -1,7 +1,7 @@
 """The verbs, and small work for each."""
 VERBS = ("list", "solve", "converge", "bench", "stress", "verify", "truth", "compare")
-EVERY_VERB = ("list", "explain", "solve", "converge", "sweep", "truth", "scene", "verify", "bench",
-              "stress", "motion", "element-test", "merge", "compare", "export", "import", "schema")
+EVERY_VERB = ("list", "explain", "solve", "plot", "converge", "sweep", "truth", "scene", "verify",
+              "bench", "stress", "motion", "element-test", "merge", "compare", "export", "import", "schema")
 WORK = {
     "verify": ("-k", "warping_torsion/default and beamw_vlasov"),
     "solve": ("warping_torsion", "-f", "beamw", "-n", "2"),
