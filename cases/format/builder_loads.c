@@ -361,6 +361,37 @@ void builder_constraints(builder *b)
     }
 }
 
+/* Initial shapes. */
+
+void builder_imperfections(builder *b)
+{
+    for (int i = 0; i < b->list[SCENE_IMPERFECTIONS].count; i++) {
+        const fields f = fields_of(b, &b->list[SCENE_IMPERFECTIONS].entry[i]);
+        const document_node *shifts = document_find(f.map, "shifts");
+        const int by_mode = fields_have(&f, "mode_of");
+        if (by_mode == (shifts != NULL) || by_mode != fields_have(&f, "amplitude") ||
+            (by_mode ? fields_have(&f, "factor")
+                     : fields_have(&f, "which") || fields_have(&f, "direction")) ||
+            (shifts != NULL && (shifts->kind != DOCUMENT_MAP || shifts->count == 0))) {
+            document_mistake(b->mistakes, f.map, 0,
+                             "give {mode_of: ANALYSIS, which: 0, amplitude: 2e-3}, or {shifts: "
+                             "{NODE: [dx, dy, dz]}, factor: 1}");
+            continue;
+        }
+        const int index = scene_add_imperfection(b->scene);
+        builder_call(b, SCENE_IMPERFECTIONS, index, i);
+        if (index < 0)
+            continue;
+        fields_read(&f, entry_imperfection, &b->scene->imperfection[index]);
+        for (int k = 0; shifts != NULL && k < shifts->count; k++) {
+            double shift[3] = {0};
+            const int node = fields_entry_of(&f, shifts->key[k], SCENE_NODES);
+            if (expression_vector(shifts->item[k], 3, f.names, b->mistakes, shift) && node >= 0)
+                scene_shift_node(b->scene, index, node, shift);
+        }
+    }
+}
+
 /* Load cases and combinations. */
 
 /* One that a load or a motion names and none before it. */

@@ -188,9 +188,9 @@ int fields_names_entry(const fields *f, const document_node *n, scene_list list)
 
 int fields_entry_of(const fields *f, const document_node *n, scene_list list)
 {
-    static const char *const what[] = {"section",   "node",        "member",    "spring",
-                                       "motion",    "load",        "analysis",  "quantity",
-                                       "load case", "combination", "constraint"};
+    static const char *const what[] = {"section",   "node",        "member",     "spring",
+                                       "motion",    "load",        "analysis",   "quantity",
+                                       "load case", "combination", "constraint", "imperfection"};
     const named_list those = {f->b, list};
     char remedy[FAULT_TEXT];
     if (n->kind != DOCUMENT_TEXT) {

@@ -184,6 +184,7 @@ void builder_axes(builder *b);
 void builder_members(builder *b);
 void builder_springs(builder *b);
 void builder_constraints(builder *b);
+void builder_imperfections(builder *b);
 void builder_motions(builder *b);
 /* Names of load cases, which loads and motions have; then the combinations. */
 void builder_cases(builder *b);

@@ -133,6 +133,8 @@ const entry_field keys_root[] = {
      .left_out = "none"},
     {"constraints", ENTRY_ENTRIES, .below = entry_constraint,
      .summary = "components of nodes that are equal, or in a ratio", .left_out = "none"},
+    {"imperfections", ENTRY_ENTRIES, .below = entry_imperfection,
+     .summary = "initial shape of the structure, free of stress", .left_out = "none"},
     {"combinations", ENTRY_ENTRIES, .below = entry_combination,
      .summary = "{CASE: FACTOR, ...}: load cases that act together", .left_out = "none"},
     {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "analyses to run",

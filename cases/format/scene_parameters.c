@@ -137,8 +137,8 @@ const scope *parameter_table_names(const parameter_type *p, const double value[]
 }
 
 static const char *const list_name[SCENE_LISTS] = {
-    "sections", "nodes",      "members", "springs",      "motions",    "loads",
-    "analyses", "quantities", "",        "combinations", "constraints"};
+    "sections", "nodes",      "members", "springs",      "motions",     "loads",
+    "analyses", "quantities", "",        "combinations", "constraints", "imperfections"};
 
 /* Checks a name of an entry that others can refer to. */
 static void check_name(const builder *b, scene_list list, int i)
@@ -312,8 +312,8 @@ static void read_meshes(builder *b)
 static void tell_refusal(const builder *b, const char *text)
 {
     static const char *const word[SCENE_LISTS] = {
-        "section ",  "node ",     "member ", "spring ",      "driver ",    "load ",
-        "analysis ", "quantity ", "case ",   "combination ", "constraint "};
+        "section ",  "node ",     "member ", "spring ",      "driver ",     "load ",
+        "analysis ", "quantity ", "case ",   "combination ", "constraint ", "imperfection "};
     for (int k = 0; k < SCENE_LISTS; k++) {
         const size_t length = strlen(word[k]);
         if (strncmp(text, word[k], length) != 0)
@@ -372,10 +372,11 @@ static void hold_warping(builder *b)
 static int build_lists(builder *b)
 {
     static void (*const own[])(
-        builder *) = {builder_nodes,    builder_members,     builder_axes,
-                      builder_springs,  builder_constraints, hold_warping,
-                      builder_motions,  builder_loads,       builder_combinations,
-                      builder_analyses, builder_quantities,  builder_read_cases},
+        builder *) = {builder_nodes,     builder_members,       builder_axes,
+                      builder_springs,   builder_constraints,   hold_warping,
+                      builder_motions,   builder_loads,         builder_combinations,
+                      builder_analyses,  builder_imperfections, builder_quantities,
+                      builder_read_cases},
                 (*const whole[])(builder *) = {builder_defaults, read_plane, read_physics,
                                                read_meshes};
     for (size_t i = 0; i < sizeof own / sizeof own[0] && !b->scene->out_of_memory; i++)

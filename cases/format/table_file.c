@@ -167,6 +167,91 @@ static int read_rows(table_file *t, FILE *from)
     return 1;
 }
 
+/* Rows NODE, dx, dy, dz of `shifts: {file: CSV}`, by the names of a header. */
+typedef struct shift_file {
+    table_file t;
+    int column[4];
+    document_node *map;
+} shift_file;
+
+static document_node *text_node(const table_file *t, const char *text)
+{
+    document_node *n = arena_take(t->arena, sizeof *n);
+    if (n == NULL)
+        return NULL;
+    *n = (document_node){.kind = DOCUMENT_TEXT,
+                         .line = t->place->line,
+                         .column = t->place->column,
+                         .inset = -1,
+                         .text = arena_copy(t->arena, text, strlen(text))};
+    return n->text != NULL ? n : NULL;
+}
+
+static int read_shift(shift_file *s, char *line)
+{
+    static const char *const name[4] = {"node", "dx", "dy", "dz"};
+    table_file *t = &s->t;
+    const int count = split(t, line);
+    if (count > COLUMNS)
+        return wrong(t, "more than 256 columns", "", "; keep those that are needed");
+    if (!t->begun) {
+        t->columns = count;
+        t->begun = 1;
+        for (int k = 0; k < 4; k++) {
+            s->column[k] = -1;
+            for (int i = 0; i < count; i++)
+                if (strcmp(t->field[i], name[k]) == 0)
+                    s->column[k] = i;
+            if (s->column[k] < 0)
+                return wrong(t, "no column '", name[k],
+                             "'; the first row names the columns node, dx, dy and dz");
+        }
+        return 1;
+    }
+    if (count != t->columns)
+        return wrong(t, "another number of columns than in the first row", "",
+                     "; decimals have points, and columns commas between them");
+    if (s->map->count == DOCUMENT_ENTRIES)
+        return wrong(t, "more than 10000 rows", "", "; write a smaller table");
+    document_node *shift = arena_take(t->arena, sizeof *shift),
+                  *key = text_node(t, t->field[s->column[0]]), *map = s->map;
+    map->key = arena_grow(t->arena, map->key, map->count, sizeof(document_node *));
+    map->item = arena_grow(t->arena, map->item, map->count, sizeof(document_node *));
+    if (shift == NULL || key == NULL || map->key == NULL || map->item == NULL)
+        return 0;
+    *shift = (document_node){.kind = DOCUMENT_LIST, .line = key->line, .column = key->column};
+    for (int k = 1; k < 4; k++) {
+        double value;
+        if (!line_number(t->field[s->column[k]], &value))
+            return wrong(t, "no number: '", t->field[s->column[k]], "'");
+        t->list[0] = shift;
+        if (!add_number(t, 0, value))
+            return 0;
+    }
+    map->key[map->count] = key;
+    map->item[map->count++] = shift;
+    return 1;
+}
+
+static int read_shifts_from(shift_file *s, FILE *from)
+{
+    table_file *t = &s->t;
+    while (fgets(t->text, sizeof t->text, from) != NULL) {
+        t->line++;
+        if (strlen(t->text) + 1 == sizeof t->text)
+            return wrong(t, "a line of more than 8000 characters", "",
+                         "; keep the columns that are needed");
+        char *line = line_trim(t->text);
+        if (!line_is_text(line))
+            return wrong(t, "no readable text", "", "; save the file as CSV in UTF-8");
+        if (*line != '\0' && *line != '#' && !read_shift(s, line))
+            return 0;
+    }
+    if (ferror(from))
+        return wrong(t, "cannot be read further", "", "");
+    return s->map->count > 0 ? 1 : wrong(t, "no rows", "", "; give one per node");
+}
+
 /* Path from the folder of the scene file. */
 static FILE *open_beside(const char *beside, const char *name, arena *a)
 {
@@ -179,6 +264,48 @@ static FILE *open_beside(const char *beside, const char *name, arena *a)
     memcpy(path, beside, folder);
     memcpy(path + folder, name, strlen(name) + 1);
     return line_open(path);
+}
+
+/* The file that a map names, open; NULL: none, or after an error. */
+static FILE *open_file(table_file *t, const char *beside)
+{
+    const document_node *file = t->place;
+    if (file->kind != DOCUMENT_TEXT) {
+        document_mistake(t->mistakes, file, 0,
+                         "'file' is the path of a CSV file, relative to the scene file");
+        return NULL;
+    }
+    if (beside == NULL) {
+        document_mistake(t->mistakes, file, 0,
+                         "a scene that is given as text has no folder for files; give the path of "
+                         "a scene file, or write the values");
+        return NULL;
+    }
+    t->name = file->text;
+    FILE *from = open_beside(beside, file->text, t->arena);
+    if (from == NULL)
+        document_mistake(t->mistakes, file, 0,
+                         "%.120s cannot be read: %s; paths are relative to the scene file", file->text,
+                         strerror(errno));
+    return from;
+}
+
+/* Replaces shifts: {file: PATH} by its rows. */
+static void read_shifts(document_node *map, const char *beside, arena *a, mistakes *m)
+{
+    const document_node *file =
+        map->kind == DOCUMENT_MAP && map->count == 1 ? document_find(map, "file") : NULL;
+    if (file == NULL || file->kind != DOCUMENT_TEXT)
+        return;
+    document_node rows = {
+        .kind = DOCUMENT_MAP, .line = file->line, .column = file->column, .inset = map->inset};
+    shift_file s = {.t = {.place = file, .arena = a, .mistakes = m}, .map = &rows};
+    FILE *from = open_file(&s.t, beside);
+    if (from == NULL)
+        return;
+    if (read_shifts_from(&s, from))
+        *map = rows;
+    fclose(from);
 }
 
 /* Replaces what a map says of a file by its numbers. */
@@ -198,25 +325,9 @@ static void read_table(document_node *map, const char *beside, arena *a, mistake
                 "with 'file', 'at' and 'value' are its columns: names in its header, or numbers");
             return;
         }
-    if (file->kind != DOCUMENT_TEXT) {
-        document_mistake(m, file, 0,
-                         "'file' is the path of a CSV file, relative to the scene file");
+    FILE *from = open_file(&t, beside);
+    if (from == NULL)
         return;
-    }
-    if (beside == NULL) {
-        document_mistake(m, file, 0,
-                         "a scene that is given as text has no folder for files; give the path of "
-                         "a scene file, or write the values");
-        return;
-    }
-    t.name = file->text;
-    FILE *from = open_beside(beside, file->text, a);
-    if (from == NULL) {
-        document_mistake(m, file, 0,
-                         "%.120s cannot be read: %s; paths are relative to the scene file",
-                         file->text, strerror(errno));
-        return;
-    }
     document_node *list = arena_take(a, 2 * sizeof *list);
     int read = list != NULL;
     for (int k = 0; k < 2 && read; k++) {
@@ -247,6 +358,8 @@ void table_files_read(document_node *n, const char *beside, arena *a, mistakes *
             read_table(item, beside, a, m);
         for (int k = 0; tables && item->kind == DOCUMENT_MAP && k < item->count; k++)
             read_table(item->item[k], beside, a, m);
+        if (strcmp(key, "shifts") == 0)
+            read_shifts(item, beside, a, m);
         table_files_read(item, beside, a, m);
     }
 }

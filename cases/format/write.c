@@ -159,7 +159,8 @@ static void write_list(writer *w, const char *key, scene_list list, const entry_
         [SCENE_DRIVERS] = {s->drivers, sizeof *s->driver, s->driver},
         [SCENE_LOADS] = {s->loads, sizeof *s->load, s->load},
         [SCENE_COMBINATIONS] = {s->combinations, sizeof *s->combination, s->combination},
-        [SCENE_CONSTRAINTS] = {s->constraints, sizeof *s->constraint, s->constraint}};
+        [SCENE_CONSTRAINTS] = {s->constraints, sizeof *s->constraint, s->constraint},
+        [SCENE_IMPERFECTIONS] = {s->imperfections, sizeof *s->imperfection, s->imperfection}};
     for (int i = 0; i < all[list].count; i++) {
         if (i == 0)
             fprintf(w->to, "%s:\n", key);
@@ -377,6 +378,20 @@ static void write_constraint(writer *w, const void *entry)
     write_values_named(w, "", SCENE_NODES, c->node[0]);
 }
 
+static void write_shifts(writer *w, const void *entry)
+{
+    const scene_imperfection *p = entry;
+    if (p->nodes == 0)
+        return;
+    write_values_key(w, "shifts");
+    for (int i = 0; i < p->nodes; i++) {
+        write_values_named(w, i > 0 ? ", " : "{", SCENE_NODES, p->node[i]);
+        fputs(": ", w->to);
+        write_values_numbers(w, 3, p->shift[i]);
+    }
+    fputc('}', w->to);
+}
+
 void write_structure(writer *w)
 {
     static const write_own node[] = {
@@ -392,11 +407,13 @@ void write_structure(writer *w)
                                      {"on", write_on},        {"where", write_range},
                                      {"path", write_factor},  {NULL, NULL}};
     static const write_own constraint[] = {{"equal", write_constraint}, {NULL, NULL}};
+    static const write_own imperfection[] = {{"shifts", write_shifts}, {NULL, NULL}};
     static const write_own combination[] = {{"", write_terms}, {NULL, NULL}};
     write_list(w, "nodes", SCENE_NODES, entry_node, node);
     write_list(w, "members", SCENE_MEMBERS, entry_member, member);
     write_list(w, "springs", SCENE_SPRINGS, entry_spring, spring);
     write_list(w, "constraints", SCENE_CONSTRAINTS, entry_constraint, constraint);
+    write_list(w, "imperfections", SCENE_IMPERFECTIONS, entry_imperfection, imperfection);
     write_list(w, "motions", SCENE_DRIVERS, entry_driver, driver);
     write_list(w, "loads", SCENE_LOADS, entry_load, load);
     write_list(w, "combinations", SCENE_COMBINATIONS, entry_combination, combination);

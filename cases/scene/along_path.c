@@ -298,6 +298,24 @@ static int has_start(const scene *s, int analysis, char *who, int size)
     return 0;
 }
 
+static int has_shape(const scene *s, int analysis, int by_mode, char *who, int size)
+{
+    for (int i = 0; i < s->imperfections && !scene_is_perfect(s, analysis); i++)
+        if ((s->imperfection[i].analysis != SCENE_NONE) == by_mode)
+            return called(s, SCENE_IMPERFECTIONS, i, who, size);
+    return 0;
+}
+
+static int has_mode(const scene *s, int analysis, char *who, int size)
+{
+    return has_shape(s, analysis, 1, who, size);
+}
+
+static int has_shifts(const scene *s, int analysis, char *who, int size)
+{
+    return has_shape(s, analysis, 0, who, size);
+}
+
 static int has_drive(const scene *s, int analysis, char *who, int size)
 {
     (void)analysis;
@@ -365,6 +383,8 @@ const scene_input scene_inputs[] = {
     {"load of a case", "uuuuu-uu-uuu-uu", NULL, has_of_case},
     {"initial curvature", "uuuuuuuuuuuuuuu", NULL, has_curvature},
     {"imperfection", "uuuuuuuuuuuuuuu", NULL, has_imperfection},
+    {"imperfection by a mode", "uuuuuuuuuuuuuuu", NULL, has_mode},
+    {"imperfection by shifts", "uuuuuuuuuuuuuuu", NULL, has_shifts},
     {"taper", "uuuuuuuuuuuuuuu", NULL, has_taper},
     {"section by its matrices", "uuuuuuuuuuuuuuu", NULL, has_matrices},
     {"spring", "uuuuuuuuuuuuuuu", NULL, has_spring},

@@ -336,6 +336,25 @@ const entry_field entry_constraint[] = {
     {"of", ENTRY_NAME, .summary = "the other node", .left_out = "none, with 'equal'"},
     {.name = NULL}};
 
+const entry_field entry_imperfection[] = {
+    {"mode_of", ENTRY_NAME, .summary = "buckling or modal analysis; it is of the perfect structure",
+     .left_out = "none, with 'shifts'", ENTRY_IN(scene_imperfection, analysis),
+     .of = SCENE_ANALYSES},
+    {"which", ENTRY_WHOLE, .summary = "index of the mode from 0; of positive critical loads",
+     .usual = "0", ENTRY_IN(scene_imperfection, order), .most = ENTRY_MOST_ORDER},
+    {"amplitude", ENTRY_NUMBER, .unit = "m",
+     .summary = "largest shift of a point of a member, with 'mode_of'",
+     .left_out = "none, with 'shifts'", ENTRY_IN(scene_imperfection, amplitude)},
+    {"direction", ENTRY_DIRECTION, .count = 3,
+     .summary = "of that shift; chooses between two modes of one load or frequency",
+     .left_out = "its largest component is positive", ENTRY_IN(scene_imperfection, direction)},
+    {"shifts", ENTRY_FORMS, .unit = "m",
+     .summary = "{NODE: [dx, dy, dz], ...}, or {file: CSV} with the columns node, dx, dy, dz",
+     .left_out = "none, with 'mode_of'"},
+    {"factor", ENTRY_NUMBER, .summary = "of all shifts", .usual = "1",
+     ENTRY_IN(scene_imperfection, factor)},
+    {.name = NULL}};
+
 const entry_field entry_combination[] = {
     {"", ENTRY_NUMBER, .summary = "factor of this load case", .left_out = "it does not act"},
     {.name = NULL}};

@@ -14,7 +14,8 @@ static const char *const word_of[] = {[SCENE_SECTIONS] = "section",
                                       [SCENE_QUANTITIES] = "quantity",
                                       [SCENE_CASES] = "case",
                                       [SCENE_COMBINATIONS] = "combination",
-                                      [SCENE_CONSTRAINTS] = "constraint"};
+                                      [SCENE_CONSTRAINTS] = "constraint",
+                                      [SCENE_IMPERFECTIONS] = "imperfection"};
 
 int scene_count(const scene *s, scene_list list)
 {
@@ -28,7 +29,8 @@ int scene_count(const scene *s, scene_list list)
                          [SCENE_QUANTITIES] = s->quantities,
                          [SCENE_CASES] = s->cases,
                          [SCENE_COMBINATIONS] = s->combinations,
-                         [SCENE_CONSTRAINTS] = s->constraints};
+                         [SCENE_CONSTRAINTS] = s->constraints,
+                         [SCENE_IMPERFECTIONS] = s->imperfections};
     return count[list];
 }
 
@@ -65,6 +67,8 @@ static char *room_of(const scene *s, scene_list list, int i)
         return s->combination[i].name;
     case SCENE_CONSTRAINTS:
         return s->constraint[i].name;
+    case SCENE_IMPERFECTIONS:
+        return s->imperfection[i].name;
     }
     return NULL;
 }

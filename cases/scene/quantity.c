@@ -240,6 +240,8 @@ int scene_reads(const scene *s, int analysis)
         read = s->quantity[i].analysis == analysis;
     for (int i = analysis + 1; i < s->analyses && !read; i++)
         read = s->analysis[i].follows == analysis && scene_reads(s, i);
+    for (int i = 0; i < s->imperfections && !read; i++)
+        read = s->imperfection[i].analysis == analysis;
     return read;
 }
 

@@ -37,6 +37,11 @@ void scene_free(scene *s)
     for (int i = 0; i < s->constraints; i++)
         free(s->constraint[i].node);
     free(s->constraint);
+    for (int i = 0; i < s->imperfections; i++) {
+        free(s->imperfection[i].node);
+        free(s->imperfection[i].shift);
+    }
+    free(s->imperfection);
     free(s->load_case);
     free(s->combination);
     free(s->section);

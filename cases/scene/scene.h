@@ -799,6 +799,18 @@ typedef struct scene_constraint {
     char name[SCENE_NAME];
 } scene_constraint;
 
+/* A part of the initial shape of the structure, free of stress: a mode of an analysis, which is of
+ * the perfect structure, or shifts of nodes, between which members keep their form. */
+typedef struct scene_imperfection {
+    int analysis, order; /* buckling or modal, and its mode from 0; SCENE_NONE: shifts */
+    double amplitude;    /* of the mode: largest shift of a point of a member [m] */
+    double direction[3]; /* of the shift there; zero: along an axis, positive */
+    int nodes, *node;    /* [nodes] */
+    double (*shift)[3];  /* [nodes] [m] */
+    double factor;       /* of the shifts */
+    char name[SCENE_NAME];
+} scene_imperfection;
+
 /* A scalar that prescribes coordinates; piecewise linear in the path parameter between its
  * stations. */
 typedef struct scene_driver {
@@ -902,7 +914,7 @@ typedef struct scene_words {
 struct scene {
     char name[SCENE_NAME];
     int sections, nodes, members, springs, drivers, loads, analyses, quantities, cases,
-        combinations, constraints;
+        combinations, constraints, imperfections;
     section_spec *section;
     int computeds;
     scene_computed *computed; /* [computeds] filled by scene_constants */
@@ -914,6 +926,7 @@ struct scene {
     scene_load_case *load_case;
     scene_combination *combination;
     scene_constraint *constraint;
+    scene_imperfection *imperfection;
     scene_analysis *analysis;
     scene_quantity *quantity;
     scene_plane plane; /* plane to which everything is restricted; SCENE_SPACE: none */
@@ -975,6 +988,13 @@ int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
 /* Without nodes; the first of these is the one that others follow. */
 int scene_add_constraint(scene *s, unsigned components, double ratio);
 void scene_constrain(scene *s, int constraint, int node);
+
+/* Without a mode or shifts. */
+int scene_add_imperfection(scene *s);
+void scene_shift_node(scene *s, int imperfection, int node, const double shift[3]);
+/* Is the analysis of the perfect structure: one whose mode is an imperfection, one whose state that
+ * is about, or one about the same state? */
+int scene_is_perfect(const scene *s, int analysis);
 
 /* A coordinate of a node, 0 .. 5 as in translation and angle, that is `ratio` times another one. */
 typedef struct scene_tie {
@@ -1137,9 +1157,10 @@ typedef enum scene_list {
     SCENE_QUANTITIES,
     SCENE_CASES,
     SCENE_COMBINATIONS,
-    SCENE_CONSTRAINTS
+    SCENE_CONSTRAINTS,
+    SCENE_IMPERFECTIONS
 } scene_list;
-enum { SCENE_LISTS = SCENE_CONSTRAINTS + 1 };
+enum { SCENE_LISTS = SCENE_IMPERFECTIONS + 1 };
 
 /* Number of entries of a list; its singular, "node". */
 int scene_count(const scene *s, scene_list list);
@@ -1230,8 +1251,8 @@ typedef struct entry_field {
 #define ENTRY_COMPONENTS "ux|uy|uz|rx|ry|rz"
 
 extern const entry_field entry_section[], entry_node[], entry_member[], entry_spring[],
-    entry_driver[], entry_load[], entry_combination[], entry_constraint[], entry_analysis[],
-    entry_quantity[];
+    entry_driver[], entry_load[], entry_combination[], entry_constraint[], entry_imperfection[],
+    entry_analysis[], entry_quantity[];
 
 /* The key of the vector of a load: "force", with its unit. */
 const entry_field *entry_of_load(scene_load_kind);

@@ -30,6 +30,9 @@ status scene_validate_turns(const scene *s, int node, fault *f);
 /* REFUSED: constraints that name a node twice, a support or a body, or close on themselves. */
 status scene_validate_constraints(const scene *s, fault *f);
 
+/* REFUSED: imperfections without a mode or shifts, or that no analysis has. */
+status scene_validate_imperfections(const scene *s, fault *f);
+
 /* Requirements on load cases and combinations, and on what says which of them act. */
 
 status scene_validate_cases(const scene *s, fault *f);

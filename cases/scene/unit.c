@@ -119,6 +119,8 @@ static void scale_entries(scene *s, entry_base base, double times)
         entry_scale(entry_member, &s->member[i], base, times);
     for (int i = 0; i < s->springs; i++)
         entry_scale(entry_spring, &s->spring[i], base, times);
+    for (int i = 0; i < s->imperfections; i++)
+        entry_scale(entry_imperfection, &s->imperfection[i], base, times);
     for (int i = 0; i < s->drivers; i++)
         entry_scale(entry_driver, &s->driver[i], base, times);
     for (int i = 0; i < s->loads; i++) {
@@ -171,6 +173,9 @@ status scene_change_unit(scene *s, double x, fault *f)
     scale_entries(s, ENTRY_LENGTH, x);
     for (int i = 0; i < s->springs; i++)
         scale_spring(&s->spring[i], x);
+    for (int i = 0; i < s->imperfections; i++)
+        for (int k = 0; k < s->imperfection[i].nodes; k++)
+            scale_vector(s->imperfection[i].shift[k], x);
     for (int i = 0; i < s->analyses; i++)
         scale_steps(&s->analysis[i], x);
     for (int i = 0; i < s->quantities; i++)

@@ -329,6 +329,7 @@ static status check_numbers(const scene *s, fault *f)
                {SCENE_NODES, sizeof *s->node, entry_node, s->node},
                {SCENE_MEMBERS, sizeof *s->member, entry_member, s->member},
                {SCENE_SPRINGS, sizeof *s->spring, entry_spring, s->spring},
+               {SCENE_IMPERFECTIONS, sizeof *s->imperfection, entry_imperfection, s->imperfection},
                {SCENE_DRIVERS, sizeof *s->driver, entry_driver, s->driver},
                {SCENE_LOADS, sizeof *s->load, entry_load, s->load},
                {SCENE_ANALYSES, sizeof *s->analysis, entry_analysis, s->analysis},
@@ -361,5 +362,6 @@ status scene_validate(const scene *s, fault *f)
             TRY(check[k](s, i, f));
         }
     TRY(scene_validate_plane(s, f));
+    TRY(scene_validate_imperfections(s, f));
     return scene_validate_constraints(s, f);
 }

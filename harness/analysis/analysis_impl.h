@@ -47,6 +47,14 @@ status collect_shapes(const analysis_context *, int most, shapes *, fault *);
  * states of modal analyses. */
 status collect_systems(const analysis_context *, system_matrices *, fault *);
 
+/* Imperfections. */
+
+/* Number of modes of a sign, positive for buckling, that imperfections read of an analysis. */
+int imperfection_modes(const scene *, int analysis);
+/* x[free + driven]: sum of the modes that are imperfections, with their amplitudes. REFUSED: a mode
+ * is not there, or not unique. */
+status imperfection_of_modes(const analysis_context *, double x[], fault *);
+
 /* Compliance and stiffness of a node in a deformed state. */
 
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);

@@ -133,7 +133,8 @@ static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
     TRY(shapes_alloc(s, f));
     s->states = 0; /* counted again as they are filled */
     centreline_points(c->model, s->first);
-    keep(c, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, kinematics_rest(c->model));
+    const analysis_context *first = c->sides != NULL ? c->sides[0] : c;
+    keep(first, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, kinematics_rest(first->model));
     for (int i = 0; i < c->scene->analyses; i++) {
         const analysis_outcome *o = &c->outcomes[i];
         const analysis_context own = context_of(c, i);
@@ -355,6 +356,8 @@ static status keep_modal(const analysis_context *c, int analysis, workspace *w, 
 
 static status collect(const analysis_context *c, workspace *w, system_matrices *s, fault *f)
 {
+    if (c->sides != NULL)
+        c = c->sides[0];
     TRY(workspace_alloc(c, w, f));
     const analysis_context rest = {.scene = c->scene,
                                    .model = c->model,

@@ -174,7 +174,7 @@ static status begin_at_rest(newton_run *n, fault *f)
 
 static int loads_wanted(const analysis_context *c, int analysis)
 {
-    int wanted = 1;
+    int wanted = 1 + imperfection_modes(c->scene, analysis);
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
         if (scene_asks(q, analysis, SCENE_CRITICAL_FACTOR) && scene_critical_load_of(q)->sign > 0 &&

@@ -12,7 +12,7 @@
 int modal_wanted(const analysis_context *c, int analysis)
 {
     const int others = 6; /* margin for axial modes and other families between the wanted ones */
-    int wanted = 0;
+    int wanted = imperfection_modes(c->scene, analysis);
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
         if ((scene_asks(q, analysis, SCENE_FREQUENCY) ||

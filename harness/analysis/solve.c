@@ -73,13 +73,16 @@ static status judge_rest(analysis_context *c, const analysis_outcome *o, int fir
     return at_rest == STATUS_NOT_CONVERGED ? fault_set(f, at_rest, "%s", why.text) : o->status;
 }
 
-/* The first failure determines the overall status. */
-static void run_analyses(analysis_context *c)
+/* The first failure determines the overall status. perfect: 0, 1: those of the imperfect or the
+ * perfect structure; else all. */
+static void run_analyses(analysis_context *c, int perfect)
 {
     for (int i = 0; i < c->scene->analyses; i++) {
         analysis_outcome *o = &c->outcomes[i];
         fault f = {""};
         const scene_analysis *a = &c->scene->analysis[i];
+        if (perfect < 2 && scene_is_perfect(c->scene, i) != perfect)
+            continue;
         analysis_function *run = function_of(c->scene, a);
         o->kind = a->kind;
         if (!context_runs(c, i) || (c->options->sample > 0 && a->kind != SCENE_STATIC))
@@ -138,12 +141,94 @@ static void put_over(const scene *s, solve_result *r, int quantity)
         c->x[i] = i < of->points ? of->value[i] : NAN;
 }
 
+static void add_counters(const counters *more, counters *to)
+{
+    to->strain_evaluations += more->strain_evaluations;
+    to->stress_evaluations += more->stress_evaluations;
+    to->inertia_evaluations += more->inertia_evaluations;
+    to->geometric_evaluations += more->geometric_evaluations;
+    to->iterations += more->iterations;
+    to->steps += more->steps;
+    to->rejected_steps += more->rejected_steps;
+    to->factorisations += more->factorisations;
+    to->solutions += more->solutions;
+    to->factor_entries += more->factor_entries;
+    to->factor_flops += more->factor_flops;
+    to->dense_operations += more->dense_operations;
+    to->negative_pivots =
+        to->negative_pivots > more->negative_pivots ? to->negative_pivots : more->negative_pivots;
+    to->condition = fmax(to->condition, more->condition);
+}
+
+/* What analyses of the imperfect structure need. */
+typedef struct imperfect {
+    model_imperfect *shape;
+    model *m;
+    run_state run;
+    context_work work;
+    analysis_context c;
+    const analysis_context *sides[2];
+} imperfect;
+
+static void imperfect_free(imperfect *p)
+{
+    factor_free(p->work.left);
+    run_state_end(&p->run);
+    model_free(p->m);
+    model_imperfect_free(p->shape);
+}
+
+static status imperfect_begin(const analysis_context *c, imperfect *p, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
+    if (x == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for imperfections");
+    status outcome = imperfection_of_modes(c, x, f);
+    if (outcome == STATUS_OK)
+        outcome = model_imperfect_alloc(c->model, x, &p->shape, f);
+    free(x);
+    TRY(outcome);
+    TRY(model_imperfect_build(c->model, p->shape, &p->m, f));
+    return run_state_begin(&p->run, p->m, c->options->threads, f);
+}
+
+/* Analyses whose modes are imperfections, then those of the imperfect structure. */
+static void run_imperfect(analysis_context *c, imperfect *p)
+{
+    fault f = {""};
+    run_analyses(c, 1);
+    const status ready = imperfect_begin(c, p, &f);
+    if (ready == STATUS_OK) {
+        p->c = *c;
+        p->c.model = p->m;
+        p->c.scene = model_scene(p->m);
+        p->c.run = &p->run;
+        p->c.work = &p->work;
+        p->sides[0] = &p->c;
+        p->sides[1] = c;
+        run_analyses(&p->c, 0);
+        p->c.sides = c->sides = p->sides;
+        return;
+    }
+    for (int i = 0; i < c->scene->analyses; i++) {
+        analysis_outcome *o = &c->outcomes[i];
+        if (scene_is_perfect(c->scene, i))
+            continue;
+        o->kind = c->scene->analysis[i].kind;
+        o->status = ready;
+        snprintf(o->reason, sizeof o->reason, "%s", f.text);
+    }
+    spoil(c->result, ready, &f);
+}
+
 status solve_scene(const scene *s, const model *m, const solve_options *options,
                    solve_result *result, fault *f)
 {
     static const solve_options defaults = {0};
     run_state run;
     context_work work = {0};
+    imperfect other = {0};
     analysis_context c = {.scene = s,
                           .model = m,
                           .run = &run,
@@ -162,9 +247,12 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
         return fault_set(f, STATUS_FAULT, "out of memory for a solution");
     }
     result->quantities = s->quantities;
-    run_analyses(&c);
-    result->seconds_setup = work.setup;
-    result->seconds_solve = clock_processor_seconds() - start - work.setup;
+    if (s->imperfections > 0)
+        run_imperfect(&c, &other);
+    else
+        run_analyses(&c, 2);
+    result->seconds_setup = work.setup + other.work.setup;
+    result->seconds_solve = clock_processor_seconds() - start - result->seconds_setup;
     if (c.options->phases)
         phases_of_whole(&run.phases, result->seconds_solve, result->phase);
     for (int i = 0; i < s->quantities; i++) {
@@ -179,12 +267,14 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
     }
     for (int i = 0; i < s->quantities; i++)
         put_over(s, result, i);
+    add_counters(&other.run.counters, &run.counters);
     result->counters = run.counters; /* shapes are drawn, not solved for: not counted */
     keep_states(&c);
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);
     free(c.outcomes);
     factor_free(work.left);
+    imperfect_free(&other);
     run_state_end(&run);
     if (result->status != STATUS_OK && f != NULL)
         snprintf(f->text, sizeof f->text, "%s", result->reason);
@@ -311,6 +401,7 @@ static void keep(eigen_side *side, outcome_side *to)
 /* Number of eigenvalues of each sign that the quantities request. */
 static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
 {
+    p->largest = imperfection_modes(c->scene, analysis);
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
         if (!scene_asks(q, analysis, SCENE_CRITICAL_FACTOR))

@@ -171,6 +171,13 @@ static void increments_of(const model *m, const model_state *s, const double x[]
         increment_of_node(m, s, m->mesh.release[i - m->mesh.first_release].node, x, out);
 }
 
+void centreline_increments(const model *m, const double x[], double out[])
+{
+    increments_of(m, m->rest, x, out);
+    for (int i = 0; i < m->scene->nodes; i++)
+        increment_of_node(m, m->rest, i, x, out);
+}
+
 /* Makes a mode visible: its translations, or its rotations when these are larger. */
 static double visible_scale(const model *m, const double increment[])
 {

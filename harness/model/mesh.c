@@ -197,7 +197,7 @@ static status arc_of_element(const model *m, int member, int profile, const memb
     *out = *along;
     if (!scene_member_tapers(&m->scene->member[member]))
         return STATUS_OK;
-    return member_arc_of(m->scene, member, m->section[profile].axes_angle, out, f);
+    return member_arc_of(imperfect_lines(m), member, m->section[profile].axes_angle, out, f);
 }
 
 /* Storage of triad[nodes]; shared with the previous element if they are equal. */
@@ -243,7 +243,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
     const scene_member *sm = &m->scene->member[member];
     const int profile = profile_at(m, member, number), n = division_elements(&m->division, member),
               each = m->division.each[member];
-    double ends[2], at[ELEMENT_MAX_NODES];
+    double ends[2], at[ELEMENT_MAX_NODES], place[ELEMENT_MAX_NODES];
     const int in_piece = division_piece(&m->division, member, number, ends);
     member_arc here;
     unstressed own;
@@ -252,7 +252,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
     const member_arc *a = &here;
     const int bowed = a->bow[0] != 0 || a->bow[1] != 0, bends = vec3_norm(a->k) > 0,
               curves = (m->mesh.type->offers & FEATURE_CURVATURE) != 0,
-              curved = curves && bends && !bowed, last = m->mesh.nodes - 1;
+              curved = curves && bends && !bowed && m->imperfect == NULL, last = m->mesh.nodes - 1;
     mesh_triad triad[ELEMENT_MAX_NODES];
     double first[3] = {0}; /* start of its line */
     el->member = member;
@@ -268,7 +268,9 @@ static status add_element(model *m, const member_arc *along, int member, int num
         double position[3], between[3];
         at[k] = a->length * ends[0] +
                 a->length * (ends[1] - ends[0]) * (in_piece * last + k) / (each * last);
+        place[k] = ends[0] + (ends[1] - ends[0]) * (in_piece * last + k) / (each * last);
         member_arc_at(a, at[k], position, triad[k]);
+        imperfect_move(m, member, place[k], position, triad[k]);
         if (!at_start && !at_end) {
             v->body = el->vertex[k];
             memcpy(v->position, position, sizeof position);
@@ -283,6 +285,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
         if (k < last || curved)
             continue;
         /* Not curved, or not uniform: one triad along the chord. */
+        const double y_start[3] = {triad[0][1], triad[0][4], triad[0][7]};
         double y[3];
         for (int i = 0; i < 3; i++) {
             between[i] = position[i] - first[i];
@@ -294,8 +297,8 @@ static status add_element(model *m, const member_arc *along, int member, int num
         for (int i = 1; i <= last && i < ELEMENT_MAX_NODES; i++)
             memcpy(triad[i], triad[0], sizeof triad[0]);
         member_arc arc = {.length = vec3_norm(between)};
-        if (bowed) {
-            const int arcs = curves && !bends;
+        if (bowed || m->imperfect != NULL) {
+            const int arcs = curves && !bends && bowed;
             if (arcs)
                 arc =
                     arc_of_bow(a, (const double[2]){at[0], at[last]}, first, arc.length, triad[0]);
@@ -303,11 +306,21 @@ static status add_element(model *m, const member_arc *along, int member, int num
                 memcpy(arc.start, first, sizeof arc.start);
                 memcpy(arc.R, triad[0], sizeof arc.R);
             }
+            if (curves && m->imperfect != NULL) {
+                if (bends && !bowed)
+                    memcpy(arc.k, a->k, sizeof arc.k);
+                double turn[3];
+                imperfect_turn(m, member, (const double[2]){place[0], place[last]}, turn);
+                for (int i = 0; i < 3; i++)
+                    for (int j = 0; j < 3; j++)
+                        arc.k[i] += triad[0][3 * j + i] * turn[j] / arc.length;
+                TRY(member_arc_between(m->scene, member, between, y_start, &arc, f));
+            }
             for (int j = 0; j <= last; j++) {
-                double place[3];
-                member_arc_at(&arc, arc.length * j / last, place, triad[j]);
+                double inside[3];
+                member_arc_at(&arc, arc.length * j / last, inside, triad[j]);
                 if (j > 0 && j < last)
-                    memcpy(m->mesh.vertex[el->vertex[j]].position, place, sizeof place);
+                    memcpy(m->mesh.vertex[el->vertex[j]].position, inside, sizeof inside);
             }
         }
         m->mesh.elements++;
@@ -408,8 +421,8 @@ static int runs_on(const model *m, int first, int next)
     const scene_member *sm = &m->scene->member[a->member];
     const int begin = m->mesh.first_element[a->member], each = m->division.each[a->member];
     return a->kind == b->kind ||
-           ((sm->bow[0] != 0 || sm->bow[1] != 0) && !scene_member_tapers(sm) &&
-            (first - begin) / each == (next - begin) / each);
+           ((sm->bow[0] != 0 || sm->bow[1] != 0 || m->imperfect != NULL) &&
+            !scene_member_tapers(sm) && (first - begin) / each == (next - begin) / each);
 }
 
 static void share_mass(model *m)
@@ -493,7 +506,8 @@ status mesh_build(model *m, fault *f)
     for (int member = 0; member < s->members; member++) {
         const int n = division_elements(&m->division, member);
         member_arc a;
-        TRY(member_arc_of(s, member, m->section[s->member[member].section].axes_angle, &a, f));
+        TRY(member_arc_of(imperfect_lines(m), member,
+                          m->section[s->member[member].section].axes_angle, &a, f));
         m->mesh.first_element[member] = m->mesh.elements;
         if ((a.bow[0] != 0 || a.bow[1] != 0) && n < 2 * a.half_waves)
             return fault_set(f, STATUS_REFUSED,

@@ -203,13 +203,15 @@ static status build(model *m, const model_request *request, fault *f)
     return allocate(m, f);
 }
 
-status model_alloc(const model_request *request, model **out, fault *f)
+status model_alloc_imperfect(const model_request *request, const model_imperfect *imperfect,
+                             model **out, fault *f)
 {
     model *m = calloc(1, sizeof *m);
     *out = NULL;
     if (m == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a model");
     m->scene = request->scene;
+    m->imperfect = imperfect;
     m->given = m->mesh.type = request->type;
     m->keep_all = request->keep_all;
     m->asked = request->elements;
@@ -221,17 +223,26 @@ status model_alloc(const model_request *request, model **out, fault *f)
     return outcome;
 }
 
+status model_alloc(const model_request *request, model **out, fault *f)
+{
+    return model_alloc_imperfect(request, NULL, out, f);
+}
+
+/* The same with another number of elements. */
+static status again(const model *m, int elements, model **out, fault *f)
+{
+    const model_request request = {m->scene, m->given, m->options, elements, m->keep_all, m->omits};
+    return model_alloc_imperfect(&request, m->imperfect, out, f);
+}
+
 status model_coarse(const model *m, model **out, fault *f)
 {
-    const model_request request = {m->scene, m->given, m->options, 1, m->keep_all, m->omits};
-    return model_alloc(&request, out, f);
+    return again(m, 1, out, f);
 }
 
 status model_halved(const model *m, model **out, fault *f)
 {
-    const model_request request = {m->scene,     m->given,    m->options,
-                                   2 * m->asked, m->keep_all, m->omits};
-    return model_alloc(&request, out, f);
+    return again(m, 2 * m->asked, out, f);
 }
 
 void model_free(model *m)

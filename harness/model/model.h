@@ -47,6 +47,18 @@ typedef struct model_request {
 status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 
+/* The initial shape of a scene's imperfections: a copy of the scene with its nodes shifted, bodies
+ * and offsets turned with them, and the shifts of members between them. */
+typedef struct model_imperfect model_imperfect;
+/* x[free + driven] of the perfect model: its modes, summed up. Shifts of nodes are added here, as
+ * if the nodes had been there. */
+status model_imperfect_alloc(const model *perfect, const double x[], model_imperfect **, fault *);
+void model_imperfect_free(model_imperfect *);
+/* The model with that shape, which must outlive it. */
+status model_imperfect_build(const model *perfect, const model_imperfect *, model **, fault *);
+/* The largest shift of a point of a member in a mode x; of equal ones the first. */
+void model_largest_shift(const model *, const double x[], double shift[3]);
+
 typedef struct model_size {
     int elements, vertices, free, driven, strains,
         inner; /* strains and internal unknowns: of each element */

@@ -35,8 +35,9 @@ typedef struct mesh_turn {
 struct model {
     model_mesh mesh; /* the public part, which must be first */
     const scene *scene;
-    const element_type *given; /* as defined in its file */
-    element_type completed;    /* copy in which adapters have added missing functions */
+    const model_imperfect *imperfect; /* NULL: perfect */
+    const element_type *given;        /* as defined in its file */
+    element_type completed;           /* copy in which adapters have added missing functions */
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all;
     unsigned features, omits; /* supported features, and physics of the scene that is omitted */
@@ -55,6 +56,31 @@ struct model {
     char **line; /* eliminated coordinates, omitted physics */
 };
 _Static_assert(offsetof(struct model, mesh) == 0, "model_mesh_of finds it by the model's address");
+
+/* Shift and turn of members between their ends, linear between the points. */
+struct model_imperfect {
+    scene own; /* of which nodes, members and loads are copies */
+    scene
+        lines;  /* of which nodes are copies, with shifts of nodes alone: of the lines of members */
+    int modes;  /* 0: there are only those */
+    int *first; /* [members + 1] index of the first point of each */
+    double *place, (*shift)[3], (*turn)[3]; /* [points] place 0 .. 1; [m], [rad] */
+};
+
+/* imperfect: of the scene of the request, its own, which outlives the model; NULL: perfect. */
+status model_alloc_imperfect(const model_request *, const model_imperfect *, model **, fault *);
+/* The scene whose members have the lines that modes deviate from. */
+const scene *imperfect_lines(const model *);
+/* Moves a point of a line, and its triad; nothing in a perfect model. */
+void imperfect_move(const model *, int member, double place, double position[3], double R[9]);
+/* Change of the turn between two places of a member. */
+void imperfect_turn(const model *, int member, const double place[2], double turn[3]);
+/* centreline.c: increments of all vertices, [vertices x 6]; also of nodes that carry nothing. */
+void centreline_increments(const model *, const double x[], double out[]);
+
+/* release.c: sets length and R of an arc of k between two points; y: of its start.  REFUSED. */
+status member_arc_between(const scene *s, int member, const double chord[3], const double y[3],
+                          member_arc *, fault *);
 
 /* mesh.c */
 status mesh_build(model *m, fault *f);

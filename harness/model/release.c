@@ -62,20 +62,15 @@ static status find_length(const scene *s, int member, double distance, member_ar
     return STATUS_OK;
 }
 
-status member_arc_of(const scene *s, int member, double axes_angle, member_arc *out, fault *f)
+status member_arc_between(const scene *s, int member, const double chord[3], const double y[3],
+                          member_arc *out, fault *f)
 {
-    const scene_member *m = &s->member[member];
-    double chord[3], c[3], B[9], local[9];
-    scene_chord(s, member, chord);
+    double c[3], B[9], local[9];
     const double distance = vec3_norm(chord);
-    scene_end(s, member, 0, out->start);
-    memcpy(out->k, m->curvature, sizeof out->k);
-    memcpy(out->bow, m->bow, sizeof out->bow);
-    out->half_waves = m->half_waves;
     out->length = distance;
     if (vec3_norm(out->k) > 0)
         TRY(find_length(s, member, distance, out, f));
-    if (rotation_triad(chord, m->y_axis, B) != 0)
+    if (rotation_triad(chord, y, B) != 0)
         return fault_set(f, STATUS_REFUSED, "%s: its y axis is parallel to it",
                          scene_called(s, SCENE_MEMBERS, member).text);
     const double ey[3] = {0, 1, 0};
@@ -86,6 +81,19 @@ status member_arc_of(const scene *s, int member, double axes_angle, member_arc *
     for (int i = 0; i < 3; i++) /* R = B local^T */
         for (int j = 0; j < 3; j++)
             out->R[3 * i + j] = vec3_dot(&B[3 * i], &local[3 * j]);
+    return STATUS_OK;
+}
+
+status member_arc_of(const scene *s, int member, double axes_angle, member_arc *out, fault *f)
+{
+    const scene_member *m = &s->member[member];
+    double chord[3];
+    scene_chord(s, member, chord);
+    scene_end(s, member, 0, out->start);
+    memcpy(out->k, m->curvature, sizeof out->k);
+    memcpy(out->bow, m->bow, sizeof out->bow);
+    out->half_waves = m->half_waves;
+    TRY(member_arc_between(s, member, chord, m->y_axis, out, f));
     turn_to_principal(axes_angle, out);
     return STATUS_OK;
 }
@@ -165,9 +173,10 @@ status release_build(model *m, fault *f)
             double position[3], R[9];
             if (!is_own(&m->scene->member[i], end))
                 continue;
-            TRY(member_arc_of(m->scene, i, 0, &axis,
+            TRY(member_arc_of(imperfect_lines(m), i, 0, &axis,
                               f)); /* in the axes in which the section is described */
             member_arc_at(&axis, end * axis.length, position, R);
+            imperfect_move(m, i, end, position, R);
             add_end(m, i, end, R);
         }
     return STATUS_OK;

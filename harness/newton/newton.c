@@ -279,6 +279,8 @@ static double held_path(const analysis_context *c, int analysis)
 
 analysis_context context_of(const analysis_context *c, int analysis)
 {
+    if (c->sides != NULL)
+        c = c->sides[scene_is_perfect(c->scene, analysis)];
     analysis_context of = *c;
     of.eq = (equations){c->model, loading_of(c->model, analysis), c->run};
     of.eq.loading.held_path = held_path(c, analysis);

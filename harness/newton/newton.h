@@ -706,6 +706,8 @@ typedef struct analysis_context {
     solve_result *result;       /* receives the step records */
     analysis_outcome *outcomes; /* [analyses]; those before the present one are complete */
     context_work *work;
+    /* With imperfections, of the imperfect and of the perfect structure: context_of; NULL: none */
+    const struct analysis_context *const *sides;
 } analysis_context;
 
 /* Must the analysis run, because quantities or other analyses read it, or the options request it?

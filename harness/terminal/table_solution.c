@@ -147,6 +147,30 @@ static void combinations(FILE *to, const scene *s)
     paragraph_end(&words, at, INDENT);
 }
 
+/* Initial shapes, and the analyses that do not have them. */
+static void imperfections(FILE *to, const scene *s)
+{
+    if (s->imperfections == 0)
+        return;
+    const int at = fprintf(to, "imperfections: ");
+    paragraph words;
+    FILE *text = paragraph_begin(&words, to);
+    for (int i = 0; i < s->imperfections; i++) {
+        const scene_imperfection *p = &s->imperfection[i];
+        fprintf(text, "%s%s, ", i > 0 ? "; " : "", scene_name(s, SCENE_IMPERFECTIONS, i).text);
+        if (p->analysis != SCENE_NONE)
+            fprintf(text, "mode %d of %s, at most %.4g m", p->order,
+                    scene_name(s, SCENE_ANALYSES, p->analysis).text, fabs(p->amplitude));
+        else
+            fprintf(text, "shifts of %d nodes", p->nodes);
+    }
+    for (int i = 0, named = 0; i < s->analyses; i++)
+        if (scene_is_perfect(s, i))
+            fprintf(text, "%s %s",
+                    named++ ? "," : "; without them:", scene_name(s, SCENE_ANALYSES, i).text);
+    paragraph_end(&words, at, INDENT);
+}
+
 /* Does an analysis that is linear about a state hold what drives prescribe? Names these kinds. */
 static int holding(const scene *s, char words[40])
 {
@@ -287,6 +311,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     masses(to, &p->scene, c->mass);
     driven(to, &p->scene);
     combinations(to, &p->scene);
+    imperfections(to, &p->scene);
     table_omitted(to, p);
     table_theory(to, &p->scene, one->formulation.type);
     table_path_events(to, &c->solve);

@@ -80,6 +80,13 @@ static inline int same_constraint(const scene_constraint *a, const scene_constra
            same_numbers(1, &a->ratio, &b->ratio);
 }
 
+static inline int same_imperfection(const scene_imperfection *a, const scene_imperfection *b)
+{
+    return entry_same(entry_imperfection, a, b) && a->nodes == b->nodes &&
+           memcmp(a->node, b->node, (size_t)a->nodes * sizeof *a->node) == 0 &&
+           same_numbers(3 * a->nodes, (const double *)a->shift, (const double *)b->shift);
+}
+
 static inline int same_function(const scene_function *a, const scene_function *b)
 {
     if (a->pieces != b->pieces)
@@ -157,7 +164,8 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
     if (a->sections != b->sections || a->nodes != b->nodes || a->members != b->members ||
         a->springs != b->springs || a->drivers != b->drivers || a->loads != b->loads ||
         a->analyses != b->analyses || a->quantities != b->quantities || a->cases != b->cases ||
-        a->combinations != b->combinations || a->constraints != b->constraints)
+        a->combinations != b->combinations || a->constraints != b->constraints ||
+        a->imperfections != b->imperfections)
         return "counts";
 #define EACH(list, count, same)                                                                    \
     for (*index = 0; *index < a->count; (*index)++)                                                \
@@ -168,6 +176,7 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
     EACH(member, members, same_member)
     EACH(spring, springs, same_spring)
     EACH(constraint, constraints, same_constraint)
+    EACH(imperfection, imperfections, same_imperfection)
     EACH(driver, drivers, same_driver)
     EACH(load, loads, same_load)
     EACH(combination, combinations, same_combination)

@@ -237,6 +237,9 @@ members:
 springs:
   s: {{to: tip, stiffness: [{u(500.0, -1, 1)}, {u(50.0, -1, 1)}, {u(60.0, -1, 1)}, {u(3.0, 1, 1)}, 0, 0]}}
   t: {{to: tip, tables: {{uy: {{at: {us(1, 0, -1.0, 0.002, 1.0)}, value: {us(0, 1, -50.0, 0.1, 150.0)}}}, rz: {{at: [-1, 1], value: {us(1, 1, -2.0, 2.0)}}}}}}}
+imperfections:
+  crooked: {{mode_of: shape, which: 1, amplitude: {u(2e-3, 1)}}}
+  leaning: {{shifts: {{tip: {us(1, 0, 1e-3, 2e-3, 0.0)}}}, factor: 1.5}}
 motions:
   lift: {{path: [0, 1], value: [0, {u(0.01, 1)}]}}
 loads:
@@ -252,6 +255,7 @@ analyses:
   path: {{static: {{stations: [0.5, 1]}}}}
   supple: {{compliance: {{node: tip, about: path}}}}
   tones: {{modal: {{}}}}
+  shape: {{modal: {{}}}}
 quantities:
   ux: {{displacement: {{analysis: path, node: tip, component: ux}}}}
   rz: {{displacement: {{analysis: path, node: tip, component: rz}}}}

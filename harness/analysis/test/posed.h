@@ -200,6 +200,26 @@ static void add(scene *s, const char *name)
     } else if (IS("offset of an end")) {
         scene_member_at(s, 1)->offset[0][1] = 0.003;
         scene_member_at(s, 1)->offset[1][2] = 0.02;
+    } else if (IS("imperfection")) {
+        scene_member_at(s, 1)->bow[0] = 0.004;
+        scene_member_at(s, 1)->bow[1] = 0.002;
+        scene_member_at(s, 1)->half_waves = 1;
+    } else if (IS("imperfection by a mode")) {
+        const int shape = scene_add_imperfection(s);
+        if (shape >= 0) {
+            s->imperfection[shape].analysis = scene_add_modal(s, SCENE_NONE);
+            s->imperfection[shape].amplitude = 0.01;
+        }
+    } else if (IS("imperfection by shifts")) {
+        const int shape = scene_add_imperfection(s);
+        scene_shift_node(s, shape, MIDDLE, (const double[]){0.001, 0.004, 0.006});
+        scene_shift_node(s, shape, TIP, (const double[]){0, -0.001, 0});
+    } else if (IS("nodes that are shifted")) { /* the same */
+        const double shift[2][3] = {{0.001, 0.004, 0.006}, {0, -0.001, 0}};
+        for (int i = 0; i < 3; i++) {
+            scene_node_at(s, MIDDLE)->position[i] += shift[0][i];
+            scene_node_at(s, TIP)->position[i] += shift[1][i];
+        }
     } else if (IS("offset by bodies")) { /* the same */
         scene_member_at(s, 1)->p = scene_add_attached(s, MIDDLE, s->node[MIDDLE].position[0],
                                                       s->node[MIDDLE].position[1] + 0.003, 0);

@@ -2,6 +2,7 @@
 import math
 
 from cases.format.test.scene_case import SceneCase, values
+from harness.tools.kit.program import ROOT, run
 
 FORMULATIONS = ("beamw", "beamw_consistent", "beamw_first", "beamw_vlasov", "collocation",
                 "geometrically_exact", "sheet_second", "sheet_second_consistent", "sheet_third",
@@ -110,6 +111,121 @@ class ImperfectionTest(SceneCase):
                 "analyses:\n  modes: {modal: {}}\n"
                 "quantities:\n  f: {frequency: {analysis: modes, which: 0}}\n", formulation, 16)["f"]
             self.assertAlmostEqual(got / exact, 1, delta=2e-3, msg=formulation)
+
+    def test_mode(self):
+        """The first buckling mode, of one load as of two equal ones, is the sine of a bow; so is that of a
+        modal analysis. The critical load stays that of the perfect column."""
+        bow, exact = 1e-5, 0.5 * CRITICAL * 1e-5 / 0.5
+        for inertia, direction, of in ((f"Iy: {100 * I}, Iz: {I}", "", "{buckling: {}}"),
+                                       (f"Iy: {I}, Iz: {I}", ", direction: [0, 1, 0]", "{buckling: {}}"),
+                                       (f"Iy: {100 * I}, Iz: {I}", ", direction: [0, -1, 0]", "{modal: {}}")):
+            text = column("[0, 0]", inertia=inertia, area=1e3).replace(
+                "omit:", f"imperfections: {{crook: {{mode_of: shape, amplitude: {bow}{direction}}}}}\nomit:") + pushed(
+                    0.5).replace("analyses:\n", f"analyses:\n  shape: {of}\n")
+            if "buckling" in of:
+                text += "  critical: {critical_factor: {analysis: shape}}\n"
+            for formulation in FORMULATIONS:
+                got = self.solve(text, formulation, 16)
+                bound = 4e-4 if formulation in CURVED else 0.02 if formulation == "beamw_first" else 3e-3
+                self.assertAlmostEqual(abs(got["moment"]) / exact, 1, delta=bound, msg=(formulation, of))
+                self.assertEqual(got["moment"] < 0, "-1" not in direction, (formulation, direction))
+                if "critical" in got and formulation != "beamw_first":
+                    self.assertAlmostEqual(got["critical"], 2, delta=1e-5, msg=formulation)
+
+    def test_mode_of_a_twisted_beam(self):
+        """The mode's twist counts: cases/examples/crooked_beam.yaml, order 2 for every formulation."""
+        path = ROOT / "cases/examples/crooked_beam.yaml"
+        for formulation in FORMULATIONS:
+            error = [values(self.record("solve", "--scene", path, "-f", formulation, "-n", n))["moved"] / 1e-4 - 1
+                     for n in (16, 32)]
+            self.assertLess(abs(error[1]), 6e-4, formulation)
+            self.assertAlmostEqual(error[0] / error[1], 4, delta=0.2, msg=formulation)
+
+    FRAME = """beamwork: 1
+sections:
+  bar: {constants: {A: 1e-3, Iy: 1e-7, Iz: 1e-7, It: 2e-8}, young: 210e9, shear_modulus: 81e9, density: 7850}
+nodes:
+  foot: {at: [0, 0, 0], hold: all}
+  knee: {at: [0, 2, 0]NODE}
+  arm: {at: [0.3, 2.2, 0.1], part_of: knee}
+  top: {at: [2, 2.3, 0.1]}
+  end: {at: [2, 0, 0.5], hold: all}
+  MORE
+members:
+  c1: {from: foot, to: LEFT, section: bar, y: [1, 0, 0]}
+  beam: {from: arm, to: top, section: bar, y: [0, 1, 0]}
+  c2: {from: RIGHT, to: end, section: bar, y: [1, 0, 0], release: {to: [rz]}}
+imperfections: {crook: {mode_of: buckle, amplitude: 1e-4}}
+loads:
+  a: {force: [0, -500, 0], on: knee}
+  b: {force: [0, -1000, 0], on: top}
+analyses:
+  push: {static: {stations: [1]}}
+  shake: {motion: {about: push, stations: [0.01], step: 0.001}}
+  tones: {modal: {about: push}}
+  buckle: {buckling: {}}
+quantities:
+  ux: {displacement: {analysis: push, node: top, component: ux}}
+  uz: {displacement: {analysis: push, node: arm, component: uz}}
+  later: {displacement: {analysis: shake, node: arm, component: uz}}
+  f: {frequency: {analysis: tones}}
+  critical: {critical_factor: {analysis: buckle}}
+omit: [shear]
+"""
+
+    def test_mode_of_a_frame(self):
+        """Rigid arms by offsets and by bodies, with a hinge: one shape."""
+        offsets = self.FRAME.replace("NODE", "").replace("MORE", "").replace(
+            "to: LEFT,", "to: knee, offset: {to: [0, -0.2, 0]},").replace(
+                "from: RIGHT,", "from: top, offset: {from: [0.1, -0.1, 0]},")
+        bodies = self.FRAME.replace("NODE", "").replace("MORE", "low: {at: [0, 1.8, 0], part_of: knee}\n"
+                                                        "  side: {at: [2.1, 2.2, 0.1], part_of: top}").replace(
+                                                            "LEFT", "low").replace("RIGHT", "side")
+        perfect = offsets.replace("amplitude: 1e-4", "amplitude: 0")
+        for formulation in ("collocation", "beamw", "geometrically_exact", "sheet_third"):
+            one, two, none = (self.solve(t, formulation, 4) for t in (offsets, bodies, perfect))
+            self.assertEqual(one["critical"], none["critical"])
+            for name in ("ux", "uz", "later", "f"):
+                change = one[name] - none[name]
+                self.assertGreater(abs(change), 1e-7 * abs(one[name]), (formulation, name))
+                self.assertAlmostEqual((two[name] - none[name]) / change, 1, delta=1e-4, msg=(formulation, name))
+            self.assertAlmostEqual(one["later"] / one["uz"], 1, delta=1e-6)
+
+    def test_shifts(self):
+        """Nodes are where they would be if they had been given there, in a file too; in every analysis."""
+        text = self.FRAME.replace("NODE", ", mass: 5").replace("MORE", "").replace("LEFT", "knee").replace(
+            "RIGHT", "top")
+        shifted = text.replace("{mode_of: buckle, amplitude: 1e-4}",
+                               "{shifts: {knee: [0.005, 0, -0.0025], top: [0, 0.01, 0]}, factor: 2}")
+        there = text.replace("imperfections: {crook: {mode_of: buckle, amplitude: 1e-4}}", "").replace(
+            "knee: {at: [0, 2, 0]", "knee: {at: [0.01, 2, -0.005]").replace("[2, 2.3, 0.1]", "[2, 2.32, 0.1]")
+        (self.folder / "survey.csv").write_text("# measured\nno;node;dz;dx;dy\n1;top;0;0;0.01\n"
+                                                "2;knee;-0.0025;0.005;0\n", encoding="utf-8")
+        filed = shifted.replace("{knee: [0.005, 0, -0.0025], top: [0, 0.01, 0]}", "{file: survey.csv}")
+        for formulation in FORMULATIONS:
+            one, two, three = (self.solve(t, formulation, 2) for t in (shifted, there, filed))
+            for name in two:
+                self.assertAlmostEqual(one[name] / two[name], 1, delta=1e-9, msg=(formulation, name))
+                self.assertEqual(one[name], three[name])
+        for bad, words in (("no;node;dx;dy", "survey.csv:1: no column 'dz'"),
+                           ("node;dx;dy;dz\ntop;0;0;x", "survey.csv:2: no number: 'x'"),
+                           ("node;dx;dy;dz\n", "no rows"), ("node;dx;dy;dz\nnone;0;0;1", "no node 'none'"),
+                           ("node;dx;dy;dz\ntop;0;0;1\ntop;0;0;1", "node top is shifted twice")):
+            (self.folder / "survey.csv").write_text(bad + "\n", encoding="utf-8")
+            self.refused(2, words, "solve", "--scene", self.scene(filed), "-n", 1)
+
+    def test_modes_refused(self):
+        """No mode, equal modes, a direction that says nothing, decks."""
+        for shape, words in (("mode_of: shape, amplitude: 1e-3", "is one of 2 with the same value; give its direction"),
+                             ("mode_of: shape, amplitude: 1e-3, direction: [0, 1, 1], which: 999", "there is no mode 999"),
+                             ("mode_of: shape, amplitude: 1e-3, direction: [1, 0, 0]", "direction")):
+            text = column("[0, 0]").replace("omit:", f"imperfections: {{crook: {{{shape}}}}}\nomit:") + pushed(
+                0.5).replace("analyses:\n", "analyses:\n  shape: {buckling: {}}\n")
+            done = run("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 4)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(words, done.stdout + done.stderr)
+        self.refused(2, "imperfections are not written with solids", "export", "--scene", self.scene(text),
+                     "--to", "calculix", "-o", self.folder / "deck")
 
     def test_refused(self):
         self.refused(2, ["member column", "2 half waves", "at least 4"], "solve", "--scene",

@@ -38,7 +38,7 @@ class Scene:
 
     Keys are those of a scene file (`beamwork scene --keys`); `from_` is `from`. Numbers may be
     numpy's, texts may be expressions ("2*pi/3"). parameters, let, sections, nodes, members,
-    springs, constraints, motions, loads, analyses, quantities, parts and instances are dicts of entries; truths,
+    springs, constraints, imperfections, motions, loads, analyses, quantities, parts and instances are dicts of entries; truths,
     omit and meshes are lists; omit may be one word ("all"), shear_theory and plane ("xy": all is
     held in it) are words. Entries may be changed between solutions.
 

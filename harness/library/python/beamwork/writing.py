@@ -7,7 +7,7 @@ from .errors import Refused
 
 # First keys of a scene file, in this order; then the lists of entries, each entry on a line.
 HEAD = ("name", "summary", "source", "plane")
-ENTRIES = ("parameters", "let", "sections", "nodes", "members", "springs", "constraints", "motions", "loads",
+ENTRIES = ("parameters", "let", "sections", "nodes", "members", "springs", "constraints", "imperfections", "motions", "loads",
            "analyses", "quantities", "truths", "omit", "shear_theory", "needs", "meshes", "parts", "instances")
 LISTS = ("truths", "omit", "shear_theory", "needs", "meshes")
 WORDS = ("omit", "shear_theory")  # one word is enough
