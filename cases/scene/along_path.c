@@ -345,8 +345,6 @@ static const char *const
                    "request it about a static path, or use a motion",
     *const no_tangent = "has a different stiffness on each side, but this analysis needs a single "
                         "one at rest; request it about a static path that presses on one side",
-    *const no_constraint = "ties components of nodes, which motions in time do not support; join "
-                           "the nodes by a stiff spring, or into one body by part_of",
     *const no_strains = "has stresses that the undeformed state lacks; request it about a static "
                         "or a linear analysis",
     *const no_drive =
@@ -397,7 +395,7 @@ const scene_input scene_inputs[] = {
     {"warping shared", "uuuuuuuuuuuuuuu", NULL, has_shared_warping},
     {"node attached to another", "uuuuuuuuuuuuuuu", NULL, has_tied},
     {"supports in rotated axes", "uuuuuuuuuuuuuuu", NULL, has_axes},
-    {"constraint", "uuuuuuuuuuuxuuu", no_constraint, has_constraint},
+    {"constraint", "uuuuuuuuuuuuuuu", NULL, has_constraint},
     {"fork", "uuuuuuuuuuuuuuu", NULL, has_fork},
     {"mass of a node", "-ii-iuuu-iuuuuu", NULL, has_mass},
     {"inertia of a node", "-ii-iuuu-iuuuuu", NULL, has_inertia},

@@ -157,6 +157,35 @@ static status divide(model *m, fault *f)
     return check_memory(m, f);
 }
 
+/* Finds which nodes constraints join. */
+static status join_nodes(model *m, fault *f)
+{
+    const int n = m->scene->nodes;
+    int *joined = m->mesh.joined = malloc((size_t)(2 * n + 1) * sizeof *joined);
+    if (joined == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for constraints");
+    for (int i = 0; i < n; i++)
+        joined[2 * i] = i;
+    for (int k = 0; k < 6 * n; k++) {
+        const int other = m->mesh.tie[k].node;
+        int a = k / 6, b = other == SCENE_NONE ? a : other;
+        while (joined[2 * a] != a)
+            a = joined[2 * a];
+        while (joined[2 * b] != b)
+            b = joined[2 * b];
+        joined[a < b ? 2 * b : 2 * a] = a < b ? a : b;
+    }
+    for (int i = 0; i < n; i++)
+        joined[2 * i] = joined[2 * joined[2 * i]];
+    for (int i = n - 1; i >= 0; i--) {
+        joined[2 * i + 1] = NONE;
+        for (int j = i + 1; j < n && joined[2 * i + 1] == NONE; j++)
+            if (joined[2 * j] == joined[2 * i])
+                joined[2 * i + 1] = j;
+    }
+    return STATUS_OK;
+}
+
 static status build(model *m, const model_request *request, fault *f)
 {
     const scene *s = request->scene;
@@ -182,6 +211,7 @@ static status build(model *m, const model_request *request, fault *f)
         if (m->mesh.tie == NULL)
             return fault_set(f, STATUS_FAULT, "out of memory for constraints");
         TRY(scene_ties(s, m->mesh.tie, f));
+        TRY(join_nodes(m, f));
     }
     TRY(mesh_build(m, f));
     TRY(discrete_build(m, f));
@@ -272,6 +302,7 @@ void model_free(model *m)
     division_free(&m->division);
     free(m->mesh.driver_coordinate);
     free(m->mesh.tie);
+    free(m->mesh.joined);
     kinematics_state_free(m->rest);
     free(m);
 }

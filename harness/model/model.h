@@ -294,6 +294,7 @@ typedef struct model_mesh {
     int frees;      /* temperatures or prestrained members exist */
     int work_size;  /* of an element in a linear_memory: harness/newton/newton.h */
     scene_tie *tie; /* [6 nodes]: coordinates of nodes in constraints; NULL: none */
+    int *joined;    /* [2 nodes]: model_first_joined, model_next_joined; NULL: none */
 } model_mesh;
 static inline const model_mesh *model_mesh_of(const model *m)
 {
@@ -360,6 +361,34 @@ static inline const scene_tie *model_tie(const model *m, int node, int coordinat
 {
     const scene_tie *all = model_mesh_of(m)->tie;
     return all != NULL && all[6 * node + coordinate].node >= 0 ? &all[6 * node + coordinate] : NULL;
+}
+/* Has a body the coordinate for itself, or do others in a constraint follow it? 0: it follows.
+ * Turns follow together. */
+static inline int model_owns(const model *m, int vertex, int coordinate)
+{
+    int owns = 1;
+    if (model_mesh_of(m)->tie == NULL || vertex >= model_scene(m)->nodes)
+        return 1;
+    for (int c = SCENE_UX; c <= SCENE_RZ; c++) {
+        const scene_tie *tie = model_tie(m, vertex, c);
+        if (tie != NULL && (c == coordinate || (c >= SCENE_RX && coordinate >= SCENE_RX)))
+            owns &= tie->node == vertex && tie->coordinate == c;
+    }
+    return owns;
+}
+/* Bodies that constraints join, in ascending order: the first one, and the one after; NONE: it is
+ * the last one. */
+static inline int model_first_joined(const model *m, int vertex)
+{
+    const model_mesh *mesh = model_mesh_of(m);
+    return mesh->joined == NULL || vertex >= model_scene(m)->nodes ? vertex
+                                                                   : mesh->joined[2 * vertex];
+}
+static inline int model_next_joined(const model *m, int vertex)
+{
+    const model_mesh *mesh = model_mesh_of(m);
+    return mesh->joined == NULL || vertex >= model_scene(m)->nodes ? NONE
+                                                                   : mesh->joined[2 * vertex + 1];
 }
 /* Coordinate of a driver, or NONE. */
 static inline int model_driver_coordinate(const model *m, int driver)

@@ -172,6 +172,53 @@ static status check(const model *m, fault *f)
     return STATUS_OK;
 }
 
+static int turns_freely(const model *m, int vertex)
+{
+    int free = 0;
+    for (int c = SCENE_RX; c <= SCENE_RZ; c++)
+        free += model_vertex(m, vertex)->coordinate[c] != NONE &&
+                model_vertex(m, vertex)->coordinate[c] < model_unknowns(m);
+    return free > 0;
+}
+
+static status refuse_constraint(const model *m, int node, const char *why, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED,
+                     "the integrator conserving does not support %s (%s); use alpha or radau", why,
+                     scene_called(model_scene(m), SCENE_NODES, node).text);
+}
+
+/* Rejects constraints that its rates at the ends of a step do not satisfy: Cayley vectors of
+ * rotations in a ratio are in another one, and masses beside their nodes have velocities of their
+ * own. */
+static status check_constraints(const model *m, const carried_masses *masses, fault *f)
+{
+    if (model_mesh_of(m)->joined == NULL)
+        return STATUS_OK;
+    for (int i = 0; i < VERTEX_COORDINATES * model_scene(m)->nodes; i++) {
+        const int node = i / VERTEX_COORDINATES, c = i % VERTEX_COORDINATES;
+        const scene_tie *tie = model_tie(m, node, c);
+        if (tie == NULL || c < SCENE_RX)
+            continue;
+        if (tie->ratio != 1)
+            return refuse_constraint(m, node, "rotations in a ratio", f);
+        if ((model_vertex(m, node)->angles > 0) != (model_vertex(m, tie->node)->angles > 0))
+            return refuse_constraint(m, node, "equal rotations of nodes with and without axes", f);
+    }
+    for (int k = 0; k < masses->masses; k++) {
+        const int node = masses->mass[k].frame;
+        int tied = 0;
+        for (int c = 0; c < SCENE_RX && node < model_scene(m)->nodes; c++)
+            tied |= model_tie(m, node, c) != NULL;
+        if (tied && turns_freely(m, node) &&
+            vec3_norm(masses->mass[k].moment) > 1e-12 * masses->mass[k].mass * model_length(m))
+            return refuse_constraint(
+                m, node, "constrained translations of a node that rotates with a mass beside it",
+                f);
+    }
+    return STATUS_OK;
+}
+
 static status allocate(conserving *s, fault *f)
 {
     const model *m = s->of.c->model;
@@ -208,6 +255,7 @@ static status allocate(conserving *s, fault *f)
     s->massless = s->spring + (size_t)(4 * SPRING_STRAINS * model_springs(m));
     if (elastic > 0)
         s->elastic = s->massless + (size_t)(9 * s->of.masses->masses);
+    TRY(check_constraints(m, s->of.masses, f));
     TRY(conserving_massless(s, f));
     metric_of(m, s->weight);
     TRY(assemble_pattern_in_time(s->of.c->model, s->of.c->run->patterns, &pattern, f));
@@ -255,15 +303,6 @@ static int null_space(const double J[9], double N[9])
             N[i] += A[3 * (i / 3) + k] * A[3 * (i % 3) + k];
     }
     return count;
-}
-
-static int turns_freely(const model *m, int vertex)
-{
-    int free = 0;
-    for (int c = SCENE_RX; c <= SCENE_RZ; c++)
-        free += model_vertex(m, vertex)->coordinate[c] != NONE &&
-                model_vertex(m, vertex)->coordinate[c] < model_unknowns(m);
-    return free > 0;
 }
 
 status conserving_massless(conserving *s, fault *f)
@@ -415,6 +454,69 @@ static void conserving_released_rates(const conserving *s, const instant *from, 
     to->ends_known = 1;
 }
 
+/* Does a vertex follow another one's turns, or others its own? */
+static int turns_with(const model *m, int vertex)
+{
+    int with = 0;
+    for (int c = SCENE_RX; c <= SCENE_RZ && vertex < model_scene(m)->nodes; c++)
+        with |= model_tie(m, vertex, c) != NULL;
+    return with;
+}
+
+/* N[9] as without_inertia takes it, of the masses of all nodes that turn by the coordinates of this
+ * one. */
+static void massless_together(const conserving *s, int vertex, double N[9])
+{
+    const model *m = s->of.c->model;
+    const mesh_vertex *v = model_vertex(m, vertex);
+    double sum[9] = {0}, about = 0, all = 0;
+    int single = NONE, turns = 0;
+    for (int c = SCENE_RX; c <= SCENE_RZ; c++)
+        if (v->coordinate[c] != NONE) {
+            single = c;
+            turns++;
+        }
+    for (int k = 0; k < s->of.masses->masses; k++) {
+        const carried_mass *one = &s->of.masses->mass[k];
+        const mesh_vertex *other = model_vertex(m, one->frame);
+        double centre[3], J[9], axis[3];
+        if (single == NONE || memcmp(other->coordinate + SCENE_RX, v->coordinate + SCENE_RX,
+                                     3 * sizeof *v->coordinate) != 0)
+            continue;
+        carried_step_centre(m, one, centre, J);
+        for (int i = 0; i < 9; i++)
+            sum[i] += J[i];
+        for (int i = 0; i < 3; i++)
+            axis[i] = other->angles > 0 ? other->axis[0][i] : SCENE_RX + i == single;
+        about += dense_quadratic(3, J, axis);
+        all += J[0] + J[4] + J[8];
+    }
+    if (turns == 3) {
+        null_space(sum, N);
+        return;
+    }
+    for (int i = 0; i < 9; i++)
+        N[i] = i % 4 == 0 && !(about > 1e-12 * all);
+}
+
+/* Rates of translations in constraints: of their coordinates, with the masses of all their nodes.
+ */
+static void rates_together(const conserving *s, const instant *from, double h, instant *to)
+{
+    const model *m = s->of.c->model;
+    for (int i = 0; i < model_scene(m)->nodes; i++)
+        for (int c = 0; c < SCENE_RX; c++) {
+            const int at = model_vertex(m, i)->coordinate[c];
+            int heavy = 0;
+            if (model_tie(m, i, c) == NULL || !model_owns(m, i, c) || at == NONE || at >= s->free)
+                continue;
+            for (int k = 0; k < s->of.masses->masses && !heavy; k++)
+                heavy = s->of.masses->mass[k].mass > 0 &&
+                        model_vertex(m, s->of.masses->mass[k].frame)->coordinate[c] == at;
+            to->v[at] = heavy ? 2 * s->step[at] / h - from->v[at] : s->step[at] / h;
+        }
+}
+
 /* Sets the rates after a step: for frames with a mass at their centres, for the others at the
  * frames. */
 void conserving_rates(conserving *s, const instant *from, double h, instant *to)
@@ -433,20 +535,27 @@ void conserving_rates(conserving *s, const instant *from, double h, instant *to)
         carried_step p;
         double w[3], turned[3];
         carried_step_of(s, from, to->state, h, one, &p);
-        without_inertia(one, one == &plain ? NULL : s->massless + (size_t)(9 * k), &p);
+        double N[9];
+        const int with = turns_with(m, i);
+        if (with)
+            massless_together(s, i, N);
+        without_inertia(one, with ? N : one == &plain ? NULL : s->massless + (size_t)(9 * k), &p);
         mat3_mul_vec(p.R1, p.W1, w);
         vec3_cross(w, p.after, turned);
         double frame[3] = {p.v1[0] - turned[0], p.v1[1] - turned[1], p.v1[2] - turned[2]};
         kinematics_to_own(model_vertex(m, i), frame);
         for (int c = 0; c < 3; c++) {
-            if (at[c] != NONE && at[c] < model_unknowns(m))
+            if (at[c] != NONE && at[c] < model_unknowns(m) && model_owns(m, i, c))
                 to->v[at[c]] = frame[c];
             if (at[SCENE_RX + c] != NONE && at[SCENE_RX + c] < model_unknowns(m) &&
-                model_vertex(m, i)->angles == 0)
+                model_vertex(m, i)->angles == 0 && model_owns(m, i, SCENE_RX))
                 to->v[at[SCENE_RX + c]] = p.W1[c];
         }
-        angle_rates(m, i, to, w);
+        if (model_owns(m, i, SCENE_RX))
+            angle_rates(m, i, to, w);
     }
+    if (model_mesh_of(m)->joined != NULL)
+        rates_together(s, from, h, to);
     for (int i = 0; i < model_warps(m); i++) {
         const int c = model_warp(m, i);
         const double mean = s->step[c] / h;

@@ -353,7 +353,7 @@ static double worked_on(const conserving *s, const double force[])
         const int turns = r == NULL ? (v->body == i ? v->angles : 0) : r->turns < 3 ? r->turns : 0;
         for (int k = 0; k < turns; k++) {
             const int c = v->coordinate[SCENE_RX + k];
-            if (c != NONE)
+            if (c != NONE && model_owns(m, i, SCENE_RX))
                 sum += force[c] * (2 * tan(s->step[c] / 2) - s->step[c]);
         }
     }

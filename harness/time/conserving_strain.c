@@ -424,7 +424,7 @@ void conserving_predict(conserving *s, const instant *from, double h)
             moved[k] = h * (r.v[k] + (crossed[k] + twice[k] / 2) / (1 + vec3_dot(c, c) / 4) / 2);
         kinematics_to_own(model_vertex(m, i), moved);
         for (int k = 0; k < 3; k++)
-            if (at[k] != NONE && at[k] < s->free)
+            if (at[k] != NONE && at[k] < s->free && model_owns(m, i, k))
                 s->step[at[k]] = moved[k];
     }
 }

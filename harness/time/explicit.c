@@ -124,12 +124,68 @@ static int block(const model *m, const carried_masses *masses, int index, const 
     return count;
 }
 
+/* Accelerations of bodies that constraints join, as below. */
+static status accelerate_joined(const model *m, const carried_masses *masses, int body,
+                                const model_state *s, const double residual[], body_mass *g,
+                                double a[], fault *f)
+{
+    body_mass_of(m, masses, body, s, g);
+    for (int k = 0; k < g->count; k++)
+        g->value[k] = g->unit[k] * residual[g->index[k]];
+    if (g->count > 0 && dense_lu_regular(g->count, g->M, g->used) != 0)
+        return fault_set(f, STATUS_SINGULAR, "%s: two angles of its rotation turn about one axis",
+                         scene_called(model_scene(m), SCENE_NODES, body).text);
+    dense_lu_solve(g->count, 1, g->M, g->used, g->value);
+    for (int k = 0; k < g->count; k++)
+        a[g->index[k]] = g->unit[k] * g->value[k];
+    for (int i = body; i != NONE; i = model_next_joined(m, i)) {
+        const int *at = model_vertex(m, i)->coordinate + SCENE_RX;
+        double R[9], own[3];
+        if (forms_of(m, i) != FORM_BODY || at[0] >= model_unknowns(m) ||
+            !model_owns(m, i, SCENE_RX))
+            continue;
+        const double turning[3] = {a[at[0]], a[at[1]], a[at[2]]};
+        rotation_matrix(&s->q[4 * i], R);
+        mat3_transpose_mul_vec(R, turning, own);
+        for (int k = 0; k < 3; k++)
+            a[at[k]] = own[k];
+    }
+    return STATUS_OK;
+}
+
+static void accelerate_warps(const model *m, const carried_masses *masses, const double residual[],
+                             double a[])
+{
+    for (int w = 0; w < model_warps(m); w++) {
+        const int c = model_warp(m, w);
+        if (c < model_unknowns(m))
+            a[c] = residual[c] / masses->warping[c];
+    }
+}
+
+static status accelerate_together(const model *m, const carried_masses *masses,
+                                  const model_state *s, const double residual[], double a[],
+                                  fault *f)
+{
+    body_mass g;
+    TRY(body_mass_alloc(m, &g, f));
+    status outcome = STATUS_OK;
+    for (int i = 0; i < model_vertices(m) && outcome == STATUS_OK; i++)
+        if (model_vertex(m, i)->body == i && model_first_joined(m, i) == i)
+            outcome = accelerate_joined(m, masses, i, s, residual, &g, a, f);
+    body_mass_free(&g);
+    accelerate_warps(m, masses, residual, a);
+    return outcome;
+}
+
 /* a[free] = M^-1 times the residual, which includes the effect of the driven
  * accelerations in a. SINGULAR: two axes of a sequence of angles coincide. */
 static status explicit_accelerate(const model *m, const carried_masses *masses,
                                   const model_state *s, const double v[], const double residual[],
                                   double a[], fault *f)
 {
+    if (model_mesh_of(m)->joined != NULL)
+        return accelerate_together(m, masses, s, residual, a, f);
     for (int k = 0; k < masses->masses; k++) {
         int of[6], pivot[6];
         double M[36], b[6];
@@ -144,11 +200,7 @@ static status explicit_accelerate(const model *m, const carried_masses *masses,
         for (int i = 0; i < n; i++)
             a[of[i]] = b[i];
     }
-    for (int w = 0; w < model_warps(m); w++) {
-        const int c = model_warp(m, w);
-        if (c < model_unknowns(m))
-            a[c] = residual[c] / masses->warping[c];
-    }
+    accelerate_warps(m, masses, residual, a);
     return STATUS_OK;
 }
 
@@ -182,6 +234,12 @@ static status refuse(const model *m, int vertex, const char *what, fault *f)
                      what, whose.text);
 }
 
+static status refuse_warping(fault *f)
+{
+    return fault_set(f, STATUS_REFUSED,
+                     "integrator explicit: warping has no inertia; use alpha, conserving or radau");
+}
+
 static status check_vertex(const model *m, int index, const int heavy[], fault *f)
 {
     const mesh_vertex *v = model_vertex(m, index);
@@ -212,6 +270,27 @@ static void mark(const model *m, const carried_masses *masses, const double rest
         heavy[model_warp(m, w)] = masses->warping[model_warp(m, w)] > 0;
 }
 
+/* The same where constraints join bodies, whose masses count together. */
+static status check_joined(const model *m, const carried_masses *masses, fault *f)
+{
+    const double rounding = 1e-13;
+    status outcome = STATUS_OK;
+    body_mass g;
+    TRY(body_mass_alloc(m, &g, f));
+    for (int i = 0; i < model_vertices(m) && outcome == STATUS_OK; i++) {
+        if (model_vertex(m, i)->body != i || model_first_joined(m, i) != i)
+            continue;
+        const double largest = body_mass_of(m, masses, i, kinematics_rest(m), &g);
+        if (body_mass_rank(&g, rounding * largest) < g.count)
+            outcome = refuse(m, i, "place or rotation", f);
+    }
+    for (int w = 0; w < model_warps(m) && outcome == STATUS_OK; w++)
+        if (model_warp(m, w) < model_unknowns(m) && !(masses->warping[model_warp(m, w)] > 0))
+            outcome = refuse_warping(f);
+    body_mass_free(&g);
+    return outcome;
+}
+
 status explicit_check(const model *m, const carried_masses *masses, fault *f)
 {
     const size_t all = (size_t)model_all_coordinates(m) + 1;
@@ -219,6 +298,8 @@ status explicit_check(const model *m, const carried_masses *masses, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "integrator explicit: released ends of members have no inertia of their "
                          "own; use alpha, conserving or radau");
+    if (model_mesh_of(m)->joined != NULL)
+        return check_joined(m, masses, f);
     int *heavy = calloc(all, sizeof *heavy);
     double *rest = calloc(all, sizeof *rest);
     status outcome = heavy != NULL && rest != NULL
@@ -231,9 +312,7 @@ status explicit_check(const model *m, const carried_masses *masses, fault *f)
             outcome = check_vertex(m, i, heavy, f);
     for (int w = 0; w < model_warps(m) && outcome == STATUS_OK; w++)
         if (model_warp(m, w) < model_unknowns(m) && !heavy[model_warp(m, w)])
-            outcome = fault_set(
-                f, STATUS_REFUSED,
-                "integrator explicit: warping has no inertia; use alpha, conserving or radau");
+            outcome = refuse_warping(f);
     free(heavy);
     free(rest);
     return outcome;
@@ -384,7 +463,7 @@ static double product(const outer_work *w, const model_state *s, const double al
         const int *at = &model_vertex(m, i)->coordinate[SCENE_RX];
         double R[9], own[3], moment[3], turned[3];
         if ((model_vertex(m, i)->body != i && i < model_first_release(m)) ||
-            forms_of(m, i) != FORM_BODY)
+            forms_of(m, i) != FORM_BODY || !model_owns(m, i, SCENE_RX))
             continue;
         rotation_matrix(&s->q[4 * i], R);
         for (int k = 0; k < 3; k++) {

@@ -82,11 +82,13 @@ static void add_turn(const model_state *now, int index, const mesh_vertex *v, co
         inc[v->coordinate[SCENE_RX + k]] = at[k];
 }
 
-static void add_plainly(const model *m, const mesh_vertex *v, int first, int end, const double dx[],
+static void add_plainly(const model *m, int vertex, int first, int end, const double dx[],
                         double inc[])
 {
+    const mesh_vertex *v = model_vertex(m, vertex);
     for (int c = first; c < end; c++)
-        if (v->coordinate[c] != NONE && v->coordinate[c] < model_unknowns(m))
+        if (v->coordinate[c] != NONE && v->coordinate[c] < model_unknowns(m) &&
+            model_owns(m, vertex, c))
             inc[v->coordinate[c]] += dx[v->coordinate[c]];
 }
 
@@ -97,11 +99,13 @@ void increment_add(const model *m, const model_state *now, const double dx[], do
         const mesh_release *r = release_of(m, i);
         if (r == NULL && v->body != i)
             continue;
-        add_plainly(m, v, SCENE_UX, SCENE_RX, dx, inc);
-        if (forms_of(m, i) == FORM_BODY && v->coordinate[SCENE_RX] < model_unknowns(m))
+        add_plainly(m, i, SCENE_UX, SCENE_RX, dx, inc);
+        const int whole =
+            forms_of(m, i) == FORM_BODY && v->coordinate[SCENE_RX] < model_unknowns(m);
+        if (whole && model_owns(m, i, SCENE_RX))
             add_turn(now, i, v, dx, inc);
-        else
-            add_plainly(m, v, SCENE_RX, SCENE_RZ + 1, dx, inc);
+        else if (!whole)
+            add_plainly(m, i, SCENE_RX, SCENE_RZ + 1, dx, inc);
     }
     for (int i = 0; i < model_warps(m); i++)
         inc[model_warp(m, i)] += dx[model_warp(m, i)];

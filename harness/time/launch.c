@@ -70,13 +70,13 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
     kinematics_to_own(frame, velocity);
     for (int i = 0; i < 3; i++) {
         const int c = frame->coordinate[i], t = frame->coordinate[SCENE_RX + i];
-        if (c != NONE && c < model_unknowns(m) && own)
+        if (c != NONE && c < model_unknowns(m) && own && model_owns(m, index, i))
             v[c] = velocity[i];
         if (t != NONE && t < model_unknowns(m) && frame->angles == 0 &&
-            (own || forms_of(m, index) == FORM_BODY))
+            model_owns(m, index, SCENE_RX) && (own || forms_of(m, index) == FORM_BODY))
             v[t] = body[i];
     }
-    if (frame->angles > 0 && vec3_norm(field->spin) > 0)
+    if (frame->angles > 0 && vec3_norm(field->spin) > 0 && model_owns(m, index, SCENE_RX))
         start_angles(m, s, index, field->spin, v);
 }
 
@@ -177,11 +177,43 @@ status launch_again(analysis_context *c, const carried_masses *masses, const sce
     return outcome;
 }
 
-static void set_field(const model *m, const model_state *s, const scene_start *field, double v[])
+/* REFUSED: a coordinate that follows another one has another rate in the field. */
+static status check_followers(const model *m, const model_state *s, const scene_start *field,
+                              const double v[], fault *f)
+{
+    const double nothing = 1e-9, spin = vec3_norm(field->spin);
+    for (int i = 0; i < model_scene(m)->nodes && model_mesh_of(m)->joined != NULL; i++)
+        for (int c = 0; c < VERTEX_COORDINATES; c++) {
+            const mesh_vertex *at = model_vertex(m, i);
+            const int turns = c >= SCENE_RX, of = at->coordinate[c];
+            double b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, along[3], rate[3];
+            if (model_owns(m, i, c) || of == NONE || of >= model_unknowns(m))
+                continue;
+            if (turns && at->angles > 0)
+                kinematics_axes(m, s, i, b);
+            velocity_of(m, s, i, field, rate);
+            for (int k = 0; k < 3; k++) {
+                along[k] = turns ? b[c - SCENE_RX][k] : at->turned ? at->along[3 * k + c] : k == c;
+                rate[k] = turns ? field->spin[k] : rate[k];
+            }
+            const double square = vec3_dot(along, along), size = turns ? spin : vec3_norm(rate);
+            if (fabs(vec3_dot(along, rate) / square - v[of]) > nothing * size)
+                return fault_set(
+                    f, STATUS_REFUSED,
+                    "%s: the initial velocity contradicts a constraint with another node; "
+                    "start from a static analysis, or remove the constraint",
+                    scene_called(model_scene(m), SCENE_NODES, i).text);
+        }
+    return STATUS_OK;
+}
+
+static status set_field(const model *m, const model_state *s, const scene_start *field, double v[],
+                        fault *f)
 {
     for (int i = 0; i < model_vertices(m); i++)
         if (model_vertex(m, i)->body == i || i >= model_first_release(m))
             start_vertex(m, s, i, field, v);
+    return check_followers(m, s, field, v, f);
 }
 
 status launch(analysis_context *c, const carried_masses *masses, const scene_motion *how,
@@ -200,7 +232,7 @@ status launch_turning(analysis_context *c, const carried_masses *masses, const s
     if (vec3_norm(frame->omega) > 0) {
         memcpy(field.spin, frame->omega, sizeof field.spin);
         memcpy(field.centre, frame->centre, sizeof field.centre);
-        set_field(m, now->state, &field, now->v);
+        TRY(set_field(m, now->state, &field, now->v, f));
         TRY(check_field(m, now->state, &field, now->v, f));
     }
     /* the sum of both fields */
@@ -212,7 +244,7 @@ status launch_turning(analysis_context *c, const carried_masses *masses, const s
         field.spin[i] = how->start.spin[i] + frame->omega[i];
         field.centre[i] = 0;
     }
-    set_field(m, now->state, &field, now->v);
+    TRY(set_field(m, now->state, &field, now->v, f));
     return launch_again(c, masses, how, now, room, f);
 }
 

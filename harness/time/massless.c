@@ -68,7 +68,7 @@ static double stiffest(const body_mass *g, double none, const double diagonal[],
     return most;
 }
 
-/* Performs the task for one body; the rank of its M. */
+/* Performs the task for one body and those that constraints join to it; the rank of its M. */
 static int visit(const model *m, const carried_masses *all, int body, const model_state *s,
                  body_mass *g, wish *of)
 {
@@ -113,7 +113,7 @@ static status walk(const model *m, const carried_masses *all, const model_state 
     body_mass g;
     TRY(body_mass_alloc(m, &g, f));
     for (int i = 0; i < model_first_release(m); i++)
-        if (model_vertex(m, i)->body == i)
+        if (model_vertex(m, i)->body == i && model_first_joined(m, i) == i)
             heavy += visit(m, all, i, s, &g, of);
     *out = model_unknowns(m) - heavy - warping(m, all, s, of);
     body_mass_free(&g);
@@ -162,7 +162,7 @@ static void turn_axes(const model *m, const model_state *s, int own_to_space, do
         double R[9], turning[3], turned[3];
         if ((model_vertex(m, i)->body != i && i < model_first_release(m)) ||
             forms_of(m, i) != FORM_BODY || at[0] >= model_unknowns(m) ||
-            at[1] >= model_unknowns(m) || at[2] >= model_unknowns(m))
+            at[1] >= model_unknowns(m) || at[2] >= model_unknowns(m) || !model_owns(m, i, SCENE_RX))
             continue;
         for (int k = 0; k < 3; k++)
             turning[k] = a[at[k]];
@@ -211,11 +211,15 @@ status massless_accelerate(const model *m, const carried_masses *all, const mode
 
 enum { BLOCK = 9, BLOCKS = 2 };
 
-/* Are all three coordinates of a rotation free and those of the body itself? */
+/* Are all three coordinates of a rotation free and those of the body itself, or of bodies that move
+ * as one? */
 static int is_whole(const model *m, int i, int block)
 {
-    const int *at = model_vertex(m, i)->coordinate + 3 * block;
+    const int *at = model_vertex(m, i)->coordinate + 3 * block, first = model_first_joined(m, i);
     int whole = model_vertex(m, i)->body == i && !(block == 0 && model_vertex(m, i)->turned);
+    for (int j = first; j != NONE && whole; j = model_next_joined(m, j))
+        whole = memcmp(model_vertex(m, j)->coordinate, model_vertex(m, i)->coordinate,
+                       sizeof model_vertex(m, i)->coordinate) == 0;
     for (int k = 0; k < 3; k++)
         whole &= at[k] != NONE && at[k] < model_unknowns(m);
     return whole;

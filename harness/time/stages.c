@@ -31,7 +31,8 @@ static int fill(const equations *eq, const sparse *single, const int frame_of[],
 {
     const model *m = eq->m;
     const int n = out->n, full = model_releases(m) > 0 || eq->run->damping != NULL ||
-                                 masses->spread; /* consistent masses couple nodes */
+                                 masses->spread || /* consistent masses couple nodes */
+                                 model_mesh_of(m)->joined != NULL;
     const double *warping = masses->warping;
     int count = 0;
     for (int k = 0; k < STAGES; k++)
@@ -206,6 +207,12 @@ static double add_mass(const model *m, const carried_masses *all, int index, con
     return all->mass[index].mass;
 }
 
+/* The first of the bodies that constraints join to the one that moves a vertex. */
+static int first_of(const model *m, int vertex)
+{
+    return model_first_joined(m, model_vertex(m, vertex)->body);
+}
+
 /* Adds an element with consistent mass: entries of the nodes that the body moves and of the ends
  * released from it, without their coupling with other nodes. A motion without mass in this block
  * has none in the whole matrix. Returns the largest mass of a node. */
@@ -218,7 +225,7 @@ static double add_element(const model *m, int element, int body, const model_sta
     spread_parts p;
     int beside = 0;
     for (int k = 0; k < el->nodes; k++)
-        beside |= model_vertex(m, el->vertex[k])->body == body;
+        beside |= first_of(m, el->vertex[k]) == body;
     if (!beside)
         return 0;
     spread_masses(m, element, s, &p);
@@ -257,34 +264,38 @@ double body_mass_of(const model *m, const carried_masses *all, int body, const m
 {
     double largest = 0;
     g->count = 0;
-    take_vertex(m, body, g);
+    for (int i = body; i != NONE; i = model_next_joined(m, i))
+        take_vertex(m, i, g);
     for (int i = model_first_release(m); i < model_vertices(m); i++)
-        if (model_vertex(m, i)->body == body)
+        if (first_of(m, i) == body)
             take_vertex(m, i, g);
     memset(g->M, 0, (size_t)(g->count * g->count) * sizeof *g->M);
     for (int k = 0; k < all->masses; k++)
-        if (model_vertex(m, all->mass[k].frame)->body == body)
+        if (first_of(m, all->mass[k].frame) == body)
             largest = fmax(largest, add_mass(m, all, k, s, g));
     for (int i = 0; i < model_elements(m) && all->spread; i++)
         largest = fmax(largest, add_element(m, i, body, s, g));
     return largest;
 }
 
-/* Largest number of ends released from one body. */
-static int most_ends(const model *m, int ends[])
+/* Largest number of coordinates of one body, or of bodies that constraints join. */
+static int most_coordinates(const model *m, int count[])
 {
     int most = 0;
-    for (int i = model_first_release(m); i < model_vertices(m); i++)
-        if (++ends[model_vertex(m, i)->body] > most)
-            most = ends[model_vertex(m, i)->body];
+    for (int i = 0; i < model_vertices(m); i++) {
+        const int released = i >= model_first_release(m), first = first_of(m, i);
+        if (released || model_vertex(m, i)->body == i)
+            count[first] += released ? SCENE_RELEASED : VERTEX_COORDINATES;
+        most = count[first] > most ? count[first] : most;
+    }
     return most;
 }
 
 status body_mass_alloc(const model *m, body_mass *out, fault *f)
 {
-    int *ends = calloc((size_t)model_vertices(m) + 1, sizeof *ends);
-    const size_t n = ends == NULL ? 0 : 6 + SCENE_RELEASED * (size_t)most_ends(m, ends);
-    free(ends);
+    int *count = calloc((size_t)model_vertices(m) + 1, sizeof *count);
+    const size_t n = count == NULL ? 0 : (size_t)most_coordinates(m, count);
+    free(count);
     memset(out, 0, sizeof *out);
     out->index = calloc(2 * n + 1, sizeof *out->index);
     out->M = calloc(2 * n * (n + 1) + (size_t)model_all_coordinates(m) + 1, sizeof *out->M);

@@ -144,12 +144,13 @@ void between_take(step_between *b, between_degree degree, const instant *from, c
         kinematics_to_own(v, moved);
         for (int k = 0; k < 3; k++) {
             const int at = 3 * i + k;
-            put_plain(b, v->coordinate[k], moved[k], h);
-            if (v->angles > 0)
+            if (model_owns(m, i, k))
+                put_plain(b, v->coordinate[k], moved[k], h);
+            if (v->angles > 0 && model_owns(m, i, SCENE_RX))
                 put_plain(b, v->coordinate[SCENE_RX + k],
                           to->state->angle[at] - from->state->angle[at], h);
         }
-        if (v->angles == 0)
+        if (v->angles == 0 && model_owns(m, i, SCENE_RX))
             put_turn(b, i, h);
     }
     for (int i = model_first_release(m); i < model_vertices(m); i++)

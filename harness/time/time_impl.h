@@ -41,8 +41,8 @@ status balance_of(const equations *, const carried_masses *, const instant *,
 /* Strain energy [J] due to rounding errors of all coordinates; smaller energies count as zero. */
 double balance_rounding(const model *);
 
-/* Mass matrix of one body and everything that moves with it: its coordinates and those of member
- * ends that are released from it. */
+/* Mass matrix of one body, of those that constraints join to it, and everything that moves with
+ * them: their coordinates and those of member ends that are released from it. */
 
 typedef struct body_mass {
     int count, *index; /* free coordinates of the body [count] */
@@ -57,7 +57,8 @@ typedef struct body_mass {
 /* Allocates work space for any body of the model. */
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
-/* Computes the mass matrix of one body in a state; returns its largest mass [kg]. */
+/* Computes the mass matrix of one body (of joined ones the first) in a state; returns its largest
+ * mass [kg]. */
 double body_mass_of(const model *, const carried_masses *, int body, const model_state *,
                     body_mass *);
 /* Returns the mass of a warping amplitude [kg m^4]. */
@@ -394,8 +395,8 @@ status checks_massless(const analysis_context *, const carried_masses *, const s
  * stresses inside an element depend on its bending, the stiff directions change with the strains,
  * and k W d would have a component along them. */
 
-/* REFUSED: a node has several successive angles; no rotation has inertia. Rates of massless
- * coordinates are mean rates of a step. */
+/* REFUSED: a node has several successive angles; no rotation has inertia; constraints that its
+ * rates do not follow. Rates of massless coordinates are mean rates of a step. */
 status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
 /* An element or a spring during a step; they differ only in the function that evaluates them. */
