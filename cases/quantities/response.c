@@ -28,16 +28,6 @@ static const entry_field fields[] = {
     QUANTITY_TAKEN,
     {.name = NULL}};
 
-/* Does the driver rotate a node? */
-static int driver_turns(const scene *s, int driver)
-{
-    for (int i = 0; i < s->nodes; i++)
-        for (int k = 0; k < 3; k++)
-            if (s->node[i].translation[k] == driver)
-                return 0;
-    return 1;
-}
-
 static const char *unit(const scene *s, const scene_quantity *q)
 {
     static const char *const of[2][4][4] = {{{"m/N", "m/(N s)", "m/(N s^2)", "1"},
@@ -49,7 +39,8 @@ static const char *unit(const scene *s, const scene_quantity *q)
                                              {"rad/m", "rad/(m s)", "rad/(m s^2)", "N"},
                                              {"1", "1/s", "1/s^2", "N m/rad"}}};
     const scene_response *r = &q->what.of.response;
-    const int by = r->driver >= 0 ? 2 + driver_turns(s, r->driver) : r->forced_along >= SCENE_RX;
+    const int by =
+        r->driver >= 0 ? 2 + scene_driver_turns(s, r->driver) : r->forced_along >= SCENE_RX;
     return r->part == SCENE_PHASE ? "rad" : of[r->component >= SCENE_RX][by][r->of];
 }
 

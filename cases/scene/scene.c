@@ -518,6 +518,15 @@ static int is_massive(const scene *s, int index)
     return 0;
 }
 
+int scene_driver_turns(const scene *s, int driver)
+{
+    for (int i = 0; i < s->nodes; i++)
+        for (int k = 0; k < 3; k++)
+            if (s->node[i].translation[k] == driver)
+                return 0;
+    return 1;
+}
+
 int scene_has_mass(const scene *s)
 {
     for (int i = 0; i < s->nodes; i++)

@@ -825,6 +825,9 @@ typedef struct scene_driver {
     int load_case;           /* SCENE_NONE: it moves in all of them */
 } scene_driver;
 
+/* Does it rotate nodes? */
+int scene_driver_turns(const scene *, int driver);
+
 typedef enum scene_load_kind {
     SCENE_FORCE,              /* [N] at a node */
     SCENE_MOMENT,             /* [N m] at a node */

@@ -371,7 +371,8 @@ typedef struct vibration {
     const model_state *state;
     sparse K, M, C, B; /* on all coordinates */
     int damped, inside;
-    sparse D; /* [2 (free + border)] real form */
+    int plain; /* 1: without the mass inside elements, and extremes between frequencies */
+    sparse D;  /* [2 (free + border)] real form */
     int *source,
         *first; /* entry of K behind each entry of the free block, by columns; [free + 1] */
     int *row, *rows;
@@ -417,6 +418,24 @@ double harmonic_modes_bound(vibration *, const double complex left_of_f[],
                             const double complex left_of_o[]);
 
 status harmonic_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* K, M, C and modes with ratios of a harmonic analysis; the caller releases *out in any case. */
+status harmonic_system(analysis_context *, int analysis, vibration *out, fault *);
+void harmonic_release(vibration *);
+/* Largest difference of responses without the mass inside elements, relative to the largest of each
+ * curve; *error 0 on entry. */
+status harmonic_inside(analysis_context *, int analysis, double *error, int *quantity, fault *);
+/* REFUSED: the motion is not one coordinate. */
+status harmonic_check_motion(const vibration *, int driver, fault *);
+/* The driven coordinate whose reaction a quantity reads, and no other node's. */
+status harmonic_reacting(const vibration *, const scene_response *, int *out, fault *);
+
+/* Linear models with the inputs and outputs of the scene (second_order.c). */
+
+status second_order_list(const scene *, system_matrices *, fault *);
+/* v: matrices of all coordinates, state and modes with ratios; G: NULL, or gyroscopic. */
+status second_order_keep(const vibration *v, const sparse *G, const system_matrices *,
+                         linear_model *, fault *);
+
 /* Modes with damping. */
 status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault *);
 

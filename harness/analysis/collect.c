@@ -169,7 +169,8 @@ status collect_shapes(const analysis_context *c, int most, shapes *s, fault *f)
 
 /* Workspace shared by all states. */
 typedef struct workspace {
-    sparse K, M, G;
+    sparse K, M, G, C; /* with driven coordinates for linear models */
+    int models, free, all;
     double *residual, *load; /* [free + driven] */
     double *sigma;           /* [stresses] */
     double *input;           /* [loads x free] */
@@ -182,16 +183,20 @@ static status workspace_alloc(const analysis_context *c, workspace *w, fault *f)
     const size_t free_count = (size_t)size.free, all = free_count + (size_t)size.driven + 1;
     const sparse *pattern;
     memset(w, 0, sizeof *w);
+    w->models = c->options->systems > 1;
+    w->free = size.free;
+    w->all = size.free + size.driven;
     w->residual = calloc(2 * all, sizeof *w->residual);
     w->sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *w->sigma);
     w->input = calloc((size_t)c->scene->loads * free_count + 1, sizeof *w->input);
     if (w->residual == NULL || w->sigma == NULL || w->input == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
     w->load = w->residual + all;
-    TRY(assemble_pattern_of_states(c->model, c->run->patterns, 0, &pattern, f));
+    TRY(assemble_pattern_of_states(c->model, c->run->patterns, w->models, &pattern, f));
     TRY(sparse_alloc_like(pattern, &w->K, f));
     TRY(sparse_alloc_like(pattern, &w->M, f));
     TRY(sparse_alloc_like(pattern, &w->G, f));
+    TRY(sparse_alloc_like(pattern, &w->C, f));
     return kinematics_state_alloc(c->model, &w->state, f);
 }
 
@@ -200,6 +205,7 @@ static void workspace_free(workspace *w)
     sparse_free_values(&w->K);
     sparse_free_values(&w->M);
     sparse_free_values(&w->G);
+    sparse_free_values(&w->C);
     free(w->residual);
     free(w->sigma);
     free(w->input);
@@ -237,23 +243,50 @@ static status inputs(const analysis_context *c, const model_state *state, worksp
     return triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
 }
 
+/* The block of the free coordinates. */
+static status keep_block(const workspace *w, const sparse *a, int skew, triplets *out, fault *f)
+{
+    TRY(triplets_of(a, skew, out, f));
+    triplets_lead(out, w->free);
+    return STATUS_OK;
+}
+
+static status keep_model(const analysis_context *c, const model_state *state, const workspace *w,
+                         const system_matrices *s, state_matrices *out, fault *f)
+{
+    analysis_context own = *c;
+    const vibration v = {.c = &own,
+                         .analysis = out->analysis,
+                         .free = w->free,
+                         .all = w->all,
+                         .state = state,
+                         .K = w->K,
+                         .M = w->M,
+                         .C = w->C,
+                         .damped = damping_acts(c->scene)};
+    return w->models ? second_order_keep(&v, out->turns ? &w->G : NULL, s, &out->model, f)
+                     : STATUS_OK;
+}
+
 /* Stores K, which is known, and B; M where the formulation has inertia, and G where the axes
  * rotate. */
 static status systems_keep(const analysis_context *c, const model_state *state, double path,
-                           workspace *w, state_matrices *out, fault *f)
+                           workspace *w, const system_matrices *s, state_matrices *out, fault *f)
 {
     out->path = path;
-    TRY(triplets_of(&w->K, 0, &out->K, f));
+    TRY(keep_block(w, &w->K, 0, &out->K, f));
     TRY(inputs(c, state, w, &out->B, f));
     if (!(model_sizes(c->model).features & FEATURE_MASS))
         return STATUS_OK;
     TRY(rotating_frame_inertia(&c->eq, state, path, &w->M, out->turns ? &w->G : NULL, f));
-    TRY(triplets_of(&w->M, 0, &out->M, f));
+    TRY(keep_block(w, &w->M, 0, &out->M, f));
     if (damping_acts(c->scene)) {
-        TRY(damping_matrix(&c->eq, state, 0, &w->M, f));
-        TRY(triplets_of(&w->M, 0, &out->C, f));
+        TRY(damping_matrix(&c->eq, state, 0, &w->C, f));
+        TRY(keep_block(w, &w->C, 0, &out->C, f));
     }
-    return out->turns ? triplets_of(&w->G, 1, &out->G, f) : STATUS_OK;
+    if (out->turns)
+        TRY(keep_block(w, &w->G, 1, &out->G, f));
+    return keep_model(c, state, w, s, out, f);
 }
 
 /* Stores the matrices of the undeformed structure. displaced: displacements of the linear solution
@@ -271,9 +304,9 @@ static status systems_keep_linear(const analysis_context *c, int analysis, const
         for (int i = 0; i < w->K.column[w->K.n]; i++)
             w->K.value[i] += w->G.value[i];
     }
-    TRY(systems_keep(c, kinematics_rest(c->model), 0, w, out, f));
+    TRY(systems_keep(c, kinematics_rest(c->model), 0, w, s, out, f));
     return displaced == NULL && rotating_frame_inner_matrix(&c->eq, &w->G)
-               ? triplets_of(&w->G, 0, &out->inside, f)
+               ? keep_block(w, &w->G, 0, &out->inside, f)
                : STATUS_OK;
 }
 
@@ -292,7 +325,7 @@ static status keep_state(const analysis_context *c, int analysis, int station,
     if (c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(&c->eq, w->state, f));
     TRY(linearise_state(&c->eq, &c->run->memory, w->state, &lin, f));
-    return systems_keep(c, w->state, path, w, out, f);
+    return systems_keep(c, w->state, path, w, s, out, f);
 }
 
 static status systems_keep_path(const analysis_context *c, int analysis, workspace *w,
@@ -300,8 +333,7 @@ static status systems_keep_path(const analysis_context *c, int analysis, workspa
 {
     const outcome_path *path = outcome_path_of(&c->outcomes[analysis]);
     const scene_analysis_kind kind = c->scene->analysis[analysis].kind;
-    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION ||
-        kind == SCENE_HARMONIC) /* about those of another; no balance */
+    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION) /* about those of another; no balance */
         return STATUS_OK;
     for (int i = 0; i < path->reached; i++)
         TRY(keep_state(c, analysis, i, path->state[i], w, s, f));
@@ -354,6 +386,27 @@ static status keep_modal(const analysis_context *c, int analysis, workspace *w, 
     return STATUS_OK;
 }
 
+/* The linear model of a harmonic analysis, with its damping. */
+static status keep_harmonic(analysis_context *c, int analysis, const workspace *w,
+                            system_matrices *s, fault *f)
+{
+    vibration v = {0};
+    state_matrices *out = NULL;
+    if (!w->models || c->outcomes[analysis].status != STATUS_OK)
+        return STATUS_OK;
+    TRY(next(s, &out, f));
+    out->analysis = analysis;
+    status outcome = harmonic_system(c, analysis, &v, f);
+    if (outcome == STATUS_OK) {
+        out->path = kinematics_state_path(v.state);
+        outcome = second_order_keep(&v, NULL, s, &out->model, f);
+    }
+    if (outcome == STATUS_OK && v.inside)
+        outcome = harmonic_inside(c, analysis, &out->model.apart, &out->model.farthest, f);
+    harmonic_release(&v);
+    return outcome;
+}
+
 static status collect(const analysis_context *c, workspace *w, system_matrices *s, fault *f)
 {
     if (c->sides != NULL)
@@ -371,8 +424,10 @@ static status collect(const analysis_context *c, workspace *w, system_matrices *
     for (int i = 0; i < c->scene->analyses; i++) {
         if (!context_runs(c, i))
             continue;
-        const analysis_context own = context_of(c, i);
-        if (outcome_has_path(&c->outcomes[i]))
+        analysis_context own = context_of(c, i);
+        if (c->scene->analysis[i].kind == SCENE_HARMONIC)
+            TRY(keep_harmonic(&own, i, w, s, f));
+        else if (outcome_has_path(&c->outcomes[i]))
             TRY(systems_keep_path(&own, i, w, s, f));
         else if (c->scene->analysis[i].kind == SCENE_MODAL)
             TRY(keep_modal(&own, i, w, s, f));
@@ -389,7 +444,10 @@ status collect_systems(const analysis_context *c, system_matrices *s, fault *f)
     if (s->label == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
     rows_label(c->model, s->label);
-    const status outcome = collect(c, &w, s, f);
+    memset(&w, 0, sizeof w);
+    status outcome = c->options->systems > 1 ? second_order_list(c->scene, s, f) : STATUS_OK;
+    if (outcome == STATUS_OK)
+        outcome = collect(c, &w, s, f);
     workspace_free(&w);
     if (outcome != STATUS_OK)
         system_matrices_free(s);

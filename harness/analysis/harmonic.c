@@ -28,7 +28,7 @@ static status linear_system_of(vibration *v, const double displaced[], fault *f)
     const equations *eq = &v->c->eq;
     TRY(linear_stiffness(eq, &v->K, f));
     if (displaced == NULL) {
-        v->inside = rotating_frame_inner_matrix(eq, &v->B);
+        v->inside = !v->plain && rotating_frame_inner_matrix(eq, &v->B);
         return STATUS_OK;
     }
     TRY(linear_whole_stresses(eq, displaced, 1, v->room, f));
@@ -239,6 +239,19 @@ static status factor_at(vibration *v, double hertz, fault *f)
         hertz);
 }
 
+status harmonic_check_motion(const vibration *v, int driver, fault *f)
+{
+    const model *m = v->c->model;
+    for (int i = 0; i < model_scene(m)->nodes; i++)
+        for (int k = 0; k < 3; k++)
+            if (model_vertex(m, i)->vector_driver[k] == driver)
+                return fault_set(f, STATUS_REFUSED,
+                                 "motion %s is a component of a rotation vector: drive an angle, "
+                                 "or a translation",
+                                 model_scene(m)->driver[driver].name);
+    return STATUS_OK;
+}
+
 /* Right-hand side of an input; a prescribed motion is 1 in x[all]. */
 static status input_of(const vibration *v, const scene_response *r, double w, double complex x[],
                        fault *f)
@@ -249,13 +262,7 @@ static status input_of(const vibration *v, const scene_response *r, double w, do
     memset(x, 0, (size_t)v->all * sizeof *x);
     if (r->driver != SCENE_NONE) {
         const int c = model_driver_coordinate(m, r->driver);
-        for (int i = 0; i < model_scene(m)->nodes; i++)
-            for (int k = 0; k < 3; k++)
-                if (model_vertex(m, i)->vector_driver[k] == r->driver)
-                    return fault_set(f, STATUS_REFUSED,
-                                     "motion %s is a component of a rotation vector: drive an "
-                                     "angle, or a translation",
-                                     model_scene(m)->driver[r->driver].name);
+        TRY(harmonic_check_motion(v, r->driver, f));
         for (int k = v->K.column[c]; k < v->K.column[c + 1]; k++)
             if (v->K.row[k] < v->free)
                 x[v->K.row[k]] = -harmonic_dynamic(v, w, k);
@@ -371,8 +378,7 @@ static void add_motion(const vibration *v, int node, int component, double times
         o[index[k]] += times * T[component * count + k];
 }
 
-/* The driven coordinate whose reaction a quantity reads, and no other node's. */
-static status reacting(const vibration *v, const scene_response *r, int *out, fault *f)
+status harmonic_reacting(const vibration *v, const scene_response *r, int *out, fault *f)
 {
     const scene *s = v->c->scene;
     int index[KINEMATICS_MOST], driver = SCENE_NONE, nodes = 0;
@@ -452,7 +458,7 @@ static void output_of(vibration *v, const scene_response *r, double w, double co
     fault unused = {""};
     memset(o, 0, (size_t)v->all * sizeof *o);
     if (r->of == SCENE_REACTING) {
-        if (reacting(v, r, &c, &unused) == STATUS_OK) {
+        if (harmonic_reacting(v, r, &c, &unused) == STATUS_OK) {
             add_row(v, c, w, o);
             add_carried(v, r, c, w, o);
         }
@@ -501,7 +507,7 @@ static double force_at(const vibration *v, const scene_response *r)
     double T[6 * KINEMATICS_MOST], sum = 0;
     fault unused = {""};
     if (r->of != SCENE_REACTING || r->driver != SCENE_NONE ||
-        reacting(v, r, &c, &unused) != STATUS_OK)
+        harmonic_reacting(v, r, &c, &unused) != STATUS_OK)
         return 0;
     const int count =
         kinematics_node_jacobian(v->c->model, v->state, r->forced, KINEMATICS_MOST, index, T);
@@ -564,7 +570,7 @@ static status respond(vibration *v, outcome_harmonic *o, fault *f)
             }
         o->path.value[o->path.reached++] = path->value[i];
     }
-    return harmonic_extremes_refine(v, respond_at, o, f);
+    return v->plain ? STATUS_OK : harmonic_extremes_refine(v, respond_at, o, f);
 }
 
 enum { SHAPES_OF_MOTION = 4, SHAPES_OF_QUANTITY = 2 * SHAPES_OF_MOTION };
@@ -591,7 +597,7 @@ static int shapes_of(vibration *v, const scene_response *r, double out[])
         count += shapes_of_motion(v, model_driver_coordinate(v->c->model, r->driver), out);
     for (int output = r->driver != SCENE_NONE; output < 2; output++) {
         if (output && r->of == SCENE_REACTING) {
-            if (reacting(v, r, &c, &unused) == STATUS_OK)
+            if (harmonic_reacting(v, r, &c, &unused) == STATUS_OK)
                 count += shapes_of_motion(v, c, out + (size_t)count * n);
             continue;
         }
@@ -615,7 +621,7 @@ static status check_reactions(const vibration *v, fault *f)
     for (int i = 0; i < s->quantities; i++)
         if (scene_asks(&s->quantity[i], v->analysis, SCENE_RESPONSE) &&
             s->quantity[i].what.of.response.of == SCENE_REACTING)
-            TRY(reacting(v, &s->quantity[i].what.of.response, &c, f));
+            TRY(harmonic_reacting(v, &s->quantity[i].what.of.response, &c, f));
     return STATUS_OK;
 }
 
@@ -673,7 +679,7 @@ static status solve(vibration *v, outcome_harmonic *o, fault *f)
     return respond(v, o, f);
 }
 
-static void vibration_free(vibration *v)
+void harmonic_release(vibration *v)
 {
     factor_free(v->factor);
     sparse_free_values(&v->K);
@@ -701,7 +707,65 @@ status harmonic_analysis(analysis_context *c, int analysis, analysis_outcome *o,
 {
     vibration v = {.c = c, .analysis = analysis};
     const status outcome = solve(&v, &o->left.harmonic, f);
-    vibration_free(&v);
+    harmonic_release(&v);
+    return outcome;
+}
+
+static status system_of(vibration *v, fault *f)
+{
+    const model_size size = model_sizes(v->c->model);
+    v->free = size.free;
+    v->all = size.free + size.driven;
+    v->state = kinematics_rest(v->c->model);
+    v->room = calloc((size_t)model_stresses(v->c->model) + (size_t)v->all + 1, sizeof *v->room);
+    if (v->room == NULL)
+        return no_memory(f);
+    TRY(matrices(v, 1, f));
+    return scene_has_ratios(&v->c->scene->analysis[v->analysis]) ? harmonic_modes_find(v, f)
+                                                                 : STATUS_OK;
+}
+
+status harmonic_system(analysis_context *c, int analysis, vibration *out, fault *f)
+{
+    *out = (vibration){.c = c, .analysis = analysis};
+    return system_of(out, f);
+}
+
+/* Largest difference between two values of a response, relative to the largest of these. */
+static double apart(const vibration *v, int quantity, const outcome_harmonic *a,
+                    const outcome_harmonic *b)
+{
+    const size_t stations = (size_t)a->path.stations;
+    const double *x = a->response + (size_t)quantity * stations,
+                 *y = b->response + (size_t)quantity * stations;
+    double largest = 0, size = 0;
+    for (int i = 0; i < a->path.reached; i++) {
+        largest = fmax(largest, fabs(x[i] - y[i]));
+        size = fmax(size, fabs(x[i]));
+    }
+    if (v->c->scene->quantity[quantity].what.of.response.part == SCENE_PHASE)
+        size = 1;
+    return largest > 0 ? largest / size : 0;
+}
+
+status harmonic_inside(analysis_context *c, int analysis, double *error, int *quantity, fault *f)
+{
+    vibration v = {.c = c, .analysis = analysis, .plain = 1};
+    analysis_outcome o = {.kind = SCENE_HARMONIC};
+    const counters before = c->run->counters;
+    const status outcome = solve(&v, &o.left.harmonic, f);
+    c->run->counters = before; /* not work of the solution */
+    for (int i = 0; outcome == STATUS_OK && i < c->scene->quantities; i++) {
+        if (!scene_asks(&c->scene->quantity[i], analysis, SCENE_RESPONSE))
+            continue;
+        const double one = apart(&v, i, &c->outcomes[analysis].left.harmonic, &o.left.harmonic);
+        if (one > *error) {
+            *error = one;
+            *quantity = i;
+        }
+    }
+    harmonic_release(&v);
+    outcome_free(&o);
     return outcome;
 }
 
@@ -762,6 +826,6 @@ status damped_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
         snprintf(out->meaning, sizeof out->meaning, "%s", v.damped ? "damped" : "");
     }
     unsymmetric_free(&r);
-    vibration_free(&v);
+    harmonic_release(&v);
     return outcome;
 }

@@ -21,6 +21,7 @@ typedef struct solve_request {
     int shapes;                 /* number of path states with stored shapes; 0: none */
     const char *follow;         /* NAME=A..B/N: follow modes over this parameter */
     const char *matrices;       /* folder for the matrices of all states */
+    int state_space;            /* 1: and linear models */
     const char *ends, *restart; /* files: output for the final state of motions; state from which
                                    motions continue */
 } solve_request;
@@ -54,7 +55,7 @@ static defaults defaults_of(solve_request *r, const case_type *type)
                                  .shapes = r->shapes,
                                  .threads = r->solver.threads,
                                  .error = r->error,
-                                 .systems = r->matrices != NULL},
+                                 .systems = r->matrices != NULL ? 1 + r->state_space : 0},
                       .chosen = &r->chosen,
                       .meshes = &r->meshes,
                       .truths = &r->truths};
@@ -90,6 +91,18 @@ static status write_out(const solve_request *r, const char *note, const sweep *s
     return output_finish(&file, write_to(file.stream, r, note, s, t, f), f);
 }
 
+/* What the state space of a harmonic analysis leaves out. */
+static void tell_apart(const scene *s, const state_matrices *m)
+{
+    if (m->model.apart > 0)
+        fprintf(stderr,
+                "beamwork: state space of %s: without the mass inside elements (M_inside): its "
+                "responses differ by at most %.1e of the largest (%s); more elements lower this, "
+                "'mass: lumped' has none\n",
+                scene_name(s, SCENE_ANALYSES, m->analysis).text, m->model.apart,
+                s->quantity[m->model.farthest].name);
+}
+
 /* Writes the matrices of all states, if requested. */
 static status write_matrices(const solve_request *r, const sweep *s, fault *f)
 {
@@ -99,7 +112,10 @@ static status write_matrices(const solve_request *r, const sweep *s, fault *f)
         return STATUS_OK;
     snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
              r->chosen.formulation[0].key, r->meshes.elements[0]);
-    return system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f);
+    TRY(system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f));
+    for (int i = 0; i < cell->solve.systems.states; i++)
+        tell_apart(&s->point[0].scene, &cell->solve.systems.state[i]);
+    return STATUS_OK;
 }
 
 /* Reads NAME=A..B/N; both ends must be within the limits of the parameter. */
@@ -202,6 +218,10 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
         return fault_set(f, STATUS_REFUSED, "--error chooses the mesh: remove it, or %s",
                          r->meshes.count > 0 ? "-n" : "--restart");
+    if (r->state_space && r->matrices == NULL)
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--state-space adds to the matrices of --matrices FOLDER; give the folder");
     TRY(files_check(r->of.line, r->shapes > 0, own_tables_packed(&r->truths), f));
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
     if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
@@ -330,6 +350,11 @@ static const verb_option own[] = {
      "also stiffness, mass and gyroscopic matrices about every state, as Matrix Market, with a "
      "table of their rows, into a new folder",
      IN(matrices), .traits = OPTION_OUTPUT | OPTION_FOLDER},
+    {"state-space", 0, NULL,
+     "with --matrices: also x' = A x + B u, y = C x + D u about every state, and the same in "
+     "second "
+     "order; forces, motions and loads are the inputs, responses and displacements the outputs",
+     IN(state_space)},
     {"save-state", 0, "FILE",
      "also store the last state of motions (HDF5): --restart continues there", IN(ends),
      .traits = OPTION_OUTPUT | OPTION_HDF5},

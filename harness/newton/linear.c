@@ -460,12 +460,20 @@ void system_matrices_free(system_matrices *s)
     for (int i = 0; i < s->states; i++) {
         triplets *const each[] = {&s->state[i].K, &s->state[i].M,      &s->state[i].G,
                                   &s->state[i].C, &s->state[i].inside, &s->state[i].B};
+        linear_model *m = &s->state[i].model;
+        triplets *const linear[] = {&m->K,       &m->C,       &m->M,       &m->B,
+                                    &m->L[0],    &m->L[1],    &m->L[2],    &m->D,
+                                    &m->state.A, &m->state.B, &m->state.C, &m->state.D};
         for (size_t k = 0; k < sizeof each / sizeof *each; k++)
             triplets_free(each[k]);
+        for (size_t k = 0; k < sizeof linear / sizeof *linear; k++)
+            triplets_free(linear[k]);
         free(s->state[i].frequency);
         free(s->state[i].mode);
     }
     free(s->state);
     free(s->label);
+    free(s->input);
+    free(s->output);
     memset(s, 0, sizeof *s);
 }

@@ -507,6 +507,27 @@ void rows_label(const model *, row_label out[]);
  *   M q'' + (C + G) q' + K q = B u,
  * with the free coordinates q in the order of the rows and the changes u of the load factors. */
 
+/* A linear model: second_order and state_space as triplets. */
+typedef struct linear_model {
+    triplets K, C, M, B, L[3], D;
+    struct {
+        triplets A, B, C, D;
+    } state;
+    int eliminated; /* coordinates without mass and damping */
+    double apart; /* of a harmonic analysis: largest difference from its responses, relative ... */
+    int farthest; /* ... of this quantity */
+} linear_model;
+
+/* A load with factor 1, a force or moment of 1 at a node, or an acceleration of 1 of a motion. */
+typedef struct system_input {
+    int load, driver, node, component; /* SCENE_NONE: not this */
+} system_input;
+
+typedef struct system_output {
+    int quantity; /* the first that reads it */
+    scene_response as;
+} system_output;
+
 typedef struct state_matrices {
     int analysis;             /* index in the scene; SCENE_NONE: the undeformed structure at rest */
     int station;              /* station of its path, from zero; SCENE_NONE: it has no path */
@@ -518,6 +539,7 @@ typedef struct state_matrices {
     triplets B;               /* [rows x loads] generalised force of each load at factor 1 */
     int modes;                /* number of modes of a modal analysis, ascending; else 0 */
     double *frequency, *mode; /* [modes] [rad/s]; [modes x rows] */
+    linear_model model;       /* if requested */
 } state_matrices;
 
 typedef struct system_matrices {
@@ -525,6 +547,9 @@ typedef struct system_matrices {
     row_label *label; /* [rows] */
     int states, room; /* 0: not requested */
     state_matrices *state;
+    int inputs, outputs; /* of linear models */
+    system_input *input;
+    system_output *output;
 } system_matrices;
 
 void system_matrices_free(system_matrices *);
@@ -545,7 +570,7 @@ typedef struct solve_options {
     int sample;    /* N > 0: only N iterations of each static path, to measure their time, without
                       results */
     int shapes;    /* largest number of path states with stored centre lines; 0: no shapes */
-    int systems;   /* 1: store the matrices of small motions about all states */
+    int systems; /* 1: store the matrices of small motions about all states; 2: also state space */
     int whole_steps; /* 1: a time step that fails ends the motion; 0: it is halved */
     int keep_ends;   /* 1: store the ends of motions, from which another run can continue */
     int restarts;

@@ -325,10 +325,39 @@ typedef struct triplets {
 
 /* Entries of a. skew = 1: a stores the upper triangle of a skew matrix. */
 status triplets_of(const sparse *a, int skew, triplets *out, fault *);
+/* Drops all but the leading n rows and columns. */
+void triplets_lead(triplets *, int n);
 /* From a dense matrix [columns x rows], column by column. */
 status triplets_of_columns(int rows, int columns, const double value[], triplets *out, fault *);
 /* y[rows] = A x */
 void triplets_mul(const triplets *A, const double x[], double y[]);
 void triplets_free(triplets *);
+
+/* Linear models with inputs u and outputs y, dense and row by row:
+ *   M q'' + C q' + K q = B u,  y = L0 q + L1 q' + L2 q'' + D u.
+ * The last coordinates are motions that accelerations of the inputs give: their rows of M and B are
+ * those of the identity, the other ones zero. */
+typedef struct second_order {
+    int n, motions; /* without motions; of these */
+    int inputs, outputs;
+    int *motion_of;    /* [inputs] motion whose acceleration it is; -1: a force */
+    double *K, *C, *M; /* [(n + motions)^2] */
+    double *B;         /* [(n + motions) x inputs] */
+    double *L[3], *D;  /* [outputs x (n + motions)], [outputs x inputs] */
+} second_order;
+
+status second_order_alloc(int n, int motions, int inputs, int outputs, second_order *, fault *);
+void second_order_free(second_order *);
+
+/* x' = A x + B u, y = C x + D u, dense and row by row. */
+typedef struct state_space {
+    int states, eliminated; /* coordinates without mass and damping */
+    int improper;           /* output that has none; -1: all have */
+    double *A, *B, *C, *D;
+} state_space;
+
+/* REFUSED: an output has none, or the masses or stiffnesses; the caller frees *out in any case. */
+status state_space_of(const second_order *, state_space *out, fault *);
+void state_space_free(state_space *);
 
 #endif

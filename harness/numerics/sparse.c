@@ -225,6 +225,19 @@ status triplets_of(const sparse *a, int skew, triplets *out, fault *f)
     return STATUS_OK;
 }
 
+void triplets_lead(triplets *t, int n)
+{
+    int kept = 0;
+    for (int i = 0; i < t->entries; i++)
+        if (t->row[i] < n && t->column[i] < n) {
+            t->row[kept] = t->row[i];
+            t->column[kept] = t->column[i];
+            t->value[kept++] = t->value[i];
+        }
+    t->rows = t->columns = n;
+    t->entries = kept;
+}
+
 status triplets_of_columns(int rows, int columns, const double value[], triplets *out, fault *f)
 {
     TRY(triplets_alloc(rows, columns, MATRIX_GENERAL, rows * columns, out, f));

@@ -289,6 +289,51 @@ static void write_loads(FILE *to, const void *what)
     }
 }
 
+static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+/* "force", "moment", "load", "acceleration" of a motion. */
+static void write_inputs(FILE *to, const void *what)
+{
+    const contents *c = what;
+    fprintf(to, "column,kind,node,component,motion,load,unit\n");
+    for (int i = 0; i < c->of->inputs; i++) {
+        const system_input *in = &c->of->input[i];
+        const int turns = in->component >= SCENE_RX, moves = in->driver != SCENE_NONE;
+        fprintf(to, "%d,%s,", i + 1,
+                in->load != SCENE_NONE ? "load"
+                : moves                ? "acceleration"
+                : turns                ? "moment"
+                                       : "force");
+        name_cell(to, c->scene, SCENE_NODES, in->node);
+        fprintf(to, "%s,", in->node != SCENE_NONE ? component[in->component] : "");
+        name_cell(to, c->scene, SCENE_DRIVERS, in->driver);
+        name_cell(to, c->scene, SCENE_LOADS, in->load);
+        if (moves)
+            fprintf(to, "%s/s^2\n", scene_driver_turns(c->scene, in->driver) ? "rad" : "m");
+        else
+            fprintf(to, "%s\n", in->load != SCENE_NONE ? "1" : turns ? "N m" : "N");
+    }
+}
+
+static void write_outputs(FILE *to, const void *what)
+{
+    static const char *const of[] = {"displacement", "velocity", "acceleration", "reaction"},
+                             *const unit[2][4] = {{"m", "m/s", "m/s^2", "N"},
+                                                  {"rad", "rad/s", "rad/s^2", "N m"}};
+    const contents *c = what;
+    fprintf(to, "row,quantity,of,node,component,from,unit\n");
+    for (int i = 0; i < c->of->outputs; i++) {
+        const scene_response *as = &c->of->output[i].as;
+        fprintf(to, "%d,", i + 1);
+        csv_record_text(to, c->scene->quantity[c->of->output[i].quantity].name);
+        fprintf(to, ",%s,", of[as->of]);
+        name_cell(to, c->scene, SCENE_NODES, as->node);
+        fprintf(to, "%s,", component[as->component]);
+        name_cell(to, c->scene, SCENE_NODES, as->from);
+        fprintf(to, "%s\n", unit[as->component >= SCENE_RX][as->of]);
+    }
+}
+
 static void write_states(FILE *to, const void *what)
 {
     const contents *c = what;
@@ -326,6 +371,37 @@ static status add_matrix(const output_folder *folder, const char *state, const c
     return output_folder_file(folder, file, write_matrix, &what, f);
 }
 
+static status add_model(const output_folder *folder, const char *state, const linear_model *m,
+                        const char *title, fault *f)
+{
+    char name[2 * NAME], comment[300];
+    const struct {
+        const char *letter;
+        const triplets *matrix;
+    } second[] = {{"K", &m->K},    {"C", &m->C},
+                  {"M", &m->M},    {"B", &m->B},
+                  {"L", &m->L[0]}, {"L_rate", &m->L[1]},
+                  {"D", &m->D},    {"L_acceleration", &m->L[2]}},
+      first[] = {{"A", &m->state.A}, {"B", &m->state.B}, {"C", &m->state.C}, {"D", &m->state.D}};
+    if (m->state.A.rows == 0)
+        return STATUS_OK;
+    snprintf(name, sizeof name, "%s/second_order", state);
+    snprintf(comment, sizeof comment, "%.100s, %.90s; u: inputs.csv, y: outputs.csv; SI", title,
+             name);
+    TRY(output_folder_below(folder, name, f));
+    for (size_t i = 0; i < sizeof second / sizeof *second; i++)
+        TRY(add_matrix(folder, name, second[i].letter, second[i].matrix, comment, f));
+    snprintf(name, sizeof name, "%s/state_space", state);
+    snprintf(comment, sizeof comment,
+             "%.100s, %.90s; u: inputs.csv, y: outputs.csv; coordinates without mass and damping "
+             "eliminated: %d; SI",
+             title, name, m->eliminated);
+    TRY(output_folder_below(folder, name, f));
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++)
+        TRY(add_matrix(folder, name, first[i].letter, first[i].matrix, comment, f));
+    return STATUS_OK;
+}
+
 static status add_state(const output_folder *folder, const contents *c, const state_matrices *s,
                         fault *f)
 {
@@ -339,7 +415,8 @@ static status add_state(const output_folder *folder, const contents *c, const st
     TRY(add_matrix(folder, name, "G", &s->G, comment, f));
     TRY(add_matrix(folder, name, "C", &s->C, comment, f));
     TRY(add_matrix(folder, name, "M_inside", &s->inside, comment, f));
-    return add_matrix(folder, name, "B", &s->B, comment, f);
+    TRY(add_matrix(folder, name, "B", &s->B, comment, f));
+    return add_model(folder, name, &s->model, c->title, f);
 }
 
 static status fill(const output_folder *folder, const contents *c, fault *f)
@@ -347,6 +424,10 @@ static status fill(const output_folder *folder, const contents *c, fault *f)
     TRY(output_folder_file(folder, "dofs.csv", write_rows, c, f));
     TRY(output_folder_file(folder, "loads.csv", write_loads, c, f));
     TRY(output_folder_file(folder, "states.csv", write_states, c, f));
+    if (c->of->input != NULL) {
+        TRY(output_folder_file(folder, "inputs.csv", write_inputs, c, f));
+        TRY(output_folder_file(folder, "outputs.csv", write_outputs, c, f));
+    }
     for (int i = 0; i < c->of->states; i++)
         TRY(add_state(folder, c, &c->of->state[i], f));
     return STATUS_OK;

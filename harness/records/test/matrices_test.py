@@ -229,6 +229,165 @@ class Frequencies(Matrices):
             self.assertLess(change, 1e-9 * numpy.abs(K).max(), newton)
 
 
+BENT = """beamwork: 1
+sections:
+  s: {constants: {A: 2e-4, Iy: 1.5e-9, Iz: 4e-9, It: 4e-9}, young: 7e10, shear_modulus: 2.6e10, density: %s}
+nodes:
+  root: {at: [0, 0, 0], %s}
+  mid: {at: [0.3, 0.1, 0]%s}
+  tip: {at: [0.7, 0.2, 0.1], mass: 0.05}
+members:
+  a: {from: root, to: mid, section: s, y: [0, 1, 0], damping: 1e-5}
+  b: {from: mid, to: tip, section: s, y: [0, 1, 0]}
+springs:
+  foot: {to: tip, stiffness: [100, 200, 50, 1, 2, 3], damping: [2, 3, 1, 0, 0, 0.1]}
+motions:
+  shake: {unit: m, path: [0, 1], value: [0, 0]}
+%sanalyses:
+%s  steady: {harmonic: {frequencies: [3, 11, 60, 250]%s}}
+  modes: {modal: {damped: yes%s}}
+quantities:
+%s  f_$n: {for: {n: 0..3}, frequency: {analysis: modes, which: n}}
+  d_$n: {for: {n: 0..3}, damping_ratio: {analysis: modes, which: n, of: decay}}
+mass: lumped
+omit: [shear, trapeze, wagner_moments, wagner_torque]
+"""
+SHAKEN = "hold: [ux, uz, rx, ry, rz], drive: {uy: shake}"
+FOLLOWING = "loads:\n  p: {force: [-5, 5, 8], on: tip, follower: true}\n"
+
+
+def responses(*choices):
+    """Real and imaginary curves of (output, input) texts."""
+    return "".join(f"  {part}_{i}: {{response: {{analysis: steady, {choice}, part: {part}, take: curve}}}}\n"
+                   for i, choice in enumerate(choices) for part in ("real", "imaginary"))
+
+
+ALL = responses(*(f"node: tip, component: uy, of: {of}, {by}" for of in ("displacement", "velocity", "acceleration")
+                  for by in ("force: mid, along: uz", "force: mid, along: ry", "drive: shake, from: root")),
+                *(f"node: root, component: uy, of: reaction, {by}" for by in ("force: tip, along: uy", "drive: shake")))
+
+
+class StateSpace(Matrices):
+    """x' = A x + B u, y = C x + D u beside the harmonic analysis."""
+
+    def transfer(self, folder, state, hertz):
+        """[outputs x inputs]; an acceleration of a motion gives s^-2 of it."""
+        A, B, C, D = (self.read(folder, f"{state}/state_space", letter)
+                      if (folder/state/"state_space"/f"{letter}.mtx").exists() else 0 for letter in "ABCD")
+        s = 2j*numpy.pi*hertz
+        moved = [s*s if c["kind"] == "acceleration" else 1 for c in self.rows(folder, "inputs.csv")]
+        return (C @ numpy.linalg.solve(s*numpy.eye(len(A)) - A, B) + D)*moved
+
+    def second(self, folder, hertz):
+        K, C, M, B, *L = (self.read(folder, "steady/second_order", letter)
+                          if (folder/"steady/second_order"/f"{letter}.mtx").exists() else 0
+                          for letter in ("K", "C", "M", "B", "L", "L_rate", "L_acceleration", "D"))
+        s = 2j*numpy.pi*hertz
+        moved = [s*s if c["kind"] == "acceleration" else 1 for c in self.rows(folder, "inputs.csv")]
+        return ((L[0] + s*L[1] + s*s*L[2]) @ numpy.linalg.solve(K + s*C + s*s*M, B) + L[3])*moved
+
+    def compare(self, scene, formulation, n=2, within=1e-8):
+        """Every response of the scene; the folder and the values."""
+        shutil.rmtree(self.folder/formulation.replace(":", "_"), ignore_errors=True)
+        folder = self.solve(scene, formulation, "--state-space", n=n)
+        if folder is None:
+            return None, None
+        record = self.record("solve", "--scene", self.folder/"scene.yaml", "-f", formulation, "-n", n)
+        inputs, outputs = self.rows(folder, "inputs.csv"), self.rows(folder, "outputs.csv")
+        curves = {c["quantity"]: c for c in record["curves"]}
+        self.assertGreater(len(curves), 1)
+        for name in curves:
+            if not name.startswith("real"):
+                continue
+            text = next(line for line in scene.splitlines() if line.startswith(f"  {name}:"))
+            key = dict(word.split(": ") for word in text.split("{")[2].rstrip("}").split(", "))
+            row = [i for i, o in enumerate(outputs) if (o["node"], o["component"], o["of"], o["from"]) == (
+                key["node"], key["component"], key.get("of", "displacement"), key.get("from", ""))]
+            column = [i for i, c in enumerate(inputs) if (c["motion"] == key["drive"] if "drive" in key else
+                                                          (c["node"], c["component"]) == (key["force"], key["along"]))]
+            self.assertEqual((len(row), len(column)), (1, 1), name)
+            found = [complex(*z) for z in zip(curves[name]["curve_value"],
+                                              curves[name.replace("real", "imaginary")]["curve_value"])]
+            for hertz, value in zip(curves[name]["curve_x"], found):
+                for H in (self.transfer(folder, "steady", hertz), self.second(folder, hertz)):
+                    self.assertLess(abs(H[row[0], column[0]] - value), within*max(map(abs, found)),
+                                    (formulation, name, hertz))
+        return folder, {q["quantity"]: q["value"] for q in record["quantities"]}
+
+    def test_responses(self):
+        """At rest with a mass and dashpots, about a bent state, with a load that follows, with all dampings;
+        poles are the damped modes."""
+        bent = "  path: {static: {stations: [1]}}\n"
+        checked = 0
+        for formulation in FORMULATIONS:
+            for loads, path, damping in (("", "", ", damping: {ratio: 0.02}"),
+                                         (FOLLOWING, bent, ", damping: {mass: 3, stiffness: 1e-5}")):
+                about = ", about: path" if path else ""
+                of_modes = about if "ratio" in damping else about + damping
+                scene = BENT % (2700, SHAKEN, ", mass: 0.02", loads, path, about + damping, of_modes, ALL)
+                folder, values = self.compare(scene, formulation)
+                if folder is None:
+                    continue
+                checked += 1
+                if "ratio" in damping:
+                    continue
+                poles = numpy.linalg.eigvals(self.read(folder, "steady/state_space", "A"))
+                for i in range(4):
+                    pole = complex(-values[f"d_{i}"], 2*numpy.pi*values[f"f_{i}"])
+                    self.assertLess(min(abs(poles - pole)), 1e-8*abs(pole), (formulation, i))
+        self.assertGreater(checked, len(FORMULATIONS))
+
+    def test_free(self):
+        """Nothing holds it: six motions of a rigid body, with poles at zero and no others to the right."""
+        scene = BENT.replace("stiffness: [100, 200, 50, 1, 2, 3], ", "").replace("  modes: {modal: {damped: yes%s}}\n", "%.0s") % (
+            2700, "mass: 0.3, inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]", "", "", "", "",
+            "", responses("node: tip, component: uy, force: mid, along: uz"))
+        for left in ("  f_$n", "motions:"):
+            scene = scene.replace(scene[scene.index(left):scene.index("mass: lumped" if "f_" in left else "analyses:")], "")
+        folder, _ = self.compare(scene, "collocation")
+        poles = numpy.linalg.eigvals(self.read(folder, "steady/state_space", "A"))
+        self.assertLess(max(poles.real), 1e-3)
+
+    def test_without_mass(self):
+        """Coordinates without mass: damped ones are of first order, others eliminated; a rate that
+        would follow its force at once is refused."""
+        scene = BENT.replace("  modes: {modal: {damped: yes%s}}\n", "%.0s")
+        scene = scene[:scene.index("  f_$n")] + scene[scene.index("mass: lumped"):]
+        holds = (0, SHAKEN, "", "", "", "", "")
+        light = responses("node: mid, component: uz, force: mid, along: uz", "node: tip, component: uy, of: velocity, drive: shake",
+                          "node: mid, component: uz, force: tip, along: uy")
+        folder, _ = self.compare(scene % (*holds, light), "beamw")
+        A = self.read(folder, "steady/state_space", "A")
+        self.assertLess(len(A), 2*len(self.rows(folder)))
+        text = (folder/"steady/state_space/A.mtx").read_text(encoding="utf-8")
+        self.assertIn("without mass and damping eliminated: ", text)
+        (self.folder/"scene.yaml").write_text(scene % (*holds, responses(
+            "node: mid, component: uz, of: velocity, force: mid, along: uz")), encoding="utf-8")
+        self.refused(1, ["quantity real_0", "follows an input at once"], "solve", "--scene", self.folder/"scene.yaml",
+                     "-f", "beamw", "-n", 2, "--matrices", self.folder/"none", "--state-space", silent=False)
+
+    def test_turning(self):
+        """In a frame that turns: the frequencies of the rotation."""
+        folder, values = self.solved(TURNING, "collocation", n=2)
+        folder = self.folder/"with"
+        self.answered("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 2, "--matrices", folder,
+                      "--state-space")
+        poles = numpy.linalg.eigvals(self.read(folder, "turning_station_1/state_space", "A"))
+        found = numpy.sort(poles.imag[poles.imag > 0])/(2*numpy.pi)
+        self.agree(values, "turning", found, "poles", 1e-10)
+
+    def test_inside(self):
+        """The mass inside elements has no state space: how far off that is, is said."""
+        scene = (BENT % (2700, SHAKEN, "", "", "", "", "", ALL)).replace("mass: lumped\n", "")
+        (self.folder/"scene.yaml").write_text(scene, encoding="utf-8")
+        said = run("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 4, "--matrices",
+                   self.folder/"own", "--state-space").stderr
+        apart = float(said.split("at most ")[1].split()[0])
+        self.compare(scene, "collocation", 4, 1.01*apart*2**0.5)
+        self.assertTrue(1e-6 < apart < 0.1, said)
+        self.refused(2, "give the folder", "solve", "--scene", self.folder/"scene.yaml", "--state-space")
+
+
 class Contents(Matrices):
 
     def test_states(self):
