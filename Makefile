@@ -249,7 +249,7 @@ $(BUILD)/%.avx2.o: %.c
 	$(call SAY,compile $< for AVX2)$(CC) $(BASE_CFLAGS) -mavx2 -DREAL_AVX2 $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
 
 $(PRICES:.c=.o): harness/study/study.h
-$(EXPENSES:.c=.o): harness/study/study.h
+$(EXPENSES:.c=.o): harness/study/study_impl.h
 $(PACKED): cases/format/format_impl.h cases/case.h elements/shared/parameter.h
 $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o) $(PACKED): $(BUILD)/%.o: $(BUILD)/%.c
 	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@

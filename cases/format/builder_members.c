@@ -7,6 +7,9 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
+/* Is there one? */
+static int builder_has_function(const fields *f);
+
 static int share(const fields *f, const document_node *name)
 {
     builder *b = f->b;
@@ -450,7 +453,7 @@ void builder_function(const fields *f, int index, builder_piece *add, int spline
         add_table(&table, index, add, spline);
 }
 
-int builder_has_function(const fields *f)
+static int builder_has_function(const fields *f)
 {
     return fields_have(f, "time") || fields_have(f, "pieces") || fields_have(f, "table");
 }

@@ -1,4 +1,4 @@
-#include "cases/format/format.h"
+#include "cases/format/format_impl.h"
 
 #include <jansson.h>
 #include <stdarg.h>

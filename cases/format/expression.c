@@ -6,6 +6,9 @@
 
 #include "cases/scene/scene.h"
 
+/* Index of the name of a constant of sections, or -1. */
+static int section_names_index(const char *name, size_t length);
+
 static int tell_unknown(const name_context *c, const char *text, int from, int length,
                         expression_mistake *why)
 {
@@ -229,7 +232,7 @@ enum { CONSTANTS = 19 };
 const char section_names_all[] =
     "A, Iy, Iz, It, Iw, Ip, ys, zs, Dy, Dz, Dw, Fy, Fz, Fw, beta, yc, zc, ey, ez";
 
-int section_names_index(const char *name, size_t length)
+static int section_names_index(const char *name, size_t length)
 {
     const char *at = section_names_all;
     for (int i = 0; i < CONSTANTS; i++) {

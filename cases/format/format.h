@@ -17,11 +17,6 @@ typedef struct arena {
     int failed;         /* 1: out of memory, or above the limit for a file */
 } arena;
 
-/* Zeroed memory, aligned for every type; NULL when out of memory, which `failed` records. {0} is an
- * empty arena. */
-void *arena_take(arena *a, size_t size);
-/* Copies the first `length` bytes of a text, and adds a zero. */
-const char *arena_copy(arena *a, const char *text, size_t length);
 /* Makes room for one more entry in a list of `count`: returns the list, or a copy with twice the
  * room; NULL when out of memory. */
 void *arena_grow(arena *a, void *list, int count, size_t size);

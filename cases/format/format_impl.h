@@ -9,6 +9,12 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
+/* Zeroed memory, aligned for every type; NULL when out of memory, which `failed` records. {0} is an
+ * empty arena. */
+void *arena_take(arena *a, size_t size);
+/* Copies the first `length` bytes of a text, and adds a zero. */
+const char *arena_copy(arena *a, const char *text, size_t length);
+
 /* Names that expressions may use: parameters, derived values, loop names. */
 
 /* The name added last; earlier ones remain visible. NULL: no names. */
@@ -201,8 +207,6 @@ typedef void builder_piece(scene *, int index, double until, const char *text);
 /* Adds the function given by `time`, `pieces` or `table`; a table is interpolated linearly, or by a
  * cubic spline that starts and ends at rest. */
 void builder_function(const fields *f, int index, builder_piece *add, int spline);
-/* Is there one? */
-int builder_has_function(const fields *f);
 /* Reports that the analysis does not have the quantity, and which kinds of analysis do. */
 void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q);
 /* Reads `path` and as many `values` as it has stations. Returns their number; 0 after an error or
@@ -267,9 +271,6 @@ int keys_check(const document_node *root, mistakes *m);
 
 /* Parts of the description of a quantity. */
 
-/* Writes the states and their analysis: ", at the end of the static path". */
-void meaning_state(FILE *to, const scene *s, const scene_quantity *q);
-
 /* A scene file stored in the program by the build (harness/tools/pack_case.c): read and checked
  * there, without pointers, and a case like any other. */
 
@@ -315,9 +316,6 @@ struct scene_file {
 void parameter_table_read(scene_file *file, mistakes *m);
 /* Names of the parameters of a table, with these values. */
 const scope *parameter_table_names(const parameter_type *, const double value[], arena *a);
-/* Checks the reference values and their quantities, at a point. */
-void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
-                             mistakes *m);
 
 /* Constants of sections as names in expressions: SECTION.A. */
 
@@ -325,8 +323,6 @@ void scene_file_truths_check(const scene_file *file, const scene *s, const doubl
  * reported. */
 const scope *section_names_add(const scope *names, const char *section_name, const section *c,
                                arena *a);
-/* Index of the name of a constant of sections, or -1. */
-int section_names_index(const char *name, size_t length);
 /* All of them, for messages. */
 extern const char section_names_all[];
 
@@ -362,8 +358,6 @@ typedef struct write_own {
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
 /* "key: ", after ", " if it is not the first of its map. */
 void write_values_key(writer *w, const char *key);
-/* The word of that index in "a|b|c". */
-void write_values_word(writer *w, const char *words, int index);
 /* Writes words between [ and ], one for each bit. */
 void write_values_bits(writer *w, const char *words, unsigned bits);
 

@@ -6,6 +6,9 @@
 
 #include "cases/scene/scene.h"
 
+/* Writes the states and their analysis: ", at the end of the static path". */
+static void meaning_state(FILE *to, const scene *s, const scene_quantity *q);
+
 static int is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
@@ -324,7 +327,7 @@ static void acting(FILE *to, const scene *s, const scene_quantity *q)
                 scene_name(s, SCENE_COMBINATIONS, q->over[i]).text);
 }
 
-void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
+static void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
 {
     const scene_analysis *a = &s->analysis[q->analysis], *path = path_of(s, a);
     if (path != NULL)

@@ -5,6 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Checks the reference values and their quantities, at a point. */
+static void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
+                                    mistakes *m);
+
 enum { VERSION = 1 };
 
 static void check_version(const scene_file *file, mistakes *m)
@@ -336,8 +340,8 @@ static truth_reader open_truths(const scene_file *file, const double value[], ar
     return r;
 }
 
-void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
-                             mistakes *m)
+static void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
+                                    mistakes *m)
 {
     arena a = {0};
     truth_reader r = open_truths(file, value, &a, m);

@@ -7,6 +7,9 @@
 
 #include "elements/shared/choice.h"
 
+/* The word of that index in "a|b|c". */
+static void write_values_word(writer *w, const char *words, int index);
+
 static void write_value(writer *w, const entry_field *k, const void *entry)
 {
     const void *at = (const char *)entry + k->at;
@@ -107,7 +110,7 @@ void write_values_key(writer *w, const char *key)
     w->begun = 1;
 }
 
-void write_values_word(writer *w, const char *words, int index)
+static void write_values_word(writer *w, const char *words, int index)
 {
     char word[SCENE_NAME];
     choice_name(words, index, word, sizeof word);

@@ -1,4 +1,4 @@
-#include "cases/scene/scene.h"
+#include "cases/scene/scene_impl.h"
 
 #include <math.h>
 

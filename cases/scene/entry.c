@@ -1,10 +1,13 @@
-#include "cases/scene/scene.h"
+#include "cases/scene/scene_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/shared/choice.h"
+
+/* For a map in a group: is it the one that is given? For others: 1. */
+static int entry_stands(const entry_field *, const void *entry);
 
 /* Returns the member of the entry that the key sets. */
 static const void *place_of(const entry_field *k, const void *entry)
@@ -118,7 +121,7 @@ int entry_word(const entry_field *k, const char *word)
     return index < 0 ? (int)k->otherwise : entry_value(k, index);
 }
 
-int entry_stands(const entry_field *k, const void *entry)
+static int entry_stands(const entry_field *k, const void *entry)
 {
     if (k->type != NULL)
         return quantity_type_of(entry) == k->type;

@@ -31,7 +31,9 @@ void scene_add_term(scene *s, int combination, int load_case, double factor)
         c->term[i] = (scene_term){load_case, factor};
 }
 
-int scene_acting_number(const scene *s, scene_acting what)
+/* What acts, as a number: 0: everything, in scenes without load cases; from 1 the combinations, and
+ * after them the load cases. */
+static int scene_acting_number(const scene *s, scene_acting what)
 {
     if (what.combination != SCENE_NONE)
         return 1 + what.combination;

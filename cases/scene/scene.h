@@ -665,10 +665,6 @@ int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
  * Every scene_* function that adds an entry returns its index in its list, or -1 when out of memory
  * (scene_valid reports this once, at the end). */
 
-/* Relative tolerance of a limit: the accuracy that engineers require of a model. A biased limit
- * within it is still detected, by its uncertainty. */
-#define SCENE_TOLERANCE 1e-3
-
 /* Largest number of meshes in a scene or a command. */
 enum { SCENE_MESHES = 24 };
 
@@ -981,9 +977,6 @@ void scene_set_table(scene *s, int spring, int component, int points, const doub
 double scene_table_at(const scene_table *, double x, double *slope);
 /* Integral of the table between two values. */
 double scene_table_work(const scene_table *, double from, double to);
-/* Component whose table has a slope discontinuity at zero, so that its undeformed stiffness is
- * undefined; SCENE_NONE: none. */
-int scene_spring_kink(const scene_spring *);
 /* Releases this component at an end of a member (0 at p, 1 at q), in addition to earlier ones;
  * scene_validate refuses more than SCENE_RELEASED. */
 void scene_release_end(scene *s, int member, int end, int component);
@@ -1006,10 +999,6 @@ typedef struct scene_tie {
 } scene_tie;
 /* Fills tie[6 nodes]; REFUSED: constraints that contradict each other or supports. */
 status scene_ties(const scene *, scene_tie tie[], fault *);
-/* Bits of rx, ry and rz. */
-#define SCENE_TURNS (7u << SCENE_RX)
-/* Is a component of the node in a constraint: one of the bits? */
-int scene_is_constrained(const scene *, int node, unsigned components);
 /* Adds a dashpot to the spring. */
 void scene_damp_spring(scene *s, int spring, const double damping[36]);
 int scene_spring_damps(const scene_spring *);
@@ -1047,9 +1036,6 @@ int scene_add_case(scene *s, const char *name);
 int scene_add_combination(scene *s, const char *name);
 /* A load case more in a combination. */
 void scene_add_term(scene *s, int combination, int load_case, double factor);
-/* What acts, as a number: 0: everything, in scenes without load cases; from 1 the combinations, and
- * after them the load cases. */
-int scene_acting_number(const scene *s, scene_acting what);
 /* Of an analysis, or of that whose state it is about; 0 too: all of them, one after the other
  * (scene_solves_all), or none, of the structure without loads. */
 int scene_acting_of(const scene *s, int analysis);
@@ -1271,8 +1257,6 @@ int entry_index(const entry_field *, int value);
 int entry_word(const entry_field *, const char *word);
 /* Returns 1 when the value is the default. */
 int entry_is_usual(const entry_field *, const void *entry);
-/* For a map in a group: is it the one that is given? For others: 1. */
-int entry_stands(const entry_field *, const void *entry);
 /* "at least 0" */
 const char *entry_range(const entry_field *, char text[FAULT_TEXT]);
 int entry_in_range(const entry_field *, double value);

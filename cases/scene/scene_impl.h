@@ -4,6 +4,19 @@
 
 #include "cases/scene/scene.h"
 
+/* Relative tolerance of a limit: the accuracy that engineers require of a model. A biased limit
+ * within it is still detected, by its uncertainty. */
+#define SCENE_TOLERANCE 1e-3
+
+/* Component whose table has a slope discontinuity at zero, so that its undeformed stiffness is
+ * undefined; SCENE_NONE: none. */
+int scene_spring_kink(const scene_spring *);
+
+/* Bits of rx, ry and rz. */
+#define SCENE_TURNS (7u << SCENE_RX)
+/* Is a component of the node in a constraint: one of the bits? */
+int scene_is_constrained(const scene *, int node, unsigned components);
+
 /* Requirements on transient analyses, and on the functions of time that they contain. */
 
 /* Checks the functions of drivers and loads, also without a transient analysis. */

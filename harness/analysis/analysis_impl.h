@@ -33,8 +33,6 @@ void arnoldi_free(arnoldi_result *);
 
 /* Linear buckling about the undeformed state. */
 
-status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-
 /* Centre lines of all solutions, for pictures. */
 
 /* Collects shapes of the undeformed structure, of at most `most` states of every path, of linear
@@ -65,9 +63,6 @@ status compliance_analysis(analysis_context *, int analysis, analysis_outcome *,
 
 typedef struct compliance_walk compliance_walk;
 
-/* Starts the compliances of all analyses about states of `path`; *out NULL: no analysis follows the
- * path. */
-status compliance_walk_begin(newton_run *, int path, compliance_walk **out, fault *);
 /* To be called when Newton's method has reached the station. The analysis computes later what is
  * not available now. w NULL: no analysis follows. FAULT: out of memory. */
 status compliance_walk_take(compliance_walk *w, const newton_run *, int station, fault *);
@@ -82,8 +77,6 @@ status continuation_analysis(analysis_context *, int analysis, analysis_outcome 
 /* Curves and critical points; 0: another quantity. */
 int continuation_extract(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                          quantity_result *);
-/* 1: a curve of coordinates is requested, so the states of all points are kept. */
-int continuation_extract_keeps_states(const scene *, int analysis);
 
 /* Small motions x exp(s t) about a state whose stiffness is not symmetric: (s^2 M + s C + K) x = 0,
  * M symmetric and positive semidefinite, C of damping or absent.
@@ -277,20 +270,11 @@ status continuation_step_end(continuation *, path_point *, const step_record *, 
 /* Restores the state of `here`. */
 void continuation_step_go_back(continuation *);
 
-/* continuation.c: reason why the step from `here` to `next` is too long or led to another branch;
- * NULL: valid. *swing: rotation of the path relative to its limit. last_resort: the step cannot be
- * shorter, so several critical points may lie in it. */
-const char *continuation_sound_doubt(const continuation *, int last_resort, double *swing);
-
 /* End of a step that may lie on another branch. */
 typedef struct rival {
     model_state *state; /* NULL: none */
     double factor;
 } rival;
-
-/* Reports a jump: the step from the control coordinate `from` led to the rival, but the path leads
- * to `here`. With constant steps the path ends there. */
-status continuation_sound_report_jump(continuation *, const rival *, double from, fault *);
 
 /* continuation_critical.c: the critical points between `here` and `next`, if any, become events.
  * The step was found with the goal. *jump: 1 when the tangent stiffness changes its inertia without
@@ -327,12 +311,6 @@ int extract_path_whole(const analysis_context *, int analysis, int station);
 
 /* Quantities of eigenvalues: critical loads and frequencies. */
 
-/* Critical load factor of the wanted sign and order. */
-void extract_spectrum_buckling(const scene_quantity *, const analysis_outcome *, quantity_result *);
-/* Frequency [Hz] of the wanted kind and order of mode. */
-void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
-                            const analysis_outcome *, quantity_result *);
-
 /* Checks whether stability is lost and regained within a step of a static path: the state is
  * examined after every sixth of the step, so that an interval of a fifth of it is noticed. */
 
@@ -342,8 +320,6 @@ status within_step(flutter_judge *, analysis_context *, const model_state *from,
                    const model_state *to, double *found, fault *);
 
 /* Linear statics about the undeformed state. */
-
-status linear_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 /* Small motions and stability about a loaded, deformed state: the last state of the followed static
  * path. */

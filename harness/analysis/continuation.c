@@ -8,6 +8,14 @@
 
 #include "harness/model/model.h"
 
+/* continuation.c: reason why the step from `here` to `next` is too long or led to another branch;
+ * NULL: valid. *swing: rotation of the path relative to its limit. last_resort: the step cannot be
+ * shorter, so several critical points may lie in it. */
+static const char *continuation_sound_doubt(const continuation *, int last_resort, double *swing);
+/* Reports a jump: the step from the control coordinate `from` led to the rival, but the path leads
+ * to `here`. With constant steps the path ends there. */
+static status continuation_sound_report_jump(continuation *, const rival *, double from, fault *);
+
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
 /* Target rotation of the next step relative to its limit: the longest steps with a rejection rate
  * below one in a hundred (measured on c_cantilever: 0.5 costs a tenth more, 0.85 as much). */
@@ -322,7 +330,7 @@ static double angle_to_secant(const continuation *p, const double tangent[], dou
     return acos(fmin(1, fmax(-1, continuation_step_dot(p, tangent, p->moved) / length)));
 }
 
-const char *continuation_sound_doubt(const continuation *p, int last_resort, double *swing)
+static const char *continuation_sound_doubt(const continuation *p, int last_resort, double *swing)
 {
     const path_point *a = &p->here, *b = &p->next;
     const double length = sqrt(continuation_step_dot(p, p->moved, p->moved));
@@ -343,7 +351,7 @@ const char *continuation_sound_doubt(const continuation *p, int last_resort, dou
     return NULL;
 }
 
-status continuation_sound_report_jump(continuation *p, const rival *r, double from, fault *f)
+static status continuation_sound_report_jump(continuation *p, const rival *r, double from, fault *f)
 {
     const path_event event = {.kind = EVENT_BRANCH_JUMP,
                               .analysis = p->analysis,

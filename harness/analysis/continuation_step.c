@@ -9,6 +9,9 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
+/* 1: a curve of coordinates is requested, so the states of all points are kept. */
+static int continuation_extract_keeps_states(const scene *, int analysis);
+
 status continuation_step_alloc(analysis_context *c, int analysis, outcome_continuation *o,
                                continuation *p, fault *f)
 {
@@ -199,7 +202,7 @@ void continuation_step_go_back(continuation *p)
 
 /* Quantities of a continued path. */
 
-int continuation_extract_keeps_states(const scene *s, int analysis)
+static int continuation_extract_keeps_states(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *q = &s->quantity[i];

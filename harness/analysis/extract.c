@@ -10,6 +10,13 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
+/* Critical load factor of the wanted sign and order. */
+static void extract_spectrum_buckling(const scene_quantity *, const analysis_outcome *,
+                                      quantity_result *);
+/* Frequency [Hz] of the wanted kind and order of mode. */
+static void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
+                                   const analysis_outcome *, quantity_result *);
+
 static const char *const no_frequency =
     "the mesh has no mode of this kind that is distinguishable from round-off; coordinates with no "
     "or hardly any mass have no mode";
@@ -187,8 +194,8 @@ static void take_meaning(const outcome_spectrum *from, quantity_result *r)
         memcpy(r->meaning, from->meaning, sizeof r->meaning);
 }
 
-void extract_spectrum_buckling(const scene_quantity *q, const analysis_outcome *o,
-                               quantity_result *r)
+static void extract_spectrum_buckling(const scene_quantity *q, const analysis_outcome *o,
+                                      quantity_result *r)
 {
     const scene_critical_load *load = scene_critical_load_of(q);
     const outcome_spectrum *found = outcome_spectrum_of(o);
@@ -229,8 +236,8 @@ static status find_mode(const analysis_context *c, const scene_mode *wanted,
     return STATUS_OK;
 }
 
-void extract_spectrum_modal(const analysis_context *c, const scene_quantity *q,
-                            const analysis_outcome *o, quantity_result *r)
+static void extract_spectrum_modal(const analysis_context *c, const scene_quantity *q,
+                                   const analysis_outcome *o, quantity_result *r)
 {
     const model_size size = model_sizes(c->model);
     const outcome_side *side = &outcome_spectrum_of(o)->positive;

@@ -9,6 +9,9 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
+static status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+static status linear_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 static analysis_function *function_of(const scene *s, const scene_analysis *a)
@@ -332,7 +335,7 @@ static status displace(analysis_context *c, int analysis, linear_system *s, outc
     return STATUS_OK;
 }
 
-status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+static status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     linear_system s = {0};
     const status result = displace(c, analysis, &s, &o->left.linear, f);
@@ -581,7 +584,7 @@ static void judge_side(const analysis_context *c, int analysis, int positive, ei
     eigen_free(&finer);
 }
 
-status buckling_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+static status buckling_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     buckling b = {0};
     const status result = solve(c, analysis, &b, f);

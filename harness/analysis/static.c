@@ -11,6 +11,10 @@
 #include "elements/math/dense.h"
 #include "harness/model/model.h"
 
+/* Starts the compliances of all analyses about states of `path`; *out NULL: no analysis follows the
+ * path. */
+static status compliance_walk_begin(newton_run *, int path, compliance_walk **out, fault *);
+
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
 /* Stability at the end of a step if pivots do not decide it. *found: path within the step with a
@@ -391,7 +395,7 @@ static status add(newton_run *n, int analysis, compliance_walk *w, fault *f)
                             : STATUS_OK;
 }
 
-status compliance_walk_begin(newton_run *n, int path, compliance_walk **out, fault *f)
+static status compliance_walk_begin(newton_run *n, int path, compliance_walk **out, fault *f)
 {
     const scene *s = n->c->scene;
     int count = 0;

@@ -116,12 +116,6 @@ void manual_write_results(FILE *to, const verb *const *verbs);
 /* Pages in mdoc(7). Text is escaped so that no formatter interprets it. */
 /* Running text: lines with its words unchanged, so that hyphens, quotes and '^' can be copied. */
 void roff_text(FILE *to, const char *text);
-/* One argument after a macro, with a blank before it, escaped. */
-void roff_argument(FILE *to, const char *text);
-/* A line inside .Bd -literal. */
-void roff_literal(FILE *to, const char *line, size_t length);
-/* Header of a page: ".Dd" to ".Nd". name: "beamwork-solve"; about: one line. */
-void roff_page(FILE *to, const char *name, int chapter, const char *about);
 /* "See also": names with their sections, as in "beamwork 1 beamwork-scene 5". */
 typedef struct roff_reference {
     const char *name;

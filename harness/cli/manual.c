@@ -52,14 +52,16 @@ void roff_text(FILE *to, const char *text)
     fputc('\n', to);
 }
 
-void roff_argument(FILE *to, const char *text)
+/* One argument after a macro, with a blank before it, escaped. */
+static void roff_argument(FILE *to, const char *text)
 {
     fputs(" \"\\&", to);
     write_escaped(to, text, strlen(text));
     fputc('"', to);
 }
 
-void roff_literal(FILE *to, const char *line, size_t length)
+/* A line inside .Bd -literal. */
+static void roff_literal(FILE *to, const char *line, size_t length)
 {
     write_word(to, line, length);
     fputc('\n', to);
@@ -76,7 +78,8 @@ static void write_date(FILE *to, const char *released)
     fprintf(to, ".Dd %s\n", text);
 }
 
-void roff_page(FILE *to, const char *name, int chapter, const char *about)
+/* Header of a page: ".Dd" to ".Nd". name: "beamwork-solve"; about: one line. */
+static void roff_page(FILE *to, const char *name, int chapter, const char *about)
 {
     const environment e = environment_now(1);
     write_date(to, e.released);

@@ -7,6 +7,12 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
+/* Position of corner k of n elements on 0 to 1, graded towards both ends. */
+static double face_graded(int k, int n);
+/* section: constants computed from the spec. REFUSED: tubes, given constants, walls oblique to y
+ * and z. */
+static status face_of(const section_spec *spec, const section *constants, face *out, fault *f);
+
 enum { BRICK_NODES = 20, DECK_LINE = 10 };
 
 /* Corners, then mid-edge nodes of the lower face, of the upper face and between them, in half
@@ -170,7 +176,7 @@ typedef struct strip {
     double from[2], to[2];
 } strip;
 
-double face_graded(int k, int n)
+static double face_graded(int k, int n)
 {
     return (1 - cos(PI * k / n)) / 2;
 }
@@ -323,7 +329,7 @@ static int is_overridden(const section_spec *spec)
     return 0;
 }
 
-status face_of(const section_spec *spec, const section *constants, face *out, fault *f)
+static status face_of(const section_spec *spec, const section *constants, face *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     if (is_overridden(spec))

@@ -4,6 +4,24 @@
 
 #include "cases/scene/scene.h"
 
+/* Writes the lines below *NODE for these nodes. */
+static void body_write_nodes(const body_numbers *, const scene *s, FILE *to);
+/* Writes sets of faces, the bodies, and the set BODIES of all their nodes. bricks: [members]. */
+static void body_write(const body_numbers *, const scene *s, const brick bricks[], FILE *to);
+/* Writes the prescribed coordinates at `path`, below *BOUNDARY. */
+static void body_write_state(const body_numbers *, const scene *s, int acting, double path,
+                             FILE *to);
+/* As body_write_state for a small motion, in which they do not move. released: components of `node`
+ * (bit i) that are free. */
+static void body_write_held(const body_numbers *, const scene *s, int node, unsigned released,
+                            FILE *to);
+/* Writes all steps: linear analyses and compliances of the undeformed structure, then the static
+ * path, with one unit load about its last state. FAULT: out of memory. */
+static status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f);
+static status path_points_of(const scene *s, int analysis, path_points *out, fault *f);
+/* Does the quantity, of the path or an analysis about it, need its value at the point? */
+static int path_points_asked(const scene *s, int analysis, const scene_quantity *q, double point);
+
 status deck_check(const deck_request *r, fault *f)
 {
     if (r->elements < 1 || r->elements > DECK_MOST_ELEMENTS)
@@ -249,7 +267,7 @@ static void write_point(answers_writer *w, int analysis, double point)
             answer_entry(w, &w->s->quantity[k], point);
 }
 
-status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f)
+static status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f)
 {
     answers_writer w = {.s = s, .bodies = bodies, .to = to};
     const int path = carried_static(s);
@@ -276,7 +294,7 @@ int body_direction(int component)
     return component % BODY_TRANSLATIONS + 1;
 }
 
-void body_write_nodes(const body_numbers *b, const scene *s, FILE *to)
+static void body_write_nodes(const body_numbers *b, const scene *s, FILE *to)
 {
     for (int i = 0; i < s->nodes; i++)
         if (rigid_moves(s, i))
@@ -300,7 +318,7 @@ static void write_body(const body_numbers *b, const scene *s, int node, const br
             body_node(b, node, SCENE_UX), body_node(b, node, SCENE_RX));
 }
 
-void body_write(const body_numbers *b, const scene *s, const brick bricks[], FILE *to)
+static void body_write(const body_numbers *b, const scene *s, const brick bricks[], FILE *to)
 {
     for (int i = 0; i < s->nodes; i++)
         if (rigid_moves(s, i))
@@ -342,12 +360,14 @@ static void write_boundary(const body_numbers *b, const scene *s, int acting, co
             }
 }
 
-void body_write_state(const body_numbers *b, const scene *s, int acting, double path, FILE *to)
+static void body_write_state(const body_numbers *b, const scene *s, int acting, double path,
+                             FILE *to)
 {
     write_boundary(b, s, acting, &path, SCENE_NONE, 0, to);
 }
 
-void body_write_held(const body_numbers *b, const scene *s, int node, unsigned released, FILE *to)
+static void body_write_held(const body_numbers *b, const scene *s, int node, unsigned released,
+                            FILE *to)
 {
     write_boundary(b, s, 0, NULL, node, released, to);
 }
@@ -384,7 +404,7 @@ static int is_about(const scene *s, int analysis, const scene_quantity *q)
     return q->analysis == analysis || s->analysis[q->analysis].follows == analysis;
 }
 
-status path_points_of(const scene *s, int analysis, path_points *out, fault *f)
+static status path_points_of(const scene *s, int analysis, path_points *out, fault *f)
 {
     const scene_path *stations = scene_path_of(&s->analysis[analysis]);
     const double last = stations->value[stations->stations - 1];
@@ -411,7 +431,7 @@ void path_points_free(path_points *p)
     p->value = NULL;
 }
 
-int path_points_asked(const scene *s, int analysis, const scene_quantity *q, double point)
+static int path_points_asked(const scene *s, int analysis, const scene_quantity *q, double point)
 {
     const scene_path *stations = scene_path_of(&s->analysis[analysis]);
     int is_station = 0;

@@ -30,11 +30,6 @@ typedef struct face {
     unsigned char filled[FACE_MOST][FACE_MOST]; /* [elements along y][along z] 1: brick */
 } face;
 
-/* Position of corner k of n elements on 0 to 1, graded towards both ends. */
-double face_graded(int k, int n);
-/* section: constants computed from the spec. REFUSED: tubes, given constants, walls oblique to y
- * and z. */
-status face_of(const section_spec *spec, const section *constants, face *out, fault *f);
 /* Area that is filled [m^2]. */
 double face_area(const face *);
 
@@ -75,15 +70,6 @@ typedef struct body_numbers {
 /* Node in the deck for a component SCENE_UX .. SCENE_RZ, and its direction 1..3. */
 int body_node(const body_numbers *, int node, int component);
 int body_direction(int component);
-/* Writes the lines below *NODE for these nodes. */
-void body_write_nodes(const body_numbers *, const scene *s, FILE *to);
-/* Writes sets of faces, the bodies, and the set BODIES of all their nodes. bricks: [members]. */
-void body_write(const body_numbers *, const scene *s, const brick bricks[], FILE *to);
-/* Writes the prescribed coordinates at `path`, below *BOUNDARY. */
-void body_write_state(const body_numbers *, const scene *s, int acting, double path, FILE *to);
-/* As body_write_state for a small motion, in which they do not move. released: components of `node`
- * (bit i) that are free. */
-void body_write_held(const body_numbers *, const scene *s, int node, unsigned released, FILE *to);
 
 /* Steps of a deck, with comments that assign printed numbers of steps to quantities:
  *
@@ -91,10 +77,6 @@ void body_write_held(const body_numbers *, const scene *s, int node, unsigned re
  *
  * value = factor*printed + offset, with the reciprocal of the printed number if `reciprocal` is 1.
  * Steps start at 1; x [SI] is the abscissa of a curve, or empty. */
-
-/* Writes all steps: linear analyses and compliances of the undeformed structure, then the static
- * path, with one unit load about its last state. FAULT: out of memory. */
-status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f);
 
 /* Quantities and loads of a scene that a deck of solids supports. All others are refused, so that
  * none is omitted without notice. */
@@ -118,8 +100,6 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
 
 /* Values of another program as a series of a sweep, whose cells are not run here. */
 
-/* Sorts the values by elements, quantity, abscissa. */
-void import_cells_order(imported *found);
 /* Appends a series to the point; takes ownership of `found`, also after a failure. REFUSED: more
  * meshes than a series can have. */
 status import_cells_add(sweep *s, int point_index, imported *found, fault *f);
@@ -127,14 +107,10 @@ status import_cells_add(sweep *s, int point_index, imported *found, fault *f);
 /* Reads entries of a map in YAML: unknown keys, texts, numbers; reports errors with their
  * positions. */
 
-/* Reports every key that is not in the NULL-terminated list. */
-void map_keys_check(const document_node *map, const char *const known[], mistakes *m);
 /* Text of an entry; `otherwise` if it is missing. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,
                           const char *otherwise);
 double map_keys_number(mistakes *m, const document_node *map, const char *key, double otherwise);
-/* A nonnegative integer. */
-int map_keys_count(mistakes *m, const document_node *map, const char *key, int otherwise);
 
 /* Points of a deck on a static path: its stations, points that quantities need, and the corners of
  * drivers and load factors, so that each step is linear. */
@@ -144,10 +120,7 @@ typedef struct path_points {
     double *value; /* [count] ascending */
 } path_points;
 
-status path_points_of(const scene *s, int analysis, path_points *out, fault *f);
 void path_points_free(path_points *);
-/* Does the quantity, of the path or an analysis about it, need its value at the point? */
-int path_points_asked(const scene *s, int analysis, const scene_quantity *q, double point);
 
 /* Nodes of a scene that move independently and carry faces of solids. */
 

@@ -7,6 +7,9 @@
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulations.h"
 
+/* Sorts the values by elements, quantity, abscissa. */
+static void import_cells_order(imported *found);
+
 static const scene *scene_of(const import_block *b)
 {
     return b->point >= 0 ? &b->set->sweep.point[b->point].scene : NULL;
@@ -316,7 +319,7 @@ static int by_place(const void *a, const void *b)
     return p->x != q->x ? (p->x > q->x) - (p->x < q->x) : p->line - q->line;
 }
 
-void import_cells_order(imported *found)
+static void import_cells_order(imported *found)
 {
     if (found->rows > 1)
         qsort(found->row, (size_t)found->rows, sizeof *found->row, by_place);

@@ -8,6 +8,11 @@
 #include "cases/format/format.h"
 #include "elements/shared/choice.h"
 
+/* Reports every key that is not in the NULL-terminated list. */
+static void map_keys_check(const document_node *map, const char *const known[], mistakes *m);
+/* A nonnegative integer. */
+static int map_keys_count(mistakes *m, const document_node *map, const char *key, int otherwise);
+
 enum { WORDS = 128, LAST = -1, ALL = 0 };
 
 static const char *const map_keys[] = {"beamwork_map", "program",  "case",     "model",   "version",
@@ -297,7 +302,7 @@ static const char *name_at(const void *context, int i)
     return ((const char *const *)context)[i];
 }
 
-void map_keys_check(const document_node *map, const char *const known[], mistakes *m)
+static void map_keys_check(const document_node *map, const char *const known[], mistakes *m)
 {
     for (int i = 0; i < map->count; i++) {
         int found = 0;
@@ -336,7 +341,7 @@ double map_keys_number(mistakes *m, const document_node *map, const char *key, d
     return otherwise;
 }
 
-int map_keys_count(mistakes *m, const document_node *map, const char *key, int otherwise)
+static int map_keys_count(mistakes *m, const document_node *map, const char *key, int otherwise)
 {
     const double value = map_keys_number(m, map, key, otherwise);
     if (value == floor(value) && value >= 0 && value <= 10000000)

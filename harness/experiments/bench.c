@@ -1,4 +1,4 @@
-#include "harness/experiments/experiments.h"
+#include "harness/experiments/experiments_impl.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -9,6 +9,13 @@
 
 #include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
+
+/* floor: least processor time [s] of a round for one cell. If there are several points, only the
+ * defaults are measured completely: with the parts of an iteration and, on the middle mesh of each
+ * formulation, the run without elimination. At other points rounds are short, and long cells keep
+ * the time of their single run. Crashed cells are not run again. dense: the published algorithm is
+ * also timed. to: stream of the progress, or NULL. */
+static status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f);
 
 enum { MOST = 64 };                        /* formulations */
 static const double floor_seconds = 0.002; /* of each round for each cell */
@@ -280,7 +287,7 @@ static void round_of_series(sweep *s, int index, double floor, int dense)
     }
 }
 
-status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f)
+static status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f)
 {
     progress line = progress_begin(to, "times of points", s->points, clock_wall_seconds());
     char what[PARAMETERS_TEXT + SCENE_NAME];

@@ -8,6 +8,11 @@
 #include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
+/* Appends a point to a measure. */
+static void measures_point(element_measure *one, double at, double error);
+/* Returns 1 when there are at least three points and none has a value. */
+static int measures_hopeless(const element_measure *one);
+
 claim *claims_open(claims *c, const char *name, double allowed)
 {
     for (int i = 0; i < c->count; i++)
@@ -325,7 +330,7 @@ element_measure *measures_add(measures *m, const char *name)
     return one;
 }
 
-void measures_point(element_measure *one, double at, double error)
+static void measures_point(element_measure *one, double at, double error)
 {
     assert(one->points < MEASURE_POINTS);
     one->at[one->points] = at;
@@ -340,7 +345,7 @@ int measures_astray(const measures *m)
     return count;
 }
 
-int measures_hopeless(const element_measure *one)
+static int measures_hopeless(const element_measure *one)
 {
     for (int i = 0; i < one->points; i++)
         if (!isnan(one->error[i]))

@@ -1,8 +1,8 @@
 /* experiments/: verification, sweeps, extremes, comparison of integrators, certificates of
  * elements, shards.
  *
- * Sections, in this order: against (two in alternation); axis; batches; measures; experiment;
- * bench; checks of elements and certificates; convergence; deal; design; extremes; integrators
+ * Sections, in this order: against (two in alternation); batches; measures; experiment;
+ * bench; checks of elements and certificates; convergence; design; extremes; integrators
  * (pace); sweeps (ranges); shard; list; stock; merge; meshes; tally; sweep files and tables;
  * regressions; solution; restart; runs_on; timing; verification. */
 #ifndef BEAMWORK_EXPERIMENTS_H
@@ -43,8 +43,6 @@ typedef struct contest_clock {
 } contest_clock;
 
 const char *against_name(against_outcome);
-/* Evaluates given times [s] of `pairs` laps each: tests supply them, no clock is used. */
-contest_clock against_judge(int pairs, const double a[], const double b[]);
 
 /* Runs one lap of one of the two, which takes *seconds. */
 typedef status against_lap(void *contestant, double *seconds, fault *f);
@@ -52,11 +50,7 @@ typedef status against_lap(void *contestant, double *seconds, fault *f);
  * one counts. */
 status against_run(against_lap *lap, void *a, void *b, double budget, contest_clock *out, fault *f);
 
-/* Varied parameter: a parameter of a case, and its values. */
-
 typedef enum axis_kind { AXIS_LINEAR, AXIS_LOG, AXIS_LIST, AXIS_WORDS } axis_kind;
-
-enum { AXIS_MOST_VALUES = 1000001 };
 
 typedef struct sweep_axis {
     const parameter_type *of;
@@ -67,32 +61,12 @@ typedef struct sweep_axis {
     double *value;   /* [count] for AXIS_LIST and AXIS_WORDS; owned */
 } sweep_axis;
 
-/* Reads "NAME=A..B/N" (N equal parts, ends included), "NAME=A..B/N:log" (equal ratios), "NAME=A..B"
- * or "NAME=A..B:log" (a design supplies the points), or "NAME=A,B,C" (numbers, or words of a
- * choice). REFUSED: names the invalid part and the remedy. All values are allowed values of the
- * parameter. */
-status axis_read(const case_type *type, const char *text, sweep_axis *out, fault *f);
-void axis_free(sweep_axis *);
-/* Value i of `count`. */
-double axis_value(const sweep_axis *, int i);
-/* Value at a fraction of the axis, 0 <= share < 1; for a list the value that contains this
- * fraction. */
-double axis_at(const sweep_axis *, double share);
-/* "linear", "log", "list", "words". */
-const char *axis_kind_name(axis_kind);
-/* The value as text. */
-void axis_text(const sweep_axis *, double value, char *text, int size);
-
 /* The machine that computes a batch: times depend on it, and the last digits may. */
 
 typedef struct machine {
     char host[128], processor[128];
     char blas[256]; /* library and its kernels for this processor */
 } machine;
-
-machine node_here(void);
-/* Returns 1 when processor and BLAS are the same; hosts may differ. */
-int node_same_kind(const machine *, const machine *);
 
 /* Work that can be cut into batches. A verb supplies these functions; the batches need not consist
  * of cells. */
@@ -118,9 +92,6 @@ typedef struct shard_work {
     status (*take)(void *context, int batch, FILE *from, fault *f);
 } shard_work;
 
-/* A batch file: a line of JSON with the label, the bytes of the results, and a line with length and
- * checksum. The file appears complete or not at all. */
-
 #define BATCH_ENDING ".batch"
 enum { BATCH_STEM = 48, BATCH_NAME = BATCH_STEM + 24 };
 
@@ -135,29 +106,9 @@ typedef struct batch_label {
     json_t *origin; /* batch_label_free releases it */
 } batch_label;
 
-/* "verify-0123456789ab": common beginning of the names of all batches of one work. */
-void batch_stem(const shard_work *w, char out[BATCH_STEM]);
-/* "verify-0123456789ab-000017.batch"; batch numbers in names start at 1. */
-void batch_name(const char *stem, int batch, char out[BATCH_NAME]);
-/* Index of the batch with this name; -1: not a batch of that stem. */
-int batch_of_name(const char *name, const char *stem);
-/* Returns 1 when the name has the ending of batch files. */
-int batch_is_name(const char *name);
-
-/* Writes folder/NAME under a temporary name, then renames it. FAULT: disk, memory. */
-status batch_write(const char *folder, const batch_label *label, const void *bytes, size_t size,
-                   fault *f);
-/* Removes temporary files of a batch left by killed processes. gone 1: the writer is known to have
- * ended. */
-void batch_clean(const char *folder, const char *name, int gone);
-/* Reads the label. *from (may be NULL) is then at the first byte of the results, and *end after the
- * last. FAULT: truncated, damaged, or not a batch. */
-status batch_open(const char *path, batch_label *out, FILE **from, long *end, fault *f);
 /* Reads only the label and does not check the results. */
 status batch_read_label(const char *path, batch_label *out, fault *f);
 void batch_label_free(batch_label *);
-/* REFUSED: the batch does not belong to the work; the message gives the difference and the path. */
-status batch_belongs(const batch_label *, const shard_work *, const char *path, fault *f);
 
 /* Measurements of a formulation, independent of what it declares: errors over meshes and
  * thicknesses, orders. Plain data of fixed size, for memory shared by processes. */
@@ -181,15 +132,6 @@ typedef struct measures {
     element_measure measure[MEASURES_MOST];
     char words[MEASURE_WORDS]; /* what all values have in common; "": nothing */
 } measures;
-
-/* Appends an empty measure. */
-element_measure *measures_add(measures *m, const char *name);
-/* Appends a point to a measure. */
-void measures_point(element_measure *one, double at, double error);
-/* Number of quantities with a wrong limit. */
-int measures_astray(const measures *m);
-/* Returns 1 when there are at least three points and none has a value. */
-int measures_hopeless(const element_measure *one);
 
 /* An experiment: it is planned, run and evaluated, and one function writes the results of all
  * experiments in the requested form. The results are tables of records, from which the group in the
@@ -293,27 +235,6 @@ typedef struct claims {
     int complete;               /* 1: all checks have been made */
 } claims;
 
-/* The check of that name; a new one passes until a deviation is found. */
-claim *claims_open(claims *c, const char *name, double allowed);
-/* Records that the type does not declare this property, and why. */
-void claims_not_made(claims *c, const char *name, const char *why);
-/* Adds a comparison; NaN is the largest deviation. */
-void claims_departs(claim *one, double departure, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-/* Adds a question; `sentence` describes the error if `holds` is 0. */
-void claims_asks(claim *one, int holds, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-/* Names the next check. */
-void claims_doing(claims *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Relative difference of two numbers; 0 for equal numbers, also for two zeros. */
-static inline double claims_share(double apart, double size)
-{
-    return apart == 0 ? 0 : apart / size;
-}
-/* Number of checks with this outcome, and number of their comparisons. */
-int claims_counted(const claims *c, claim_outcome outcome);
-int claims_compared(const claims *c);
-
 /* Sections of the elements under test. */
 
 typedef enum profiles_form {
@@ -321,9 +242,6 @@ typedef enum profiles_form {
     PROFILES_UNSYMMETRIC, /* an open section of three walls with eccentric shear centre */
     PROFILES_MATRICES     /* matrices in which every entry matters */
 } profiles_form;
-
-/* Lengths in units of `unit` metres, force in newtons, time in seconds for the same mass. */
-status profiles_section(profiles_form form, double unit, section *out, fault *f);
 
 /* One element under test: sections, options and features that it supports, states of its nodes, its
  * calls. */
@@ -363,56 +281,10 @@ typedef struct specimen {
 status specimen_make(const specimen_request *, specimen *out, fault *f);
 void specimen_free(specimen *s);
 
-/* Features for a straight element: all, and all without those of second order. */
-unsigned specimen_features(const element_type *t, unsigned without);
-
-/* Pseudo-random numbers in (-1/2, 1/2), determined by the seed. */
-void specimen_numbers(int count, unsigned seed, double out[]);
 /* The undeformed element displaced by random numbers times `size` (lengths, radians, 1/lengths). */
 void specimen_state(const specimen *s, double size, unsigned seed, node_state x[]);
-/* Rotates the whole element about the origin by a rotation vector, then shifts it by the given
- * number of lengths. */
-void specimen_carry(const specimen *s, const double turn[3], const node_state x[],
-                    node_state out[]);
-
-/* Point at which differences are taken. */
-typedef struct specimen_place {
-    const specimen *s;
-    const node_state *x;
-} specimen_place;
-
-/* Coordinate i moved by si difference units, j by sj. */
-void specimen_moved(const specimen_place *at, int i, double si, int j, double sj, node_state out[]);
-
-/* Inner unknowns in the undeformed state [inner]. */
-void specimen_rest(const specimen *s, double inner[]);
-/* Stress after Newton's method has solved the element's equations for its inner unknowns. */
-status specimen_settled(const specimen *s, const double e[], double inner[], stress_output *out);
-
-/* "rotation about y of node 2". */
-const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS]);
-
-/* Families of checks: the requirements of element.h. Each checks all elements that the formulation
- * supports and adds its results. */
 
 typedef void checks_run(const formulation *chosen, claims *out);
-
-checks_run checks_declared;    /* its declarations are consistent            */
-checks_run checks_features;    /* supports the features it declares, alone, in subsets, and as cases
-                                  require */
-checks_run checks_derivatives; /* J and H of the strains */
-checks_run checks_energy; /* stress, stiffness and geometric stiffness derive from the energy */
-checks_run
-    checks_force; /* for types defined by forces: force and stiffness derive from the energy */
-checks_run checks_motion;    /* invariance to rigid motion, order of the nodes, units */
-checks_run checks_stateless; /* equal calls give equal results, independent of previous calls */
-checks_run checks_many;      /* many elements in one call give the same as single calls */
-checks_run checks_bounds;    /* outputs are filled completely, and no other memory is changed */
-checks_run checks_unsound;   /* NaN and Inf are reported */
-checks_run checks_mass;      /* mass matrix: symmetric, positive, with the mass of the beam */
-checks_run checks_rotating;  /* effects of a rotating frame */
-checks_run checks_along;     /* loads along one element */
-checks_run checks_in_time;   /* inertia forces in transient analysis */
 
 typedef struct checks_family {
     const char *name, *what; /* one word; a line with the requirement */
@@ -433,10 +305,6 @@ typedef struct measured_group {
 
 enum { MEASURED_GROUPS = 3 };
 extern const measured_group measured_groups[MEASURED_GROUPS];
-
-measured_run measured_states;  /* cantilever, compared with the exact solution */
-measured_run measured_locking; /* over thickness/length */
-measured_run measured_orders;  /* over the number of elements */
 
 /* Certificate of a formulation: the interface requirements that it must satisfy, and its
  * measurements. Each part runs in its own process; if it crashes, does not return or corrupts its
@@ -467,16 +335,8 @@ typedef struct certificate_request {
 status certificate_find(const certificate_request *, certificate **out, fault *f);
 void certificate_free(certificate *all, int count);
 
-const char *certificate_part_name(int part);
-/* Description of a part in one line. */
-const char *certificate_part_words(int part);
-/* Number of checks with that outcome, and number of comparisons, over all parts. */
-int certificate_counted(const certificate *, claim_outcome);
-int certificate_compared(const certificate *);
 /* Returns 1 when no check has failed. */
 int certificate_holds(const certificate *);
-/* The first failed check; NULL: none. */
-const claim *certificate_broken(const certificate *);
 
 /* Records of certificates. */
 
@@ -513,17 +373,10 @@ typedef struct convergence {
 extern const experiment_type experiment_converge;
 void convergence_free(convergence *);
 
-/* Cuts work into batches and assigns batches to shards. Both depend only on the costs. */
-
 /* Groups consecutive items up to a total cost of `most`; a more expensive item forms its own batch.
  * first[items + 1]: first item of each batch, followed by `items`. Returns the number of batches.
  */
 int deal_cut(int items, const double cost[], double most, int first[]);
-/* shard[batches]: assigns each batch to a shard 0..shards-1. The most expensive batch is assigned
- * first, each to the shard with the least cost so far. Returns 0, or -1 when out of memory. */
-int deal_out(int batches, const double cost[], int shards, int shard[]);
-/* order[batches]: the most expensive first; equal costs keep their order. */
-void deal_order(int batches, const double cost[], int order[]);
 
 /* Choice of parameter points: a grid over all axes, or points that fill the box. */
 
@@ -547,20 +400,6 @@ typedef struct design {
     design_mark
         *mark; /* [marks] state at every `stride` points, so that any point is found quickly */
 } design;
-
-/* Smallest stride; largest number of marks, a few kilobytes each. */
-enum { DESIGN_STRIDE = 16384, DESIGN_MARKS = 1024, DESIGN_MOST_POINTS = 1000000000 };
-
-/* points: ignored for grids. In a grid the last axis changes fastest. As in GSL, the first point of
- * Sobol's and Halton's sequences is the one after the origin. REFUSED: too many points; a grid with
- * an axis without parts; another design with an axis with parts; more axes than the sequence
- * supports. */
-status design_make(design_kind kind, int axes, const sweep_axis list[], long points,
-                   unsigned long seed, design *out, fault *f);
-void design_free(design *);
-/* Values of the axes at `count` points from `first` on: out[count x axes]. FAULT: out of memory. */
-status design_points(const design *, long first, long count, double out[], fault *f);
-const char *design_name(design_kind);
 
 /* Outcome of a formulation at an extreme, and expected outcomes that are not accurate. */
 
@@ -604,7 +443,6 @@ typedef struct extreme_outcome {
 } extreme_outcome;
 
 const char *outcome_name(outcome_kind kind);
-int outcome_is_good(outcome_kind kind); /* Is it accurate or under-resolved? */
 
 /* Every formulation at every extreme: cells, outcomes and counts. */
 
@@ -627,11 +465,6 @@ typedef struct extreme_sweep {
     extreme_count *count; /* [formulations] */
 } extreme_sweep;
 
-/* Cell of an outcome; its quantity in the scene; its value on the first mesh (refinement 0) or a
- * neighbouring one (NAN: none). */
-const cell_result *extreme_sweep_cell(const extreme_sweep *s, const extreme_outcome *o);
-/* Outcome of the same formulation and quantity at the x that others are compared with, or NULL. */
-extreme_outcome *extreme_sweep_base(const extreme_sweep *s, const extreme_outcome *o);
 /* Exit status: 0 as expected, 1 an outcome differs, 3 nothing was run. */
 int extreme_sweep_exit(const extreme_sweep *s);
 void extreme_sweep_free(extreme_sweep *s);
@@ -647,34 +480,13 @@ typedef struct extreme_request {
     FILE *progress;
 } extreme_request;
 
-/* Plans a point for every extreme and value, in order, with a series for every formulation and an
- * outcome for each of its quantities. */
-status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f);
-
 /* Every formulation at every extreme must give a value with its error, or a named refusal or
  * failure, and never an unreported wrong number. */
 
 /* Request: an extreme_request; result: an extreme_sweep, to be freed by extreme_sweep_free. */
 extern const experiment_type experiment_stress;
 
-/* Outcomes of a sweep of extremes as text. */
-
-void extreme_table(FILE *to, const void *found); /* extreme_sweep */
-
-/* Lists of steps and tolerances on a command line. */
-
 enum { PACE_LIST_MOST = 16 };
-
-typedef struct pace_list {
-    int count;
-    double value[PACE_LIST_MOST];
-} pace_list;
-
-/* Reads "0.1,0.05" or "0.1..0.0125", which is divided by `ratio` repeatedly; positive numbers.
- * option: its name, for messages. */
-status pace_list_read(const char *option, const char *text, double ratio, pace_list *out, fault *f);
-/* first, first/ratio, first/ratio^2, ... */
-pace_list pace_list_divided(double first, double ratio, int count);
 
 /* Names of integrators on a command line. */
 
@@ -687,16 +499,6 @@ typedef struct pace_method {
     int order;    /* order in time for resolved motions */
     int estimate; /* 1: it estimates the error of a step */
 } pace_method;
-
-#define PACE_METHODS                                                                               \
-    "alpha, alpha:rho=R, hht, hht:alpha=A, trapezoidal, conserving, radau, explicit"
-
-/* Default method. */
-extern const char pace_method_all[];
-/* Reads one of PACE_METHODS, with R in [0, 1], A in [0, 1/3]. REFUSED: names the invalid part. */
-status pace_method_read(const char *text, int length, pace_method *out, fault *f);
-/* Appends "NAME,NAME,...", each at most once. */
-status pace_method_read_list(const char *text, int most, pace_method list[], int *count, fault *f);
 
 /* Comparison of integrators for transient analysis: cost of each step, and accuracy of the results.
  *
@@ -711,12 +513,6 @@ typedef enum pace_fate {
     PACE_EXACT, /* energy and momenta are conserved within pace_energy and pace_momentum */
     PACE_FATES
 } pace_fate;
-
-/* Tolerances of the reference and of its checks, radau on the same mesh. */
-enum { PACE_CHECKS = 2 };
-extern const double pace_reference[1 + PACE_CHECKS];
-/* Limits of E/E0 - 1, and of relative changes of energy and momenta. */
-extern const double pace_growth, pace_energy, pace_momentum;
 
 /* One motion: an integrator with a step size or a tolerance. */
 typedef struct pace_run {
@@ -762,11 +558,6 @@ typedef struct pace {
     pace_run *run;
 } pace;
 
-void pace_free(pace *);
-const char *pace_fate_name(pace_fate);
-const sweep_point *pace_point_of(const pace *, const pace_run *);
-const cell_result *pace_cell_of(const pace *, int index);
-
 /* Verdicts on integrators, against a table of what is expected (expected.csv):
  *
  *   order      pass, low order or undecided, from errors at halved steps (experiments_impl.h)
@@ -802,12 +593,6 @@ typedef struct pace_verdicts {
     int count, unexpected;
     pace_verdict *verdict;
 } pace_verdicts;
-
-/* Reads the table and plans its motions. REFUSED: the first error, with its line. */
-status pace_verdict_plan(const char *path, pace *, pace_verdicts *, fault *);
-/* After pace_judge. */
-void pace_verdict_reach(const pace *, pace_verdicts *);
-void pace_verdict_free(pace_verdicts *);
 
 /* Comparison of integrators for transient analysis: request and result. */
 
@@ -848,14 +633,6 @@ typedef enum rows_reference {
     ROWS_REFERENCES
 } rows_reference;
 
-/* Status of a cell; smaller values are those of `status`. */
-enum {
-    ROWS_NOT_OFFERED = STATUS_NO_VALUE + 1,
-    ROWS_NO_SCENE,
-    ROWS_NOT_COMPUTED, /* its batch is missing */
-    ROWS_STATUSES
-};
-
 /* Sizes of the columns, equal at every point. */
 typedef struct rows_shape {
     int formulations, meshes, quantities;
@@ -878,22 +655,6 @@ typedef struct rows {
     uint8_t *kind;   /* [points, quantities] values of rows_reference */
     uint8_t *status; /* [points, formulations, meshes] */
 } rows;
-
-/* Sets all columns to zero. FAULT: out of memory. */
-status rows_alloc(const rows_shape *shape, int points, rows *out, fault *f);
-void rows_free(rows *);
-/* Writes the bytes in the format of this machine. Returns 0, or -1. */
-int rows_write(FILE *to, const rows *);
-int rows_read(FILE *from, rows *);
-/* Indices into the columns. */
-size_t rows_quantity(const rows *, int point, int quantity);
-size_t rows_cell(const rows *, int point, int formulation, int mesh);
-size_t rows_value(const rows *, int point, int formulation, int mesh, int quantity);
-size_t rows_lacks(const rows *, int point, int formulation);
-size_t rows_least(const rows *, int point, int formulation, int quantity);
-/* Words used in the file. */
-const char *rows_reference_name(int kind);
-const char *rows_status_name(int status);
 
 /* A sweep over parameters: its points, formulations, meshes and quantities, and its batches. It
  * depends only on the request and the build. */
@@ -953,8 +714,6 @@ rows_shape ranges_shape(const parameter_ranges *);
 
 /* One shard of a work: its batches, each computed by a process and written to a file when it is
  * finished. */
-
-enum { SHARD_MOST_JOBS = 64, SHARD_MOST = 100000 };
 
 typedef struct shard_request {
     int index, count; /* index of the shard, starting at 0, and number of shards */
@@ -1035,8 +794,6 @@ typedef struct stock {
 status stock_take(const shard_work *w, const char *const folder[], int folders, const char *wanted,
                   FILE *tell, stock *out, fault *f);
 void stock_free(stock *);
-/* Path of an existing batch. */
-status stock_path(const stock *, int batch, char out[PATH_MAX], fault *f);
 /* Writes "3 of 149 batches are missing: 3, 7-12 (shards 2/4, 3/4)"; nothing if none is. */
 void stock_missing(const stock *, const shard_work *, char *out, size_t size);
 /* Writes a line for each kind of machine if there are several. */
@@ -1115,16 +872,6 @@ typedef struct tally {
 /* FAULT: out of memory. Call tally_free also after a failure. */
 status tally_alloc(const parameter_ranges *r, tally *out, fault *f);
 void tally_free(tally *);
-/* Adds points from `first` on; call once per point, in order. */
-status tally_add(tally *, long first, const rows *, fault *f);
-/* quantity: index, or the number of quantities for all together. */
-const tally_series *tally_of(const tally *, int formulation, int quantity);
-const tally_place *tally_at(const tally *, int formulation, int quantity, int line, int column);
-/* Lower bound of a column (0) or a line (1) of the map, as a value of its axis. */
-double tally_edge(const tally *, int axis_index, int place);
-
-/* A sweep as a group of a results file, written batch by batch, so that at most one batch is in
- * memory. */
 
 enum { RANGES_FILE_VERSION = 1, RANGES_FILE_COLUMNS = 11 };
 
@@ -1135,17 +882,6 @@ typedef struct ranges_file {
     hid_t at; /* its group */
     hid_t column[RANGES_FILE_COLUMNS];
 } ranges_file;
-
-/* The path must outlive it. plan: digits that identify the sweep. */
-status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
-                        ranges_file *out, fault *f);
-/* Adds points from `first` on. */
-status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
-/* Finishes the file: worst points with the names of their scenes, and content: digits of all values
- * that do not depend on how they were computed. written: status so far; if not OK, the file is
- * removed. */
-status ranges_file_close(ranges_file *, const tally *, const char *content, status written,
-                         fault *f);
 
 /* A sweep as work that can be cut into batches. */
 
@@ -1298,24 +1034,6 @@ void runs_on_scene(const scene *s, const element_type *type, runs_on *out);
 /* Built-in cases at their defaults, at most `room`; returns their number. `other` is 0: other
  * models are not examined. */
 int runs_on_cases(const element_type *type, runs_on out[], int room);
-
-/* Measures run times of cells: rounds over the cells of a parameter point, for all cells of a
- * completed sweep. */
-
-/* One more round: repeats until `floor` [s] of processor time are used, at least once. Cells that
- * fail are timed too. */
-void rounds_run(const cell_request *request, double floor, rounds_reading *out);
-/* One more round of the published algorithm for the cell with the result `cell`; does nothing for
- * linear or very large problems. */
-void dense_reference_round(const cell_request *own, const cell_result *cell, double floor,
-                           dense_reference *out);
-
-/* floor: least processor time [s] of a round for one cell. If there are several points, only the
- * defaults are measured completely: with the parts of an iteration and, on the middle mesh of each
- * formulation, the run without elimination. At other points rounds are short, and long cells keep
- * the time of their single run. Crashed cells are not run again. dense: the published algorithm is
- * also timed. to: stream of the progress, or NULL. */
-status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f);
 
 /* Binds this process to the processor it runs on, so that repetitions are comparable. */
 void rounds_pin(void);

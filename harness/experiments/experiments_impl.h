@@ -12,6 +12,271 @@
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
 
+/* Evaluates given times [s] of `pairs` laps each: tests supply them, no clock is used. */
+contest_clock against_judge(int pairs, const double a[], const double b[]);
+
+/* Varied parameter: a parameter of a case, and its values. */
+
+enum { AXIS_MOST_VALUES = 1000001 };
+
+/* Reads "NAME=A..B/N" (N equal parts, ends included), "NAME=A..B/N:log" (equal ratios), "NAME=A..B"
+ * or "NAME=A..B:log" (a design supplies the points), or "NAME=A,B,C" (numbers, or words of a
+ * choice). REFUSED: names the invalid part and the remedy. All values are allowed values of the
+ * parameter. */
+status axis_read(const case_type *type, const char *text, sweep_axis *out, fault *f);
+void axis_free(sweep_axis *);
+/* Value i of `count`. */
+double axis_value(const sweep_axis *, int i);
+/* Value at a fraction of the axis, 0 <= share < 1; for a list the value that contains this
+ * fraction. */
+double axis_at(const sweep_axis *, double share);
+/* "linear", "log", "list", "words". */
+const char *axis_kind_name(axis_kind);
+/* The value as text. */
+void axis_text(const sweep_axis *, double value, char *text, int size);
+
+machine node_here(void);
+
+/* A batch file: a line of JSON with the label, the bytes of the results, and a line with length and
+ * checksum. The file appears complete or not at all. */
+
+/* "verify-0123456789ab": common beginning of the names of all batches of one work. */
+void batch_stem(const shard_work *w, char out[BATCH_STEM]);
+/* "verify-0123456789ab-000017.batch"; batch numbers in names start at 1. */
+void batch_name(const char *stem, int batch, char out[BATCH_NAME]);
+/* Index of the batch with this name; -1: not a batch of that stem. */
+int batch_of_name(const char *name, const char *stem);
+/* Returns 1 when the name has the ending of batch files. */
+int batch_is_name(const char *name);
+
+/* Writes folder/NAME under a temporary name, then renames it. FAULT: disk, memory. */
+status batch_write(const char *folder, const batch_label *label, const void *bytes, size_t size,
+                   fault *f);
+/* Removes temporary files of a batch left by killed processes. gone 1: the writer is known to have
+ * ended. */
+void batch_clean(const char *folder, const char *name, int gone);
+/* Reads the label. *from (may be NULL) is then at the first byte of the results, and *end after the
+ * last. FAULT: truncated, damaged, or not a batch. */
+status batch_open(const char *path, batch_label *out, FILE **from, long *end, fault *f);
+/* REFUSED: the batch does not belong to the work; the message gives the difference and the path. */
+status batch_belongs(const batch_label *, const shard_work *, const char *path, fault *f);
+
+/* Appends an empty measure. */
+element_measure *measures_add(measures *m, const char *name);
+/* Number of quantities with a wrong limit. */
+int measures_astray(const measures *m);
+
+/* The check of that name; a new one passes until a deviation is found. */
+claim *claims_open(claims *c, const char *name, double allowed);
+/* Records that the type does not declare this property, and why. */
+void claims_not_made(claims *c, const char *name, const char *why);
+/* Adds a comparison; NaN is the largest deviation. */
+void claims_departs(claim *one, double departure, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Adds a question; `sentence` describes the error if `holds` is 0. */
+void claims_asks(claim *one, int holds, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Names the next check. */
+void claims_doing(claims *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Relative difference of two numbers; 0 for equal numbers, also for two zeros. */
+static inline double claims_share(double apart, double size)
+{
+    return apart == 0 ? 0 : apart / size;
+}
+/* Number of checks with this outcome, and number of their comparisons. */
+int claims_counted(const claims *c, claim_outcome outcome);
+int claims_compared(const claims *c);
+
+/* Lengths in units of `unit` metres, force in newtons, time in seconds for the same mass. */
+status profiles_section(profiles_form form, double unit, section *out, fault *f);
+
+/* Features for a straight element: all, and all without those of second order. */
+unsigned specimen_features(const element_type *t, unsigned without);
+
+/* Pseudo-random numbers in (-1/2, 1/2), determined by the seed. */
+void specimen_numbers(int count, unsigned seed, double out[]);
+/* Rotates the whole element about the origin by a rotation vector, then shifts it by the given
+ * number of lengths. */
+void specimen_carry(const specimen *s, const double turn[3], const node_state x[],
+                    node_state out[]);
+
+/* Point at which differences are taken. */
+typedef struct specimen_place {
+    const specimen *s;
+    const node_state *x;
+} specimen_place;
+
+/* Coordinate i moved by si difference units, j by sj. */
+void specimen_moved(const specimen_place *at, int i, double si, int j, double sj, node_state out[]);
+
+/* Inner unknowns in the undeformed state [inner]. */
+void specimen_rest(const specimen *s, double inner[]);
+/* Stress after Newton's method has solved the element's equations for its inner unknowns. */
+status specimen_settled(const specimen *s, const double e[], double inner[], stress_output *out);
+
+/* "rotation about y of node 2". */
+const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS]);
+
+/* Families of checks: the requirements of element.h. Each checks all elements that the formulation
+ * supports and adds its results. */
+
+checks_run checks_declared;    /* its declarations are consistent            */
+checks_run checks_features;    /* supports the features it declares, alone, in subsets, and as cases
+                                  require */
+checks_run checks_derivatives; /* J and H of the strains */
+checks_run checks_energy; /* stress, stiffness and geometric stiffness derive from the energy */
+checks_run
+    checks_force; /* for types defined by forces: force and stiffness derive from the energy */
+checks_run checks_motion;    /* invariance to rigid motion, order of the nodes, units */
+checks_run checks_stateless; /* equal calls give equal results, independent of previous calls */
+checks_run checks_many;      /* many elements in one call give the same as single calls */
+checks_run checks_bounds;    /* outputs are filled completely, and no other memory is changed */
+checks_run checks_unsound;   /* NaN and Inf are reported */
+checks_run checks_mass;      /* mass matrix: symmetric, positive, with the mass of the beam */
+checks_run checks_rotating;  /* effects of a rotating frame */
+checks_run checks_along;     /* loads along one element */
+checks_run checks_in_time;   /* inertia forces in transient analysis */
+
+measured_run measured_states;  /* cantilever, compared with the exact solution */
+measured_run measured_locking; /* over thickness/length */
+measured_run measured_orders;  /* over the number of elements */
+
+const char *certificate_part_name(int part);
+/* Description of a part in one line. */
+const char *certificate_part_words(int part);
+/* Number of checks with that outcome, and number of comparisons, over all parts. */
+int certificate_counted(const certificate *, claim_outcome);
+int certificate_compared(const certificate *);
+/* The first failed check; NULL: none. */
+const claim *certificate_broken(const certificate *);
+
+/* Cuts work into batches and assigns batches to shards. Both depend only on the costs. */
+
+/* shard[batches]: assigns each batch to a shard 0..shards-1. The most expensive batch is assigned
+ * first, each to the shard with the least cost so far. Returns 0, or -1 when out of memory. */
+int deal_out(int batches, const double cost[], int shards, int shard[]);
+/* order[batches]: the most expensive first; equal costs keep their order. */
+void deal_order(int batches, const double cost[], int order[]);
+
+/* Smallest stride; largest number of marks, a few kilobytes each. */
+enum { DESIGN_STRIDE = 16384, DESIGN_MARKS = 1024, DESIGN_MOST_POINTS = 1000000000 };
+
+/* points: ignored for grids. In a grid the last axis changes fastest. As in GSL, the first point of
+ * Sobol's and Halton's sequences is the one after the origin. REFUSED: too many points; a grid with
+ * an axis without parts; another design with an axis with parts; more axes than the sequence
+ * supports. */
+status design_make(design_kind kind, int axes, const sweep_axis list[], long points,
+                   unsigned long seed, design *out, fault *f);
+void design_free(design *);
+/* Values of the axes at `count` points from `first` on: out[count x axes]. FAULT: out of memory. */
+status design_points(const design *, long first, long count, double out[], fault *f);
+const char *design_name(design_kind);
+
+int outcome_is_good(outcome_kind kind); /* Is it accurate or under-resolved? */
+
+/* Outcome of the same formulation and quantity at the x that others are compared with, or NULL. */
+extreme_outcome *extreme_sweep_base(const extreme_sweep *s, const extreme_outcome *o);
+
+/* Plans a point for every extreme and value, in order, with a series for every formulation and an
+ * outcome for each of its quantities. */
+status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f);
+
+/* Outcomes of a sweep of extremes as text. */
+
+void extreme_table(FILE *to, const void *found); /* extreme_sweep */
+
+/* Lists of steps and tolerances on a command line. */
+
+typedef struct pace_list {
+    int count;
+    double value[PACE_LIST_MOST];
+} pace_list;
+
+/* Reads "0.1,0.05" or "0.1..0.0125", which is divided by `ratio` repeatedly; positive numbers.
+ * option: its name, for messages. */
+status pace_list_read(const char *option, const char *text, double ratio, pace_list *out, fault *f);
+
+#define PACE_METHODS                                                                               \
+    "alpha, alpha:rho=R, hht, hht:alpha=A, trapezoidal, conserving, radau, explicit"
+
+/* Default method. */
+extern const char pace_method_all[];
+/* Reads one of PACE_METHODS, with R in [0, 1], A in [0, 1/3]. REFUSED: names the invalid part. */
+status pace_method_read(const char *text, int length, pace_method *out, fault *f);
+/* Appends "NAME,NAME,...", each at most once. */
+status pace_method_read_list(const char *text, int most, pace_method list[], int *count, fault *f);
+
+/* Tolerances of the reference and of its checks, radau on the same mesh. */
+enum { PACE_CHECKS = 2 };
+extern const double pace_reference[1 + PACE_CHECKS];
+/* Limits of E/E0 - 1, and of relative changes of energy and momenta. */
+extern const double pace_growth, pace_energy, pace_momentum;
+
+void pace_free(pace *);
+const char *pace_fate_name(pace_fate);
+const sweep_point *pace_point_of(const pace *, const pace_run *);
+const cell_result *pace_cell_of(const pace *, int index);
+
+/* Reads the table and plans its motions. REFUSED: the first error, with its line. */
+status pace_verdict_plan(const char *path, pace *, pace_verdicts *, fault *);
+/* After pace_judge. */
+void pace_verdict_reach(const pace *, pace_verdicts *);
+void pace_verdict_free(pace_verdicts *);
+
+/* Status of a cell; smaller values are those of `status`. */
+enum {
+    ROWS_NOT_OFFERED = STATUS_NO_VALUE + 1,
+    ROWS_NO_SCENE,
+    ROWS_NOT_COMPUTED, /* its batch is missing */
+    ROWS_STATUSES
+};
+
+/* Sets all columns to zero. FAULT: out of memory. */
+status rows_alloc(const rows_shape *shape, int points, rows *out, fault *f);
+void rows_free(rows *);
+/* Writes the bytes in the format of this machine. Returns 0, or -1. */
+int rows_write(FILE *to, const rows *);
+int rows_read(FILE *from, rows *);
+/* Indices into the columns. */
+size_t rows_quantity(const rows *, int point, int quantity);
+size_t rows_cell(const rows *, int point, int formulation, int mesh);
+size_t rows_value(const rows *, int point, int formulation, int mesh, int quantity);
+size_t rows_lacks(const rows *, int point, int formulation);
+size_t rows_least(const rows *, int point, int formulation, int quantity);
+/* Words used in the file. */
+const char *rows_reference_name(int kind);
+const char *rows_status_name(int status);
+
+enum { SHARD_MOST_JOBS = 64, SHARD_MOST = 100000 };
+
+/* Path of an existing batch. */
+status stock_path(const stock *, int batch, char out[PATH_MAX], fault *f);
+
+/* Adds points from `first` on; call once per point, in order. */
+status tally_add(tally *, long first, const rows *, fault *f);
+/* quantity: index, or the number of quantities for all together. */
+const tally_series *tally_of(const tally *, int formulation, int quantity);
+const tally_place *tally_at(const tally *, int formulation, int quantity, int line, int column);
+/* Lower bound of a column (0) or a line (1) of the map, as a value of its axis. */
+double tally_edge(const tally *, int axis_index, int place);
+
+/* A sweep as a group of a results file, written batch by batch, so that at most one batch is in
+ * memory. */
+
+/* Adds points from `first` on. */
+status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
+
+/* Measures run times of cells: rounds over the cells of a parameter point, for all cells of a
+ * completed sweep. */
+
+/* One more round: repeats until `floor` [s] of processor time are used, at least once. Cells that
+ * fail are timed too. */
+void rounds_run(const cell_request *request, double floor, rounds_reading *out);
+/* One more round of the published algorithm for the cell with the result `cell`; does nothing for
+ * linear or very large problems. */
+void dense_reference_round(const cell_request *own, const cell_result *cell, double floor,
+                           dense_reference *out);
+
 /* A beam that is fixed at its start and loaded at its end, straight or bent to a quarter circle,
  * solved with one formulation. */
 
@@ -49,14 +314,8 @@ void certificate_text(FILE *to, screen look, const certificate *all, int count, 
 
 /* Checks that results depend on each supported feature. */
 
-/* Each declared feature of the section must change some result of the element, compared with the
- * element without it; warping must change the amplitudes. */
-void effects_check(const formulation *chosen, claims *c);
-
 /* Expected outcomes of a sweep of extremes (reference/extreme_findings.csv), and its counts. */
 
-/* Reads the known deviations from the packed reference values at `path`. */
-status extreme_expect_read(const char *path, extreme_sweep *out, fault *f);
 /* Sets finding and as_expected of every outcome, and the counts. whole: 1 when no selection was
  * made, so that an unobserved deviation is a failure. */
 void extreme_expect(extreme_sweep *s, int whole);
@@ -117,9 +376,6 @@ typedef struct labour_notice {
 _Noreturn void labour_work(const labour *, int self, int to);
 
 /* Time after which no load acts on a structure, so that its energy and momenta are constant. */
-
-/* [s] INFINITY: it is fixed, driven, or always loaded. */
-double pace_alone_from(const scene *s);
 
 /* Distance between two motions on the same mesh. */
 
@@ -227,12 +483,6 @@ void pace_table(FILE *to, const pace *, const pace_verdicts *, int runs);
 
 /* A sweep as CSV: one row for each point, formulation, mesh and quantity. */
 
-/* Columns: the varied parameters, then formulation, elements, quantity, unit, value, reference,
- * reference_kind, error, status, cost, seconds. Missing values are empty. */
-void ranges_csv_head(FILE *to, const parameter_ranges *r);
-/* Adds points from `first` on. FAULT: out of memory. */
-status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *, fault *f);
-
 /* Data that the group of a sweep stores once. */
 
 /* Writes the request, before any point. */
@@ -287,11 +537,6 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
 /* The part of a scene that a continued motion depends on: all except its stations and
  * quantities. */
 
-/* As text of a scene file, which the caller frees. REFUSED: a file cannot express it. */
-status restart_text(const scene *, char **out, fault *);
-/* REFUSED: it differs from the previous text; the message gives the first different line. */
-status restart_text_check(const char *former, const scene *, fault *);
-
 /* Elements of a formulation under test: with everything that it supports, with each section, each
  * choice of each option, straight and curved. */
 
@@ -309,9 +554,5 @@ void specimens_each(const formulation *chosen, claims *c, specimens_check *check
 status survey(parameter_ranges *r, fault *f);
 
 /* The worst points of a sweep kept as scene files. */
-
-/* Writes them to a new folder as "point_12.yaml", each point once, and stores the names in the
- * tally. A scene that a file cannot express is omitted. FAULT: disk or memory; no file remains. */
-status worst_write(const char *folder, tally *t, fault *f);
 
 #endif

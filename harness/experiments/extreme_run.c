@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Reads the known deviations from the packed reference values at `path`. */
+static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f);
+
 enum { enough_elements = 16 }; /* from here on the neighbours are coarser meshes, else finer ones */
 
 /* A series of neighbouring meshes for the cell of an outcome, once. */
@@ -126,7 +129,7 @@ static status read_rows(table_columns *r, extreme_sweep *out)
     return STATUS_OK;
 }
 
-status extreme_expect_read(const char *path, extreme_sweep *out, fault *f)
+static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f)
 {
     table_columns r = {.path = path, .name = "extreme_findings", .f = f};
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);

@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-const cell_result *extreme_sweep_cell(const extreme_sweep *s, const extreme_outcome *o)
+/* Cell of an outcome; its quantity in the scene; its value on the first mesh (refinement 0) or a
+ * neighbouring one (NAN: none). */
+static const cell_result *extreme_sweep_cell(const extreme_sweep *s, const extreme_outcome *o)
 {
     return &s->first.series[o->series].cell[0];
 }

@@ -9,6 +9,10 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model.h"
 
+/* Each declared feature of the section must change some result of the element, compared with the
+ * element without it; warping must change the amplitudes. */
+static void effects_check(const formulation *chosen, claims *c);
+
 typedef enum feature_outcome { FINITE, REFUSED, BAD, FEATURE_OUTCOMES } feature_outcome;
 
 /* C of a moved element is all numbers. */
@@ -245,7 +249,7 @@ static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
     return found;
 }
 
-void effects_check(const formulation *chosen, claims *c)
+static void effects_check(const formulation *chosen, claims *c)
 {
     /* Without FEATURE_ECCENTRIC: the shear centre is a constant of the section, and elements take
      * it from there. Without FEATURE_TRAPEZE: it is one of the terms of second order, and a

@@ -6,6 +6,11 @@
 
 #include "elements/shared/choice.h"
 
+/* first, first/ratio, first/ratio^2, ... */
+static pace_list pace_list_divided(double first, double ratio, int count);
+/* [s] INFINITY: it is fixed, driven, or always loaded. */
+static double pace_alone_from(const scene *s);
+
 enum {
     STATIONS_OF_ERROR = 20,
     USUAL_STEPS = 4,
@@ -293,7 +298,7 @@ status pace_method_read_list(const char *text, int most, pace_method list[], int
     }
 }
 
-pace_list pace_list_divided(double first, double ratio, int count)
+static pace_list pace_list_divided(double first, double ratio, int count)
 {
     pace_list out = {.count = count};
     for (int i = 0; i < count; i++)
@@ -383,7 +388,7 @@ static double load_until(const scene_load *load)
     return INFINITY;
 }
 
-double pace_alone_from(const scene *s)
+static double pace_alone_from(const scene *s)
 {
     double from = 0;
     for (int i = 0; i < s->nodes; i++)

@@ -6,6 +6,13 @@
 
 #include "harness/model/model.h"
 
+/* Columns: the varied parameters, then formulation, elements, quantity, unit, value, reference,
+ * reference_kind, error, status, cost, seconds. Missing values are empty. */
+static void ranges_csv_head(FILE *to, const parameter_ranges *r);
+/* Adds points from `first` on. FAULT: out of memory. */
+static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *,
+                             fault *f);
+
 static const double batch_cost = 0.5; /* [s] */
 enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
 
@@ -357,7 +364,7 @@ shard_work ranges_work_of(ranges_work *w)
                         .take = take};
 }
 
-void ranges_csv_head(FILE *to, const parameter_ranges *r)
+static void ranges_csv_head(FILE *to, const parameter_ranges *r)
 {
     for (int i = 0; i < r->design.axes; i++)
         fprintf(to, "%s,", r->axis[i].of->name);
@@ -412,7 +419,8 @@ static void put_point(FILE *to, const parameter_ranges *r, const rows *w, const 
             put_cell(to, r, w, where, at, i, k);
 }
 
-status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *w, fault *f)
+static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *w,
+                             fault *f)
 {
     const int axes = r->design.axes;
     double *at = malloc((size_t)w->points * (size_t)axes * sizeof *at);

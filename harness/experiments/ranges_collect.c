@@ -9,6 +9,18 @@
 #include "cases/format/format.h"
 #include "harness/model/model.h"
 
+/* The path must outlive it. plan: digits that identify the sweep. */
+static status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
+                               ranges_file *out, fault *f);
+/* Finishes the file: worst points with the names of their scenes, and content: digits of all values
+ * that do not depend on how they were computed. written: status so far; if not OK, the file is
+ * removed. */
+static status ranges_file_close(ranges_file *, const tally *, const char *content, status written,
+                                fault *f);
+/* Writes them to a new folder as "point_12.yaml", each point once, and stores the names in the
+ * tally. A scene that a file cannot express is omitted. FAULT: disk or memory; no file remains. */
+static status worst_write(const char *folder, tally *t, fault *f);
+
 status ranges_collect_beside(const char *path, const char *ending, char out[PATH_MAX], fault *f)
 {
     const char *leaf = strrchr(path, '/'), *dot = strrchr(path, '.');
@@ -258,8 +270,8 @@ static status failed(const ranges_file *file, fault *f)
                      file->path);
 }
 
-status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
-                        ranges_file *out, fault *f)
+static status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
+                               ranges_file *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     out->of = r;
@@ -323,8 +335,8 @@ status ranges_file_add(ranges_file *file, long first, const rows *w, fault *f)
     return file->record.bad ? failed(file, f) : STATUS_OK;
 }
 
-status ranges_file_close(ranges_file *file, const tally *t, const char *content, status written,
-                         fault *f)
+static status ranges_file_close(ranges_file *file, const tally *t, const char *content,
+                                status written, fault *f)
 {
     record_file *r = &file->record;
     if (written == STATUS_OK) {
@@ -401,7 +413,7 @@ static status write_all(const output_folder *folder, tally *t, fault *f)
     return STATUS_OK;
 }
 
-status worst_write(const char *folder, tally *t, fault *f)
+static status worst_write(const char *folder, tally *t, fault *f)
 {
     output_folder out;
     TRY(output_folder_open(folder, &out, f));

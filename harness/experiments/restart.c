@@ -7,6 +7,11 @@
 #include "cases/format/format.h"
 #include "cases/scene/scene.h"
 
+/* As text of a scene file, which the caller frees. REFUSED: a file cannot express it. */
+static status restart_text(const scene *, char **out, fault *);
+/* REFUSED: it differs from the previous text; the message gives the first different line. */
+static status restart_text_check(const char *former, const scene *, fault *);
+
 status restart_possible(const scene *s, fault *f)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -304,7 +309,7 @@ static void equal_stations(scene *plain, double *zero)
             plain->analysis[i].of.motion.path = (scene_path){1, zero};
 }
 
-status restart_text(const scene *s, char **out, fault *f)
+static status restart_text(const scene *s, char **out, fault *f)
 {
     static const write_head head = {"motion", "a motion that continues another", "none"};
     double zero = 0;
@@ -364,7 +369,7 @@ static status differ(const char *former, const char *now, fault *f)
     return STATUS_OK;
 }
 
-status restart_text_check(const char *former, const scene *s, fault *f)
+static status restart_text_check(const char *former, const scene *s, fault *f)
 {
     char *now;
     TRY(restart_text(s, &now, f));

@@ -1,4 +1,4 @@
-#include "harness/experiments/experiments.h"
+#include "harness/experiments/experiments_impl.h"
 
 #include <dirent.h>
 #include <dlfcn.h>
@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+/* Returns 1 when processor and BLAS are the same; hosts may differ. */
+static int node_same_kind(const machine *, const machine *);
 
 static status path_of(const char *folder, const char *name, char out[PATH_MAX], fault *f)
 {
@@ -395,7 +398,7 @@ machine node_here(void)
     return out;
 }
 
-int node_same_kind(const machine *a, const machine *b)
+static int node_same_kind(const machine *a, const machine *b)
 {
     return strcmp(a->processor, b->processor) == 0 && strcmp(a->blas, b->blas) == 0;
 }

@@ -1,4 +1,4 @@
-#include "harness/experiments/experiments.h"
+#include "harness/experiments/experiments_impl.h"
 
 #include <float.h>
 #include <math.h>

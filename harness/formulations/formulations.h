@@ -158,10 +158,6 @@ const char *formulations_element(const element_type *t);
 
 enum { PROCESS_MOST = 16 };
 
-/* Loads the type that the command describes. The type and its process exist until this process
- * ends. Every worker process starts its own copy. REFUSED: the command does not exist, or its first
- * line does not follow the protocol (protocol.md). */
-status process_load(const char *command, const element_type **out, fault *f);
 /* Does another process compute this type? */
 int process_serves(const element_type *);
 /* Sets the time limit of an answer [s], initially 120; 0: no limit. */

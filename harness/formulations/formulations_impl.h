@@ -28,11 +28,6 @@ typedef enum child_event {
     CHILD_SPOKE  /* the child wrote before it had received the whole request */
 } child_event;
 
-/* Ends a child of this process: immediately (now 1), or after a short time in which it may exit by
- * itself. Returns its status from waitpid, or -1 if it was killed here. For a child of another
- * process only the channels are closed. */
-int child_end(child *, int now);
-
 /* Description that a process sends of its formulation: the JSON line of the protocol (protocol.md).
  */
 
@@ -153,11 +148,6 @@ size_t forces_size(const element_data *d);
 void forces_evaluate(const element_type *given, gather *, int first, int count);
 
 /* Options in the description that a process sends. */
-
-/* *out: a table that the caller frees, also after a refusal; NULL when list is NULL or empty.
- * REFUSED: see handshake_read. */
-status handshake_options(const char *who, const json_t *list, const parameter_type **out, fault *f);
-void handshake_options_free(const parameter_type *table); /* or NULL */
 
 /* Strains of an element defined by its force or energy. They are the positions of its nodes
  * relative to the first one, in the axes of that node: e = (|d| - undeformed distance, l p, l

@@ -4,6 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* *out: a table that the caller frees, also after a refusal; NULL when list is NULL or empty.
+ * REFUSED: see handshake_read. */
+static status handshake_options(const char *who, const json_t *list, const parameter_type **out,
+                                fault *f);
+static void handshake_options_free(const parameter_type *table); /* or NULL */
+
 typedef struct word_bit {
     const char *word;
     unsigned bit;
@@ -355,7 +361,8 @@ static status read_one(const char *who, const json_t *one, parameter_type *out, 
                                                    : read_number(who, one, out, f);
 }
 
-status handshake_options(const char *who, const json_t *list, const parameter_type **out, fault *f)
+static status handshake_options(const char *who, const json_t *list, const parameter_type **out,
+                                fault *f)
 {
     const size_t count = json_array_size(list);
     *out = NULL;
@@ -372,7 +379,7 @@ status handshake_options(const char *who, const json_t *list, const parameter_ty
     return STATUS_OK;
 }
 
-void handshake_options_free(const parameter_type *table)
+static void handshake_options_free(const parameter_type *table)
 {
     for (const parameter_type *p = table; p != NULL && p->name != NULL; p++) {
         free((void *)p->name);

@@ -7,6 +7,11 @@
 
 #include "harness/formulations/process_impl.h"
 
+/* Loads the type that the command describes. The type and its process exist until this process
+ * ends. Every worker process starts its own copy. REFUSED: the command does not exist, or its first
+ * line does not follow the protocol (protocol.md). */
+static status process_load(const char *command, const element_type **out, fault *f);
+
 static status refuse(const char *path, const char *why, fault *f)
 {
     return fault_set(f, STATUS_REFUSED, "%.100s: %.180s", path, why);
@@ -258,7 +263,7 @@ static status begin(process *p, const char *command, fault *f)
     return channel_call(&p->to, p->type.name, f);
 }
 
-status process_load(const char *command, const element_type **out, fault *f)
+static status process_load(const char *command, const element_type **out, fault *f)
 {
     int count = 0;
     while (count < PROCESS_MOST && list[count] != NULL)

@@ -13,6 +13,11 @@
 
 #include "harness/numerics/numerics.h"
 
+/* Ends a child of this process: immediately (now 1), or after a short time in which it may exit by
+ * itself. Returns its status from waitpid, or -1 if it was killed here. For a child of another
+ * process only the channels are closed. */
+static int child_end(child *, int now);
+
 enum { TO_READ, TO_WRITE };
 
 static void close_both(const int ends[2])
@@ -107,7 +112,7 @@ static int child_runs(const child *c)
            how.si_pid == 0;
 }
 
-int child_end(child *c, int now)
+static int child_end(child *c, int now)
 {
     int how = -1;
     const child was = *c;

@@ -29,7 +29,8 @@ static status known(const frame_question *q, fault *f)
     return many ? channel_break(c, "more than 65536 kinds of elements at once", f) : STATUS_OK;
 }
 
-void frame_put(char **to, const void *from, size_t bytes)
+/* Append `bytes` to a request, and read `count` doubles of an answer; both advance the pointer. */
+static void frame_put(char **to, const void *from, size_t bytes)
 {
     memcpy(*to, from, bytes);
     *to += bytes;

@@ -37,7 +37,4 @@ typedef struct frame_question {
     size_t answer; /* bytes for each element */
 } frame_question;
 
-/* Append `bytes` to a request, and read `count` doubles of an answer; both advance the pointer. */
-void frame_put(char **to, const void *from, size_t bytes);
-
 #endif

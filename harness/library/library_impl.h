@@ -35,12 +35,6 @@ bw_status call_end(call *, status outcome);
 
 enum { CONTESTANTS_MOST = 64 };
 
-/* Reads names separated by blanks; NULL: none, count 0. *named (may be NULL): 1 if none of them is
- * "all". */
-status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
-                         int *named, fault *f);
-int contestants_jobs(void); /* default number of processes */
-
 /* The packed reference values. HDF5 allows only one thread at a time to read them. */
 
 /* Reads the reference values of a case and the known deviations; type NULL: only the known
@@ -90,14 +84,9 @@ struct bw_scene {
 /* For a built-in case, or a file (name: used in messages). Takes ownership of file and name, also
  * after a failure. */
 status source_new(const case_type *type, scene_file *file, char *name, source **out, fault *f);
-source *source_hold(source *); /* adds a reference */
 void source_release(source *); /* NULL: nothing */
 const case_type *source_case(const source *);
 const scene_file *source_file(const source *); /* NULL for a built-in case */
-
-/* Reference values of a case; for a scene file only the known deviations. Read at the first call.
- * NULL after FAULT. May be called by several threads. */
-status source_known(source *, const truths **out, fault *f);
 
 /* Contents of a bw_result. */
 

@@ -219,8 +219,10 @@ status text_end(document_text *t, status written, char **out, fault *f)
     return STATUS_OK;
 }
 
-status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
-                         int *named, fault *f)
+/* Reads names separated by blanks; NULL: none, count 0. *named (may be NULL): 1 if none of them is
+ * "all". */
+static status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
+                                int *named, fault *f)
 {
     int all = 0;
     char one[FORMULATION_KEY + 64];
@@ -241,7 +243,8 @@ status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], 
     return STATUS_OK;
 }
 
-int contestants_jobs(void)
+/* default number of processes */
+static int contestants_jobs(void)
 {
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     return processors < 1 ? 1 : processors < WORKERS_MOST ? (int)processors : WORKERS_MOST;

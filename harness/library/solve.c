@@ -13,6 +13,11 @@
 #include "harness/experiments/experiments.h"
 #include "harness/numerics/numerics.h"
 
+static source *source_hold(source *); /* adds a reference */
+/* Reference values of a case; for a scene file only the known deviations. Read at the first call.
+ * NULL after FAULT. May be called by several threads. */
+static status source_known(source *, const truths **out, fault *f);
+
 enum { STEPS_MOST = 1000000 };
 
 static status read_options(const char *json, solution_request *out, fault *f)
@@ -383,7 +388,7 @@ status source_new(const case_type *type, scene_file *file, char *name, source **
     return STATUS_OK;
 }
 
-source *source_hold(source *s)
+static source *source_hold(source *s)
 {
     atomic_fetch_add(&s->holders, 1);
     return s;
@@ -409,7 +414,7 @@ const scene_file *source_file(const source *s)
     return s->file;
 }
 
-status source_known(source *s, const truths **out, fault *f)
+static status source_known(source *s, const truths **out, fault *f)
 {
     status outcome = STATUS_OK;
     known_hold();

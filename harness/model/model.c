@@ -397,11 +397,6 @@ const char *model_formulation(const model *m)
     return m->mesh.type->name;
 }
 
-unsigned model_limits(const model *m)
-{
-    return m->mesh.type->limits;
-}
-
 const section *model_section(const model *m, int index)
 {
     return &m->section[index];

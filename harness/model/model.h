@@ -97,7 +97,6 @@ typedef struct model_state model_state;
 
 const char *model_formulation(const model *);
 const double *model_options(const model *); /* all options of its formulation */
-unsigned model_limits(const model *);       /* LIMIT_* of its formulation */
 unsigned model_leaves(const model *);       /* LEAVES_* of its formulation */
 /* Shape of a mode or state for identification and pictures: displacement (3), rotation (3) and
  * warping of every vertex in order along the members; returns vertices. u[vertices x 7],
@@ -175,15 +174,6 @@ typedef struct division {
 /* Least length of a piece, relative to its member; a shorter one lies inside an element. */
 #define DIVISION_LEAST 1e-3
 
-/* elements: per piece, if the member does not specify it. */
-status division_make(const scene *, int elements, division *, fault *);
-void division_free(division *);
-
-int division_pieces(const division *, int member);
-int division_elements(const division *, int member);
-/* ends: start and end of the piece of an element, counted along its member. Returns the element's
- * number in the piece. */
-int division_piece(const division *, int member, int number, double ends[2]);
 /* Position along the member of a point x in [0, 1] of an element, and the inverse. */
 double division_place(const division *, int member, int number, double x);
 double division_inside(const division *, int member, int number, double place);
@@ -488,7 +478,6 @@ static inline int slot_along(const model *m)
 
 /* Discrete elements, in addition to those of the members: rigid bodies at nodes, and springs. */
 
-status discrete_build(model *, fault *);
 /* Internal minus centrifugal force (in the state's rotating frame) [7 nodes] and its tangent [7
  * nodes x 7 nodes], in model coordinates. rates: of dashpots; NULL: at rest. */
 void discrete_equations(const model *, const model_state *, const mesh_discrete *,
@@ -582,14 +571,7 @@ void assemble_subtract(sparse *a, int row, int column, double value);
 
 /* Features that a scene requires (FEATURE_* bits). */
 
-/* Features that the scene requires, and those of them that the type does not support, or a limit
- * that the scene exceeds, in words; 0: the type can solve it. */
-/* 1: elements of the type have distributed mass in this motion. */
-int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
-
 unsigned features_needed(const scene *);
-/* Returns the features without which a requested quantity is meaningless. */
-unsigned features_of_quantities(const scene *);
 /* Physics that the scene omits although it has an effect. */
 unsigned features_omitted(const scene *);
 /* Returns the physics, not omitted, that a section given by its constants lacks although the
@@ -724,10 +706,6 @@ int missing_refused(const scene *, const element_type *, char *words, int size);
 unsigned missing_omits(const scene *, const element_type *);
 /* Such bits in words. */
 void missing_omit_words(unsigned omits, char words[OMIT_WORDS]);
-/* Removes omitted physics from a section if elements do not do so themselves. */
-void missing_omit(section *, unsigned omits);
-/* The limit of the type that a section with N closed cells exceeds, in words; NULL: none. */
-const char *missing_in_section(const element_type *, const section *, int cells, int warps);
 
 /* Names the features that the scene requires and the type supports in one direction only
  * (element_lack). Returns 0: none; 1: negligible, printed but not rejected; 2: missing_words names
@@ -780,18 +758,6 @@ void movable_prescribed(int columns, const double *T, const double m[3], double 
 void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
               size_t room);
 
-/* Sections of the elements. First those of the scene, then for tapered members one section for each
- * element, at its middle. Tapered members with the same end sections and the same number of equal
- * elements share them.
- *
- * The pieces are prismatic, so the error is of second order in their length for every formulation.
- */
-
-/* Computes the sections of the scene. */
-status profile_scene(model *m, fault *f);
-/* Computes the sections of all elements of tapered members. No later call changes m->section;
- * *sections: their number. */
-status profile_members(model *m, int *sections, fault *f);
 /* Index in m->section of an element of a member, counted along the member. */
 int profile_at(const model *m, int member, int number);
 
@@ -805,11 +771,6 @@ int profile_at(const model *m, int member, int number);
  * to all of them, with the second derivatives of the frame (turns: 1/2 b_i x b_j for i before j,
  * those of the body before all; shifts: turns of the end before them). */
 
-/* Number of released ends of all members. */
-int release_count(const scene *);
-/* Creates their vertices together with the elements. */
-status release_build(model *, fault *);
-
 /* The end at this vertex; NULL: it is not one. */
 static inline const mesh_release *release_of(const model *m, int vertex)
 {
@@ -817,20 +778,11 @@ static inline const mesh_release *release_of(const model *m, int vertex)
     return vertex < first ? NULL : &model_mesh_of(m)->release[vertex - first];
 }
 
-/* d[6] += the motion of the end relative to its node for the increment dx of its own coordinates.
- */
-void release_add_local(const model *, const model_state *, int vertex, const double dx[],
-                       double d[6]);
-/* Transforms T[6 x count] of its node to that of the end; its own columns start at `own`. */
-void release_jacobian(const model *, const model_state *, int vertex, int count, int own,
-                      double T[]);
 /* What an end of a member (0 at p, 1 at q) has turned or shifted by a component against its node;
  * 0: it is not released; of three turns their rotation vector, NAN beyond 3 rad. */
 double release_value(const model *, const model_state *, int member, int end, int component);
 /* Changes its own coordinates by dx; returns the largest change [1, rad]. */
 double release_advance(const model *, model_state *, int vertex, const double dx[]);
-/* Sets position and orientation, after those of all nodes. */
-void release_follow(const model *, model_state *);
 
 /* Spatial axes of the rotations [turns x 3]; for three: the fixed ones. */
 void release_turn_axes(const model *, const model_state *, int vertex, double b[3][3]);
@@ -839,16 +791,9 @@ void release_turn_axes(const model *, const model_state *, int vertex, double b[
 void release_slide_axes(const model *, const model_state *, int vertex, double along[3][3],
                         double apart[3]);
 
-/* Transforms force[7 at, its six] from the end's frame to that of its node; own[]: forces of the
- * end's own coordinates. */
-void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);
 /* Inserts columns for released ends after those of the nodes: K[7 nodes x 7 nodes] -> K[columns x
  * columns]. */
 void release_widen(const mesh_element *, double K[]);
-/* The same for K; the six coordinates of the end start at `at`, its own ones at `own`. force[6] as
- * in release_force, to be called before; NULL: no second derivatives. */
-void release_matrix(const model *, const model_state *, int vertex, int n, int at, int own,
-                    double force[6], double K[]);
 
 /* A spring between two frames, or between a frame and the ground. */
 
@@ -909,21 +854,12 @@ void supports_add_springs(const model *, const int part[], int root, const doubl
 /* Rotations beyond half a revolution: an orientation repeats after a revolution, the rotation
  * vector does not. */
 
-/* Allocates the tracked rotation vectors, in this order: nodes of the scene, springs (relative
- * between their ends), and relative vectors between nodes that quantities use. */
-status turns_build(model *, fault *);
-
 /* Message: why a rotation vector is NaN. */
 extern const char turns_lost[];
 
-/* Updates the rotation vectors of a state after a change of orientations; state.turn contains their
- * previous values. */
-void turns_follow(const model *, model_state *);
 /* [3] in a state, NaN if it has lost its direction. */
 const double *turns_of_node(const model_state *, int node);
 const double *turns_of_spring(const model *, const model_state *, int spring);
-/* NULL: no quantity reads it. */
-const double *turns_between(const model *, const model_state *, int from, int node);
 
 /* Relative rotation vectors depend on the quantities of a run. These functions save them for a
  * continuation: their number, and for each the two nodes and the vector [5]. A vector that is not

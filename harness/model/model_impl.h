@@ -6,6 +6,77 @@
 #include "elements/element.h"
 #include "harness/model/model.h"
 
+/* elements: per piece, if the member does not specify it. */
+status division_make(const scene *, int elements, division *, fault *);
+void division_free(division *);
+
+int division_pieces(const division *, int member);
+int division_elements(const division *, int member);
+/* ends: start and end of the piece of an element, counted along its member. Returns the element's
+ * number in the piece. */
+int division_piece(const division *, int member, int number, double ends[2]);
+
+status discrete_build(model *, fault *);
+
+/* Features that the scene requires, and those of them that the type does not support, or a limit
+ * that the scene exceeds, in words; 0: the type can solve it. */
+/* 1: elements of the type have distributed mass in this motion. */
+int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
+
+/* Returns the features without which a requested quantity is meaningless. */
+unsigned features_of_quantities(const scene *);
+
+/* Removes omitted physics from a section if elements do not do so themselves. */
+void missing_omit(section *, unsigned omits);
+/* The limit of the type that a section with N closed cells exceeds, in words; NULL: none. */
+const char *missing_in_section(const element_type *, const section *, int cells, int warps);
+
+/* Sections of the elements. First those of the scene, then for tapered members one section for each
+ * element, at its middle. Tapered members with the same end sections and the same number of equal
+ * elements share them.
+ *
+ * The pieces are prismatic, so the error is of second order in their length for every formulation.
+ */
+
+/* Computes the sections of the scene. */
+status profile_scene(model *m, fault *f);
+/* Computes the sections of all elements of tapered members. No later call changes m->section;
+ * *sections: their number. */
+status profile_members(model *m, int *sections, fault *f);
+
+/* Number of released ends of all members. */
+int release_count(const scene *);
+/* Creates their vertices together with the elements. */
+status release_build(model *, fault *);
+
+/* d[6] += the motion of the end relative to its node for the increment dx of its own coordinates.
+ */
+void release_add_local(const model *, const model_state *, int vertex, const double dx[],
+                       double d[6]);
+/* Transforms T[6 x count] of its node to that of the end; its own columns start at `own`. */
+void release_jacobian(const model *, const model_state *, int vertex, int count, int own,
+                      double T[]);
+/* Sets position and orientation, after those of all nodes. */
+void release_follow(const model *, model_state *);
+
+/* Transforms force[7 at, its six] from the end's frame to that of its node; own[]: forces of the
+ * end's own coordinates. */
+void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);
+/* The same for K; the six coordinates of the end start at `at`, its own ones at `own`. force[6] as
+ * in release_force, to be called before; NULL: no second derivatives. */
+void release_matrix(const model *, const model_state *, int vertex, int n, int at, int own,
+                    double force[6], double K[]);
+
+/* Allocates the tracked rotation vectors, in this order: nodes of the scene, springs (relative
+ * between their ends), and relative vectors between nodes that quantities use. */
+status turns_build(model *, fault *);
+
+/* Updates the rotation vectors of a state after a change of orientations; state.turn contains their
+ * previous values. */
+void turns_follow(const model *, model_state *);
+/* NULL: no quantity reads it. */
+const double *turns_between(const model *, const model_state *, int from, int node);
+
 /* Inertia of a rigid body that moves with a node. */
 
 /* The undeformed axis of a member. */

@@ -1,5 +1,5 @@
 /* Loads on vertices: their directions, arms and stiffness. */
-#include "harness/newton/newton.h"
+#include "harness/newton/newton_impl.h"
 
 #include <string.h>
 

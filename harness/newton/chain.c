@@ -6,6 +6,10 @@
 
 #include "elements/math/dense.h"
 
+/* Number of negative eigenvalues of A[n x n], which is overwritten; -1: singular, a pivot is a
+ * rounding error. LDL^T without pivoting, which does not depend on the units of the rows. */
+static int symmetric_negative(int n, double A[]);
+
 status chain_alloc(int links, int joint, int y, chain **out, fault *f)
 {
     chain *s = *out = calloc(1, sizeof *s);
@@ -374,7 +378,7 @@ void chain_expand(chain *s, const double r[], const double ends[], double x[])
         expand(s, s->c, s->y, r, ends, x);
 }
 
-int symmetric_negative(int n, double A[])
+static int symmetric_negative(int n, double A[])
 {
     const double digits = 16 * DBL_EPSILON;
     double terms[SYMMETRIC_MOST];

@@ -5,6 +5,12 @@
 
 #include "elements/math/dense.h"
 
+/* condensation.c: numbers the coordinates of ends, and the unknown ones among them. Returns the
+ * number of the former; s->unknown NULL: out of memory. */
+static int condensation_number(condensation *s, int count, const int released[]);
+/* Patterns of both matrices. */
+static status condensation_patterns(condensation *s, int ends, fault *f);
+
 /* Do loads have a stiffness only at the ends of members, and are all nodes between them free? */
 static int applies(const equations *eq, int from)
 {
@@ -293,7 +299,7 @@ static void note(const mesh_element *el, int number[])
 }
 
 /* Coordinates of ends, and which of them are unknowns. Returns the number of the former. */
-int condensation_number(condensation *s, int count, const int released[])
+static int condensation_number(condensation *s, int count, const int released[])
 {
     const model *m = s->m;
     int ends = 0;
@@ -386,7 +392,7 @@ static status patterns_with(condensation *s, int ends, char coupled[], int list[
     return find_sources(s, f);
 }
 
-status condensation_patterns(condensation *s, int ends, fault *f)
+static status condensation_patterns(condensation *s, int ends, fault *f)
 {
     char *coupled = calloc((size_t)ends * (size_t)ends + 1, 1);
     int *list = calloc((size_t)ends + 1, sizeof *list);

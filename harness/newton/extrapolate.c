@@ -1,9 +1,15 @@
-#include "harness/newton/newton.h"
+#include "harness/newton/newton_impl.h"
 
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+
+/* error[k], k = 1 ... most: error that an extrapolation from k states would have had for at[most]:
+ * largest error of a displacement or strain [m]; k = 1: with the last state unchanged. INFINITY: no
+ * extrapolation was possible. */
+static void extrapolate_errors(const equations *, int most, const model_state *const at[],
+                               double error[]);
 
 /* In large models fewer states are stored. The numbers of iterations of sheet_cantilever,
  * spherical_joint and hexapod are the same with eight as with twelve. */
@@ -238,8 +244,8 @@ static double largest_error(int count, const double weight[], const model_state 
     return size > 0 ? largest_of(count, weight, at, from, size, largest) : largest;
 }
 
-void extrapolate_errors(const equations *eq, int most, const model_state *const at[],
-                        double error[])
+static void extrapolate_errors(const equations *eq, int most, const model_state *const at[],
+                               double error[])
 {
     const model *m = eq->m;
     guesses g;

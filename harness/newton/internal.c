@@ -1,4 +1,4 @@
-#include "harness/newton/newton.h"
+#include "harness/newton/newton_impl.h"
 
 #include <string.h>
 

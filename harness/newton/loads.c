@@ -1,5 +1,5 @@
 /* Loads and drivers along the path. */
-#include "harness/newton/newton.h"
+#include "harness/newton/newton_impl.h"
 
 #include <string.h>
 

@@ -1,12 +1,16 @@
 /* One Newton iteration: assembles, factors, solves, and applies the increment; condensed element by
  * element or, for comparison, dense. */
-#include "harness/newton/newton.h"
+#include "harness/newton/newton_impl.h"
 
 #include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
+
+/* Releases a symmetric factor for the pattern of the free coordinates. It is kept if a compliance
+ * may need one, to save the ordering and the pattern. */
+static void context_leave_factor(analysis_context *, matrix_factor *);
 
 enum { MAX_ITERATIONS = 30 };
 
@@ -337,7 +341,7 @@ status context_symmetric(const matrix_factor *fa, const char *what, fault *f)
                      what, counts.asymmetry, FACTOR_SYMMETRIC_WITHIN);
 }
 
-void context_leave_factor(analysis_context *c, matrix_factor *fa)
+static void context_leave_factor(analysis_context *c, matrix_factor *fa)
 {
     int compliances = 0;
     for (int i = 0; i < c->scene->analyses; i++)

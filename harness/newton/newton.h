@@ -1,13 +1,11 @@
 /* newton/: equations of a model, Newton's method, tangents, condensation, outcomes.
  *
  * Sections, in this order: equations of a model; advance (a state after a correction); applied
- * loads; arrival (convergence); condensation of members; modes; outcomes of analyses; shapes;
- * rows; system matrices; solve_options and solve_result; the context of an analysis; bordered
- * tangent; tangent of a node; distributed loads; equations of elements; loads along a path;
- * linearise; chunk (elements in one go); convention of moments; extrapolate; history; identity;
- * internal (section resultants, stresses); undeformed state; linear solutions; predictor;
- * newton; quadratic forms; quantity results; refinement; rotating frame; singular; tangent in
- * parts; uncondensed. */
+ * loads; arrival (convergence); modes; outcomes of analyses; shapes; rows; system matrices;
+ * solve_options and solve_result; the context of an analysis; tangent of a node; loads along a
+ * path; linearise; convention of moments; extrapolate; history; identity; internal (section
+ * resultants, stresses); linear solutions; predictor; newton; quadratic forms; quantity results;
+ * refinement; rotating frame; singular; tangent in parts; uncondensed. */
 #ifndef BEAMWORK_NEWTON_H
 #define BEAMWORK_NEWTON_H
 
@@ -52,9 +50,6 @@ typedef struct linear_memory {
                      linearisation */
 } linear_memory;
 
-/* Loads along members that are lumped at the ends of elements. */
-enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
-
 /* Meaning of the path parameter, loads, and rotation of the axes of one analysis. */
 typedef struct loading {
     int in_time; /* the path parameter is the time, and loads and drivers are functions of it */
@@ -77,12 +72,6 @@ typedef struct run_damping {
     const double *known, *from; /* [model_stresses] */
     spring_rates springs;       /* the same for springs */
 } run_damping;
-
-/* NULL: at rest, or no dashpot. */
-static inline const spring_rates *damping_of_springs(const run_damping *d)
-{
-    return d != NULL ? &d->springs : NULL;
-}
 
 struct run_ahead;
 struct run_free;
@@ -116,8 +105,6 @@ void linear_memory_free(linear_memory *);
  * so that results do not depend on the number of threads. */
 status run_state_begin(run_state *, const model *, int threads, fault *);
 void run_state_end(run_state *);
-/* Rotation of the frame at a path parameter. */
-element_rotating_frame loading_frame(const loading *, double path);
 
 /* Update of a state by the solution of the linearised equations. */
 
@@ -137,8 +124,6 @@ double advance_state(const equations *, const linear_memory *, model_state *, co
  * of the last linearisation are not closed again. */
 void advance_settle(const model *, const linear_memory *, const model_state *);
 
-/* Forces of a load on the vertices of a mesh, in a given state. */
-
 typedef struct applied {
     int vertex;
     int follower;  /* 1: F rotates with the vertex */
@@ -151,33 +136,11 @@ typedef struct applied {
  * its derivative. */
 double applied_factor(const equations *, const scene_load *load, double path);
 double applied_rate(const equations *, const scene_load *load, double path);
-/* Is the load along the whole of a member distributed to nodes by the shares of the mass of a
- * motion, instead of its own option? */
-int applied_with_mass(const scene_load *);
 /* The load times `scale`. Loads along members are lumped at the nodes of elements with linear shape
  * functions, or quadratic ones with a middle node; for a uniform load 1/2, 1/2, or Simpson's
  * weights. */
 void applied_each(const model *, const model_state *, const scene_load *, double scale,
                   void (*take)(void *context, const applied *), void *context);
-/* As applied_each, for a load along the member of this element, on this element only. */
-void applied_element(const model *, const model_state *, const scene_load *, double scale,
-                     int element, void (*take)(void *context, const applied *), void *context);
-/* Range [from, to] of an element on which a load along its member acts; for a point load both are
- * its position, in the following element. Returns 0 when the load acts elsewhere. */
-int applied_part(const model *, int element, const scene_load *, double part[2]);
-/* Returns 1 when x is inside the element, not at an end. */
-int applied_inside(double x);
-/* Vector of a load along the member at x in [0, 1] of an element, as given in the scene. */
-void applied_vector(const model *, int element, const scene_load *, double x, double vector[3]);
-/* Axes of the undeformed member, with y as given in the scene, from a triad on it, whose y and z
- * are the principal axes of the section. */
-void applied_member_axes(const double triad[9], const section *, double axes[9]);
-
-/* Adds the load times `scale` to K, entry by entry; entries may be zero, and several may have the
- * same position. */
-typedef void (*loads_entry)(void *context, int row, int column, double value);
-void applied_stiffness(const model *, const model_state *, const scene_load *, double scale,
-                       loads_entry take, void *context);
 
 /* Convergence test of Newton's method: size of the last corrections of motions and stresses, and
  * their rate of decrease. */
@@ -202,41 +165,7 @@ void arrival_start(double criterion, int differences, int elements, arrival *);
  * valid for the state, up to rounding. */
 int arrival_tangent_stands(const arrival *);
 
-/* Condenses members to their ends before the tangent is solved, and expands the solution.
- *
- * For members with many elements the assembled tangent loses digits with the fourth power of their
- * number. Flexibilities of members (newton_impl.h) do not, and the remaining system is as small as
- * with one element per member. */
-
 typedef struct condensation condensation;
-
-/* Least number of elements of a condensed member: with fewer, the assembled tangent costs less and
- * is accurate enough. */
-enum { CONDENSATION_ELEMENTS = 1000 };
-
-/* *out NULL: members have fewer elements than `from`, or a load between their ends has a stiffness,
- * or frames rotate. released[count]: prescribed coordinates that are also unknowns. */
-status condensation_alloc(const equations *, int from, int count, const int released[],
-                          condensation **out, fault *);
-/* With the members of `of`, which must outlive it, and other released coordinates: see
- * condensation_take. */
-status condensation_alloc_like(const condensation *of, int count, const int released[],
-                               condensation **out, fault *);
-void condensation_free(condensation *);
-
-/* The tangent of the last linearise_state with the same arguments, with members condensed. */
-status condensation_at(condensation *, const model_state *, double path, fault *);
-/* The tangent in the state of `of`, which owns the members. */
-void condensation_take(condensation *, const condensation *of, const model_state *);
-/* Matrix on all coordinates of ends, to be changed before it is factored. */
-sparse *condensation_ends(condensation *);
-/* SINGULAR: see factor_numeric, or a member is in a critical state. */
-status condensation_factor(condensation *, fault *);
-/* x[free + driven] := K^-1 x on the unknowns; transposed: K^-T x. */
-void condensation_solve(condensation *, int transposed, double x[]);
-factor_counts condensation_count(const condensation *);
-/* Makes a factor that solves with the condensation and owns it. */
-status condensation_as_factor(condensation *, matrix_factor **, fault *);
 
 /* Shape of a vibration or buckling mode. */
 
@@ -747,19 +676,8 @@ analysis_context context_under(const analysis_context *, int acting);
 analysis_context context_unloaded(const analysis_context *);
 /* Factors K numerically, and records whether the factors exist. */
 status context_factor(analysis_context *, matrix_factor *, const sparse *K, fault *);
-/* Condenses members with many elements. *out NULL: there are none, or the condition of the tangent
- * of all coordinates was requested. See condensation_alloc. */
-status context_condensation(const analysis_context *, int count, const int released[],
-                            condensation **out, fault *);
-/* As context_factor, for a tangent with condensed members. */
-status context_factor_condensed(analysis_context *, condensation *, fault *);
 /* REFUSED: the factored matrix is not symmetric, which `what` (critical loads) requires. */
 status context_symmetric(const matrix_factor *, const char *what, fault *f);
-/* Releases a symmetric factor for the pattern of the free coordinates. It is kept if a compliance
- * may need one, to save the ordering and the pattern. */
-void context_leave_factor(analysis_context *, matrix_factor *);
-/* NULL: none was kept. */
-matrix_factor *context_take_factor(analysis_context *);
 /* If requested, adds the condition of a matrix just factored to the counters. */
 void context_count_condition(const analysis_context *, matrix_factor *, const sparse *K);
 /* Adds the work of a solution with a factor to the counters; fresh 0: with earlier numeric factors.
@@ -781,14 +699,6 @@ typedef struct border {
     double *U, *V; /* [count x free]: K_fr; K_rf */
     double W[TANGENT_BORDER * TANGENT_BORDER];
 } border;
-
-/* Index of a released coordinate, or -1. */
-int border_place(const border *, int coordinate);
-/* Released coordinates of the node of the analysis; allocates matrices without values. */
-status border_alloc(const analysis_context *, const scene_compliance *, border *, fault *);
-void border_free(border *);
-/* Fills the border from K of all coordinates. */
-void border_fill(border *, int free_count, const sparse *K);
 
 /* Tangent of a deformed structure about one node, where some prescribed components of the node are
  * released: their reaction acts as a load. */
@@ -837,69 +747,6 @@ void tangent_movable(const model *m, const node_tangent *t, movable *out);
 status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
                           unsigned components, double C[36], fault *f);
 
-/* Loads along members as they act between vertices: by their work on the displacements inside
- * elements (elements/field), or by the element's own equilibrium; also loads that act through
- * sections. */
-
-/* Loads along one element at a path parameter. */
-typedef struct distributed_loads {
-    const equations *eq;
-    const model *m;
-    int element;
-    double path;
-} distributed_loads;
-
-/* Does the load act by its work inside elements? Otherwise half of it is lumped at each end. */
-int distributed_spreads(const equations *, const scene_load *);
-
-/* Does the element include the load in its own equilibrium (element_type.along)? Only dead forces
- * on the whole element, along its line, without a motion. */
-int distributed_takes(const equations *, int element, const scene_load *);
-/* Sum of the loads that an element includes in its own equilibrium. */
-typedef struct distributed_taken {
-    int acts;
-    double force[3 * ELEMENT_ALONG_POINTS], mixed[3 * ELEMENT_MAX_STRAINS],
-        H[ELEMENT_ALONG_COORDINATES * ELEMENT_ALONG_COORDINATES];
-    along_output out; /* fills the arrays above; its stresses go to those of a slot */
-} distributed_taken;
-/* Fills *out for the loads at `path`; out->acts 0: none. */
-void distributed_take(const equations *, int element, double path, distributed_taken *out);
-/* forces[14] += part of the loads that J^T sigma does not contain, K[14 x 14] -= its derivative,
- * from `out`. gap[strains]: D(x) - e. */
-void distributed_add_taken(const model *, const along_output *out, const double J[],
-                           const double gap[], double forces[], double K[]);
-
-/* forces[7 nodes] += forces on an element of a load along a member, times `scale`; K[7 nodes x 7
- * nodes] -= its derivative (may be NULL). Returns 0 when there is none. For a load in the element's
- * own equilibrium: the derivative of its forces with respect to the load, and K does not change. */
-int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
-                        const scene_load *, double scale, double forces[], double K[]);
-/* As distributed_add_one for all loads at `path`. For loads in the element's own equilibrium only
- * the part that J^T sigma does not contain; in a linear solution about `rest` all. field 1: without
- * those loads. */
-int distributed_add(const equations *, const model_state *, const node_state x[], int element,
-                    double path, double forces[], double K[]);
-/* As distributed_add, only for loads in the element's own equilibrium. */
-int distributed_add_own(const equations *, const model_state *, const node_state x[], int element,
-                        double path, double forces[], double K[]);
-/* Stresses of a state under the loads at `path` (sigma, C of stress_output); returns 0 when the
- * element has no loads in its own equilibrium. */
-int distributed_stress(const equations *, const model_state *, const node_state x[], int element,
-                       double path, const stress_output *, status *outcome);
-int distributed_add_field(const equations *, const node_state x[], int element, double path,
-                          double forces[], double K[]);
-
-/* Does any load act along the element? */
-int distributed_acts(const distributed_loads *);
-/* Index of a load that starts, ends or acts inside the element, or SCENE_NONE. */
-int distributed_jumps(const distributed_loads *);
-/* Load per initial length on the section with this frame at x in [0, 1] of the element: loads of
- * its member and inertia of a rotating frame (with active rotary inertia). context: a
- * distributed_loads. */
-void distributed_at(void *context, double x, const span_frame *, span_load *out);
-
-/* Functions shared by the files of harness/newton. */
-
 /* Equations of one element in the coordinates of the model. */
 typedef struct element_part {
     status outcome;
@@ -907,33 +754,6 @@ typedef struct element_part {
     double incompatibility; /* |D(x) - e|/l */
     double force[MODEL_MAX_COORDINATES], K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
 } element_part;
-
-/* rotating_frame.c: force -= centrifugal force, K += its stiffness (may be NULL), in element
- * coordinates; does nothing without a rotating frame. */
-status rotating_frame_add(const equations *eq, const node_state x[], int element, double path,
-                          double force[], double K[], fault *f);
-
-/* loads.c: out[free + driven] += all loads, or only those on vertices. */
-void loads_add(const equations *eq, const model_state *s, double path, double out[]);
-void loads_add_at_vertices(const equations *eq, const model_state *s, double path, double out[]);
-/* Stiffness of the loads on vertices, entry by entry. */
-void loads_stiffness_at_vertices(const equations *eq, const model_state *s, double path,
-                                 loads_entry, void *context);
-void loads_subtract_at_vertices(const equations *eq, const model_state *s, double path, sparse *K);
-/* Stiffness of all loads, on a pattern of model.h. */
-void loads_subtract_stiffness(const equations *eq, const model_state *s, double path, sparse *K);
-/* REFUSED: a moment whose stiffness is not symmetric, so that a symmetric matrix cannot contain it.
- */
-status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);
-
-/* Elements and loads give the derivatives of work in the exponential chart of a node's rotation. At
- * a node fixed about one axis h, equilibrium is that of the moments about the two others, and its
- * derivatives differ by the reaction moment R: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic
- * order. */
-void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K);
-/* REFUSED: there is such a moment, which has no potential. */
-status linearise_held_have_potential(const equations *eq, const double sigma[], double path,
-                                     fault *f);
 
 /* Loads and drivers along a path. */
 
@@ -955,14 +775,8 @@ void loads_add_temperature(const equations *, const model_state *, const scene_l
                            double out[]);
 /* Derivative of the loads with respect to the path parameter in a state, out[free + driven]. */
 void loads_rate(const equations *, const model_state *, double path, double out[]);
-/* Loads on the undeformed state at `path`, f[free + driven]. */
-void loads_reference(const equations *, double path, double f[]);
 /* Is there a load or a nonzero driver at path 0? */
 int loads_begin(const equations *);
-
-/* Increments of the prescribed coordinates (dx[free .. free+driven)) from the state to `path`;
- * other entries of dx do not change. */
-void loads_drive(const equations *, const model_state *, double path, double dx[]);
 
 /* An unknown driver: the prescribed coordinate `unknown` moves such that the free one `coordinate`
  * moves by `increment`. The force on `coordinate` contains no reaction; the force on the driver
@@ -975,11 +789,6 @@ typedef struct model_condition {
 int loads_conditions(const equations *, const model_state *, double path,
                      model_condition out[MODEL_MAX_CONDITIONS]);
 
-/* Changes K for a node rotated by a sequence of angles, when the moment M of the prescribed angles
- * becomes a load that is conservative in the exponential chart: removes the second derivatives of
- * the angles. */
-void loads_release_moment(const model *, const model_state *, int node, const double M[3],
-                          sparse *K);
 /* Force and spatial moment of the loads at `path` on the frame of a node: F[6] [N, N m]. */
 void loads_at_node(const equations *, const model_state *, double path, int node, double F[6]);
 /* Force or moment that holds a component of a node, along the axes of its supports, of what
@@ -1039,9 +848,6 @@ void linearise_node_force(const equations *, const model_state *, const double s
 void linearise_add_internal(const equations *, const model_state *, int elements,
                             const int element[], double out[]);
 
-/* Batches of a few elements that are evaluated together: of one kind if the type has lanes
- * (element_type.lanes), otherwise one after the other. */
-
 enum {
     CHUNK_MOST = 8,   /* largest number of elements in a batch */
     CHUNK_WINDOW = 32 /* number of elements among which those of one kind are searched */
@@ -1052,23 +858,6 @@ int chunk_size(const model *m);
 /* The next batch from [first, end), end - first <= CHUNK_WINDOW: index[]; returns its size, 0: none
  * left. done[end - first] must be zero before the first call. */
 int chunk_next(const model *m, int first, int end, unsigned char done[], int index[CHUNK_MOST]);
-
-/* Evaluation of one element. */
-typedef struct chunk_element {
-    int index;     /* input: index of the element */
-    double *force; /* input: [7 nodes] */
-    double *K;     /* input: [7 nodes x 7 nodes] sum sigma_i H_i; may be NULL */
-    node_state x[ELEMENT_MAX_NODES];
-    distributed_taken along; /* loads included in its stresses */
-    status outcome;
-    int complete; /* 1: force is J^T sigma of the slot, and K also contains J^T C J ... */
-    double present[ELEMENT_MAX_COORDINATES]; /* ... and `present` is J^T sigma of the state */
-} chunk_element;
-
-/* Evaluates strains and stresses of `count` elements into their slots (linearise_slot), and the
- * outputs of chunk_element. */
-void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,
-                    double path, int count, chunk_element element[]);
 
 /* Stiffness of a moment m on a node that rotates, by convention. K: the stiffness of the
  * exponential chart R = exp(theta~) R0, in which the generalized moment of theta is constant.
@@ -1098,17 +887,9 @@ status convention_apply(scene_moments of_tangent, scene_moments convention, cons
 enum { MODEL_EXTRAPOLATED = 12 };
 int extrapolate_state(const equations *, int count, const model_state *const at[], double path,
                       model_state *out);
-/* error[k], k = 1 ... most: error that an extrapolation from k states would have had for at[most]:
- * largest error of a displacement or strain [m]; k = 1: with the last state unchanged. INFINITY: no
- * extrapolation was possible. */
-void extrapolate_errors(const equations *, int most, const model_state *const at[], double error[]);
 
 /* Record of Newton's method: the iterations of every accepted load step. */
 
-/* Adds an iteration of the present trial step. energy = |r . K^-1 r| of its residual r [J]; NAN:
- * unknown. */
-status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
-                             double energy, fault *f);
 /* Removes the iterations of a rejected step. */
 void history_drop_step(solve_result *r, const step_record *step);
 
@@ -1217,65 +998,27 @@ status internal_stress_at(const equations *, const internal_state *, const inter
 status internal_stress_largest(const equations *, const internal_state *, int member,
                                stress_measure, double *out, fault *);
 
-/* Stress-free strains of elements in addition to those of the undeformed state: due to
- * temperatures, which are loads, and initial strains of members. Either the strains of a state are
- * measured from them, or stresses are computed with element data that include them; in both cases
- * the strains are mechanical. */
-
 /* Subtracts them from e[strains], the strains of node positions. */
 void free_strain_subtract(const equations *, int element, double path, double e[]);
 /* Data for the stresses of an element: those of its kind, or modified by its type; valid until the
  * next call for the element. */
 const element_data *free_strain_data(const equations *, int element, double path);
-/* Adds the elongation and the curvatures about principal axes. */
-void free_strain_amounts(const equations *, int element, double path, double strain[3],
-                         double curvature[3]);
-/* To first order about the undeformed state, out[strains]: of temperatures at `path`; initial
- * strains of members. */
-void free_strain_linear(const equations *, int element, double path, double out[]);
-void free_strain_own(const model *, int element, double out[]);
-/* Largest strain due to temperatures; curvatures are multiplied by the length of the model. */
-double free_strain_size(const equations *, double path);
-/* out[strains]: change in a state due to a temperature changed by `scale`; returns 0 when there is
- * none. */
-int free_strain_by_load(const equations *, const model_state *, int element, const scene_load *,
-                        double scale, double out[]);
 /* Energy supplied by temperatures that change in time: at an instant [W], and between two states
  * [J]. */
 double free_strain_power(const equations *, const model_state *, double time);
 double free_strain_work(const equations *, const model_state *from, double begin,
                         const model_state *to, double end);
 
-/* About the undeformed state. */
-
 /* Linear analyses about the undeformed state. */
 status linear_stiffness(const equations *, sparse *K, fault *); /* J^T S J at e = 0 */
-status linear_stresses(const equations *, const double x[], double sigma[],
-                       fault *); /* sigma = S J x, [model_stresses] */
 /* Largest initial strain of a member; 0: none. */
 double linear_initial(const model *);
 /* Stresses including those of initial strains, and of temperatures at `path`: for the whole
  * structure, not for a motion. */
 status linear_whole_stresses(const equations *, const double x[], double path, double sigma[],
                              fault *);
-/* Stresses of the loads that increase from path 0 to `path`: x from these loads, temperatures
- * included. */
-status linear_growing_stresses(const equations *, const double x[], double path, double sigma[],
-                               fault *);
-void linear_forces(const equations *, const double sigma[],
-                   double f[]); /* f[free + driven] = sum J^T sigma */
 status linear_geometric_stiffness(const equations *, const double sigma[], double path, sparse *G,
                                   fault *); /* sum sigma H + J^T G(sigma) J; offsets included */
-/* Quadratic forms from the element strains, without the cancellation of x^T (K x): error eps n^2
- * instead of eps n^4. */
-double linear_strain_energy2(const equations *, const double x[]); /* x^T K x = sum (Jx)^T S (Jx) */
-double linear_strain_rounding(const equations *,
-                              const double x[]); /* bound of its rounding error */
-double linear_geometric_energy2(const equations *, const double sigma[], const double x[]);
-/* Size of its rounding error, with the stresses sigma of the displacements load_x[free + driven].
- */
-double linear_geometric_rounding(const equations *, const double load_x[], const double sigma[],
-                                 const double x[]);
 
 /* Linear solutions about the undeformed state. */
 
@@ -1461,13 +1204,6 @@ typedef struct solution_refinement {
 /* Decides from the size of a correction relative to the solution: at least two corrections after
  * the first, and more while they halve and the accuracy is insufficient. */
 refinement_state refinement_next(solution_refinement *, double correction);
-/* Is the accuracy sufficient, given the last correction or another measure of the error? */
-refinement_state refinement_judge(solution_refinement *, double correction);
-/* SINGULAR, with the remaining accuracy of `what` and the remedy. */
-status refinement_refuse(const solution_refinement *, const char *what, fault *);
-/* |change|/|x| in a metric of n weights, with |x| at least `least`; 0: no change. */
-double refinement_part(int n, const double weight[], const double change[], const double x[],
-                       double least);
 
 /* A frame that rotates at a constant rate. */
 
@@ -1476,19 +1212,11 @@ double refinement_part(int n, const double weight[], const double change[], cons
 status rotating_frame_inertia(const equations *, const model_state *, double path, sparse *M,
                               sparse *G, fault *);
 
-/* Returns 1 when mass is lumped at nodes, as specified by the scene or by a motion that starts
- * there. */
-int rotating_frame_lumps(const equations *);
-
 /* x^T B x of the undeformed structure, x[free + driven]: effect of the mass inside elements on a
  * mode, k = lambda m + lambda^2 b (field/field.h). */
 double rotating_frame_inner(const model *, const double x[]);
 /* B on the pattern of a symmetric K. Returns 0 when no element has it, so that it is zero. */
 int rotating_frame_inner_matrix(const equations *, sparse *out);
-
-/* Stiffness of loads on offsets and of moments. */
-void rotating_frame_load_stiffness(const equations *, const model_state *, double path,
-                                   sparse *out);
 
 /* Explains why a stiffness matrix cannot be factored. */
 

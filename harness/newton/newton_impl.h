@@ -8,6 +8,274 @@
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
 
+/* Loads along members that are lumped at the ends of elements. */
+enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
+
+/* NULL: at rest, or no dashpot. */
+static inline const spring_rates *damping_of_springs(const run_damping *d)
+{
+    return d != NULL ? &d->springs : NULL;
+}
+
+/* Rotation of the frame at a path parameter. */
+element_rotating_frame loading_frame(const loading *, double path);
+
+/* Forces of a load on the vertices of a mesh, in a given state. */
+
+/* Is the load along the whole of a member distributed to nodes by the shares of the mass of a
+ * motion, instead of its own option? */
+int applied_with_mass(const scene_load *);
+/* As applied_each, for a load along the member of this element, on this element only. */
+void applied_element(const model *, const model_state *, const scene_load *, double scale,
+                     int element, void (*take)(void *context, const applied *), void *context);
+/* Range [from, to] of an element on which a load along its member acts; for a point load both are
+ * its position, in the following element. Returns 0 when the load acts elsewhere. */
+int applied_part(const model *, int element, const scene_load *, double part[2]);
+/* Returns 1 when x is inside the element, not at an end. */
+int applied_inside(double x);
+/* Vector of a load along the member at x in [0, 1] of an element, as given in the scene. */
+void applied_vector(const model *, int element, const scene_load *, double x, double vector[3]);
+/* Axes of the undeformed member, with y as given in the scene, from a triad on it, whose y and z
+ * are the principal axes of the section. */
+void applied_member_axes(const double triad[9], const section *, double axes[9]);
+
+/* Adds the load times `scale` to K, entry by entry; entries may be zero, and several may have the
+ * same position. */
+typedef void (*loads_entry)(void *context, int row, int column, double value);
+void applied_stiffness(const model *, const model_state *, const scene_load *, double scale,
+                       loads_entry take, void *context);
+
+/* Condenses members to their ends before the tangent is solved, and expands the solution.
+ *
+ * For members with many elements the assembled tangent loses digits with the fourth power of their
+ * number. Flexibilities of members (newton_impl.h) do not, and the remaining system is as small as
+ * with one element per member. */
+
+/* Least number of elements of a condensed member: with fewer, the assembled tangent costs less and
+ * is accurate enough. */
+enum { CONDENSATION_ELEMENTS = 1000 };
+
+/* *out NULL: members have fewer elements than `from`, or a load between their ends has a stiffness,
+ * or frames rotate. released[count]: prescribed coordinates that are also unknowns. */
+status condensation_alloc(const equations *, int from, int count, const int released[],
+                          condensation **out, fault *);
+/* With the members of `of`, which must outlive it, and other released coordinates: see
+ * condensation_take. */
+status condensation_alloc_like(const condensation *of, int count, const int released[],
+                               condensation **out, fault *);
+void condensation_free(condensation *);
+
+/* The tangent of the last linearise_state with the same arguments, with members condensed. */
+status condensation_at(condensation *, const model_state *, double path, fault *);
+/* The tangent in the state of `of`, which owns the members. */
+void condensation_take(condensation *, const condensation *of, const model_state *);
+/* Matrix on all coordinates of ends, to be changed before it is factored. */
+sparse *condensation_ends(condensation *);
+/* SINGULAR: see factor_numeric, or a member is in a critical state. */
+status condensation_factor(condensation *, fault *);
+/* x[free + driven] := K^-1 x on the unknowns; transposed: K^-T x. */
+void condensation_solve(condensation *, int transposed, double x[]);
+factor_counts condensation_count(const condensation *);
+/* Makes a factor that solves with the condensation and owns it. */
+status condensation_as_factor(condensation *, matrix_factor **, fault *);
+
+/* Condenses members with many elements. *out NULL: there are none, or the condition of the tangent
+ * of all coordinates was requested. See condensation_alloc. */
+status context_condensation(const analysis_context *, int count, const int released[],
+                            condensation **out, fault *);
+/* As context_factor, for a tangent with condensed members. */
+status context_factor_condensed(analysis_context *, condensation *, fault *);
+/* NULL: none was kept. */
+matrix_factor *context_take_factor(analysis_context *);
+
+/* Released coordinates of the node of the analysis; allocates matrices without values. */
+status border_alloc(const analysis_context *, const scene_compliance *, border *, fault *);
+void border_free(border *);
+
+/* Loads along members as they act between vertices: by their work on the displacements inside
+ * elements (elements/field), or by the element's own equilibrium; also loads that act through
+ * sections. */
+
+/* Loads along one element at a path parameter. */
+typedef struct distributed_loads {
+    const equations *eq;
+    const model *m;
+    int element;
+    double path;
+} distributed_loads;
+
+/* Does the load act by its work inside elements? Otherwise half of it is lumped at each end. */
+int distributed_spreads(const equations *, const scene_load *);
+
+/* Does the element include the load in its own equilibrium (element_type.along)? Only dead forces
+ * on the whole element, along its line, without a motion. */
+int distributed_takes(const equations *, int element, const scene_load *);
+/* Sum of the loads that an element includes in its own equilibrium. */
+typedef struct distributed_taken {
+    int acts;
+    double force[3 * ELEMENT_ALONG_POINTS], mixed[3 * ELEMENT_MAX_STRAINS],
+        H[ELEMENT_ALONG_COORDINATES * ELEMENT_ALONG_COORDINATES];
+    along_output out; /* fills the arrays above; its stresses go to those of a slot */
+} distributed_taken;
+/* Fills *out for the loads at `path`; out->acts 0: none. */
+void distributed_take(const equations *, int element, double path, distributed_taken *out);
+/* forces[14] += part of the loads that J^T sigma does not contain, K[14 x 14] -= its derivative,
+ * from `out`. gap[strains]: D(x) - e. */
+void distributed_add_taken(const model *, const along_output *out, const double J[],
+                           const double gap[], double forces[], double K[]);
+
+/* forces[7 nodes] += forces on an element of a load along a member, times `scale`; K[7 nodes x 7
+ * nodes] -= its derivative (may be NULL). Returns 0 when there is none. For a load in the element's
+ * own equilibrium: the derivative of its forces with respect to the load, and K does not change. */
+int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
+                        const scene_load *, double scale, double forces[], double K[]);
+/* As distributed_add_one for all loads at `path`. For loads in the element's own equilibrium only
+ * the part that J^T sigma does not contain; in a linear solution about `rest` all. field 1: without
+ * those loads. */
+int distributed_add(const equations *, const model_state *, const node_state x[], int element,
+                    double path, double forces[], double K[]);
+/* As distributed_add, only for loads in the element's own equilibrium. */
+int distributed_add_own(const equations *, const model_state *, const node_state x[], int element,
+                        double path, double forces[], double K[]);
+/* Stresses of a state under the loads at `path` (sigma, C of stress_output); returns 0 when the
+ * element has no loads in its own equilibrium. */
+int distributed_stress(const equations *, const model_state *, const node_state x[], int element,
+                       double path, const stress_output *, status *outcome);
+int distributed_add_field(const equations *, const node_state x[], int element, double path,
+                          double forces[], double K[]);
+
+/* Does any load act along the element? */
+int distributed_acts(const distributed_loads *);
+/* Index of a load that starts, ends or acts inside the element, or SCENE_NONE. */
+int distributed_jumps(const distributed_loads *);
+/* Load per initial length on the section with this frame at x in [0, 1] of the element: loads of
+ * its member and inertia of a rotating frame (with active rotary inertia). context: a
+ * distributed_loads. */
+void distributed_at(void *context, double x, const span_frame *, span_load *out);
+
+/* Functions shared by the files of harness/newton. */
+
+/* rotating_frame.c: force -= centrifugal force, K += its stiffness (may be NULL), in element
+ * coordinates; does nothing without a rotating frame. */
+status rotating_frame_add(const equations *eq, const node_state x[], int element, double path,
+                          double force[], double K[], fault *f);
+
+/* loads.c: out[free + driven] += all loads, or only those on vertices. */
+void loads_add(const equations *eq, const model_state *s, double path, double out[]);
+void loads_add_at_vertices(const equations *eq, const model_state *s, double path, double out[]);
+/* Stiffness of the loads on vertices, entry by entry. */
+void loads_stiffness_at_vertices(const equations *eq, const model_state *s, double path,
+                                 loads_entry, void *context);
+void loads_subtract_at_vertices(const equations *eq, const model_state *s, double path, sparse *K);
+/* Stiffness of all loads, on a pattern of model.h. */
+void loads_subtract_stiffness(const equations *eq, const model_state *s, double path, sparse *K);
+/* REFUSED: a moment whose stiffness is not symmetric, so that a symmetric matrix cannot contain it.
+ */
+status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);
+
+/* Elements and loads give the derivatives of work in the exponential chart of a node's rotation. At
+ * a node fixed about one axis h, equilibrium is that of the moments about the two others, and its
+ * derivatives differ by the reaction moment R: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic
+ * order. */
+void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K);
+/* REFUSED: there is such a moment, which has no potential. */
+status linearise_held_have_potential(const equations *eq, const double sigma[], double path,
+                                     fault *f);
+
+/* Loads on the undeformed state at `path`, f[free + driven]. */
+void loads_reference(const equations *, double path, double f[]);
+
+/* Increments of the prescribed coordinates (dx[free .. free+driven)) from the state to `path`;
+ * other entries of dx do not change. */
+void loads_drive(const equations *, const model_state *, double path, double dx[]);
+
+/* Changes K for a node rotated by a sequence of angles, when the moment M of the prescribed angles
+ * becomes a load that is conservative in the exponential chart: removes the second derivatives of
+ * the angles. */
+void loads_release_moment(const model *, const model_state *, int node, const double M[3],
+                          sparse *K);
+
+/* Batches of a few elements that are evaluated together: of one kind if the type has lanes
+ * (element_type.lanes), otherwise one after the other. */
+
+/* Evaluation of one element. */
+typedef struct chunk_element {
+    int index;     /* input: index of the element */
+    double *force; /* input: [7 nodes] */
+    double *K;     /* input: [7 nodes x 7 nodes] sum sigma_i H_i; may be NULL */
+    node_state x[ELEMENT_MAX_NODES];
+    distributed_taken along; /* loads included in its stresses */
+    status outcome;
+    int complete; /* 1: force is J^T sigma of the slot, and K also contains J^T C J ... */
+    double present[ELEMENT_MAX_COORDINATES]; /* ... and `present` is J^T sigma of the state */
+} chunk_element;
+
+/* Evaluates strains and stresses of `count` elements into their slots (linearise_slot), and the
+ * outputs of chunk_element. */
+void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,
+                    double path, int count, chunk_element element[]);
+
+/* Adds an iteration of the present trial step. energy = |r . K^-1 r| of its residual r [J]; NAN:
+ * unknown. */
+status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
+                             double energy, fault *f);
+
+/* Stress-free strains of elements in addition to those of the undeformed state: due to
+ * temperatures, which are loads, and initial strains of members. Either the strains of a state are
+ * measured from them, or stresses are computed with element data that include them; in both cases
+ * the strains are mechanical. */
+
+/* Adds the elongation and the curvatures about principal axes. */
+void free_strain_amounts(const equations *, int element, double path, double strain[3],
+                         double curvature[3]);
+/* To first order about the undeformed state, out[strains]: of temperatures at `path`; initial
+ * strains of members. */
+void free_strain_linear(const equations *, int element, double path, double out[]);
+void free_strain_own(const model *, int element, double out[]);
+/* Largest strain due to temperatures; curvatures are multiplied by the length of the model. */
+double free_strain_size(const equations *, double path);
+/* out[strains]: change in a state due to a temperature changed by `scale`; returns 0 when there is
+ * none. */
+int free_strain_by_load(const equations *, const model_state *, int element, const scene_load *,
+                        double scale, double out[]);
+
+/* About the undeformed state. */
+
+status linear_stresses(const equations *, const double x[], double sigma[],
+                       fault *); /* sigma = S J x, [model_stresses] */
+/* Stresses of the loads that increase from path 0 to `path`: x from these loads, temperatures
+ * included. */
+status linear_growing_stresses(const equations *, const double x[], double path, double sigma[],
+                               fault *);
+void linear_forces(const equations *, const double sigma[],
+                   double f[]); /* f[free + driven] = sum J^T sigma */
+/* Quadratic forms from the element strains, without the cancellation of x^T (K x): error eps n^2
+ * instead of eps n^4. */
+double linear_strain_energy2(const equations *, const double x[]); /* x^T K x = sum (Jx)^T S (Jx) */
+double linear_strain_rounding(const equations *,
+                              const double x[]); /* bound of its rounding error */
+double linear_geometric_energy2(const equations *, const double sigma[], const double x[]);
+/* Size of its rounding error, with the stresses sigma of the displacements load_x[free + driven].
+ */
+double linear_geometric_rounding(const equations *, const double load_x[], const double sigma[],
+                                 const double x[]);
+
+/* Is the accuracy sufficient, given the last correction or another measure of the error? */
+refinement_state refinement_judge(solution_refinement *, double correction);
+/* SINGULAR, with the remaining accuracy of `what` and the remedy. */
+status refinement_refuse(const solution_refinement *, const char *what, fault *);
+/* |change|/|x| in a metric of n weights, with |x| at least `least`; 0: no change. */
+double refinement_part(int n, const double weight[], const double change[], const double x[],
+                       double least);
+
+/* Returns 1 when mass is lumped at nodes, as specified by the scene or by a motion that starts
+ * there. */
+int rotating_frame_lumps(const equations *);
+
+/* Stiffness of loads on offsets and of moments. */
+void rotating_frame_load_stiffness(const equations *, const model_state *, double path,
+                                   sparse *out);
+
 /* Strains and stresses of all elements are evaluated before the loop that uses them, for types that
  * evaluate all elements in one call (element_type.strain_many, stress_many, without lanes). For
  * other types, and when memory is short, every element is evaluated in the loop; those with lanes
@@ -75,11 +343,6 @@ typedef struct bordered {
  * bordered_free in either case. */
 status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f);
 void bordered_free(bordered *s);
-/* In place; fixed and prescribed coordinates do not change. x: [columns x all] */
-void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[]);
-/* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
- * strains (refinement_judge). SINGULAR: round-off leaves insufficient accuracy. */
-status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
 
 /* A chain of links, condensed to its two ends, and the expansion of solutions.
  *
@@ -203,12 +466,6 @@ struct condensation {
     long factorisations;
 };
 
-/* condensation.c: numbers the coordinates of ends, and the unknown ones among them. Returns the
- * number of the former; s->unknown NULL: out of memory. */
-int condensation_number(condensation *s, int count, const int released[]);
-/* Patterns of both matrices. */
-status condensation_patterns(condensation *s, int ends, fault *f);
-
 /* Springs about the undeformed state, as linear_stresses for elements: sigma[6 x springs] are the
  * last of the stresses. */
 
@@ -248,9 +505,6 @@ int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 enum { SYMMETRIC_MOST = 14 };
 
-/* Number of negative eigenvalues of A[n x n], which is overwritten; -1: singular, a pivot is a
- * rounding error. LDL^T without pivoting, which does not depend on the units of the rows. */
-int symmetric_negative(int n, double A[]);
 /* inverse[n x n]; returns the number of negative eigenvalues, or -1: singular. */
 int symmetric_inverse(int n, const double A[], double inverse[]);
 

@@ -1,7 +1,7 @@
 /* Newton's corrections converge quadratically, and so do those of the stresses. In stiff elements
  * the stresses are less exact than the motions by orders of magnitude, so that a test of the
  * motions alone is not enough. */
-#include "harness/newton/newton.h"
+#include "harness/newton/newton_impl.h"
 
 #include <stdio.h>
 #include <string.h>

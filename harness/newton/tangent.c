@@ -8,6 +8,17 @@
 
 #include "elements/math/dense.h"
 
+/* Index of a released coordinate, or -1. */
+static int border_place(const border *, int coordinate);
+/* Fills the border from K of all coordinates. */
+static void border_fill(border *, int free_count, const sparse *K);
+/* In place; fixed and prescribed coordinates do not change. x: [columns x all] */
+static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns,
+                           double x[]);
+/* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
+ * strains (refinement_judge). SINGULAR: round-off leaves insufficient accuracy. */
+static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
+
 /* Solutions are refined above this condition, where round-off would leave less than eight digits.
  */
 static const double harmless_condition = 1e8;
@@ -299,7 +310,7 @@ void border_free(border *b)
     free(b->V);
 }
 
-int border_place(const border *b, int coordinate)
+static int border_place(const border *b, int coordinate)
 {
     for (int i = 0; i < b->count; i++)
         if (b->coordinate[i] == coordinate)
@@ -307,7 +318,7 @@ int border_place(const border *b, int coordinate)
     return -1;
 }
 
-void border_fill(border *b, int free_count, const sparse *K)
+static void border_fill(border *b, int free_count, const sparse *K)
 {
     memset(b->U, 0, (size_t)(b->count * free_count) * sizeof *b->U);
     memset(b->V, 0, (size_t)(b->count * free_count) * sizeof *b->V);
@@ -378,7 +389,7 @@ static void add_released(const node_tangent *t, const bordered *s, double x[])
     }
 }
 
-void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[])
+static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[])
 {
     factor_solve_many(t->factor, columns, t->all, x);
     n->solutions += columns;
@@ -397,7 +408,7 @@ static void residual_of(const equations *eq, const node_tangent *t, const border
         rest[k] = k < t->free || border_place(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
 }
 
-status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
+static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
 {
     /* x was the first solution; that of condensed members is as accurate as a second one */
     solution_refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};

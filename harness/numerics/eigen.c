@@ -6,6 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Adds the first wanted[i] vectors of the most positive (0) and most negative (1) side to the
+ * candidates; NULL: that side is not requested. */
+static status eigen_dense_add(candidates *const side[2], const int wanted[2], fault *f);
+
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
 enum {
     DENSE_AT_LAST_UP_TO = 700
@@ -345,7 +349,7 @@ static status take_dense(candidates *const side[2], const int wanted[2], double 
     return STATUS_OK;
 }
 
-status eigen_dense_add(candidates *const side[2], const int wanted[2], fault *f)
+static status eigen_dense_add(candidates *const side[2], const int wanted[2], fault *f)
 {
     const size_t n = (size_t)(side[0] != NULL ? side[0] : side[1])->n;
     double *mu = calloc(n, sizeof *mu), *x = calloc(n * n, sizeof *x);

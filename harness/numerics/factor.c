@@ -12,6 +12,15 @@
 #include <math.h>
 #include <stdlib.h>
 
+static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
+                                       factor_counts *counts, fault *f);
+/* OK, SINGULAR, or FAULT when memory ran out. The first pivots are used again for all later
+ * matrices, without allocation, until pivot growth requires new ones. *row, *column: position of
+ * the smallest pivot; *ratio: its size relative to the largest entries of that row and column. */
+static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a,
+                                         factor_counts *counts, int *row, int *column,
+                                         double *ratio);
+
 struct matrix_factor {
     int n;
     factor_operator by;              /* functions NULL: no operator */
@@ -326,8 +335,8 @@ struct factor_unsymmetric {
  * matrix. */
 static const double tolerable_growth = 1e4;
 
-status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
-                                factor_counts *counts, fault *f)
+static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
+                                       factor_counts *counts, fault *f)
 {
     factor_unsymmetric *fu = *out = calloc(1, sizeof *fu);
     if (fu == NULL)
@@ -431,8 +440,9 @@ static status judge_pivots(factor_unsymmetric *fu, const sparse *a, factor_count
     return STATUS_OK;
 }
 
-status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, factor_counts *counts,
-                                  int *row, int *column, double *ratio)
+static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a,
+                                         factor_counts *counts, int *row, int *column,
+                                         double *ratio)
 {
     if (!refactor(fu, a)) {
         TRY(factor_anew(fu, a, counts));

@@ -65,10 +65,6 @@ status candidates_count_above(candidates *p, double s, int *above, eigen_result 
 
 /* Eigenvectors of small problems: all of them, by LAPACK. */
 
-/* Adds the first wanted[i] vectors of the most positive (0) and most negative (1) side to the
- * candidates; NULL: that side is not requested. */
-status eigen_dense_add(candidates *const side[2], const int wanted[2], fault *f);
-
 /* Growing real basis V of a quadratic eigenvalue problem, orthonormal in K + shift M, with the
  * projected matrices. */
 
@@ -163,14 +159,7 @@ void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, doubl
 
 typedef struct factor_unsymmetric factor_unsymmetric;
 
-status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
-                                factor_counts *counts, fault *f);
 void factor_unsymmetric_free(factor_unsymmetric *fu);
-/* OK, SINGULAR, or FAULT when memory ran out. The first pivots are used again for all later
- * matrices, without allocation, until pivot growth requires new ones. *row, *column: position of
- * the smallest pivot; *ratio: its size relative to the largest entries of that row and column. */
-status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, factor_counts *counts,
-                                  int *row, int *column, double *ratio);
 /* In place: `columns` right-hand sides, `stride` numbers apart. */
 void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[]);
 void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[]);

@@ -6,6 +6,18 @@
 
 #include "elements/shared/choice.h"
 
+/* Counts a line and writes its beginning: kind, name, mesh. */
+static void comparison_lines_heading(const listing *l, comparison_kind kind);
+/* Compares sums over `meshes` meshes; the threshold is that of one mesh, whatever their number. */
+static void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
+                                  const long after[RESULTS_WORKS], int meshes);
+/* Writes the difference of counted work if both are known. */
+static void comparison_lines_cost(const listing *l, double before, double after);
+static void comparison_cells(const listing *l, const result_cell *a, const result_cell *b);
+/* Compares two sweeps, with a line also for each point, formulation and mesh that exists in one of
+ * them only. */
+static void comparison_sweeps(const listing *l, const char *select);
+
 const comparison_limits comparison_limits_default = {0.01, RESULTS_FLOOR, 0.02};
 
 status comparison_limits_parse(const char *text, comparison_limits *out, fault *f)
@@ -221,7 +233,7 @@ static void compare_values(const listing *l, const result_cell *a, const result_
         }
 }
 
-void comparison_cells(const listing *l, const result_cell *a, const result_cell *b)
+static void comparison_cells(const listing *l, const result_cell *a, const result_cell *b)
 {
     comparison_lines_status(l, a->status, b->status);
     if (l->before->swept)
@@ -235,7 +247,7 @@ void comparison_cells(const listing *l, const result_cell *a, const result_cell 
 const char *const comparison_kind_names[COMPARISON_KINDS] = {"worse", "better", "changed", "gone",
                                                              "new"};
 
-void comparison_lines_heading(const listing *l, comparison_kind kind)
+static void comparison_lines_heading(const listing *l, comparison_kind kind)
 {
     l->out->count[kind]++;
     fprintf(l->to, "%-8s %s", comparison_kind_names[kind], l->name);
@@ -262,8 +274,8 @@ void comparison_lines_status(const listing *l, const char *before, const char *a
     fprintf(l->to, ": %s -> %s\n", before, after);
 }
 
-void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
-                           const long after[RESULTS_WORKS], int meshes)
+static void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
+                                  const long after[RESULTS_WORKS], int meshes)
 {
     for (int k = 0; k < RESULTS_WORKS; k++) {
         const double old = (double)before[k], new = (double)after[k];
@@ -277,7 +289,7 @@ void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
     }
 }
 
-void comparison_lines_cost(const listing *l, double before, double after)
+static void comparison_lines_cost(const listing *l, double before, double after)
 {
     const double milli = 1e3;
     if (!(before > 0 && after > 0))
@@ -481,7 +493,7 @@ static int order_of(const listing *l, int i, int k)
     return results_order(&l->before->cell[i], &l->after->cell[k]);
 }
 
-void comparison_sweeps(const listing *l, const char *select)
+static void comparison_sweeps(const listing *l, const char *select)
 {
     listing here = *l;
     lone gone = {CHANGE_GONE, l->after, "", ""}, new = {CHANGE_NEW, l->before, "", ""};

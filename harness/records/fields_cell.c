@@ -1,5 +1,5 @@
 /* Records of parameter points, of series of meshes and of one mesh: size, work, times. */
-#include "harness/records/records.h"
+#include "harness/records/records_impl.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Records of the results of a cell and of its solution path. */
-#include "harness/records/records.h"
+#include "harness/records/records_impl.h"
 
 #include <math.h>
 #include <string.h>

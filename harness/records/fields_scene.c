@@ -1,6 +1,6 @@
 /* Records of the contents of a case: scenes, parameters, quantities, and assumptions on its
  * sections. */
-#include "harness/records/records.h"
+#include "harness/records/records_impl.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "harness/records/records.h"
+#include "harness/records/records_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -6,6 +6,9 @@
 
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
+
+/* A value that does not exist is null, since JSON has no NaN. */
+static json_t *json_record_numbers(int count, const double value[]);
 
 enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };
 static const char unwritten[] = "the JSON could not be written (full disk or out of memory)";
@@ -281,7 +284,7 @@ static json_t *number(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
-json_t *json_record_numbers(int count, const double value[])
+static json_t *json_record_numbers(int count, const double value[])
 {
     json_t *list = json_array();
     for (int i = 0; i < count; i++)

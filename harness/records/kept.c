@@ -1,4 +1,4 @@
-#include "harness/records/records.h"
+#include "harness/records/records_impl.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-#include "harness/records/records.h"
+#include "harness/records/records_impl.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -99,7 +99,9 @@ static status fail(const char *path, int why, fault *f)
                      strerror(why));
 }
 
-int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX])
+/* Calls `make` with an unpredictable name next to `path` and returns its result (-1 with errno:
+ * failed). The file counts as incomplete until output_forget. */
+static int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX])
 {
     const char *leaf = place_leaf(path);
     for (int i = 0; i < MOST_TRIES; i++) {

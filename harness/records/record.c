@@ -1,4 +1,4 @@
-#include "harness/records/records.h"
+#include "harness/records/records_impl.h"
 
 #include <math.h>
 #include <stdlib.h>

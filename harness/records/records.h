@@ -138,37 +138,6 @@ status results_read(const char *path, stored_results *out, fault *f);
 status results_read_any(const char *path, const char *experiment, stored_results *out, fault *f);
 void results_free(stored_results *r);
 
-/* Appends a zeroed cell; NULL: out of memory. */
-result_cell *results_add(stored_results *r);
-
-int results_order(const result_cell *a,
-                  const result_cell *b); /* compares by name, then by elements */
-/* Computes the series from the sorted cells. FAULT: out of memory. */
-status results_series_summarise(stored_results *r, fault *f);
-/* Sums over the meshes that another run has of the series; 0: r has not all of them, or no memory.
- * The caller frees out->mesh and out->limit. */
-int results_series_restrict(const stored_results *r, const result_series *to, result_series *out);
-
-/* Is the text one of the lines? Returns 0 for lines NULL. */
-int results_part_has(const char *lines, const char *text);
-/* Is it of another program, or of an element that is not loaded? No selection names it: it is
- * requested wherever its case is run. */
-int results_part_is_foreign(const char *series);
-/* Such a series that r has there and `other` has not: its name; NULL: none. */
-const char *results_part_instead(const stored_results *r, const stored_results *other,
-                                 const char *series);
-/* Was the quantity of a series (case/parameters/formulation) requested? */
-int results_part_selects(const results_part *p, const char *series, const char *quantity);
-/* Did only `other`, and not the selection of run r, request the series, with any quantity that the
- * two runs know? */
-int results_part_wants(const stored_results *r, const stored_results *other, const char *series);
-/* Did the two runs request different quantities of a series, as far as they know them? */
-int results_part_differ(const stored_results *a, const stored_results *b, const char *series);
-/* Is its formulation new to the run? */
-int results_part_is_fresh(const results_part *p, const char *series);
-void results_part_free(results_part *);
-
-status results_hdf5_read(const char *path, const char *experiment, stored_results *out, fault *f);
 status results_table_read(const char *path, FILE *from, stored_results *out, fault *f);
 void results_table_write(FILE *to, const stored_results *r);
 
@@ -326,7 +295,6 @@ extern const record_type record_point, record_series, record_cell, record_quanti
     record_verdict, record_agreement, record_coverage, record_import, record_scene,
     record_parameter, record_meaning, record_assumption;
 extern const record_type *const record_types[]; /* all of them; NULL-terminated */
-extern const record_type record_omission;       /* of a value, in the CSV of a solution only */
 extern const record_type record_truth;          /* of a quantity, in JSON only */
 extern const record_type record_declaration;    /* of a whole run, in HDF5 only */
 
@@ -374,10 +342,9 @@ int digest_add_file(digest *, const char *path);
 
 /* Identity of a record: the first fields of the tables of fields_*.c, and shared helpers. */
 
-extern const schema_field keys_of_point[];     /* case, parameter point */
-extern const schema_field keys_of_series[];    /* its parameters, formulation */
-extern const schema_field key_of_mesh[];       /* elements of each member */
-extern const schema_field names_of_quantity[]; /* its name and unit */
+extern const schema_field keys_of_point[];  /* case, parameter point */
+extern const schema_field keys_of_series[]; /* its parameters, formulation */
+extern const schema_field key_of_mesh[];    /* elements of each member */
 
 enum { STATUSES = STATUS_NO_VALUE + 1 };
 /* ENUM fields: their words. */
@@ -387,11 +354,6 @@ const char *fields_keys_word_of_moments(int convention);
 /* The quantity with index s->index. */
 const scene_quantity *fields_keys_quantity(const subject *s);
 const cell_result *fields_keys_cell(const subject *s);
-/* Physics that the scene omits, in words. */
-void fields_keys_omitted(const subject *s, field_value *out);
-
-/* Assumptions on its sections, in words. */
-void fields_keys_assumed(const subject *s, field_value *out);
 
 /* Modes followed over a parameter, as CSV and JSON. */
 
@@ -418,13 +380,9 @@ typedef struct gathering {
     const truths *truths;
 } gathering;
 
-/* Adds the records of all series of a case. */
-void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out);
 /* Adds the records of one mesh. If the mesh has no records of a kind, nothing is added. */
 void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh,
                  subjects *out);
-/* Adds one record for each formulation that was run here, in the order of the series. */
-void gather_declarations(const gathering *g, subjects *out);
 /* Assumptions on its sections. */
 void gather_assumptions(const sweep_point *p, subjects *out);
 subject gather_cell(const gathering *g, int series_index, int mesh);
@@ -471,8 +429,6 @@ status json_convergence_write(FILE *to, const sweep *s, const truths *t, double 
 
 /* Records as JSON objects, field by field. */
 
-/* A value that does not exist is null, since JSON has no NaN. */
-json_t *json_record_numbers(int count, const double value[]);
 /* keys: KEY_AROUND when the context does not identify the record; 0 when it does. */
 json_t *json_record(const record_type *type, const subject *s, int keys);
 void json_record_add(json_t *list, const record_type *type, const subject *s, int keys);
@@ -540,9 +496,6 @@ status output_try(const char *path, output_form form, file_place *where, fault *
 /* Deletes incomplete temporary files and folders of this process; may be called by a signal
  * handler. */
 void output_abandon(void);
-/* Calls `make` with an unpredictable name next to `path` and returns its result (-1 with errno:
- * failed). The file counts as incomplete until output_forget. */
-int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX]);
 /* Name of the partial result of an interrupted run: "results.partial.h5" for "results.h5". A stream
  * keeps its name. */
 status output_partial(const char *path, char partial[PATH_MAX], fault *f);
@@ -567,8 +520,6 @@ status record_close(record_file *r, const char *path, fault *f);
 /* Frees the memory without writing; returns the given outcome. */
 status record_drop(record_file *r, status outcome);
 
-/* Opens a group of this name, or creates it; the caller closes it with H5Gclose. */
-hid_t record_group(record_file *r, hid_t at, const char *name);
 /* Attributes. */
 void record_text(record_file *r, hid_t at, const char *name, const char *text);
 /* Writes an attribute text[count]. */
@@ -576,9 +527,6 @@ void record_text_list(record_file *r, hid_t at, const char *name, int count,
                       const char *const text[]);
 void record_count(record_file *r, hid_t at, const char *name, long value);
 void record_number(record_file *r, hid_t at, const char *name, double value);
-/* Write two integers, or an ASCII text of exactly its length (as VTK requires). */
-void record_version(record_file *r, hid_t at, const char *name, const int version[2]);
-void record_ascii(record_file *r, hid_t at, const char *name, const char *text);
 /* Creates a data set of any type, compressed if large; the caller closes it with H5Dclose. */
 hid_t record_array(record_file *r, hid_t at, const char *name, hid_t type, int rank,
                    const hsize_t size[], const void *value);
@@ -591,8 +539,6 @@ hid_t record_text_type(size_t length);
 /* Creates a data set row[count] of the given type; the caller closes it with H5Dclose. */
 hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int count,
                    const void *row);
-/* Creates a data set text[count]. */
-void record_texts(record_file *r, hid_t at, const char *name, int count, const char *const text[]);
 
 /* One results file for all experiments. Each has its own group below /experiments, which a later
  * run replaces completely; verify writes to the root. Several runs may write to one file at the
@@ -631,8 +577,6 @@ typedef struct output_folder {
  * FAULT: it cannot be written. */
 status output_folder_try(const char *path, file_place *where, fault *f);
 status output_folder_open(const char *path, output_folder *out, fault *f);
-/* Creates a folder inside it. */
-status output_folder_below(const output_folder *, const char *name, fault *f);
 /* Creates a file inside it, "K.mtx" or "state/K.mtx", with the output of `write` for `what`. */
 status output_folder_file(const output_folder *, const char *name,
                           void (*write)(FILE *, const void *what), const void *what, fault *f);
@@ -652,15 +596,6 @@ void reach_line_write(FILE *to, const sweep *s, const truths *t, double level);
 /* How far those that pass are from a solid, plate or shell: one line, none if that is not known. */
 void reach_model_write(FILE *to, const sweep *s, const truths *t, double level);
 
-/* Records as rows of a typed, compressed table; units and summaries of the columns are its
- * attributes. */
-
-/* Creates table `name` below `at`; text columns have the length of their longest text. */
-void record_rows(record_file *r, hid_t at, const char *name, int fields,
-                 const schema_field *const list[], int count, const subject row[]);
-/* The table of a kind of record, with its keys. */
-void record_rows_of_type(record_file *r, hid_t at, const record_type *type, int count,
-                         const subject row[]);
 /* As record_rows_of_type, where the context does not identify the records. */
 void record_rows_alone(record_file *r, hid_t at, const record_type *type, int count,
                        const subject row[]);

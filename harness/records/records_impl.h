@@ -10,6 +10,72 @@
 #include "harness/newton/newton.h"
 #include "harness/records/records.h"
 
+/* Appends a zeroed cell; NULL: out of memory. */
+result_cell *results_add(stored_results *r);
+
+int results_order(const result_cell *a,
+                  const result_cell *b); /* compares by name, then by elements */
+/* Computes the series from the sorted cells. FAULT: out of memory. */
+status results_series_summarise(stored_results *r, fault *f);
+/* Sums over the meshes that another run has of the series; 0: r has not all of them, or no memory.
+ * The caller frees out->mesh and out->limit. */
+int results_series_restrict(const stored_results *r, const result_series *to, result_series *out);
+
+/* Is the text one of the lines? Returns 0 for lines NULL. */
+int results_part_has(const char *lines, const char *text);
+/* Is it of another program, or of an element that is not loaded? No selection names it: it is
+ * requested wherever its case is run. */
+int results_part_is_foreign(const char *series);
+/* Such a series that r has there and `other` has not: its name; NULL: none. */
+const char *results_part_instead(const stored_results *r, const stored_results *other,
+                                 const char *series);
+/* Was the quantity of a series (case/parameters/formulation) requested? */
+int results_part_selects(const results_part *p, const char *series, const char *quantity);
+/* Did only `other`, and not the selection of run r, request the series, with any quantity that the
+ * two runs know? */
+int results_part_wants(const stored_results *r, const stored_results *other, const char *series);
+/* Did the two runs request different quantities of a series, as far as they know them? */
+int results_part_differ(const stored_results *a, const stored_results *b, const char *series);
+/* Is its formulation new to the run? */
+int results_part_is_fresh(const results_part *p, const char *series);
+void results_part_free(results_part *);
+
+extern const record_type record_omission; /* of a value, in the CSV of a solution only */
+
+extern const schema_field names_of_quantity[]; /* its name and unit */
+
+/* Physics that the scene omits, in words. */
+void fields_keys_omitted(const subject *s, field_value *out);
+
+/* Assumptions on its sections, in words. */
+void fields_keys_assumed(const subject *s, field_value *out);
+
+/* Adds the records of all series of a case. */
+void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out);
+/* Adds one record for each formulation that was run here, in the order of the series. */
+void gather_declarations(const gathering *g, subjects *out);
+
+/* Opens a group of this name, or creates it; the caller closes it with H5Gclose. */
+hid_t record_group(record_file *r, hid_t at, const char *name);
+/* Write two integers, or an ASCII text of exactly its length (as VTK requires). */
+void record_version(record_file *r, hid_t at, const char *name, const int version[2]);
+void record_ascii(record_file *r, hid_t at, const char *name, const char *text);
+/* Creates a data set text[count]. */
+void record_texts(record_file *r, hid_t at, const char *name, int count, const char *const text[]);
+
+/* Creates a folder inside it. */
+status output_folder_below(const output_folder *, const char *name, fault *f);
+
+/* Records as rows of a typed, compressed table; units and summaries of the columns are its
+ * attributes. */
+
+/* Creates table `name` below `at`; text columns have the length of their longest text. */
+void record_rows(record_file *r, hid_t at, const char *name, int fields,
+                 const schema_field *const list[], int count, const subject row[]);
+/* The table of a kind of record, with its keys. */
+void record_rows_of_type(record_file *r, hid_t at, const record_type *type, int count,
+                         const subject row[]);
+
 /* Writes differences as lines. */
 
 /* Destination of the lines, their counts, and their subject. */
@@ -22,23 +88,11 @@ typedef struct listing {
     int elements; /* 0: not of a single mesh */
 } listing;
 
-/* Counts a line and writes its beginning: kind, name, mesh. */
-void comparison_lines_heading(const listing *l, comparison_kind kind);
 /* Writes a line for something that exists in one run only. */
 void comparison_lines_lone(const listing *l, comparison_kind kind);
 void comparison_lines_status(const listing *l, const char *before, const char *after);
-/* Compares sums over `meshes` meshes; the threshold is that of one mesh, whatever their number. */
-void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
-                           const long after[RESULTS_WORKS], int meshes);
 
-/* Writes the difference of counted work if both are known. */
-void comparison_lines_cost(const listing *l, double before, double after);
-
-void comparison_cells(const listing *l, const result_cell *a, const result_cell *b);
 void comparison_series(const listing *l, const result_series *a, const result_series *b);
-/* Compares two sweeps, with a line also for each point, formulation and mesh that exists in one of
- * them only. */
-void comparison_sweeps(const listing *l, const char *select);
 
 /* Matrices as text that other programs read: Matrix Market, coordinate format (R. F. Boisvert,
  * R. Pozo, K. A. Remington, NISTIR 5935, 1996), 17 digits. */
@@ -83,9 +137,6 @@ extern const char results_table_head[];
 enum { RESULTS_ERROR_DIGITS = 6, RESULTS_LIMIT_DIGITS = 10, RESULTS_DECADES_DECIMALS = 6 };
 
 /* Centre lines and sections of the states of a path. */
-
-/* Writes a group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */
-hid_t store_shapes(record_file *r, hid_t at, const char *name, const scene *sc, const shapes *s);
 
 /* Centre lines and walls for ParaView and VTK: the group /VTKHDF of an HDF5 file (VTKHDF file
  * format, type UnstructuredGrid). One state: version 1.0; several states as time steps:

@@ -8,6 +8,9 @@
 
 #include "cases/format/format.h"
 
+static status results_hdf5_read(const char *path, const char *experiment, stored_results *out,
+                                fault *f);
+
 static int compare_cells(const void *a, const void *b)
 {
     return results_order(a, b);
@@ -491,7 +494,8 @@ static status read_file(const char *path, const char *experiment, hid_t file, st
     return outcome;
 }
 
-status results_hdf5_read(const char *path, const char *experiment, stored_results *out, fault *f)
+static status results_hdf5_read(const char *path, const char *experiment, stored_results *out,
+                                fault *f)
 {
     TRY(checksum_check(path, f));
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);

@@ -5,6 +5,10 @@
 
 #include "cases/format/format.h"
 
+/* Writes a group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */
+static hid_t store_shapes(record_file *r, hid_t at, const char *name, const scene *sc,
+                          const shapes *s);
+
 void store_environment(record_file *r, hid_t at, const environment *e)
 {
     record_text(r, at, "schema", SCHEMA_NAME);
@@ -409,7 +413,8 @@ static void put_far_ends(record_file *r, hid_t at, const scene *sc)
     H5Gclose(all);
 }
 
-hid_t store_shapes(record_file *r, hid_t at, const char *name, const scene *sc, const shapes *s)
+static hid_t store_shapes(record_file *r, hid_t at, const char *name, const scene *sc,
+                          const shapes *s)
 {
     const hid_t here = record_group(r, at, name);
     const hsize_t size[3] = {(hsize_t)s->states, (hsize_t)s->nodes, 3};

@@ -22,12 +22,6 @@ typedef struct span_grid {
 
 void span_grid_make(span_grid *g);
 
-/* share[SPAN_GRID_POINTS]: weight of each grid point in the value at x. */
-void span_grid_at(const span_grid *g, double x, double share[]);
-
-/* out[i][k] = integral from 0 to x[i] of component k; values [points x count], row-major. */
-void span_grid_integrate(const span_grid *g, int count, const double values[], double out[]);
-
 /* Line of centroids and triads of the sections between two frames, computed from the strains. */
 
 typedef struct span_curve {
@@ -37,13 +31,6 @@ typedef struct span_curve {
 typedef struct span_frame {
     double r[3], R[9];
 } span_frame;
-
-/* R' = R kappa~, r' = R (e_x + gamma) over [0, 1] with the length as unit; kappa[points x 3] and
- * gamma[points x 3] in section axes. Uses a Magnus series of order six between the points. The
- * curve meets both ends: its gap, which is a discretisation error, is distributed in proportion to
- * x. */
-void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
-                        const double kappa[], const double gamma[], span_curve *out);
 
 /* Section forces of an element, from the forces at its ends and the loads between.
  *

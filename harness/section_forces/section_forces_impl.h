@@ -11,11 +11,6 @@ enum { FIXED_POINT_MAX = 160 };
 /* out = g(x), [n] each. Returns 0, or 1 when it cannot be evaluated. */
 typedef int (*fixed_point_map)(void *context, const double x[], double out[]);
 
-/* Starts from x[n], n <= FIXED_POINT_MAX. Stops when no entry changes by more than `enough`, or
- * when the change no longer decreases. Returns the largest last change; INFINITY when the map
- * failed. */
-double fixed_point_find(int n, fixed_point_map map, void *context, double enough, double x[]);
-
 /* Non-uniform torsion between two sections whose bimoments and warping amplitudes are known.
  *
  *   EIw a' = B, B' = -M_w, M_s = K k + M_w, k = a + F_w M_w + f:
@@ -38,8 +33,5 @@ typedef struct span_twist {
     double rate[SPAN_GRID_POINTS], bimoment[SPAN_GRID_POINTS],
         warping[SPAN_GRID_POINTS]; /* k, B, M_w */
 } span_twist;
-
-/* Over [0, 1] with the length as unit. Returns 0, or 1 when the equations are singular. */
-int span_twist_solve(const span_grid *g, const span_torsion *t, span_twist *out);
 
 #endif

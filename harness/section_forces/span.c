@@ -8,6 +8,24 @@
 #include "elements/math/scalar.h"
 #include "elements/shared/beam_constants.h"
 
+/* share[SPAN_GRID_POINTS]: weight of each grid point in the value at x. */
+static void span_grid_at(const span_grid *g, double x, double share[]);
+/* out[i][k] = integral from 0 to x[i] of component k; values [points x count], row-major. */
+static void span_grid_integrate(const span_grid *g, int count, const double values[], double out[]);
+/* R' = R kappa~, r' = R (e_x + gamma) over [0, 1] with the length as unit; kappa[points x 3] and
+ * gamma[points x 3] in section axes. Uses a Magnus series of order six between the points. The
+ * curve meets both ends: its gap, which is a discretisation error, is distributed in proportion to
+ * x. */
+static void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
+                               const double kappa[], const double gamma[], span_curve *out);
+/* Starts from x[n], n <= FIXED_POINT_MAX. Stops when no entry changes by more than `enough`, or
+ * when the change no longer decreases. Returns the largest last change; INFINITY when the map
+ * failed. */
+static double fixed_point_find(int n, fixed_point_map map, void *context, double enough,
+                               double x[]);
+/* Over [0, 1] with the length as unit. Returns 0, or 1 when the equations are singular. */
+static int span_twist_solve(const span_grid *g, const span_torsion *t, span_twist *out);
+
 enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
 static const double span_enough = 1e-12, tolerable = 1e-7; /* strains times the length */
 
@@ -374,8 +392,8 @@ static void turn(const span_grid *g, const span_frame *p, const span_frame *q, c
     memcpy(out->R[CURVE_N - 1], q->R, sizeof out->R[0]);
 }
 
-void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
-                        const double kappa[], const double gamma[], span_curve *out)
+static void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
+                               const double kappa[], const double gamma[], span_curve *out)
 {
     double slope[CURVE_N][3];
     turn(g, p, q, kappa, out);
@@ -438,7 +456,7 @@ static void add(const span_grid *g, const span_torsion *t, const double a[], con
     }
 }
 
-int span_twist_solve(const span_grid *g, const span_torsion *t, span_twist *out)
+static int span_twist_solve(const span_grid *g, const span_torsion *t, span_twist *out)
 {
     double a[TWIST_N], share[TWIST_N];
     memset(out, 0, sizeof *out);
@@ -464,7 +482,7 @@ enum {
     EXACT = GRID_N / 2
 }; /* enough Gauss points for the polynomials */
 
-void span_grid_at(const span_grid *g, double x, double share[])
+static void span_grid_at(const span_grid *g, double x, double share[])
 {
     double sum = 0;
     for (int i = 0; i < GRID_N; i++)
@@ -526,7 +544,7 @@ void span_grid_make(span_grid *g)
             span_grid_at(g, g->x[i] + (g->x[i + 1] - g->x[i]) * at[k], g->gauss[i][k]);
 }
 
-void span_grid_integrate(const span_grid *g, int count, const double values[], double out[])
+static void span_grid_integrate(const span_grid *g, int count, const double values[], double out[])
 {
     for (int i = 0; i < GRID_N; i++)
         for (int k = 0; k < count; k++) {
@@ -570,7 +588,7 @@ static void remember(history *h, int n, double move[], double given[])
     h->count++;
 }
 
-double fixed_point_find(int n, fixed_point_map map, void *context, double enough, double x[])
+static double fixed_point_find(int n, fixed_point_map map, void *context, double enough, double x[])
 {
     history h = {.count = 0};
     double given[FIXED_POINT_MAX], before[FIXED_POINT_MAX], move[FIXED_POINT_MAX],

@@ -1,4 +1,4 @@
-#include "harness/study/study.h"
+#include "harness/study/study_impl.h"
 
 #include <math.h>
 #include <string.h>

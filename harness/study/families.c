@@ -1,4 +1,4 @@
-#include "harness/study/study.h"
+#include "harness/study/study_impl.h"
 
 #include <float.h>
 #include <math.h>

@@ -9,6 +9,16 @@
 
 #include "harness/numerics/numerics.h"
 
+/* Marks them (rule.missed) and counts them. whole 1: no selection was made, and every rule should
+ * have been shown. Otherwise only rules of user tables (rule.from) are counted whose formulations
+ * and cases were run completely, with all points and quantities; a selection (-k) includes a case
+ * completely if it matches the case name. */
+static int missed_rules(const sweep *s, truths *t, int whole);
+/* Counts the reference values that a complete run did not use: unmet, waiting and unread. An unread
+ * value counts as met (truth.met) but is not evaluated: a run evaluates a motion at a few instants
+ * and structures only, `make lab L=motions` at all. */
+static void missed_truths(const sweep *s, truths *t, judgement *out);
+
 /* Is the limit outside the range that the rule covers? For a derived limit its own distance counts.
  */
 static int is_beyond(const rule *r, const verdict *v)
@@ -340,7 +350,7 @@ static int all_is_run(const sweep *s, const rule *r)
     return s->unfinished == 0;
 }
 
-int missed_rules(const sweep *s, truths *t, int whole)
+static int missed_rules(const sweep *s, truths *t, int whole)
 {
     int count = 0;
     for (int i = 0; i < t->rules; i++) {
@@ -377,7 +387,7 @@ static int is_unread(const sweep *s, const truth *row)
     return 0;
 }
 
-void missed_truths(const sweep *s, truths *t, judgement *out)
+static void missed_truths(const sweep *s, truths *t, judgement *out)
 {
     for (int i = 0; i < t->rows; i++) {
         truth *row = &t->row[i];

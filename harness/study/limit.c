@@ -2,6 +2,15 @@
 
 #include <math.h>
 
+/* Order from three values by bisection, at most bisected_order; NAN if no order fits the changes.
+ */
+static double richardson_order(const double n[3], const double f[3]);
+/* Richardson's limit from the last two of three values. */
+static double richardson_limit(const double n[3], const double f[3], double p);
+/* Amplification of errors: change of the extrapolated limit per change of the values, root of the
+ * sum of squares. */
+static double richardson_amplification(const double n[3], const double f[3], double p);
+
 /* least ratio of elements between successive meshes; changes between closer ones are mostly noise
  */
 static const double least_refinement = 1.4;
@@ -272,7 +281,7 @@ static double ratio_at(double p, const double n[3])
     return (a - b) / (b - 1);
 }
 
-double richardson_order(const double n[3], const double f[3])
+static double richardson_order(const double n[3], const double f[3])
 {
     const double ratio = (f[0] - f[1]) / (f[1] - f[2]);
     double low = lowest_order, high = bisected_order;
@@ -285,12 +294,12 @@ double richardson_order(const double n[3], const double f[3])
     return (low + high) / 2;
 }
 
-double richardson_limit(const double n[3], const double f[3], double p)
+static double richardson_limit(const double n[3], const double f[3], double p)
 {
     return f[2] + (f[2] - f[1]) / (pow(n[2] / n[1], p) - 1);
 }
 
-double richardson_amplification(const double n[3], const double f[3], double p)
+static double richardson_amplification(const double n[3], const double f[3], double p)
 {
     const double h = 1e-4 * fmin(fabs(f[1] - f[0]), fabs(f[2] - f[1])),
                  base = richardson_limit(n, f, p), lost = 100;

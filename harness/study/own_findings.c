@@ -9,6 +9,9 @@
 #include "cases/format/format.h"
 #include "elements/shared/choice.h"
 
+/* Number i of the cases of the run, followed by the other built-in ones; NULL after the last. */
+static const case_type *own_names_case_at(const case_type *const run[], int i);
+
 static const char head[] = "rule,formulations,cases,condition,quantities,verdicts,largest_error,"
                            "predicted,cause,proof";
 enum {
@@ -285,7 +288,7 @@ static int is_among(const case_type *const list[], const case_type *type)
     return *list != NULL;
 }
 
-const case_type *own_names_case_at(const case_type *const run[], int i)
+static const case_type *own_names_case_at(const case_type *const run[], int i)
 {
     for (int k = 0; run[k] != NULL; k++)
         if (i-- == 0)

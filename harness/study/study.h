@@ -2,10 +2,10 @@
  *
  * Sections, in this order: limit; cell; imported values; omission; rules (known deviations);
  * truths; sweep; verdict; judgement; change (differences of meshes); checksum; child process;
- * claims; columns; curve error; data files; derive; workload; expense; families; follow; glossary;
- * handles; interrupt; meeting (equal error); narrow; noise; overview; user-defined findings, tables
- * and truths; plan; preference; cost of a cell; progress; proposal; reach; rounding; rounds
- * (times); run; scene truths; sentence; serialise; truth; worker. */
+ * columns; curve error; data files; derive; follow; glossary; handles; interrupt; meeting (equal
+ * error); narrow; overview; user-defined findings, tables and truths; plan; preference; cost of a
+ * cell; progress; proposal; reach; rounding; rounds (times); run; scene truths; sentence;
+ * serialise. */
 #ifndef BEAMWORK_STUDY_H
 #define BEAMWORK_STUDY_H
 
@@ -38,8 +38,6 @@
  * Comput. Phys. 262 (2014) 104-130, range of the data, poor orders, noise; Phillips and Roy, J.
  * Fluids Eng. 136 (2014) 121401, limits of extrapolated limits; Oberkampf and Roy, Verification and
  * Validation in Scientific Computing (2010), chapter 8. */
-
-enum { LIMIT_MESHES = 32 };
 
 /* Kind of a sequence, for information. A verdict depends only on the value and its uncertainty. */
 typedef enum limit_kind {
@@ -170,19 +168,10 @@ typedef struct omission {
     char why[FAULT_TEXT];      /* why the bound is unknown */
 } omission;
 
-/* Relative change of a value above which the model counts as another one. */
-extern const double omission_most;
-/* Safety factor: the bound is this factor times the change between two coarse solutions, with and
- * without the physics, by a formulation that has it. */
-extern const double omission_safety;
-
 /* Finds the physics of a scene that the type omits. If no formulation of the program has all of it,
  * or the one that has it finds no values, the bound is unknown and the model counts as another one.
  */
 void omission_of(const scene *, const element_type *, omission *out);
-/* Largest relative change of a requested value due to the omission, on one mesh. NAN: some value is
- * missing, or no formulation has all physics of the scene. */
-double omission_on_mesh(const scene *, unsigned what, int elements);
 /* "without shear: changes no value by more than 2e-06", "another model: shear is not modelled
  * (changes frequency_1 by about 16 %)". */
 enum { OMISSION_TEXT = OMIT_WORDS + SCENE_NAME + FAULT_TEXT + 80 };
@@ -218,30 +207,8 @@ typedef struct rule_subject {
     const char *formulation, *quantity, *verdict;
 } rule_subject;
 
-/* Is the condition true? A term is a feature that the scene requires ("shear", "not shear"), or
- * compares a parameter of the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015", also < <=
- * >=). A term with a parameter that the case does not have is false. */
-int rules_hold(const rule *, const rule_subject *);
-
 /* Is the formulation (its key) among those of the rule? */
 int rules_speak_of(const rule *, const char *formulation);
-
-/* Features in the condition of the rule; 0: none. */
-unsigned rules_features(const rule *);
-/* Records that a verdict confirmed a derived limit that the rule names. */
-void rules_foretell(rule *, const rule_subject *);
-/* Finds the first term of the condition that is neither a feature nor a parameter of its cases and
- * copies it to `word`; `cases` ends with NULL. Returns 0 when there is none. */
-enum { RULES_WORD = 128 };
-int rules_bad_condition(const rule *, const case_type *const cases[], char word[RULES_WORD]);
-/* Copies the next word of a list; returns the rest of the list, NULL at the end. */
-const char *rules_next_word(const char *list, char word[RULES_WORD]);
-/* Has a verdict shown this deviation, and have verdicts confirmed all its derived limits? */
-int rules_is_observed(const rule *);
-
-/* FAULT: a column is damaged, or the condition of a rule is invalid; the message names it. */
-status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f);
-void rules_free(rule *, int count);
 
 /* The packed reference values and findings (reference/pack.py). */
 
@@ -282,8 +249,6 @@ status truths_read_rules(const char *path, truths *out, fault *f);
 /* Adds the exact values at the extremes, which no verification runs. After a failure the previous
  * reference values remain. */
 status truths_read_extremes(const char *path, truths *out, fault *f);
-/* Allocates so that rows do not move until `more` rows have been added. FAULT: out of memory. */
-status truths_reserve(truths *, int more, fault *f);
 /* Adds a row of zeros; NULL: out of memory. */
 truth *truths_add(truths *, fault *f);
 void truths_free(truths *t);
@@ -389,9 +354,6 @@ typedef struct sweep_request {
 enum { SWEEP_TEXT = PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT };
 void sweep_text(const sweep_point *, const formulation *, const char *quantity,
                 char text[SWEEP_TEXT]);
-/* Does the selection of the sweep include a quantity? */
-int sweep_selects(const sweep *s, const sweep_point *p, const formulation *chosen,
-                  const char *quantity);
 
 /* Returns 1 when the verdicts of a series affect the exit status: for accepted, named or loaded
  * formulations, and on request for other programs. */
@@ -455,13 +417,6 @@ typedef struct verdict {
 } verdict;
 
 const char *verdict_name(verdict_kind kind);
-/* Verdicts for a limit that differs from the reference value. */
-enum { VERDICT_DEFECTS = 4 };
-extern const verdict_kind verdict_defects[VERDICT_DEFECTS];
-/* Does the rule explain one of these verdicts? */
-int verdict_tells_defect(const rule *);
-/* Kind of analysis that determines the order of a quantity. */
-element_analysis verdict_analysis(const scene *, const scene_quantity *);
 /* Limit of a quantity of a series, without its `left_out` finest meshes. */
 /* Meshes up to the finest one that has the quantity: another program may give it on fewer. */
 int verdict_meshes(const series *, int quantity);
@@ -571,21 +526,6 @@ int judgement_exit(const judgement *j);
 /* "pass", "fail", "nothing was evaluated". */
 const char *judgement_outcome(const judgement *j);
 
-/* Difference between the values of two meshes, with a scale for values that are zero except for
- * round-off: by symmetry, in hinges, or normal to a plane frame. */
-
-typedef struct value_change {
-    double largest;  /* INFINITY: unknown, or only one mesh has a value */
-    int which;       /* quantity with the largest change; -1: none */
-    int missing;     /* 1: some values are missing on both meshes; a finer mesh may have them */
-    double *of_each; /* [quantities of the scene] change relative to the value, or to its scale if
-                        that is larger; for a curve relative to its largest value; NAN: unknown */
-} value_change;
-
-/* Change from `before` to `now`; the caller has allocated out->of_each. Skips measures of the error
- * of a solution (the energy-balance error). */
-void change_between(const scene *s, const cell_result *before, const cell_result *now,
-                    value_change *out);
 /* Largest extent of the positions of nodes [m]. */
 double change_size(const scene *);
 /* Scale of a quantity [its unit], such that round-off is small compared with it: strains of 1e-14,
@@ -622,17 +562,7 @@ int child_reap(pid_t process);
  * killed after its time limit. Returns 1 when the time limit was the reason. */
 int child_ended(int how, int late, int seconds, char *words, size_t size);
 
-/* Avoids duplicate solutions in several processes: the first one solves a problem, the others use
- * its results. */
-
 typedef struct claims claims;
-
-/* Allocates `count` claims, shared with all processes that are started later; NULL: out of memory.
- */
-claims *claims_alloc(int count);
-void claims_free(claims *);
-/* Returns the first task that claimed this problem, which is `task` itself if none did before. */
-int claims_take(claims *, const identity *, int task);
 
 /* Reads a table that is stored as one HDF5 data set per column. Every size and type is checked. */
 
@@ -654,10 +584,6 @@ typedef struct columns_field {
 status columns_broken(const table_columns *r, const char *column);
 /* Number of rows of a column, or -1. */
 int columns_length(hid_t group, const char *column);
-/* out[rows] with the memory type `type`. */
-status columns_numbers(const table_columns *r, const char *column, hid_t type, void *out);
-/* Fixed-length strings; out[rows], each allocated by malloc. */
-status columns_strings(const table_columns *r, const char *column, char **out);
 /* Reads one column into a member of an array of structs base[rows]. After a failure it contains the
  * strings read so far. */
 status columns_read(const table_columns *r, const columns_field *field, void *base, size_t stride);
@@ -708,162 +634,12 @@ status derive_values(const char *script, const char *case_name, const char *para
 status derive_scene(const char *script, FILE *scene_text, derived_value **out, int *count,
                     fault *f);
 
-/* Tasks of a run: cells, and tasks that arise during the run: repetitions of finest meshes to
- * measure scatter, and cells that waited for the results of another cell that failed. */
-
 enum { WORKERS_MOST = 64 };
 
-typedef struct workload_task {
-    int series, mesh;
-    int again; /* 0: the cell; k > 0: repetition number k - 1, with an equivalent scene */
-} workload_task;
-
-/* Shared by all processes: the tasks to be taken, and the task of each worker. */
-typedef struct board {
-    atomic_int next;         /* tasks known from the start */
-    atomic_int later, taken; /* number of added tasks; how many of them have been taken */
-    atomic_int ended;        /* 1: no further tasks will be added */
-    sem_t news;              /* wakes the waiting process when there are tasks, and at the end */
-    atomic_int at[WORKERS_MOST]; /* -1: nothing */
-    /* [s] of a monotonic clock: when the task was taken */
-    _Atomic double since[WORKERS_MOST];
-    atomic_int came_up[]; /* task; ~task: to be solved even if another cell has the same results */
-} board;
-
-/* Remaining work of a series: cells, scatter, or none. */
-enum series_state { SERIES_CELLS, SERIES_NOISE, SERIES_WHOLE };
-
-typedef struct workload {
-    sweep *s;
-    const sweep_follower *follower; /* NULL: none */
-    int time_limit;                 /* [s] of one cell; 0: none */
-    int together;                   /* as in the request */
-    int count, all; /* number of cells, in the order of their cost; number of all tasks: two more
-                       for each series */
-    workload_task *tasks;
-    char *done;         /* [all] 1: the task has a result */
-    int due, finished;  /* number of tasks to be done; how many are finished */
-    int *open;          /* [seriess] number of its unfinished tasks */
-    char *state;        /* [seriess] enum series_state */
-    int told;           /* number of series passed to the observer */
-    cell_result *again; /* [all - count] */
-    claims *known;      /* problems that are solved only once; NULL: every cell is solved */
-    int *waits,
-        *after; /* [all] first task that waits for the results of this one; the next such task */
-    int out_of_memory;
-    size_t size; /* size of the board [bytes] */
-    board *board;
-} workload;
-
-/* FAULT: out of memory. Call workload_end in either case. */
-status workload_begin(const sweep_request *, sweep *, workload *, fault *);
-void workload_end(workload *);
-
-/* Call in the child: waits for the next task of worker `self`; -1: none remain. *alone: 1: solve it
- * even if another cell has the same results. */
-int workload_take(const workload *, int self, int *alone);
-/* The edit of the point, or for a repetition the equivalent scene that measures scatter. */
-scene_edit workload_edit(const workload *, int task);
-
-/* Destination of the result of a task. */
-cell_result *workload_cell(const workload *, int task);
-/* Records that a task is finished, with a result or a failure. */
-void workload_done(workload *, int task);
-/* Records that a task has the same results as another one. */
-void workload_same(workload *, int task, int same);
-/* Completed fraction of the known work, weighted by the cost of the cells: 0 to 1. */
-double workload_share(const workload *);
-
-/* Returns 1 when the next series in order can be passed to the observer. */
-int workload_can_tell(const workload *);
-/* Passes the next series to the observer. */
-status workload_tell(workload *, fault *);
-/* Removes incomplete series. */
-void workload_keep_whole(workload *);
-
-/* Estimated cost of cells: cost coefficients of the steps of their analyses, fitted to counted work
- * (`make lab L=expense`, harness/study/expense.csv). They determine the order of work, batches and
- * shards, and do not affect results. */
-
-/* Cost items and how often each occurs. */
-typedef enum expense_kind {
-    EXPENSE_cell, /* once */
-    EXPENSE_linear,
-    EXPENSE_buckling,
-    EXPENSE_loaded_buckling, /* about a loaded state, including the path to the critical point */
-    EXPENSE_modal,
-    EXPENSE_load_step,
-    EXPENSE_compliance, /* at each station */
-    EXPENSE_continuation,
-    EXPENSE_rotation_step,
-    EXPENSE_rotation_station,
-    EXPENSE_alpha_step, /* transient analysis, by integrator */
-    EXPENSE_conserving_step,
-    EXPENSE_radau_step,
-    EXPENSE_explicit_step,
-    EXPENSE_KINDS
-} expense_kind;
-
-/* [s] on the reference machine: fixed part, and part per element; or factors of these */
-typedef struct expense_price {
-    double once, element;
-} expense_price;
-
-typedef struct expense_factor {
-    const char *formulation; /* without options; NULL: all formulations without a row */
-    expense_price factor;
-} expense_factor;
-
-/* Generated; the last factors are for formulations without a row. */
-extern const expense_price expense_work[EXPENSE_KINDS];
-extern const expense_factor expense_factors[];
-
-/* Counts the items of a cell of the scene; steps: load steps between stations, 0: as in the scene.
- */
-void expense_count(const scene *s, int steps, double times[EXPENSE_KINDS]);
 /* Estimated cost [s]; elements: per member. */
 double expense_of_scene(const scene *s, int steps, const element_type *type, int elements);
 double expense_of_cell(const sweep *s, int index, int mesh);
-/* Orders all cells of a sweep, tasks[sweep_cells]. Cells of expensive series come first, in
- * decreasing order of cost, so that only small ones remain at the end. The others follow in the
- * order of the series, so that series are completed one after the other. Within a series the finest
- * mesh comes first. A series is expensive if it needs more than a hundredth of the work of one
- * process. Returns 0, or -1 when out of memory. */
-int expense_order(const sweep *s, int jobs, workload_task tasks[]);
 
-/* Cross-formulation agreement, for structures without a reference value: the limit on which
- * formulations of different families agree. Types of one family share code or theory, so that their
- * agreement proves little. All families may be wrong together; therefore an agreement is
- * informative and never affects the exit status. A formulation is excluded if it has a known
- * deviation for a feature of the scene (a rule with that feature in its condition), or is marked
- * `misprint`.
- *
- * Each formulation has a limit L with uncertainty U. Two limits agree if they have the same theory
- * of shear in stability, where that matters, and |L1 - L2| + U1 + U2 is within FAMILIES_APART of
- * their size. The centre is the limit with which most families agree, at least two. The reference
- * is the mean, weighted by 1/U^2, of those that are within their U of it. Its uncertainty is that
- * of the mean or the weighted spread, whichever is larger. Other formulations that differ by more
- * than their U are named. If no two families agree so closely, the reference is the limit of the
- * formulation whose neighbour of another family is nearest, with their distance plus U as
- * uncertainty. If equally many families agree on another limit, there is no reference. */
-
-/* Relative: half of the one per cent that `converge` aims at. */
-#define FAMILIES_APART 5e-3
-enum { FAMILIES_MOST = 8 };
-
-typedef struct families_limit {
-    int families;              /* number of agreeing families; below two: no reference */
-    int disputed;              /* 1: equally many agree on another limit */
-    double value, uncertainty; /* [unit of the quantity] */
-    int series[FAMILIES_MOST]; /* nearest limit of each family, `families` of them */
-    int others; /* number of other limits nearby that differ by more than their uncertainty */
-    int other[FAMILIES_MOST];
-    unsigned theory; /* theory of shear in stability, enum element_feature; 0: it does not matter */
-} families_limit;
-
-/* Agreement for one point and quantity; also for tests, which check disputes and the number of
- * families. */
-families_limit families_limit_of(const sweep *s, int point_index, int quantity, const truths *);
 /* Writes why there is no agreement, and which formulation may bring one. */
 void families_why(FILE *to, const sweep *s, int point_index, int quantity, const truths *);
 /* Adds a reference value of kind agreement for every quantity of a point that has none of its
@@ -999,20 +775,6 @@ status narrow_to(sweep *s, const char *select, fault *f);
 status narrow_scene(scene *, const case_type *, const double parameter[], const formulation *,
                     const char *select, fault *);
 
-/* Scatter of the values of the finest mesh: the same cell is solved again for an equivalent scene
- * that differs only in rounding. */
-
-/* Equivalent scenes for the finest mesh of a series: one with a unit of length that is not a power
- * of two, one with the nodes of members in reverse order; two units of length if a formulation
- * depends on the order of nodes. Stations that only curves need are omitted. */
-enum { NOISE_REPETITIONS = 2 };
-
-/* The edit that makes equivalent scene number k. */
-scene_edit noise_words(const formulation *, int repetition);
-/* Sets series.noise: twice the larger of the two relative differences (relative to the value or
- * near_zero), or the error of differences if the formulation uses them; NAN if a value or a
- * repetition is missing. Returns -1 when out of memory. */
-int noise_take(const sweep_point *, const cell_result again[NOISE_REPETITIONS], series *);
 int noise_cells(const sweep *s); /* number of cells run to measure scatter */
 
 /* Overview of a run: for each case and formulation the worst verdict, and the number of quantities
@@ -1129,10 +891,6 @@ status preference_formulation(const scene *, const rule_subject *where, const ru
 
 /* Default relative change between two meshes that counts as converged. */
 #define PREFERENCE_ERROR 1e-3
-/* Beyond the meshes of the scene the number of elements is doubled, while values still change, up
- * to this number or up to a limit of counted work [s] for one mesh. */
-#define PREFERENCE_FINEST 1024
-#define PREFERENCE_COST   2.0
 
 typedef struct preference {
     formulation chosen;
@@ -1197,8 +955,6 @@ extern const price_row price_rows[]; /* generated; ends with a row without formu
  * accurate enough for smaller ones. */
 extern const double price_noise;
 
-/* Cost [s] on the reference machine, from all rows that apply to the formulation. */
-double price_of(const price_row *rows, const formulation *chosen, const cell_result *cell);
 /* As price_of with the committed coefficients. */
 double price_cost(const formulation *chosen, const cell_result *cell);
 /* Returns 1 when the formulation has its own cost coefficients, 0 when the common ones apply. */
@@ -1226,9 +982,6 @@ void progress_show(progress *, double now, int done, double share, const char *w
 void progress_end(progress *);
 
 /* Known deviations that a new formulation would require (reference/findings.csv). */
-
-/* Placeholder until the cause is found. */
-#define PROPOSAL_CAUSE "to be found: why is this not a pass?"
 
 /* Writes CSV with the columns of the list of known deviations, including the header: one rule for
  * each formulation, case and verdict, with all its quantities, 4/3 of the largest error seen, and a
@@ -1267,8 +1020,6 @@ const char *reach_unranked(const element_type *type);
 /* Index of the coarsest mesh such that its error and those of all finer meshes meet the target, or
  * -1. */
 int reach_mesh(const sweep *s, const verdict *v, double level);
-/* Does the verdict mean that the formulation is wrong, or not known to be right? */
-int reach_is_defect(verdict_kind kind);
 /* Describes a formulation that meets the target in spite of such a verdict. */
 const char *reach_defect_words(verdict_kind kind);
 /* Ranks the formulations that meet the target: those without a defect first, each group by cost,
@@ -1372,12 +1123,7 @@ enum { SERIALISE_DAMAGED = -1, SERIALISE_NO_MEMORY = -2 };
 /* Returns 0, or SERIALISE_DAMAGED when the stream ended or is damaged; the cell is then empty. */
 int serialise_read(FILE *from, cell_result *cell);
 
-/* The reference value with which a quantity is compared. */
-
 int truth_holds(const truth *row, const case_type *type, const double value[]);
-/* Returns 1 when a verdict may depend on the row; 0 for an agreement of formulations, or a value
- * that cannot be reproduced. */
-int truth_gates(const truth *row);
 /* Values of truth.kind. The first known one is used for the verdict; truth_gates decides which ones
  * may be. "predicted": the derived limit of a formulation. */
 extern const char truth_kinds[];
@@ -1385,44 +1131,5 @@ extern const char truth_kinds[];
  * or NULL. Verdicts against the same model affect the exit status. */
 const truth *truth_of(const truths *t, const case_type *type, const double value[],
                       const char *quantity, const char *model);
-/* As truth_of, among reference values for one of the theories of shear (words separated by |), or
- * independent of them; NULL: any. */
-const truth *truth_of_theory(const truths *t, const case_type *type, const double value[],
-                             const char *quantity, const char *model, const char *theories);
-/* The cross-formulation agreement (kind agreement), or NULL. It is informative and never affects
- * the exit status. */
-const truth *truth_agreed(const truths *t, const case_type *type, const double value[],
-                          const char *quantity);
-/* Derived limit of a formulation, given by key or by name for any options; NULL: none. */
-const truth *truth_predicted(const truths *t, const case_type *type, const double value[],
-                             const char *quantity, const char *key);
-
-/* Processes that run the cells of a sweep. None outlives the process that started it. Each enforces
- * the time limit of a cell itself. */
-
-typedef struct worker {
-    pid_t process;
-    int from;    /* read end of its pipe; -1: not running */
-    int stopped; /* 1: stopped by the parent after the time limit */
-    int damaged; /* 1: the parent received invalid output */
-    char *bytes; /* incomplete part of its output */
-    size_t count, room;
-} worker;
-
-status worker_start(const workload *, int self, worker *, fault *);
-/* Values that worker_receive returns instead of a task. WORKER_NO_MEMORY: this process has no
- * memory for the results; the worker continues. */
-enum { WORKER_ENDED = -1, WORKER_NOTHING = -2, WORKER_NO_MEMORY = -3 };
-/* Reads available results, or references to equal ones, without waiting. Returns the last of their
- * tasks, or WORKER_NOTHING: nothing is complete yet. A worker that writes anything else is ended.
- */
-int worker_receive(workload *, worker *);
-/* Handles a worker that ended during a task: its cell failed. Returns 1 when the worker must be
- * replaced. */
-int worker_bury(workload *, int self, worker *);
-/* Ends a worker whose cell exceeds the time limit, if it cannot do so itself; its pipe closes. */
-void worker_stop_late(const workload *, int self, worker *);
-/* Ends a worker in any state; results that it has written are still read. */
-void worker_end(workload *, worker *);
 
 #endif

@@ -7,6 +7,9 @@
 
 #include "elements/shared/parameter.h"
 
+/* FAULT: damaged, or not a beamwork file; *file below 0: nothing is open. */
+static status truths_file_open(const char *path, hid_t *file, fault *f);
+
 status truths_reserve(truths *t, int more, fault *f)
 {
     if (t->rows + more <= t->room)
@@ -191,7 +194,7 @@ static status check_schema(hid_t file, const char *path, fault *f)
     return STATUS_OK;
 }
 
-status truths_file_open(const char *path, hid_t *file, fault *f)
+static status truths_file_open(const char *path, hid_t *file, fault *f)
 {
     *file = -1;
     TRY(checksum_check(path, f));

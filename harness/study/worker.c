@@ -1,4 +1,4 @@
-#include "harness/study/study.h"
+#include "harness/study/study_impl.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-#include "harness/study/study.h"
+#include "harness/study/study_impl.h"
 
 #include <errno.h>
 #include <math.h>
@@ -6,6 +6,13 @@
 #include <sys/mman.h>
 
 #include "harness/numerics/numerics.h"
+
+/* The edit that makes equivalent scene number k. */
+static scene_edit noise_words(const formulation *, int repetition);
+/* Sets series.noise: twice the larger of the two relative differences (relative to the value or
+ * near_zero), or the error of differences if the formulation uses them; NAN if a value or a
+ * repetition is missing. Returns -1 when out of memory. */
+static int noise_take(const sweep_point *, const cell_result again[NOISE_REPETITIONS], series *);
 
 static int is_run(const sweep *s, int i)
 {
@@ -280,7 +287,7 @@ void workload_keep_whole(workload *w)
 /* twice the larger of two differences exceeds the standard deviation in nineteen of twenty cases */
 static const double cover = 2;
 
-scene_edit noise_words(const formulation *chosen, int repetition)
+static scene_edit noise_words(const formulation *chosen, int repetition)
 {
     if (repetition == 0)
         return (scene_edit){SCENE_EDIT_UNIT, 1000};
@@ -310,7 +317,7 @@ static double noise_of(const scene_quantity *q, double value, const double again
     return cover * largest;
 }
 
-int noise_take(const sweep_point *p, const cell_result again[NOISE_REPETITIONS], series *one)
+static int noise_take(const sweep_point *p, const cell_result again[NOISE_REPETITIONS], series *one)
 {
     const int quantities = p->scene.quantities;
     free(one->noise);

@@ -1,4 +1,4 @@
-#include "harness/terminal/terminal.h"
+#include "harness/terminal/terminal_impl.h"
 
 #include <langinfo.h>
 #include <locale.h>

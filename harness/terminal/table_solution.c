@@ -9,6 +9,14 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
+/* Prints nothing if there is no motion. Reports loads that jump at the start of the motion. */
+static void table_motion(FILE *to, const scene *, const solve_result *);
+static void table_path_steps(FILE *to, const solve_result *r);
+/* Critical points and branch jumps of continued paths. */
+static void table_path_events(FILE *to, const solve_result *r);
+/* At the last station reached. */
+static void table_path_matrices(FILE *to, const scene *s, const solve_result *r);
+
 enum { NAME = 28, VALUE = 20, UNIT = 9, DIGITS = 10, INDENT = 2 };
 static const double least_rounding = 1e-11, /* relative, of any computed value */
     noise = 1e-4; /* round-off relative to the scale of values that are zero */
@@ -349,7 +357,7 @@ static int steps_told(const solve_result *r)
     return steps;
 }
 
-void table_path_steps(FILE *to, const solve_result *r)
+static void table_path_steps(FILE *to, const solve_result *r)
 {
     const int steps = steps_told(r);
     if (steps <= 0)
@@ -385,7 +393,7 @@ static void matrix(FILE *to, const double value[36], const char *const row[6],
     }
 }
 
-void table_path_matrices(FILE *to, const scene *s, const solve_result *r)
+static void table_path_matrices(FILE *to, const scene *s, const solve_result *r)
 {
     static const char *const motion[] = {"ux", "uy", "uz", "thx", "thy", "thz"};
     static const char *const load[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
@@ -417,7 +425,7 @@ static void row_of_event(FILE *to, const path_event *e)
         fputc('\n', to);
 }
 
-void table_path_events(FILE *to, const solve_result *r)
+static void table_path_events(FILE *to, const solve_result *r)
 {
     for (int i = 0; i < r->events; i++)
         row_of_event(to, &r->event[i]);
@@ -581,7 +589,7 @@ static void jump_lines(FILE *to, const scene *s, int analysis, double path)
     }
 }
 
-void table_motion(FILE *to, const scene *s, const solve_result *r)
+static void table_motion(FILE *to, const scene *s, const solve_result *r)
 {
     motion_extent e = {.record = r->motion};
     for (e.first = 0; e.first < r->motions; e.first = e.end) {

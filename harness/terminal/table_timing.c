@@ -4,6 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Lowest cost for the quantities of a point (`every`), or for the first with a reference value.
+ * Returns 0 when none has one. list[series]: work space. */
+static int table_cheapest(FILE *to, const sweep *, const judgement *, int point, int every,
+                          reached list[]);
+
 enum { NAME = 23 };
 
 /* The verdict of a series on a quantity that has a reference value for it, or NULL. */
@@ -337,7 +342,8 @@ static void write_together(FILE *out, const scene *here, cheapest_answer a[], in
     }
 }
 
-int table_cheapest(FILE *to, const sweep *s, const judgement *j, int at, int every, reached list[])
+static int table_cheapest(FILE *to, const sweep *s, const judgement *j, int at, int every,
+                          reached list[])
 {
     const scene *here = &s->point[at].scene;
     cheapest_answer *a = calloc((size_t)here->quantities + 1, sizeof *a);

@@ -47,16 +47,8 @@ void screen_put(FILE *to, screen, screen_ink, const char *text);
 
 /* Helpers of the tables on a terminal. */
 
-/* A relative error in percent, in 12 columns with a leading blank; a dash if there is none. */
-void table_percent(FILE *to, double error);
-/* A value with the digits that its uncertainty allows (harness/study/study.h). */
-void table_known(FILE *to, int width, double value, double uncertainty);
-/* A value with the given number of digits. */
-void table_digits(FILE *to, int width, double value, int digits);
 /* Conversion 'g', 'e' or 'f' of printf in a field of `width`; a dash if the value is not finite. */
 void table_value(FILE *to, int width, int digits, char conversion, double value);
-/* "case: parameters", with the parameters that differ from their defaults. */
-void table_point(FILE *to, const sweep_point *p);
 /* A line "case (parameters), formulation". */
 /* Prints a line on members that loads divide, one on omitted physics, and one on the theory of
  * shear of the formulation if there are both shear and stability; lines that do not apply are

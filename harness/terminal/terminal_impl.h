@@ -9,12 +9,16 @@
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
 
-/* Lowest cost for an error, by counted work, with the times of a benchmark. */
+/* A relative error in percent, in 12 columns with a leading blank; a dash if there is none. */
+void table_percent(FILE *to, double error);
+/* A value with the digits that its uncertainty allows (harness/study/study.h). */
+void table_known(FILE *to, int width, double value, double uncertainty);
+/* A value with the given number of digits. */
+void table_digits(FILE *to, int width, double value, int digits);
+/* "case: parameters", with the parameters that differ from their defaults. */
+void table_point(FILE *to, const sweep_point *p);
 
-/* Lowest cost for the quantities of a point (`every`), or for the first with a reference value.
- * Returns 0 when none has one. list[series]: work space. */
-int table_cheapest(FILE *to, const sweep *, const judgement *, int point, int every,
-                   reached list[]);
+/* Lowest cost for an error, by counted work, with the times of a benchmark. */
 
 /* Curves as text: values, and differences between meshes and formulations. */
 
@@ -27,16 +31,7 @@ void table_curves_errors(FILE *to, const sweep *s);
 
 /* Summary of a motion: its steps, energies and momenta. */
 
-/* Prints nothing if there is no motion. Reports loads that jump at the start of the motion. */
-void table_motion(FILE *to, const scene *, const solve_result *);
-
 /* Load steps with their iterations, and matrices of nodes, as text. */
-
-void table_path_steps(FILE *to, const solve_result *r);
-/* Critical points and branch jumps of continued paths. */
-void table_path_events(FILE *to, const solve_result *r);
-/* At the last station reached. */
-void table_path_matrices(FILE *to, const scene *s, const solve_result *r);
 
 /* Stability of the states of paths, as far as their tangents show it. */
 

@@ -10,6 +10,16 @@
 #include "elements/math/scalar.h"
 #include "elements/math/vec3.h"
 
+/* conserving.c */
+/* Finds rotations without inertia. REFUSED: no rotation has inertia. */
+static status conserving_massless(conserving *, fault *);
+/* Work of the impulses that change the velocities of prescribed masses from the rates during the
+ * step to those at its end. */
+static double conserving_impulses(const conserving *, const instant *from, double h,
+                                  const instant *to);
+/* Rates at the end. */
+static void conserving_rates(conserving *, const instant *from, double h, instant *to);
+
 enum { LEAST_ITERATIONS = 3 };
 
 /* (S + column row^T) dx = residual */
@@ -305,7 +315,7 @@ static int null_space(const double J[9], double N[9])
     return count;
 }
 
-status conserving_massless(conserving *s, fault *f)
+static status conserving_massless(conserving *s, fault *f)
 {
     const model *m = s->of.c->model;
     int heavy = 0, turning = 0;
@@ -337,7 +347,8 @@ static int is_driven(const model *m, int vertex)
     return 0;
 }
 
-double conserving_impulses(const conserving *s, const instant *from, double h, const instant *to)
+static double conserving_impulses(const conserving *s, const instant *from, double h,
+                                  const instant *to)
 {
     const model *m = s->of.c->model;
     double sum = 0;
@@ -519,7 +530,7 @@ static void rates_together(const conserving *s, const instant *from, double h, i
 
 /* Sets the rates after a step: for frames with a mass at their centres, for the others at the
  * frames. */
-void conserving_rates(conserving *s, const instant *from, double h, instant *to)
+static void conserving_rates(conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
     const carried_masses *all = s->of.masses;

@@ -11,6 +11,11 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
+/* explicit.c: dydt at t [s] and y in GSL's order; leaves the motion there in `at`. */
+static int explicit_rates(double t, const double y[], double dydt[], void *context);
+/* REFUSED: a coordinate of the undeformed model has no inertia. */
+static status explicit_check(const model *, const carried_masses *, fault *);
+
 static double error_of(const explicit_scheme *s)
 {
     double square = 0;
@@ -291,7 +296,7 @@ static status check_joined(const model *m, const carried_masses *masses, fault *
     return outcome;
 }
 
-status explicit_check(const model *m, const carried_masses *masses, fault *f)
+static status explicit_check(const model *m, const carried_masses *masses, fault *f)
 {
     const size_t all = (size_t)model_all_coordinates(m) + 1;
     if (model_releases(m) > 0)
@@ -392,7 +397,7 @@ static int is_finite(int n, const double y[])
     return 1;
 }
 
-int explicit_rates(double t, const double y[], double dydt[], void *context)
+static int explicit_rates(double t, const double y[], double dydt[], void *context)
 {
     explicit_scheme *s = context;
     const model *m = s->of.c->model;

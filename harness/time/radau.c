@@ -6,6 +6,12 @@
 
 #include "elements/math/scalar.h"
 
+/* radau.c: error of positions due to a solved step, in the measure of model.h. [g^2 M + K] error =
+ * F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)), with g = 1/(l h), where l is the
+ * real eigenvalue of A, at the previous instant. room: work space. */
+static status radau_error(radau *, const instant *from, double h, instant *room, double *error,
+                          fault *);
+
 /* Work space for the iteration of the stages. */
 typedef struct radau_solution {
     radau *r;
@@ -187,7 +193,8 @@ status radau_alloc(const scheme_request *request, motion_scheme **out, fault *f)
     return allocate(r, f);
 }
 
-status radau_error(radau *r, const instant *from, double h, instant *room, double *error, fault *f)
+static status radau_error(radau *r, const instant *from, double h, instant *room, double *error,
+                          fault *f)
 {
     const model *m = r->of.c->model;
     const double s = sqrt(6), l = 0.2748888295956773677478286,

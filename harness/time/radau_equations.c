@@ -8,6 +8,13 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
+/* out = R B, where R is the orientation of a vertex in stage i. */
+static void radau_in_space(const radau *, int vertex, int i, const double B[9], double out[9]);
+/* radau_equations.c: adds the consistent masses to S. */
+static void radau_spread(radau *, double h);
+/* radau_equations.c: adds the damping of members to the residual, and to S if fresh is 1. */
+static void radau_damp(radau *, int fresh, const instant *from, double h);
+
 /* Blocks (i, k) of one frame for all k. */
 static void add_frame(radau *r, int index, double h, int i)
 {
@@ -243,7 +250,7 @@ void radau_relate(const radau *r, int vertex, double h, int i, int k, radau_rela
     mat3_mul(turn, N, out->turn_rate);
 }
 
-void radau_in_space(const radau *r, int vertex, int i, const double B[9], double out[9])
+static void radau_in_space(const radau *r, int vertex, int i, const double B[9], double out[9])
 {
     double R[9];
     rotation_matrix(&r->stage[i].state->q[4 * vertex], R);
@@ -359,7 +366,7 @@ static void damp_spring(radau *r, int fresh, const instant *from, double h, int 
     }
 }
 
-void radau_damp(radau *r, int fresh, const instant *from, double h)
+static void radau_damp(radau *r, int fresh, const instant *from, double h)
 {
     const model *m = r->of.c->model;
     const size_t n = (size_t)model_strains(m);
@@ -485,7 +492,7 @@ static void add_element(radau *r, int element, double h, int i)
     }
 }
 
-void radau_spread(radau *r, double h)
+static void radau_spread(radau *r, double h)
 {
     for (int i = 0; i < STAGES; i++)
         for (int e = 0; e < model_elements(r->of.c->model); e++)

@@ -29,11 +29,6 @@ void instant_free(instant *);
 void instant_copy(const model *, const instant *from, instant *to);
 /* Number of values in `ends`. */
 size_t instant_ends(const model *);
-/* The convergence history of Newton's method is part of the instant, so that a rejected step has no
- * effect on it. Call instant_recall before a step, and instant_remember with the instant at its
- * end. */
-void instant_recall(const instant *from, arrival *);
-void instant_remember(const arrival *, instant *to);
 
 /* A motion inside one step, interpolated by a polynomial of the increment of every coordinate; for
  * rotations, of the rotation vector in the axes of the frame at the start. It matches positions and
@@ -56,13 +51,6 @@ typedef struct step_between {
     double *room; /* [3 x (free + driven)] */
 } step_between;
 
-status between_alloc(const equations *, step_between *, fault *);
-void between_free(step_between *);
-/* Sets the step; both instants must not change while the polynomial is in use. */
-void between_take(step_between *, between_degree, const instant *from, const instant *to);
-/* A kinematic quantity at a time of the step; `at`: work space. A jerk is the slope of a polynomial
- * of fourth degree through five accelerations of the step. */
-double between_reading(const step_between *, const scene_quantity *, double time, instant *at);
 /* The whole state. Strains, stresses and inner unknowns are interpolated linearly: use them for
  * pictures, not for forces. */
 void between_at(const step_between *, double time, instant *at);
@@ -115,15 +103,6 @@ typedef struct outer_work {
 status work_alloc(const equations *, const carried_masses *, outer_work *, fault *);
 void work_free(outer_work *);
 
-/* Power [W] for `along` = rates v, or work [J] for `along` = increments, with rotations as vectors
- * in the axes of the frames. The forces are those of the state with rates v and accelerations a at
- * `time`. */
-double work_power(outer_work *, const model_state *, const double v[], const double a[],
-                  double time, const double along[]);
-/* Work of a step: mean of the forces at its start and end times its increment inc[free + driven].
- * Exact for constant forces, else of second order. */
-double work_trapezoid(outer_work *, const instant *from, const instant *to, const double inc[]);
-
 /* Interface of all time integrators: a step from one instant to the next. */
 
 typedef struct scheme_request {
@@ -169,18 +148,6 @@ typedef struct account {
 void account_take(account *, int steps, const double balance[SCENE_BALANCES]);
 /* The larger of the largest energy and the total absolute work so far [J]. */
 double account_size(const account *);
-/* [J] allowed energy-balance error: the given fraction of account_size, plus rounding. */
-double account_most(const account *, double part, double rounding);
-
-/* NOT_CONVERGED: the motion gained more energy than account_gained without cause, or lost more than
- * account_lost although the scene does not request numerical damping. rounding [J]: see
- * balance_rounding. */
-status account_judge(const account *, const scene_motion *, double time,
-                     const double balance[SCENE_BALANCES], double rounding, fault *);
-
-/* Stiffness-proportional damping: stresses gain eta S0 e', with the strain rates and the stiffness
- * S0 of the undeformed element. Rigid motions are not damped. Dashpots use the same form with the
- * deformations of their spring and a given matrix. */
 
 /* Is any member or spring of the scene damped? */
 int damping_acts(const scene *);
@@ -193,26 +160,6 @@ void damping_end(const equations *, run_damping *);
 /* Damping matrix C of small motions about a state, on a pattern of model.h. more [s]: additional
  * stiffness-proportional damping of all members and springs. */
 status damping_matrix(const equations *, const model_state *, double more, sparse *C, fault *);
-
-/* Present strain rates: known + g (e - strains of `from`); known[model_stresses]. from NULL: g is
- * 0. */
-void damping_follow(const equations *, double g, const double known[], const model_state *from);
-/* Copies the strains of elements and springs to e[model_stresses]. */
-void damping_strains(const model *, const model_state *, double e[]);
-/* e' = J x' for rates v[free + driven] -> rate[model_stresses]. */
-status damping_rates(const model *, const model_state *, const double v[], double rate[], fault *);
-/* Subtracts the forces of dashpots at rates v from out[free + driven]; returns the power that they
- * dissipate [W]. room[dashpots_room]. */
-size_t dashpots_room(const model *);
-double dashpots_subtract(const model *, const model_state *, const double v[], double room[],
-                         double out[]);
-/* Adds the force of dashpots to F[6] on the frame of a node. */
-status dashpots_at_node(const model *, const model_state *, const double v[], int node, double F[6],
-                        fault *);
-/* Computes strain rates from the rates of the coordinates; does nothing without damping. */
-status damping_now(const equations *, instant *, fault *);
-/* Power dissipated by strain rates [W]. */
-double damping_power(const equations *, const double rate[]);
 
 /* Transient analysis: states at the requested instants. */
 

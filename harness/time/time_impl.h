@@ -16,6 +16,62 @@
 #include "harness/newton/newton.h"
 #include "harness/time/time.h"
 
+/* The convergence history of Newton's method is part of the instant, so that a rejected step has no
+ * effect on it. Call instant_recall before a step, and instant_remember with the instant at its
+ * end. */
+void instant_recall(const instant *from, arrival *);
+void instant_remember(const arrival *, instant *to);
+
+status between_alloc(const equations *, step_between *, fault *);
+void between_free(step_between *);
+/* Sets the step; both instants must not change while the polynomial is in use. */
+void between_take(step_between *, between_degree, const instant *from, const instant *to);
+/* A kinematic quantity at a time of the step; `at`: work space. A jerk is the slope of a polynomial
+ * of fourth degree through five accelerations of the step. */
+double between_reading(const step_between *, const scene_quantity *, double time, instant *at);
+
+/* Power [W] for `along` = rates v, or work [J] for `along` = increments, with rotations as vectors
+ * in the axes of the frames. The forces are those of the state with rates v and accelerations a at
+ * `time`. */
+double work_power(outer_work *, const model_state *, const double v[], const double a[],
+                  double time, const double along[]);
+/* Work of a step: mean of the forces at its start and end times its increment inc[free + driven].
+ * Exact for constant forces, else of second order. */
+double work_trapezoid(outer_work *, const instant *from, const instant *to, const double inc[]);
+
+/* [J] allowed energy-balance error: the given fraction of account_size, plus rounding. */
+double account_most(const account *, double part, double rounding);
+
+/* NOT_CONVERGED: the motion gained more energy than account_gained without cause, or lost more than
+ * account_lost although the scene does not request numerical damping. rounding [J]: see
+ * balance_rounding. */
+status account_judge(const account *, const scene_motion *, double time,
+                     const double balance[SCENE_BALANCES], double rounding, fault *);
+
+/* Stiffness-proportional damping: stresses gain eta S0 e', with the strain rates and the stiffness
+ * S0 of the undeformed element. Rigid motions are not damped. Dashpots use the same form with the
+ * deformations of their spring and a given matrix. */
+
+/* Present strain rates: known + g (e - strains of `from`); known[model_stresses]. from NULL: g is
+ * 0. */
+void damping_follow(const equations *, double g, const double known[], const model_state *from);
+/* Copies the strains of elements and springs to e[model_stresses]. */
+void damping_strains(const model *, const model_state *, double e[]);
+/* e' = J x' for rates v[free + driven] -> rate[model_stresses]. */
+status damping_rates(const model *, const model_state *, const double v[], double rate[], fault *);
+/* Subtracts the forces of dashpots at rates v from out[free + driven]; returns the power that they
+ * dissipate [W]. room[dashpots_room]. */
+size_t dashpots_room(const model *);
+double dashpots_subtract(const model *, const model_state *, const double v[], double room[],
+                         double out[]);
+/* Adds the force of dashpots to F[6] on the frame of a node. */
+status dashpots_at_node(const model *, const model_state *, const double v[], int node, double F[6],
+                        fault *);
+/* Computes strain rates from the rates of the coordinates; does nothing without damping. */
+status damping_now(const equations *, instant *, fault *);
+/* Power dissipated by strain rates [W]. */
+double damping_power(const equations *, const double rate[]);
+
 /* Generalized-alpha on the group of rotations (Chung & Hulbert 1993; Bruls, Cardona & Arnold 2012):
  *   inc = h v + h^2 [(1/2 - beta) a + beta a1],  v1 = v + h [(1 - gamma) a + gamma a1],
  *   (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) v1' + alpha_f v',
@@ -299,15 +355,6 @@ void conserving_forces(conserving *, const instant *from, model_state *now,
 /* conserving_strain.c: residual -= inertia forces; S += their tangent. */
 void conserving_inertia(conserving *, const instant *from, const model_state *now, double h);
 
-/* conserving.c */
-/* Finds rotations without inertia. REFUSED: no rotation has inertia. */
-status conserving_massless(conserving *, fault *);
-/* Work of the impulses that change the velocities of prescribed masses from the rates during the
- * step to those at its end. */
-double conserving_impulses(const conserving *, const instant *from, double h, const instant *to);
-/* Rates at the end. */
-void conserving_rates(conserving *, const instant *from, double h, instant *to);
-
 /* conserving_forces.c: out[free + driven] += loads at the middle of the step; S += their tangent.
  */
 void conserving_loads(conserving *, const instant *from, const model_state *now, double h,
@@ -491,12 +538,6 @@ typedef struct explicit_scheme {
     status outcome;      /* of it */
     fault why;
 } explicit_scheme;
-
-/* explicit.c: dydt at t [s] and y in GSL's order; leaves the motion there in `at`. */
-int explicit_rates(double t, const double y[], double dydt[], void *context);
-
-/* REFUSED: a coordinate of the undeformed model has no inertia. */
-status explicit_check(const model *, const carried_masses *, fault *);
 
 /* Extent and rate of the motion so far. The tolerance of a step is relative to the largest motion
  * so far, but at least to an estimate of the largest motion: initially 2 % of the size of the
@@ -809,29 +850,16 @@ typedef struct radau_relation {
 } radau_relation;
 void radau_relate(const radau *, int vertex, double h, int i, int k, radau_relation *);
 
-/* out = R B, where R is the orientation of a vertex in stage i. */
-void radau_in_space(const radau *, int vertex, int i, const double B[9], double out[9]);
-
 /* radau_equations.c */
 /* Computes the residual of all stages in their present states, and S if fresh is 1. */
 status radau_equations(radau *, int fresh, const instant *from, double h, step_record *, fault *);
 
-/* radau_equations.c: adds the consistent masses to S. */
-void radau_spread(radau *, double h);
-
-/* radau_equations.c: adds the damping of members to the residual, and to S if fresh is 1. */
-void radau_damp(radau *, int fresh, const instant *from, double h);
 /* Energy dissipated by damping in a solved step [J]; room[elements x strains]. */
 double radau_dissipated(const radau *, const instant *from, double h, double room[]);
 /* Adds damping to the stresses of the model for radau_error, with strain rates -sum e_i (strains
  * gained)/h and tangent g, until damping_follow changes it. Same room. */
 void radau_damp_error(const radau *, const instant *from, double h, const double e[STAGES],
                       double g, double room[]);
-
-/* radau.c: error of positions due to a solved step, in the measure of model.h. [g^2 M + K] error =
- * F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)), with g = 1/(l h), where l is the
- * real eigenvalue of A, at the previous instant. room: work space. */
-status radau_error(radau *, const instant *from, double h, instant *room, double *error, fault *);
 
 /* Masses of member ends that are released from their nodes. They move with the coordinates of the
  * node's body and with the released rotations and shifts (harness/model/model.h). */

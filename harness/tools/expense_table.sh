@@ -1,12 +1,12 @@
 #!/bin/sh
-# Writes the table of expected costs (harness/study/study.h) from expense.csv.
+# Writes the table of expected costs (harness/study/study_impl.h) from expense.csv.
 # usage: expense_table.sh OUT.c expense.csv   Rewrites OUT.c only when it changes.
 set -eu
 mkdir -p "$(dirname "$1")"
 awk -F, '
 BEGIN {
     print "/* Generated from harness/study/expense.csv. */"
-    print "#include \"harness/study/study.h\""
+    print "#include \"harness/study/study_impl.h\""
     print "#include <stddef.h>"
 }
 /^#/ || /^table,/ { next }

@@ -1,5 +1,6 @@
 /* Faults planted into formulations that have none: each is noticed, with a sentence that names the
  * right thing. A fault changes what one of their functions gives. */
+#include "harness/experiments/experiments_impl.h"
 #include <math.h>
 
 #include "harness/experiments/test/planted.h"

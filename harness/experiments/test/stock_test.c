@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/experiments/experiments.h"
+#include "harness/experiments/experiments_impl.h"
 #include "harness/experiments/test/number_work.h"
 #include "harness/records/records.h"
 

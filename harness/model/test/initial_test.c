@@ -9,7 +9,7 @@
 #include "elements/test/kit.h"
 #include "harness/analysis/analysis.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/model.h"
+#include "harness/model/model_impl.h"
 #include "harness/tools/kit/scenes.h"
 
 static const char *const names[] = {

@@ -8,7 +8,7 @@
 #include "elements/test/kit.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/newton/newton.h"
+#include "harness/newton/newton_impl.h"
 #include "harness/newton/test/turned_body.h"
 #include "harness/tools/kit/scenes.h"
 

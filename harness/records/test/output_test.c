@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "harness/records/records.h"
+#include "harness/records/records_impl.h"
 #include "harness/records/test/folder.h"
 
 /* Is it there, complete, for whoever reads it? */

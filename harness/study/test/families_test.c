@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/study.h"
+#include "harness/study/study_impl.h"
 
 enum { MESHES = 5, MOST = 6 };
 static const int mesh[MESHES] = {2, 4, 8, 16, 32};

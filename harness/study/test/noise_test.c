@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/study.h"
+#include "harness/study/study_impl.h"
 
 static const sweep_request request = {.jobs = 2};
 

@@ -8,7 +8,7 @@
 
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/study/study.h"
+#include "harness/study/study_impl.h"
 
 enum { ROWS = 4, OWN_MESH = 37 };
 static char plan_words[][32] = {"", "exact", "same", "m", "geometrically_exact"};

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/study/study.h"
+#include "harness/study/study_impl.h"
 #include "harness/study/test/truths_file.h"
 
 /* Does the rule, with this condition, hold for a point of the first case? */
