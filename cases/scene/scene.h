@@ -733,33 +733,24 @@ typedef struct scene_release {
     int component[SCENE_RELEASED]; /* SCENE_UX .. SCENE_RZ, each once */
 } scene_release;
 
+/* Its members that are keys of scene files are in keys_member.h, one line for both. */
+#define KEY(type, name, dimensions, ...) type name dimensions;
+#define ROW(...)
 typedef struct scene_member {
-    int p, q;
+#include "cases/scene/keys_member.h"
     int section, section_q; /* at p and at q; in between, its numbers change linearly
                                (elements/section/section.h), and each element has the section of its
                                middle */
-    double y_axis[3]; /* direction of the y axis of the section's description (its component normal
-                         to the member) */
-    int warp_p, warp_q;  /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
-    double curvature[3]; /* initial torsion, curvatures about local y and z [1/m]; position of
-                            interior nodes follows the arc */
-    double bow[2];       /* amplitude of the initial shape relative to the line, along y and z [m],
-                            stress-free: bow sin(half_waves pi s/length) */
-    int half_waves;      /* >= 1 */
-    double strain[3];  /* stress-free initial elongation and shear strains: temperature, a misfit */
-    double pretension; /* axial force of the member in the drawn geometry [N], instead of strain */
-    double unstressed_length; /* length before assembly [m], instead of both; 0: as drawn */
-    double free_curvature[2]; /* stress-free curvatures about y and z in addition to `curvature`
-                                 [1/m] */
+    int warp_p, warp_q;     /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
+    double bow[2];  /* amplitude of the initial shape relative to the line, along y and z [m],
+                       stress-free: bow sin(half_waves pi s/length) */
+    int half_waves; /* >= 1 */
     scene_release release[2]; /* at p, q */
     double offset[2][3];  /* from the nodes p, q to the ends of the member, which move rigidly with
                              them; undeformed, in global axes [m] */
     double foundation[6]; /* springs to the ground along it, acting on displacements and rotations
                              of its sections since the undeformed state, along its initial axes (y
                              as above), which do not rotate [N/m^2, N] */
-    int divisions;        /* 0: from -n; else this number of elements */
-    double
-        damping; /* in motions: stresses gain damping x undeformed stiffness x strain rates [s] */
     char name[SCENE_NAME];
 } scene_member;
 
@@ -839,7 +830,10 @@ typedef enum scene_load_kind {
 /* Axes of a load: global, or those of its undeformed member, y as in scene_member. */
 typedef enum scene_load_axes { SCENE_AXES_FIXED, SCENE_AXES_MEMBER } scene_load_axes;
 
+#define KEY(type, name, dimensions, ...) type name dimensions;
+#define ROW(...)
 typedef struct scene_load {
+#include "cases/scene/keys_load.h"
     scene_load_kind kind;
     int where; /* node, or member: scene_load_along */
     double
@@ -849,19 +843,9 @@ typedef struct scene_load {
     double range[2]; /* range on a member, relative to its initial length from p: of a distributed
                         load (0 and 1: all of it, as for gravity); for a force or a moment inside a
                         member both are its position. 0 and 0 for loads at nodes */
-    int lumped;   /* for loads along a member: 0: work on the displacements inside the elements; 1:
-                     half of an element's share acts at each of its nodes, which is of order two */
-    double at[3]; /* for forces, in `axes`: point of application relative to the node or the
-                     centroids; it rotates with them [m] */
-    double temperature,
-        gradient[2]; /* for SCENE_TEMPERATURE, whose vector is 0: change at the centroids [K], and
-                        its gradient along y and z of the section's description [K/m] */
-    scene_load_axes axes; /* of both */
-    int follower; /* 0: constant direction (dead); 1: rotates with the node or the sections */
-    int stations; /* 0: proportional to the path parameter (factor = path) */
+    int stations;    /* 0: proportional to the path parameter (factor = path) */
     double *path, *factor;
     scene_function function; /* factor as a function of time instead of these; no pieces: none */
-    int load_case;           /* SCENE_NONE: the scene has none */
     char name[SCENE_NAME];
 } scene_load;
 

@@ -1,0 +1,60 @@
+/* Keys of a load, as keys_member.h has those of a member. The first six are its kinds: see
+ * entry_of_load. */
+ROW("force", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
+    .summary = "at a node, or at 'where' of a member")
+ROW("moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N m",
+    .summary = "at a node, or at 'where' of a member")
+ROW("distributed", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N/m",
+    .summary = "force per length of a member")
+ROW("distributed_moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
+    .summary = "moment per length of a member")
+ROW("gravity", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "m/s^2",
+    .summary = "on a member whose section has a density, on a node with a mass, or on all of these")
+/* for SCENE_TEMPERATURE, whose vector is 0 */
+KEY(double, temperature, , "temperature", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "K",
+    .summary = "temperature change of a member, at its centroids")
+KEY(double, gradient, [2], "gradient", ENTRY_VECTOR, .count = 2, .unit = "K/m",
+    .summary = "gradient of the temperature change along y and z of the section", .usual = "[0, 0]",
+    .mirrors = "-+")
+ROW("on", ENTRY_NAME, .needed = 1, .summary = "node or member; for gravity also: all")
+ROW("where", ENTRY_NUMBER,
+    .summary = "position of a force or moment in a member, from 0 at its start to 1 at its end",
+    .left_out = "at a node")
+ROW("from", ENTRY_NUMBER,
+    .summary = "start of a distributed load or temperature, as a fraction of the length",
+    .usual = "0")
+ROW("to", ENTRY_NUMBER, .summary = "its end, as a fraction of the length", .usual = "1")
+ROW("to_value", ENTRY_VECTOR, .count = 3,
+    .summary = "distributed load at 'to', varying linearly from its value at 'from'",
+    .left_out = "constant")
+/* 0: work on the displacements inside the elements */
+KEY(int, lumped, , "lumped", ENTRY_FLAG, .words = "no|yes|false|true",
+    .summary = "distributed load or gravity: half of the load of an element on each of its nodes; "
+               "second-order accurate",
+    .usual = "no")
+/* in `axes`; it rotates with the node or the centroids */
+KEY(double, at, [3], "at", ENTRY_VECTOR, .count = 3, .unit = "m",
+    .summary = "offset of a force from the node or the centroids", .usual = "[0, 0, 0]")
+KEY(scene_load_axes, axes, , "axes", ENTRY_WORD, .words = "fixed|member",
+    .summary = "axes of the load vector and of 'at': fixed, or those of the undeformed member",
+    .usual = "fixed")
+/* 0: constant direction (dead) */
+KEY(int, follower, , "follower", ENTRY_FLAG, .words = "false|true|no|yes",
+    .summary = "true: its direction rotates with the node or the sections", .usual = "false")
+ROW("path", ENTRY_NUMBERS, .summary = "path parameter, ascending",
+    .left_out = "none; required with factor")
+ROW("factor", ENTRY_NUMBERS, .summary = "factors at these values of the path parameter",
+    .left_out = "the path parameter itself")
+ROW("time", ENTRY_TEXT, .group = 2, .summary = "factor in time: expression of the time t [s]",
+    .left_out = "the factor at the end of the path that a motion follows, or 1")
+ROW("pieces", ENTRY_LIST, .group = 2, .below = piece,
+    .summary = "factor in time by successive expressions; it may jump between them",
+    .left_out = "as for time")
+ROW("table", ENTRY_MAP, .group = 2, .below = table,
+    .summary = "factor in time as a table, linear in between", .left_out = "as for time")
+/* SCENE_NONE: the scene has none */
+KEY(int, load_case, , "case", ENTRY_NAME,
+    .summary = "load case that it belongs to: any name; give it for all loads or none",
+    .left_out = "none", .of = SCENE_CASES)
+#undef KEY
+#undef ROW

@@ -1,0 +1,52 @@
+/* Keys of a member that are members of scene_member (scene.h): KEY(type, name there, dimensions,
+ * row of entry_member (entries_structure.c)). ROW: keys that are read and written in another way. A
+ * new key is one KEY. */
+KEY(int, p, , "from", ENTRY_NAME, .needed = 1, .summary = "start node", .of = SCENE_NODES)
+KEY(int, q, , "to", ENTRY_NAME, .needed = 1, .summary = "end node", .of = SCENE_NODES)
+ROW("section", ENTRY_FORMS, .needed = 1,
+    .summary = "NAME, or [at from, at to]: sizes vary linearly, each element is prismatic")
+/* its component normal to the member */
+KEY(double, y_axis, [3], "y", ENTRY_DIRECTION, .needed = 1, .count = 3,
+    .summary = "direction of the section's y axis", .mirrors = "---")
+ROW("warping", ENTRY_FORMS,
+    .summary = "free, fixed or {shared: NAME}; for different ends [at from, at to]",
+    .left_out =
+        "fixed if all six components of the node are held or driven, or it is tied by part_of, "
+        "and no rotation is released; shared if two members continue in one line; else free")
+/* about local y and z; the position of interior nodes follows the arc */
+KEY(double, curvature, [3], "curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m",
+    .summary = "initial twist and curvatures", .usual = "[0, 0, 0]", .mirrors = "++-")
+/* temperature, a misfit */
+KEY(double, strain, [3], "strain", ENTRY_VECTOR, .group = 1, .count = 3, .unit = "1",
+    .summary = "elongation and shears of the unstressed member", .usual = "[0, 0, 0]")
+KEY(double, pretension, , "pretension", ENTRY_NUMBER, .group = 1, .unit = "N",
+    .summary = "axial force with the nodes at their given positions, before equilibrium",
+    .left_out = "none")
+/* 0: as drawn */
+KEY(double, unstressed_length, , "unstressed_length", ENTRY_NUMBER, .group = 1, .unit = "m",
+    .summary = "its length before it is mounted between its nodes",
+    .left_out = "its length between the given positions", .most = INFINITY)
+KEY(double, free_curvature, [2], "free_curvature", ENTRY_VECTOR, .count = 2, .unit = "1/m",
+    .summary = "curvatures about y and z of the unstressed member, in addition to 'curvature'",
+    .usual = "[0, 0]", .mirrors = "+-")
+ROW("offset", ENTRY_MAP, .below = offset,
+    .summary = "positions of its ends relative to the nodes, with rigid connections",
+    .left_out = "at the nodes")
+ROW("imperfection", ENTRY_MAP, .below = imperfection,
+    .summary = "initial deviation from its line, without stress", .left_out = "none")
+ROW("foundation", ENTRY_MAP, .below = foundation,
+    .summary = "springs to the ground along the member, with directions fixed in space",
+    .left_out = "none")
+ROW("release", ENTRY_MAP, .below = release, .summary = "end releases: hinges, slides",
+    .left_out = "none")
+KEY(double, damping, , "damping", ENTRY_NUMBER, .unit = "s",
+    .summary = "stiffness-proportional damping: stresses gain this times strain rates times the "
+               "undeformed stiffness",
+    .usual = "0", .most = INFINITY)
+/* 0: as given by the mesh */
+KEY(int, divisions, , "divisions", ENTRY_WHOLE,
+    .summary = "number of elements, independent of the mesh; of each piece if loads start, end or "
+               "act within the member",
+    .left_out = "as given by the mesh", .most = 10000000)
+#undef KEY
+#undef ROW
