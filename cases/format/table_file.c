@@ -285,8 +285,8 @@ static FILE *open_file(table_file *t, const char *beside)
     FILE *from = open_beside(beside, file->text, t->arena);
     if (from == NULL)
         document_mistake(t->mistakes, file, 0,
-                         "%.120s cannot be read: %s; paths are relative to the scene file", file->text,
-                         strerror(errno));
+                         "%.120s cannot be read: %s; paths are relative to the scene file",
+                         file->text, strerror(errno));
     return from;
 }
 
