@@ -86,6 +86,44 @@ static void take_abscissa_units(scene *s)
     }
 }
 
+/* Quantities of an envelope; all names are known, all units are not. */
+static void read_members(const fields *what, scene_quantity *q)
+{
+    const document_node *n = document_find(what->map, "quantities");
+    if (n == NULL)
+        return;
+    if (n->kind != DOCUMENT_LIST || n->count == 0) {
+        document_mistake(what->b->mistakes, n, 0, "quantities: give a list of their names");
+        return;
+    }
+    for (int i = 0; i < n->count; i++) {
+        const int at = scene_grow(what->b->scene, &q->over, &q->overs, sizeof *q->over);
+        if (at >= 0)
+            q->over[at] = fields_entry_of(what, n->item[i], SCENE_QUANTITIES);
+    }
+}
+
+/* The unit and the analysis of an envelope are those of its first quantity. */
+static void take_envelopes(builder *b)
+{
+    scene *s = b->scene;
+    for (int i = 0; i < s->quantities; i++) {
+        scene_quantity *q = &s->quantity[i];
+        if (q->what.kind != SCENE_ENVELOPE_OF)
+            continue;
+        const int first = q->overs > 0 && q->over[0] < s->quantities ? q->over[0] : SCENE_NONE;
+        q->analysis = first >= 0 ? s->quantity[first].analysis : 0;
+        const fields f = fields_of(b, &b->list[SCENE_QUANTITIES].entry[i]);
+        if (!fields_have(&f, "unit") && first >= 0)
+            memcpy(q->unit, s->quantity[first].unit, sizeof q->unit);
+        else if (first >= 0 && !fields_have(&f, "factor") &&
+                 strcmp(q->unit, s->quantity[first].unit) != 0)
+            document_mistake(b->mistakes, document_find(f.map, "unit"), 0,
+                             "unit '%.40s': its quantities are in %s; write that, or remove it",
+                             q->unit, s->quantity[first].unit);
+    }
+}
+
 static void read_abscissa(const fields *f, scene_quantity *q)
 {
     const fields x = fields_below(f, "x");
@@ -215,12 +253,16 @@ void builder_quantities(builder *b)
         const quantity_type *type = quantity_type_of(q);
         const fields what = fields_below(&f, type->key);
         settle(&what, type, q);
-        read_overs(&what, q);
+        if (q->what.kind == SCENE_ENVELOPE_OF)
+            read_members(&what, q);
+        else
+            read_overs(&what, q);
         read_stations(&f, &what, q);
         read_unit(&f, q);
         read_prediction(&f, entry, q);
     }
     take_abscissa_units(b->scene);
+    take_envelopes(b);
     check_wanted(b);
 }
 

@@ -413,6 +413,17 @@ static void write_overs(writer *w, const void *entry)
     fputc(']', w->to);
 }
 
+static void write_members(writer *w, const void *entry)
+{
+    const scene_quantity *q = entry;
+    write_values_key(w, "quantities");
+    for (int i = 0; i < q->overs; i++) {
+        fputs(i > 0 ? ", " : "[", w->to);
+        write_values_quoted(w, w->scene->quantity[q->over[i]].name);
+    }
+    fputc(']', w->to);
+}
+
 static void write_unit(writer *w, const void *entry)
 {
     write_values_key(w, "unit");
@@ -459,6 +470,7 @@ void write_quantities(writer *w)
                                     {"internal.side", write_side},
                                     {"stress.side", write_side},
                                     {"combinations", write_overs},
+                                    {"quantities", write_members},
                                     {"at", write_taken},
                                     {"unit", write_unit},
                                     {"x", write_abscissa},

@@ -59,7 +59,10 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 
 static double read(const scene_quantity *q, const quantity_state *state)
 {
-    return state->internal(state, &q->what.of.internal);
+    scene_internal what = q->what.of.internal;
+    if (q->factor < 0 && (what.along == SCENE_ALONG_MAX || what.along == SCENE_ALONG_MIN))
+        what.along = what.along == SCENE_ALONG_MAX ? SCENE_ALONG_MIN : SCENE_ALONG_MAX;
+    return state->internal(state, &what);
 }
 
 const quantity_type quantity_internal = {.key = "internal",

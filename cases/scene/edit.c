@@ -41,16 +41,11 @@ static void reverse_internal(scene_quantity *q)
     const scene_internal what = *scene_internal_of(q);
     const int odd = what.resultant == SCENE_QZ || what.resultant == SCENE_MZ ||
                     what.resultant == SCENE_BIMOMENT;
-    scene_along along = what.along;
-    if (odd && along == SCENE_ALONG_MAX)
-        along = SCENE_ALONG_MIN;
-    else if (odd && along == SCENE_ALONG_MIN)
-        along = SCENE_ALONG_MAX;
-    replace(q, along == SCENE_ALONG_PLACE
+    replace(q, what.along == SCENE_ALONG_PLACE
                    ? scene_beside(scene_internal_at(what.member, 1 - what.place, what.resultant),
                                   !what.before)
-                   : scene_internal_along(what.member, along, what.resultant));
-    if (odd && along != SCENE_ALONG_LARGEST)
+                   : scene_internal_along(what.member, what.along, what.resultant));
+    if (odd && what.along != SCENE_ALONG_LARGEST)
         q->factor = -q->factor;
 }
 

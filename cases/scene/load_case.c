@@ -180,6 +180,8 @@ status scene_validate_acting(const scene *s, int i, fault *f)
 
 status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
 {
+    if (q->what.kind == SCENE_ENVELOPE_OF) /* of quantities that say it */
+        return STATUS_OK;
     const int all = scene_solves_all(s, q->analysis),
               says = q->envelope != SCENE_ENVELOPE_NONE || scene_acting_number(s, q->acting) > 0;
     const scene_words of = scene_name(s, SCENE_ANALYSES, q->analysis);

@@ -257,9 +257,14 @@ void scene_keep_quantities(scene *s, const scene *of)
 {
     int kept = 0;
     for (int i = 0; i < s->quantities; i++)
-        if (has_quantity(of, s->quantity[i].name))
+        if (has_quantity(of, s->quantity[i].name)) {
+            for (int k = 0; k < s->quantities; k++)
+                for (int j = 0; j < s->quantity[k].overs; j++)
+                    if (s->quantity[k].what.kind == SCENE_ENVELOPE_OF &&
+                        s->quantity[k].over[j] == i)
+                        s->quantity[k].over[j] = kept;
             s->quantity[kept++] = s->quantity[i];
-        else
+        } else
             free(s->quantity[i].over);
     s->quantities = kept;
 }

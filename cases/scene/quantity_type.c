@@ -83,6 +83,12 @@ int scene_gives(scene_analysis_kind analysis, const scene_quantity *q)
     return quantity_type_of(q)->analyses >> analysis & 1u;
 }
 
+int scene_extreme_sign(const scene_quantity *q)
+{
+    const int least = q->reduction == SCENE_MIN || q->reduction == SCENE_MIN_TIME;
+    return (least ? -1 : 1) * (q->factor < 0 && !scene_is_timed(q->reduction) ? -1 : 1);
+}
+
 int scene_is_passed(const scene_quantity *q, scene_analysis_kind analysis)
 {
     const quantity_passing passing = quantity_type_of(q)->passing;

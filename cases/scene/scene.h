@@ -306,6 +306,7 @@ typedef enum scene_quantity_kind {
     SCENE_RESPONSE,      /* of a harmonic analysis */
     SCENE_DAMPING_RATIO, /* damping ratio of a damped mode, or its decay rate */
     SCENE_DEFLECTION,    /* displacement or rotation of a section of a member */
+    SCENE_ENVELOPE_OF,   /* largest or least of other quantities */
     SCENE_READING        /* of nodes, of which nothing outside its file knows more */
 } scene_quantity_kind;
 
@@ -337,6 +338,9 @@ typedef enum scene_reduction {
     SCENE_RMS,        /* root of the time mean of the square */
     SCENE_REDUCTIONS
 } scene_reduction;
+
+/* Largest and smallest values are those reported: where the factor is negative, the others of those
+ * extracted. Times are those of extracted values. */
 
 /* Is it a time or a frequency, and not a value of the extracted quantity? */
 static inline int scene_is_timed(scene_reduction how)
@@ -537,6 +541,7 @@ typedef struct scene_extract {
         scene_relative relative;
         scene_response response;
         scene_reading reading;
+        int envelope; /* scene_envelope */
     } of;
 } scene_extract;
 
@@ -598,7 +603,8 @@ typedef struct scene_quantity {
     scene_acting acting; /* of a linear analysis that solves all: one, or */
     scene_envelope envelope;
     int overs;
-    int *over; /* [overs] combinations of the envelope; 0: all, where there are none all cases */
+    int *over; /* [overs] combinations of the envelope; 0: all, where there are none all cases; of
+                  SCENE_ENVELOPE_OF: quantities */
     scene_extract what;
     scene_reduction reduction; /* statistic over the stations of a path */
     scene_transform transform; /* of a curve */
@@ -634,6 +640,8 @@ status scene_spectrum_stations(const scene *, const scene_quantity *, int *first
                                fault *);
 /* Is it evaluated between the stations of a motion? */
 int scene_is_passed(const scene_quantity *q, scene_analysis_kind);
+/* 1, -1: is the largest or the smallest extracted value taken? */
+int scene_extreme_sign(const scene_quantity *q);
 
 const scene_component *scene_component_of(const scene_quantity *q);
 const scene_entry *scene_entry_of(const scene_quantity *q);

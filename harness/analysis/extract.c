@@ -132,6 +132,8 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     const analysis_outcome *o = &c->outcomes[q->analysis];
     fault f = {""};
     memset(r, 0, sizeof *r);
+    if (q->what.kind == SCENE_ENVELOPE_OF) /* of values that come later: solve.c */
+        return;
     if (!is_defined(c->scene, q, &f)) {
         quantity_no_value(r, STATUS_REFUSED, f.text);
         return;

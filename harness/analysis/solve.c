@@ -134,6 +134,34 @@ static void keep_states(analysis_context *c)
         spoil(r, collect_systems(c, &r->systems, &f), &f);
 }
 
+/* Value of the quantity that governs, which it names. */
+static void put_envelope(const scene *s, solve_result *r, int quantity)
+{
+    const scene_quantity *q = &s->quantity[quantity];
+    quantity_result *to = &r->quantity[quantity];
+    double most = -INFINITY;
+    for (int i = 0; q->what.kind == SCENE_ENVELOPE_OF && i < q->overs; i++) {
+        const quantity_result *one = &r->quantity[q->over[i]];
+        const char *name = s->quantity[q->over[i]].name;
+        if (one->status != STATUS_OK) {
+            char why[FAULT_TEXT];
+            snprintf(why, sizeof why, "%s has no value: %.250s", name, one->reason);
+            quantity_no_value(to, one->status, why);
+            return;
+        }
+        const double size = q->what.of.envelope == SCENE_ENVELOPE_MIN       ? -one->value
+                            : q->what.of.envelope == SCENE_ENVELOPE_LARGEST ? fabs(one->value)
+                                                                            : one->value;
+        if (!(size > most))
+            continue;
+        most = size;
+        to->value = quantity_scaled(q, q->what.of.envelope == SCENE_ENVELOPE_MIN ? -size : size);
+        to->rounding = one->rounding;
+        snprintf(to->meaning, sizeof to->meaning, "%s%s%.60s", name,
+                 one->meaning[0] != '\0' ? ", " : "", one->meaning);
+    }
+}
+
 /* A curve over another quantity: its values where both have a point. */
 static void put_over(const scene *s, solve_result *r, int quantity)
 {
@@ -268,8 +296,10 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
             snprintf(result->reason, sizeof result->reason, "%s", q->reason);
         }
     }
-    for (int i = 0; i < s->quantities; i++)
+    for (int i = 0; i < s->quantities; i++) {
         put_over(s, result, i);
+        put_envelope(s, result, i);
+    }
     add_counters(&other.run.counters, &run.counters);
     result->counters = run.counters; /* shapes are drawn, not solved for: not counted */
     keep_states(&c);

@@ -123,10 +123,23 @@ static int make_curve(scene *s, scene_quantity *q)
     return 0;
 }
 
+/* Leaves out those of others, which are about to become curves. */
+static void drop_envelopes(scene *s)
+{
+    int kept = 0;
+    for (int i = 0; i < s->quantities; i++)
+        if (s->quantity[i].what.kind == SCENE_ENVELOPE_OF)
+            free(s->quantity[i].over);
+        else
+            s->quantity[kept++] = s->quantity[i];
+    s->quantities = kept;
+}
+
 /* Leaves the quantities that can be drawn, as curves. */
 static status make_curves(scene *s, fault *f)
 {
     int kept = 0;
+    drop_envelopes(s);
     for (int i = 0; i < s->quantities; i++) {
         scene_quantity *q = &s->quantity[i];
         const int drawn = can_be_drawn(s, q) && make_curve(s, q);

@@ -95,10 +95,9 @@ static void begin(const peaks *s, peak *one, const scene_quantity *q)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
     const double end = path->value[path->stations - 1];
-    const int least = q->reduction == SCENE_MIN || q->reduction == SCENE_MIN_TIME;
     *one = (peak){.q = q,
                   .out = &s->out->passing[q - s->c->scene->quantity],
-                  .sign = least ? -1 : 1,
+                  .sign = scene_extreme_sign(q),
                   .from = q->passing.from,
                   .until = q->passing.until > 0 ? fmin(q->passing.until, end) : end};
 }

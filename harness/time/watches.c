@@ -245,8 +245,7 @@ static status watch_step(watches *s, watched *one, const instant *from, fault *f
     }
     if (one->q->reduction >= SCENE_CROSSING)
         return watch_level(s, one, from, t, value, f);
-    const int least = one->q->reduction == SCENE_MIN || one->q->reduction == SCENE_MIN_TIME;
-    return watch_extreme(s, one, from, least ? -1 : 1, t, value, f);
+    return watch_extreme(s, one, from, scene_extreme_sign(one->q), t, value, f);
 }
 
 status watches_step(watches *s, const instant *from, const instant *to, fault *f)

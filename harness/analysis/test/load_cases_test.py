@@ -236,5 +236,102 @@ quantities:
                 self.assertIn(word, done.stderr)
 
 
+class EnvelopeTest(ProgramTest):
+    """Of nonlinear analyses: quantities that are there, and the one that governs."""
+    TEXT = """beamwork: 1
+UNITS
+sections: {bar: {tube: {diameter: DIAMETER, thickness: WALL}, young: YOUNG, shear_modulus: SHEAR, density: RHO}}
+nodes: {foot: {at: [0, 0, 0], hold: all}, head: {at: [LENGTH, 0, 0]}}
+members: {column: {from: foot, to: head, section: bar, y: [0, 1, 0]}}
+loads:
+  thrust: {force: [-1000, 0, 0], on: head, case: dead}
+  wind: {force: [0, 100, 0], on: head, case: wind}
+combinations: {with: {dead: 1, wind: 1}, against: {dead: 0.9, wind: -1.5}}
+analyses:
+  with: {static: {stations: 0..1/2, combination: with}}
+  against: {static: {stations: 0..1/2, combination: against}}
+  gust: {motion: {about: with, stations: [0.01, 0.02], step: 0.002}}
+  all: {linear: {}}
+quantities:
+  low: {envelope_of: {quantities: [M_with, M_against, M_all, M_gust], select: min}, factor: 2}
+  M_with: {internal: {analysis: with, member: column, end: from, resultant: Mz}}
+  M_against: {internal: {analysis: against, member: column, end: from, resultant: Mz}}
+  M_gust: {internal: {analysis: gust, member: column, end: from, resultant: Mz, take: max}}
+  M_all: {internal: {analysis: all, member: column, end: from, resultant: Mz, envelope: min}}
+  M: {envelope_of: {quantities: [M_with, M_against, M_all], select: largest}}
+  high: {envelope_of: {quantities: [M_with, M_against], select: max}, factor: -1}
+"""
+    METRES = {"UNITS": "", "DIAMETER": 0.05, "WALL": 3e-3, "YOUNG": 210e9, "SHEAR": 81e9, "RHO": 7850, "LENGTH": 3}
+    MILLIMETRES = {"UNITS": "units: mm, N, MPa", "DIAMETER": 50, "WALL": 3, "YOUNG": 210e3, "SHEAR": 81e3,
+                   "RHO": 7.85e-9, "LENGTH": 3000}
+
+    def text(self, numbers):
+        text = self.TEXT
+        for name, value in numbers.items():
+            text = text.replace(name, str(value))
+        return text
+
+    def test_governs(self):
+        for formulation in FORMULATIONS:
+            got = solved(self.text(self.METRES), formulation)
+            v = values(got)
+            least = min(("M_with", "M_against", "M_all", "M_gust"), key=v.get)
+            self.assertEqual(v["low"], 2 * v[least])
+            self.assertTrue(got["low"]["meaning"].startswith(least))
+            self.assertEqual(v["M"], max(abs(v[n]) for n in ("M_with", "M_against", "M_all")))
+            self.assertEqual(v["high"], -max(v["M_with"], v["M_against"]))
+            self.assertEqual(got["high"]["meaning"], "M_with")
+            self.assertLess(v["M_against"], v["M_all"] - 10, "the thrust magnifies the moment")
+
+    def test_units_and_written(self):
+        one, other = (values(solved(self.text(n))) for n in (self.METRES, self.MILLIMETRES))
+        for name in one:
+            self.assertAlmostEqual(other[name] / one[name], 1000, delta=1e-6, msg=name)
+        written = run("scene", "--scene", "/dev/stdin", input=self.text(self.MILLIMETRES)).stdout
+        again = values(solved(written))
+        for name in one:
+            self.assertAlmostEqual(again[name] / other[name], 1, delta=1e-12, msg=name)
+
+    def test_refused(self):
+        for old, new, words in (("[M_with, M_against], select", "[M_with, none], select", "no quantity 'none'"),
+                                ("[M_with, M_against], select", "[], select", "give a list of their names"),
+                                ("[M_with, M_against], select", "[M_with, M], select", "M is an envelope"),
+                                ("end: from, resultant: Mz}}\n  M_against", "end: from, resultant: N}}\n  M_against",
+                                 "M_with is in N and M_against in N m; name quantities in one unit"),
+                                ("resultant: Mz}}\n  M_gust", "resultant: Mz, take: curve}}\n  M_gust", "M_against is a curve")):
+            text = self.text(self.METRES)
+            self.assertIn(old, text)
+            done = run("solve", "--scene", "/dev/stdin", "-f", "collocation", "-n", 1, input=text.replace(old, new))
+            self.assertEqual(done.returncode, 2, (words, done.stdout, done.stderr))
+            self.assertIn(words, done.stderr)
+
+    def test_sign_of_extremes(self):
+        """The largest value is that of what is reported, in paths, motions and along members."""
+        got = values(solved("""beamwork: 1
+sections: {bar: {tube: {diameter: 0.05, thickness: 3e-3}, young: 210e9, shear_modulus: 81e9, density: 7850}}
+nodes: {foot: {at: [0, 0, 0], hold: all}, head: {at: [3, 0, 0], hold: [ux, uy, uz]}, middle: {at: [1.5, 0, 0]}}
+members:
+  one: {from: foot, to: middle, section: bar, y: [0, 1, 0]}
+  two: {from: middle, to: head, section: bar, y: [0, 1, 0]}
+loads: {wind: {distributed: [0, 100, 0], on: one, time: "exp(2*t)*cos(9*t)"}}
+analyses:
+  push: {static: {stations: 0..1/4}}
+  free: {motion: {stations: 0..0.5/10, step: 0.005}}
+quantities:
+""" + "".join(f"  {n}{k}: {{{kind}, factor: {s}}}\n" for k, s in (("p", 1), ("n", -1)) for n, kind in (
+            ("pmax", "displacement: {analysis: push, node: middle, component: uy, take: max}"),
+            ("pmin", "displacement: {analysis: push, node: middle, component: uy, take: min}"),
+            ("mmax", "displacement: {analysis: free, node: middle, component: uy, take: max}"),
+            ("mmin", "displacement: {analysis: free, node: middle, component: uy, take: min}"),
+            ("fmax", "internal: {analysis: free, member: one, end: from, resultant: Mz, take: max}"),
+            ("fmin", "internal: {analysis: free, member: one, end: from, resultant: Mz, take: min}"),
+            ("amax", "internal: {analysis: push, member: one, along: max, resultant: Mz}"),
+            ("amin", "internal: {analysis: push, member: one, along: min, resultant: Mz}")))))
+        for kind in "pmfa":
+            self.assertNotEqual(got[f"{kind}maxp"], got[f"{kind}minp"])
+            self.assertEqual(got[f"{kind}maxn"], -got[f"{kind}minp"], kind)
+            self.assertEqual(got[f"{kind}minn"], -got[f"{kind}maxp"], kind)
+
+
 if __name__ == "__main__":
     unittest.main()

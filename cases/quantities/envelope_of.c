@@ -1,0 +1,62 @@
+/* The largest or least of other quantities, whatever their analyses are. */
+#include "cases/scene/scene.h"
+
+#include <string.h>
+
+static const entry_field fields[] = {
+    {"quantities", ENTRY_FORMS, .needed = 1,
+     .summary = "[NAME, NAME, ...]: quantities in one unit"},
+    {"select", ENTRY_WORD, .needed = 1, .words = SCENE_ENVELOPE_CHOICES,
+     .summary = "largest or least value, or largest magnitude",
+     ENTRY_IN(scene_quantity, what.of.envelope), .first = SCENE_ENVELOPE_MAX},
+    {.name = NULL}};
+
+/* The values are those reported, which have their units already. */
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    (void)q;
+    return "1";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    static const char *const of[] = {"", "largest of", "least of", "largest magnitude of"};
+    fputs(of[q->what.of.envelope], to);
+    for (int i = 0; i < q->overs; i++)
+        fprintf(to, "%s %s", i > 0 ? "," : "", s->quantity[q->over[i]].name);
+}
+
+static status check(const scene *s, const scene_quantity *q, fault *f)
+{
+    if (q->overs == 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: an envelope without quantities; name at least one", q->name);
+    for (int i = 0; i < q->overs; i++) {
+        if (q->over[i] < 0 || q->over[i] >= s->quantities)
+            return fault_set(f, STATUS_REFUSED, "quantity %s: no quantity %d; add it first",
+                             q->name, q->over[i]);
+        const scene_quantity *one = &s->quantity[q->over[i]];
+        if (one->what.kind == SCENE_ENVELOPE_OF || one->reduction == SCENE_CURVE)
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: %s is %s; name quantities with one value", q->name,
+                             one->name, one->reduction == SCENE_CURVE ? "a curve" : "an envelope");
+        if (strcmp(one->unit, s->quantity[q->over[0]].unit) != 0)
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: %s is in %s and %s in %s; name quantities in one unit",
+                             q->name, s->quantity[q->over[0]].name, s->quantity[q->over[0]].unit,
+                             one->name, one->unit);
+    }
+    return STATUS_OK;
+}
+
+const quantity_type quantity_envelope_of = {
+    .key = "envelope_of",
+    .summary = "largest or least of other quantities, of any analyses",
+    .kind = SCENE_ENVELOPE_OF,
+    .field = fields,
+    .analyses = ~0u,
+    .unit = unit,
+    .meaning = meaning,
+    .names_analysis = 1,
+    .check = check};
