@@ -232,6 +232,10 @@ void builder_loads(builder *b)
             fields_vector(&f, entry_load[given].name, 3, what.vector);
         what.varies = fields_vector(&f, "to_value", 3, what.last);
         turn_load(&f, &what);
+        if (fields_have(&f, "feedback") && f.placed != NULL && f.placed->turned)
+            mistake_at(&f, "feedback",
+                       "feedback measures along fixed axes, and this part is turned; give the load "
+                       "in the scene");
         read_range(&f, given, &what);
         if (what.kind == SCENE_GRAVITY)
             check_gravity(&f, &what, whole);

@@ -183,6 +183,20 @@ LOAD(moment_within, l->kind == SCENE_MEMBER_MOMENT)
 LOAD(gravity, l->kind == SCENE_GRAVITY)
 LOAD(weight, l->kind == SCENE_WEIGHT)
 LOAD(temperature, l->kind == SCENE_TEMPERATURE)
+
+static int is_fed_back(const scene_load *l)
+{
+    int acts = l->stations == 0;
+    for (int k = 0; k < l->stations; k++)
+        acts |= l->factor[k] != 0;
+    return l->feedback.node != SCENE_NONE && acts && scene_load_acts(l);
+}
+
+static int has_feedback(const scene *s, int analysis, char *who, int size)
+{
+    return load_that(s, analysis, is_fed_back, who, size);
+}
+
 LOAD(staying, along_path_factor(l, 0) != 0)
 LOAD(of_case, l->load_case != SCENE_NONE)
 
@@ -345,6 +359,9 @@ static const char *const
                    "request it about a static path, or use a motion",
     *const no_tangent = "has a different stiffness on each side, but this analysis needs a single "
                         "one at rest; request it about a static path that presses on one side",
+    *const no_feedback =
+        "acts in motions only; add path: [0, 1], factor: [0, 0] to its load, which "
+        "removes it from the others",
     *const no_strains = "has stresses that the undeformed state lacks; request it about a static "
                         "or a linear analysis",
     *const no_drive =
@@ -405,6 +422,7 @@ const scene_input scene_inputs[] = {
     {"rotating axes", "-uu-u--x-uuu--x", no_spin, has_spin},
     {"damping", "----i--i---uuuu", NULL, has_damping},
     {"dashpot", "----i--i---uuuu", NULL, has_dashpot},
+    {"feedback", "xxxxxxxxxxxuxxx", no_feedback, has_feedback},
     {NULL, "", NULL, NULL}};
 
 scene_column scene_column_of(const scene *s, int analysis)

@@ -216,6 +216,27 @@ const entry_field entry_driver[] = {
      .of = SCENE_CASES},
     {.name = NULL}};
 
+static const entry_field feedback[] = {
+    {"node", ENTRY_NAME, .needed = 1, .summary = "node whose component is measured",
+     ENTRY_IN(scene_load, feedback.node), .of = SCENE_NODES},
+    {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS,
+     .summary = "displacement or rotation that is measured, along fixed axes",
+     ENTRY_IN(scene_load, feedback.component)},
+    {"from", ENTRY_NAME, .summary = "node whose same component is subtracted",
+     .left_out = "none: the displacement itself", ENTRY_IN(scene_load, feedback.from),
+     .of = SCENE_NODES},
+    {"proportional", ENTRY_NUMBER,
+     .summary = "gain of the error: reference minus measured [1/m, 1/rad]", .usual = "0",
+     ENTRY_IN(scene_load, feedback.proportional)},
+    {"derivative", ENTRY_NUMBER, .summary = "gain of its rate [s/m, s/rad]", .usual = "0",
+     ENTRY_IN(scene_load, feedback.derivative)},
+    {"integral", ENTRY_NUMBER,
+     .summary = "gain of its integral over time, from the start of the motion [1/(m s), 1/(rad s)]",
+     .usual = "0", ENTRY_IN(scene_load, feedback.integral)},
+    {"limit", ENTRY_NUMBER, .summary = "largest size of the factor", .left_out = "none",
+     ENTRY_IN(scene_load, feedback.limit), .most = INFINITY},
+    {.name = NULL}};
+
 #define KEY(type, name, dimensions, ...) {__VA_ARGS__, ENTRY_IN(scene_load, name)},
 #define ROW(...)                         {__VA_ARGS__},
 const entry_field entry_load[] = {

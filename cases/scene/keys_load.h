@@ -52,6 +52,10 @@ ROW("pieces", ENTRY_LIST, .group = 2, .below = piece,
     .left_out = "as for time")
 ROW("table", ENTRY_MAP, .group = 2, .below = table,
     .summary = "factor in time as a table, linear in between", .left_out = "as for time")
+ROW("feedback", ENTRY_MAP, .below = feedback,
+    .summary = "in motions, factor from a measured component; time, pieces or table are then its "
+               "reference [m, rad]",
+    .left_out = "none")
 /* SCENE_NONE: the scene has none */
 KEY(int, load_case, , "case", ENTRY_NAME,
     .summary = "load case that it belongs to: any name; give it for all loads or none",

@@ -327,7 +327,11 @@ int scene_add_unknown_driver(scene *s, const char *name, int node, int component
 
 scene_load scene_load_of(scene_load_kind kind, int where, double x, double y, double z)
 {
-    scene_load load = {.kind = kind, .where = where, .vector = {x, y, z}, .load_case = SCENE_NONE};
+    scene_load load = {.kind = kind,
+                       .where = where,
+                       .vector = {x, y, z},
+                       .load_case = SCENE_NONE,
+                       .feedback = {.node = SCENE_NONE, .from = SCENE_NONE}};
     load.range[1] = scene_load_along(&load) && !scene_load_within(&load);
     return load;
 }
@@ -435,6 +439,14 @@ int scene_load_acts(const scene_load *load)
 {
     return vec3_norm(load->vector) > 0 || (load->varies && vec3_norm(load->last) > 0) ||
            load->temperature != 0 || load->gradient[0] != 0 || load->gradient[1] != 0;
+}
+
+int scene_has_feedback(const scene *s)
+{
+    for (int i = 0; i < s->loads; i++)
+        if (s->load[i].feedback.node != SCENE_NONE)
+            return 1;
+    return 0;
 }
 
 int scene_load_unsymmetric(const scene_load *load)

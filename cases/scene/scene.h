@@ -838,6 +838,16 @@ typedef enum scene_load_kind {
 /* Axes of a load: global, or those of its undeformed member, y as in scene_member. */
 typedef enum scene_load_axes { SCENE_AXES_FIXED, SCENE_AXES_MEMBER } scene_load_axes;
 
+/* The factor of a load at a node in a motion: proportional e + derivative e' + integral (int e dt),
+ * at most `limit` in size, of the error e: the load's function of time (the reference; none: 0)
+ * minus the measured component of a node. */
+typedef struct scene_feedback {
+    int node, component; /* SCENE_NONE: no feedback */
+    int from;            /* minus the same component of this node; SCENE_NONE: none */
+    double proportional, derivative, integral; /* per m or rad, times s, by s */
+    double limit;                              /* 0: none */
+} scene_feedback;
+
 #define KEY(type, name, dimensions, ...) type name dimensions;
 #define ROW(...)
 typedef struct scene_load {
@@ -854,6 +864,7 @@ typedef struct scene_load {
     int stations;    /* 0: proportional to the path parameter (factor = path) */
     double *path, *factor;
     scene_function function; /* factor as a function of time instead of these; no pieces: none */
+    scene_feedback feedback;
     char name[SCENE_NAME];
 } scene_load;
 
@@ -1018,6 +1029,7 @@ int scene_load_along(const scene_load *load);
 int scene_load_within(const scene_load *load);
 /* Is its vector a moment, not a force? */
 int scene_load_turns(const scene_load *load);
+int scene_has_feedback(const scene *s);
 /* Is it nonzero somewhere on its range? */
 int scene_load_acts(const scene_load *load);
 /* Can its stiffness make a tangent unsymmetric? Not that of a zero load. */

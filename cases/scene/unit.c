@@ -93,8 +93,22 @@ static void scale_spring(scene_spring *p, double x)
     }
 }
 
+/* Gains and reference of lengths. */
+static void scale_feedback(scene_load *load, double times)
+{
+    scene_feedback *b = &load->feedback;
+    if (b->node == SCENE_NONE || b->component >= SCENE_RX)
+        return;
+    b->proportional /= times;
+    b->derivative /= times;
+    b->integral /= times;
+    load->function.scale = (load->function.scale != 0 ? load->function.scale : 1) * times;
+}
+
 static void scale_load(scene_load *load, entry_base base, double times)
 {
+    if (base == ENTRY_LENGTH)
+        scale_feedback(load, times);
     const double factor = pow(times, entry_power(entry_of_load(load->kind)->unit, base));
     scale_vector(load->vector, factor);
     scale_vector(load->last, factor);

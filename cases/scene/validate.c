@@ -299,6 +299,29 @@ static status check_load_kind(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
+static status check_feedback(const scene *s, int i, fault *f)
+{
+    const scene_load *load = &s->load[i];
+    const scene_feedback *b = &load->feedback;
+    const scene_words who = scene_called(s, SCENE_LOADS, i);
+    if (b->node == SCENE_NONE)
+        return STATUS_OK;
+    if (load->kind != SCENE_FORCE && load->kind != SCENE_MOMENT)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: feedback is of a force or a moment at a node; put a node where it "
+                         "acts",
+                         who.text);
+    if (b->proportional == 0 && b->derivative == 0 && b->integral == 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: feedback without a gain; give proportional, derivative or integral",
+                         who.text);
+    return b->from != b->node ? STATUS_OK
+                              : fault_set(f, STATUS_REFUSED,
+                                          "%s: feedback of %s from itself is 0; name another node, "
+                                          "or remove 'from'",
+                                          who.text, scene_called(s, SCENE_NODES, b->node).text);
+}
+
 static status check_load(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
@@ -314,6 +337,7 @@ static status check_load(const scene *s, int i, fault *f)
                              "%s: it is not a number; give three finite components",
                              scene_called(s, SCENE_LOADS, i).text);
     TRY(check_range(s, i, f));
+    TRY(check_feedback(s, i, f));
     return check_load_kind(s, i, f);
 }
 

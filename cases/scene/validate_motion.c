@@ -188,8 +188,16 @@ static status check_load(const scene *s, int l, int i, fault *f)
     const scene_load *load = &s->load[l];
     const scene_path *path = scene_path_of(&s->analysis[i]);
     double time;
+    if (load->feedback.node != SCENE_NONE &&
+        scene_motion_of(&s->analysis[i])->scheme == SCENE_CONSERVING)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s (conserving): %s has feedback and puts energy in; take integrator: "
+                         "radau, alpha or explicit",
+                         scene_called(s, SCENE_ANALYSES, i).text,
+                         scene_called(s, SCENE_LOADS, l).text);
     if (load->function.pieces == 0) {
-        if (load->stations > 0 && s->analysis[i].follows == SCENE_NONE)
+        if (load->stations > 0 && s->analysis[i].follows == SCENE_NONE &&
+            load->feedback.node == SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
                              "%s: its factors are given over a path, but a motion follows none; "
                              "give a function of time, or a static path to follow",

@@ -14,6 +14,12 @@ static status restart_text_check(const char *former, const scene *, fault *);
 
 status restart_possible(const scene *s, fault *f)
 {
+    for (int i = 0; i < s->loads; i++)
+        if (s->load[i].feedback.node != SCENE_NONE && s->load[i].feedback.integral != 0)
+            return fault_set(f, STATUS_REFUSED,
+                             "%s (feedback): --save-state does not store its integral; integrate "
+                             "in one run",
+                             scene_called(s, SCENE_LOADS, i).text);
     for (int i = 0; i < s->analyses; i++)
         if (s->analysis[i].kind == SCENE_MOTION)
             return STATUS_OK;

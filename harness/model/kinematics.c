@@ -401,7 +401,8 @@ status kinematics_state_alloc(const model *m, model_state **out, fault *f)
     const size_t V = (size_t)m->mesh.vertices, E = (size_t)m->mesh.elements;
     TRY(block_alloc(
         V * 10 + 3 * (size_t)m->mesh.releases + (size_t)m->mesh.warps + (size_t)m->scene->drivers +
-            E * (size_t)(2 * m->mesh.strains + m->mesh.inner) + 3 * (size_t)m->mesh.turns,
+            E * (size_t)(2 * m->mesh.strains + m->mesh.inner) + 3 * (size_t)m->mesh.turns +
+            (scene_has_feedback(m->scene) ? (size_t)m->scene->loads : 0),
         out, f));
     model_state *s = *out;
     s->u = s->block;
@@ -414,6 +415,7 @@ status kinematics_state_alloc(const model *m, model_state **out, fault *f)
     s->sigma = s->e + E * (size_t)m->mesh.strains;
     s->inner = s->sigma + E * (size_t)m->mesh.strains;
     s->turn = s->inner + E * (size_t)m->mesh.inner;
+    s->feedback = s->turn + 3 * (size_t)m->mesh.turns;
     for (size_t i = 0; i < V; i++)
         rotation_identity(&s->q[4 * i]);
     if (m->mesh.type->rest != NULL)

@@ -64,6 +64,37 @@ static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t c
     return count;
 }
 
+/* Pairs of what a load acts on and what it measures. */
+static size_t collect_feedback(const model *m, const mesh_pattern *p, size_t count, int row[],
+                               int column[])
+{
+    for (int i = 0; i < m->scene->loads && !p->matrix.symmetric; i++) {
+        const scene_feedback *b = &m->scene->load[i].feedback;
+        const int measured[] = {b->node, b->node != SCENE_NONE ? b->from : SCENE_NONE};
+        for (int k = 0; k < 2; k++) {
+            int on[KINEMATICS_MOST], of[KINEMATICS_MOST];
+            double T[6 * KINEMATICS_MOST];
+            if (measured[k] == SCENE_NONE)
+                continue;
+            const int rows = kinematics_node_jacobian(m, NULL, m->scene->load[i].where,
+                                                      KINEMATICS_MOST, on, T),
+                      columns =
+                          kinematics_node_jacobian(m, NULL, measured[k], KINEMATICS_MOST, of, T);
+            for (int a = 0; a < rows; a++)
+                for (int c = 0; c < columns; c++) {
+                    if (!stored(p, on[a], of[c]))
+                        continue;
+                    if (row != NULL) {
+                        row[count] = on[a];
+                        column[count] = of[c];
+                    }
+                    count++;
+                }
+        }
+    }
+    return count;
+}
+
 /* Number of pairs of coordinates that elements couple, with repetitions. Stores their rows and
  * columns in row[] and column[] unless these are NULL. */
 static size_t collect(const model *m, const mesh_pattern *p, int row[], int column[])
@@ -73,7 +104,7 @@ static size_t collect(const model *m, const mesh_pattern *p, int row[], int colu
         count = collect_of(&m->mesh.element[i], p, count, row, column);
     for (int i = 0; i < m->mesh.discretes; i++)
         count = collect_of(&m->mesh.discrete[i].el, p, count, row, column);
-    return count;
+    return collect_feedback(m, p, count, row, column);
 }
 
 /* Sets begin[n + 1] of n lists; the lists contain pairs by their index. */

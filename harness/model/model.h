@@ -726,6 +726,7 @@ struct model_state {
     double *driver; /* [drivers] current value */
     double *e, *sigma, *inner; /* [elements x strains], [elements x inner] */
     double *turn;              /* [turns x 3] tracked rotation vectors */
+    double *feedback; /* [loads] integrals of the errors of feedback; without any: no element */
 };
 
 /* Possible motions [6: displacement, rotation] of a node: the span of the columns of its Jacobian.

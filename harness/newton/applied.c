@@ -25,6 +25,10 @@ double applied_factor(const equations *eq, const scene_load *load, double path)
         return 0;
     if (!eq->loading.in_time)
         return combined(eq, load, along_path_factor(load, path));
+    if (load->feedback.node != SCENE_NONE)
+        return eq->run->feedback != NULL
+                   ? combined(eq, load, eq->run->feedback[load - model_scene(eq->m)->load])
+                   : 0;
     if (load->function.pieces == 0)
         return combined(eq, load, along_path_factor(load, eq->loading.held_path));
     function_at(&load->function, path, at);

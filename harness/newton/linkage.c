@@ -47,6 +47,7 @@ status run_state_begin(run_state *run, const model *m, int threads, fault *f)
 
 void run_state_end(run_state *run)
 {
+    free(run->feedback);
     free(run->undeformed.of);
     free(run->undeformed.value);
     free(run->ahead);

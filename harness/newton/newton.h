@@ -89,7 +89,9 @@ typedef struct run_state {
     run_undeformed undeformed;
     struct run_free *free_strain; /* free_strain.c; NULL: no type changes its data */
     run_damping *damping;         /* damping of a motion; NULL: none */
-    linear_memory memory;         /* for callers that linearise one state at a time */
+    double *feedback; /* [loads] factors of those with feedback in the state that is evaluated: set
+                         by feedback_take (harness/time); NULL: no motion yet */
+    linear_memory memory; /* for callers that linearise one state at a time */
 } run_state;
 
 typedef struct equations {

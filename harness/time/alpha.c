@@ -114,6 +114,7 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     const double time = record->path;
     stage_rates r = {.b = (1 - s->mass) / ((1 - s->force) * s->beta * h * h),
                      .g = s->gamma / (s->beta * h),
+                     .h = h,
                      .a0 = s->a0,
                      .v0 = s->v0,
                      .inc = s->inc,
@@ -125,6 +126,8 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     relate_strains(s, from, h, to);
     instant_recall(from, &s->stage.arrival);
     TRY(stage_solve(&s->stage, from->state, time, &r, to->state, record, f));
+    const feedback_step past = {h, from->time, kinks_before(m, time)};
+    feedback_integrate(&s->stage.c->eq, from->state, to->state, &past, to->state->feedback);
     instant_remember(&s->stage.arrival, to);
     TRY(check_turns(s, time, f));
     for (int i = 0; i < s->stage.all; i++)

@@ -24,14 +24,21 @@ static double error_of(const explicit_scheme *s)
     return sqrt(square);
 }
 
+static int size_of(const explicit_scheme *s)
+{
+    return 2 * s->free + 2 + feedback_count(&s->of.c->eq);
+}
+
 static int advance(explicit_scheme *s, const instant *from, double h)
 {
     const gsl_odeiv2_system of_motion = {
-        .function = explicit_rates, .dimension = 2 * (size_t)s->free + 2, .params = s};
+        .function = explicit_rates, .dimension = (size_t)size_of(s), .params = s};
     memset(s->y, 0, (size_t)s->free * sizeof *s->y);
     memcpy(s->y + s->free, from->v, (size_t)s->free * sizeof *s->y);
     s->y[2 * s->free] = from->work;
     s->y[2 * s->free + 1] = from->dissipated;
+    for (int i = 0; i < feedback_count(&s->of.c->eq); i++)
+        s->y[2 * s->free + 2 + i] = from->state->feedback[i];
     return gsl_odeiv2_step_apply(s->stepper, from->time, h, s->y, s->error, NULL, s->dydt,
                                  &of_motion);
 }
@@ -55,6 +62,8 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     to->time = record->path;
     to->work = s->y[2 * s->free];
     to->dissipated = s->y[2 * s->free + 1];
+    for (int i = 0; i < feedback_count(&s->of.c->eq); i++)
+        to->state->feedback[i] = s->y[2 * s->free + 2 + i];
     *error = error_of(s);
     record->remaining = 0;
     return STATUS_OK;
@@ -72,16 +81,16 @@ static void release(motion_scheme *base)
 static status allocate(explicit_scheme *s, fault *f)
 {
     const model *m = s->of.c->model;
-    const size_t n = (size_t)s->free + 1, all = (size_t)s->all + 1;
-    s->y = calloc(6 * n + 3 * all + (size_t)model_memory(m) + ELEMENT_MAX_STRAINS, sizeof *s->y);
+    const size_t n = (size_t)size_of(s), all = (size_t)s->all + 1;
+    s->y = calloc(3 * n + 3 * all + (size_t)model_memory(m) + ELEMENT_MAX_STRAINS, sizeof *s->y);
     gsl_error_handler_t *before = gsl_set_error_handler_off();
-    s->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2 * (size_t)s->free + 2);
+    s->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, n);
     gsl_set_error_handler(before);
     if (s->y == NULL || s->stepper == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
-    s->error = s->y + 2 * n;
-    s->dydt = s->error + 2 * n;
-    s->inc = s->dydt + 2 * n;
+    s->error = s->y + n;
+    s->dydt = s->error + n;
+    s->inc = s->dydt + n;
     s->residual = s->inc + all;
     s->weight = s->residual + all;
     s->memory = s->weight + all;
@@ -382,6 +391,7 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
         TRY(settle_rates(s, i, time, f));
     }
     TRY(linearise_make_compatible(&s->of.c->eq, s->at->state, f));
+    feedback_take(&s->of.c->eq, s->at->state, s->at->v, time);
     TRY(linearise_state(&s->of.c->eq, &s->of.c->run->memory, s->at->state, &lin, f));
     memset(s->at->a, 0, (size_t)s->free * sizeof *s->at->a);
     inertia_subtract(m, s->of.masses, s->at->state, s->at->v, s->at->a, s->residual);
@@ -402,7 +412,7 @@ static int explicit_rates(double t, const double y[], double dydt[], void *conte
     explicit_scheme *s = context;
     const model *m = s->of.c->model;
     const double time = t > s->from->time ? fmin(t, s->end) : t;
-    if (!is_finite(2 * s->free + 2, y)) {
+    if (!is_finite(size_of(s), y)) {
         s->outcome = fault_set(&s->why, STATUS_NOT_CONVERGED,
                                "at %g s motions grow without bound: the step does not resolve the "
                                "fastest mode of the mesh",
@@ -413,6 +423,9 @@ static int explicit_rates(double t, const double y[], double dydt[], void *conte
     memcpy(s->at->v, y + s->free, (size_t)s->free * sizeof *s->at->v);
     drive_at(&s->of.c->eq, s->from->state, time, s->inc, s->at->v, s->at->a);
     increment_apply(m, s->from->state, s->inc, time, s->at->state);
+    for (int i = 0; i < feedback_count(&s->of.c->eq); i++)
+        s->at->state->feedback[i] = y[2 * s->free + 2 + i];
+    feedback_errors(&s->of.c->eq, s->at->state, time, dydt + 2 * s->free + 2);
     s->outcome = accelerations(s, time, &s->why);
     if (s->outcome != STATUS_OK)
         return GSL_EFAILED;
@@ -502,6 +515,7 @@ double work_power(outer_work *w, const model_state *s, const double v[], const d
 {
     const model *m = w->m;
     memset(w->force, 0, (size_t)model_all_coordinates(m) * sizeof *w->force);
+    feedback_take(w->eq, s, v, time);
     for (int i = 0; i < model_scene(m)->loads; i++)
         loads_add_one(w->eq, s, &model_scene(m)->load[i],
                       applied_factor(w->eq, &model_scene(m)->load[i], time), w->force);

@@ -373,6 +373,7 @@ static status forces(motion_stage *s, instant *now, sparse *K, fault *f)
     model_linearisation lin = {.path = now->time, .K = K, .residual = s->residual};
     if (s->c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(&s->c->eq, now->state, f));
+    feedback_take(&s->c->eq, now->state, now->v, now->time);
     TRY(linearise_state(&s->c->eq, &s->c->run->memory, now->state, &lin, f));
     inertia_subtract(m, s->masses, now->state, now->v, now->a, s->residual);
     return STATUS_OK;

@@ -297,6 +297,7 @@ static status solve(motion_course *w, fault *f)
                                       : carried_alloc(m, &w->masses, f));
     w->masses.damping = w->c->scene->analysis[w->analysis].damping.mass;
     TRY(damping_begin(&w->c->eq, &w->damping, f));
+    TRY(feedback_begin(&w->c->eq, f));
     TRY(work_alloc(&w->c->eq, &w->masses, &w->work, f));
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};
     w->rounding = balance_rounding(m);

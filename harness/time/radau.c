@@ -95,6 +95,7 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
     radau_solution one = {r, from, h};
     const newton_use use = newton_in_time(r->of.c, &one, correct, prepare);
     TRY(newton_iterate(r->of.c, &use, &r->arrival, record, f));
+    radau_integrate(r, from, h, record);
     instant_remember(&r->arrival, to);
     const radau_stage *last = &r->stage[STAGES - 1];
     if (r->of.estimate)
@@ -135,6 +136,7 @@ static void release(motion_scheme *base)
     free(r->residual);
     free(r->dx);
     free(r->weight);
+    free(r->errors);
     free(r);
 }
 
@@ -161,7 +163,8 @@ static status allocate(radau *r, fault *f)
     r->residual = calloc(STAGES * all, sizeof *r->residual);
     r->dx = calloc(all, sizeof *r->dx);
     r->weight = calloc(all, sizeof *r->weight);
-    if (r->residual == NULL || r->dx == NULL || r->weight == NULL)
+    r->errors = calloc((size_t)(STAGES * feedback_count(&r->of.c->eq)) + 1, sizeof *r->errors);
+    if (r->residual == NULL || r->dx == NULL || r->weight == NULL || r->errors == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     metric_of(r->of.c->model, r->weight);
     for (int i = 0; i < STAGES; i++)
@@ -213,6 +216,7 @@ static status radau_error(radau *r, const instant *from, double h, instant *room
     memset(still, 0, (size_t)r->all * sizeof *still);
     const inertia_relation with = {g * g, 0, still};
     radau_damp_error(r, from, h, e, g, room->strain);
+    feedback_take(&r->of.c->eq, from->state, from->v, from->time);
     TRY(linearise_state(&r->of.c->eq, &r->of.c->run->memory, from->state, &lin, f));
     inertia_subtract(m, r->of.masses, from->state, from->v, room->a, r->dx);
     inertia_add_tangent(&r->of.c->eq, r->of.masses, from->state, from->v, from->a, &with, &r->K);

@@ -96,6 +96,46 @@ static void add_warps(radau *r, double h)
     }
 }
 
+void radau_integrate(radau *r, const instant *from, double h, const step_record *record)
+{
+    const equations *eq = &r->of.c->eq;
+    const int count = feedback_count(eq);
+    double *error = r->errors; /* [STAGES x count] */
+    for (int j = 0; j < STAGES && count > 0; j++)
+        feedback_errors(eq, r->stage[j].state,
+                        kinks_before(eq->m, radau_time(r, from, h, j, record)), error + count * j);
+    for (int i = 0; i < STAGES; i++)
+        for (int k = 0; k < count; k++) {
+            double *z = &r->stage[i].state->feedback[k];
+            *z = from->state->feedback[k];
+            for (int j = 0; j < STAGES; j++)
+                *z += h * r->A[STAGES * i + j] * error[count * j + k];
+        }
+}
+
+/* A block of the matrix of the stages. */
+typedef struct stages_block {
+    stages_matrix *S;
+    int i, k;
+} stages_block;
+
+static void add_entry(void *to, int row, int column, double value)
+{
+    const stages_block *at = to;
+    stages_add(at->S, at->i, at->k, row, column, value);
+}
+
+/* Loads with feedback: of the error in stage k, the rate in stage i has B_ik/h, the integral
+ * h A_ik. */
+static void add_feedback(radau *r, double h, int i)
+{
+    for (int k = 0; k < STAGES && feedback_count(&r->of.c->eq) > 0; k++) {
+        stages_block at = {&r->S, i, k};
+        const feedback_gains gains = {i == k, r->B[STAGES * i + k] / h, h * r->A[STAGES * i + k]};
+        feedback_tangent(&r->of.c->eq, r->stage[i].state, &gains, add_entry, &at);
+    }
+}
+
 status radau_equations(radau *r, int fresh, const instant *from, double h, step_record *record,
                        fault *f)
 {
@@ -103,6 +143,7 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
     if (fresh)
         stages_zero(&r->S);
     record->incompatibility = 0;
+    radau_integrate(r, from, h, record);
     for (int i = 0; i < STAGES; i++) {
         radau_stage *one = &r->stage[i];
         model_linearisation lin = {.path = kinks_before(m, radau_time(r, from, h, i, record)),
@@ -110,6 +151,7 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
                                    .residual = r->dx};
         if (r->of.c->options->newton == NEWTON_DISPLACEMENT)
             TRY(linearise_make_compatible(&r->of.c->eq, one->state, f));
+        feedback_take(&r->of.c->eq, one->state, one->v, lin.path);
         TRY(linearise_state(&r->of.c->eq, &one->memory, one->state, &lin, f));
         inertia_subtract(m, r->of.masses, one->state, one->v, one->a, r->dx);
         r->of.c->run->counters.inertia_evaluations +=
@@ -118,6 +160,8 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
                (size_t)r->free * sizeof *r->residual);
         if (fresh)
             stages_put(&r->S, i, &r->K);
+        if (fresh)
+            add_feedback(r, h, i);
         record->incompatibility = fmax(record->incompatibility, lin.incompatibility);
     }
     radau_damp(r, fresh, from, h);
@@ -149,6 +193,7 @@ void radau_coefficients(radau *r)
     double LU[9];
     int pivot[STAGES];
     memcpy(LU, A, sizeof LU);
+    memcpy(r->A, A, sizeof A);
     memcpy(r->weights, &A[6], sizeof r->weights);
     for (int i = 0; i < 9; i++)
         r->B[i] = i % 4 == 0;

@@ -274,6 +274,8 @@ static status read_whole(const reading *from, const scene_quantity *q, const dou
                     .f = f};
     const internal_inertia inertia = {inertia_at_ends, inertia_along, &s};
     s.section.moving = moves ? &inertia : NULL;
+    if (moves && scene_reads_forces(q))
+        feedback_take(from->eq, from->state, from->v, path);
     s.as.path = path;
     s.as.reaction = scene_reads_forces(q) ? reaction_of : NULL;
     s.as.internal = scene_reads_forces(q) ? internal_in : NULL;

@@ -62,6 +62,11 @@ status stage_direction(motion_stage *s, int fresh, fault *f)
     return STATUS_OK;
 }
 
+static void add_entry(void *S, int row, int column, double value)
+{
+    assemble_subtract(S, row, column, -value);
+}
+
 /* Computes dx from the equations of the present state. fresh 0: with the previous factors. */
 static status direction(motion_stage *s, int fresh, double time, const stage_rates *r,
                         model_state *now, step_record *record, fault *f)
@@ -73,12 +78,15 @@ static status direction(motion_stage *s, int fresh, double time, const stage_rat
     const inertia_relation with = {r->b, r->g, r->inc};
     if (s->c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(&s->c->eq, now, f));
+    feedback_take(&s->c->eq, now, r->v, lin.path);
     TRY(linearise_state(&s->c->eq, &s->c->run->memory, now, &lin, f));
     inertia_subtract(m, s->masses, now, r->v, r->a, s->residual);
     s->c->run->counters.inertia_evaluations +=
         s->masses->spread ? model_sizes(m).elements * (1 + fresh) : 0;
     if (fresh)
         inertia_add_tangent(&s->c->eq, s->masses, now, r->v, r->a, &with, &s->S);
+    if (fresh)
+        feedback_tangent(&s->c->eq, now, &(feedback_gains){1, r->g, r->h / 2}, add_entry, &s->S);
     record->incompatibility = lin.incompatibility;
     return stage_direction(s, fresh, f);
 }
@@ -99,6 +107,8 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     motion_stage *s = one->s;
     const model *m = s->c->model;
     const int fresh = iteration == 1 || !stage_stands(&s->arrival);
+    const feedback_step past = {one->r->h, one->time - one->r->h, kinks_before(m, one->time)};
+    feedback_integrate(&s->c->eq, one->from, one->now, &past, one->now->feedback);
     TRY(direction(s, fresh, one->time, one->r, one->now, record, f));
     increment_add(m, one->now, s->dx, one->r->inc);
     complement_keep(s->complement, one->now);

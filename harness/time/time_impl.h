@@ -525,7 +525,8 @@ typedef struct explicit_scheme {
     scheme_request of;
     gsl_odeiv2_step *stepper;
     int free, all;
-    double *y, *error, *dydt; /* [2 x free + 1] increments, rates, work; error estimate of GSL;
+    double *y, *error, *dydt; /* [2 x free + 2 + feedback_count] increments, rates, work, what is
+                                 dissipated, integrals of feedback; error estimate of GSL;
                                  derivatives at the end */
     double *inc, *residual;   /* [free + driven] */
     double *memory,
@@ -645,9 +646,9 @@ void stage_free(motion_stage *);
 /* Solves S dx = residual; fresh 0: with the existing factors. */
 status stage_direction(motion_stage *, int fresh, fault *);
 
-/* All arrays [free + driven]. */
+/* All arrays [free + driven]. h [s]: of the integrals of feedback, by the trapezoidal rule. */
 typedef struct stage_rates {
-    double b, g;
+    double b, g, h;
     const double *a0, *v0;
     double *inc, *v, *a; /* input: inc is the initial guess; prescribed coordinates are exact */
 } stage_rates;
@@ -822,7 +823,7 @@ typedef struct radau_stage {
 typedef struct radau {
     motion_scheme base;
     const scheme_request of;
-    double node[STAGES], weights[STAGES], B[STAGES * STAGES];
+    double node[STAGES], weights[STAGES], B[STAGES * STAGES], A[STAGES * STAGES]; /* B = A^-1 */
     radau_stage stage[STAGES];
     sparse K;
     stages_matrix S;
@@ -830,10 +831,13 @@ typedef struct radau {
     double *residual;               /* [STAGES x free] */
     double *dx;                     /* [free + driven] */
     double *weight;                 /* [free + driven] */
+    double *errors;                 /* [STAGES x feedback_count] */
     arrival arrival;
     int free, all;
     long counted, counted_single;
 } radau;
+/* Integrals of feedback in all stages. */
+void radau_integrate(radau *, const instant *from, double h, const step_record *);
 
 /* radau_equations.c */
 /* Sets nodes, weights and B of the scheme. */
@@ -1034,6 +1038,33 @@ void inertia_rates(const model *, const model_state *, int vertex, const double 
 /* Rates of any vertex. */
 void vertex_rates(const model *, const model_state *, int vertex, const double v[],
                   const double a[], frame_rates *);
+
+/* Loads with feedback: factors from measured components and rates, integrals in the state. */
+
+/* Does nothing without such loads. */
+status feedback_begin(const equations *, fault *);
+/* Number of loads of the scene where one has feedback; 0: none has. */
+int feedback_count(const equations *);
+/* Factors for the evaluation of this state, with the integrals in it. v NULL: at rest. */
+void feedback_take(const equations *, const model_state *, const double v[], double time);
+/* Errors, reference minus measured: out[feedback_count]. */
+void feedback_errors(const equations *, const model_state *, double time, double out[]);
+/* Size of a step [s], and the times at its ends at which references are read: the last one before
+ * a jump. */
+typedef struct feedback_step {
+    double h, begin, end;
+} feedback_step;
+/* Integrals at the end of a step by the trapezoidal rule: out[feedback_count]. */
+void feedback_integrate(const equations *, const model_state *from, const model_state *now,
+                        const feedback_step *, double out[]);
+/* Derivatives of place, rate and integral of a measured component with respect to itself. */
+typedef struct feedback_gains {
+    double place, rate, integral;
+} feedback_gains;
+typedef void feedback_entry(void *to, int row, int column, double value);
+/* Minus the derivatives of the loads, on the pattern of motions; after feedback_take. */
+void feedback_tangent(const equations *, const model_state *, const feedback_gains *,
+                      feedback_entry *take, void *to);
 
 /* Extrema, level crossings and means of a motion between its stations. Crossings are roots of the
  * polynomial inside a step, accurate to round-off. */

@@ -496,6 +496,10 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     if ((column == SCENE_OF_MODAL_LINEAR || column == SCENE_OF_HARMONIC_LINEAR) &&
         in->part[SCENE_OF_LINEAR] == SCENE_PART_REFUSED)
         where = scene_column_name[SCENE_OF_LINEAR]; /* which is refused before */
+    if ((column == SCENE_OF_BUCKLING_ABOUT || column == SCENE_OF_MODAL_ABOUT ||
+         column == SCENE_OF_COMPLIANCE_ABOUT || column == SCENE_OF_HARMONIC_ABOUT) &&
+        in->part[SCENE_OF_STATIC] == SCENE_PART_REFUSED)
+        where = scene_column_name[SCENE_OF_STATIC]; /* likewise */
     if (part == SCENE_PART_REFUSED) {
         gsl_test(!refused || strstr(with.reason, in->name) == NULL ||
                      strstr(with.reason, where) == NULL,

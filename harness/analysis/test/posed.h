@@ -231,6 +231,10 @@ static void add(scene *s, const char *name)
         for (int i = 0; i < 6; i++)
             c[7 * i] = 20 * (i + 1);
         scene_damp_spring(s, scene_add_spring(s, SCENE_NONE, TIP, none), c);
+    } else if (IS("feedback")) {
+        const int load = scene_add_load(s, SCENE_FORCE, TIP, 0, 1, 0);
+        scene_load_at(s, load)->feedback =
+            (scene_feedback){TIP, SCENE_UY, SCENE_NONE, 2e3, 5, 1e4, 0};
     } else if (IS("release")) {
         double k[36] = {[28] = 500, [35] = 400};
         scene_release_end(s, 1, 0, SCENE_RZ);

@@ -1,0 +1,148 @@
+"""Loads with feedback: two masses and a bar with a controller, against the exponential of their matrix."""
+import json
+import unittest
+
+import numpy as np
+from scipy.linalg import expm
+
+from harness.tools.kit.program import ProgramTest, run
+
+M1, M2, K = 1.0, 0.5, 100.0  # of the cart and the tool [kg], of the bar [N/m]
+SCENE = """beamwork: 1
+sections:
+  bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}
+nodes:
+  cart: {at: [0, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 1}
+  tool: {at: [1, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 0.5}
+members:
+  bar: {from: cart, to: tool, section: bar, y: [0, 1, 0], warping: free, damping: %(eta)g}
+loads:
+  motor: {force: [1, 0, 0], on: cart, %(more)s feedback: {%(gains)s}}
+analyses:
+%(analyses)s
+quantities:
+  tool: {displacement: {analysis: last, node: tool, component: ux}}
+  cart: {displacement: {analysis: last, node: cart, component: ux}}
+  drift: {energy: {analysis: last, of: drift}}
+  energy: {energy: {analysis: last, of: energy}}
+omit: [trapeze, wagner_moments, wagner_torque]
+"""
+MOTION = "  last: {motion: {stations: [1.5], step: %g, integrator: %s}}"
+
+
+def exact(kp, kd, ki, damping, place, end, measured=2):
+    """Displacements of tool and cart: states x1, v1, x2, v2, integral, 1."""
+    A = np.zeros((6, 6))
+    A[0, 1] = A[2, 3] = 1
+    A[1] = [-K / M1, -damping / M1, K / M1, damping / M1, ki / M1, kp * place / M1]
+    A[3] = [K / M2, damping / M2, -K / M2, -damping / M2, 0, 0]
+    A[4, 2 * measured - 2], A[4, 5] = -1, place
+    A[1, 2 * measured - 2] -= kp / M1
+    A[1, 2 * measured - 1] -= kd / M1
+    x = expm(A * end) @ [0, 0, 0, 0, 0, 1]
+    return x[2], x[0]
+
+
+class Feedback(ProgramTest):
+    def solved(self, gains, analyses, more="time: 0.01,", eta=0.0):
+        path = self.folder / "scene.yaml"
+        text = SCENE % {"gains": gains, "analyses": analyses, "more": more, "eta": eta}
+        path.write_text(text, encoding="utf-8")
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", "1", "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        said = json.loads(done.stdout)
+        values = {q["quantity"]: q["value"] for q in said["quantities"]}
+        steps = [s["iterations"] for s in said["steps"]]
+        self.assertLess(abs(values["drift"]), 1e-3 * values["energy"] + 1e-9)
+        return values, steps
+
+    def test_exponential(self):
+        """Proportional, derivative and integral gains, at the cart and across the bar, stable and not; few iterations."""
+        for scheme, step, near in (("radau", 0.01, 1e-6), ("alpha", 1e-3, 2e-3),
+                                   ("explicit", 0.02, 1e-9)):
+            for kp, kd, ki, node in ((20, 3, 5, 2), (20, 0, 0, 2), (300, -4, 0, 2), (50, 8, 90, 1)):
+                eta = 0 if scheme == "explicit" else 0.01
+                name = "tool" if node == 2 else "cart"
+                found, steps = self.solved(
+                    f"node: {name}, component: ux, proportional: {kp}, derivative: {kd}, "
+                    f"integral: {ki}", MOTION % (step, scheme), eta=eta)
+                tool, cart = exact(kp, kd, ki, eta * K, 0.01, 1.5, node)
+                size = abs(tool) + abs(cart)
+                self.assertLess(abs(found["tool"] - tool) + abs(found["cart"] - cart), near * size,
+                                (scheme, kp, kd, ki))
+                if scheme != "explicit":
+                    self.assertLess(np.mean(steps), 2.1)
+
+    def test_order(self):
+        """Generalized-alpha keeps order two with all gains."""
+        errors = []
+        for step in (2e-3, 1e-3):
+            found, _ = self.solved(
+                "node: tool, component: ux, proportional: 20, derivative: 3, integral: 5",
+                MOTION % (step, "alpha"))
+            errors.append(found["cart"] - exact(20, 3, 5, 0, 0.01, 1.5)[1])
+        self.assertAlmostEqual(errors[0] / errors[1], 4, 1)
+
+    def test_limit(self):
+        """As long as the limit is reached the force is constant."""
+        for scheme in ("radau", "alpha", "explicit"):
+            found, _ = self.solved(
+                "node: tool, component: ux, proportional: 1e6, derivative: 20, limit: 3",
+                MOTION % (0.005, scheme), more="time: 1000,")
+            centre = (M1 * found["cart"] + M2 * found["tool"]) / (M1 + M2)
+            self.assertAlmostEqual(centre / (3 * 1.5**2 / 2 / (M1 + M2)), 1, 5)
+
+    def test_continued(self):
+        """The integral goes on in a motion that continues another; a jump of the reference."""
+        gains = "node: tool, component: ux, proportional: 20, derivative: 3, integral: 40"
+        jump = "pieces: [{until: 0.5, is: 0.01}, {is: 0.03 + 0.01*t}],"
+        for scheme in ("radau", "alpha", "explicit"):
+            whole, _ = self.solved(gains, MOTION % (0.01, scheme), jump)
+            parts, _ = self.solved(
+                gains, f"  first: {{motion: {{stations: [0.7], step: 0.01, integrator: {scheme}}}}}\n"
+                f"  last: {{motion: {{stations: [1.5], step: 0.01, integrator: {scheme}, "
+                "about: first}}", jump)
+            self.assertAlmostEqual(whole["tool"] / parts["tool"], 1, 8)
+
+    def test_units(self):
+        """In mm, N, MPa with gains in N/mm."""
+        gains = "node: tool, component: ux, proportional: %g, derivative: %g, integral: %g"
+        found, _ = self.solved(gains % (20, 3, 5), MOTION % (0.01, "radau"))
+        text = SCENE % {"gains": gains % (20e-3, 3e-3, 5e-3), "more": "time: 10,", "eta": 0,
+                        "analyses": MOTION % (0.01, "radau")}
+        for a, b in (("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa"), ("A: 1e-4", "A: 100"),
+                     ("young: 1e6", "young: 1"), ("shear_modulus: 8e5", "shear_modulus: 0.8"),
+                     ("at: [1,", "at: [1000,"), ("mass: 1}", "mass: 1e-3}"),
+                     ("mass: 0.5}", "mass: 0.5e-3}"), ("Iy: 1e-9, Iz: 1e-9, It: 1e-9",
+                                                       "Iy: 1000, Iz: 1000, It: 1000")):
+            text = text.replace(a, b)
+        path = self.folder / "mm.yaml"
+        path.write_text(text, encoding="utf-8")
+        said = json.loads(
+            run("solve", "--scene", path, "-f", "collocation", "-n", "1", "--format", "json").stdout)
+        millimetres = {q["quantity"]: q["value"] for q in said["quantities"]}["tool"]
+        self.assertAlmostEqual(millimetres / (1000 * found["tool"]), 1, 9)
+
+    def refusal(self, gains, analyses, more, words, *options):
+        path = self.folder / "scene.yaml"
+        text = SCENE % {"gains": gains, "analyses": analyses, "more": more, "eta": 0}
+        path.write_text(text, encoding="utf-8")
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", "1", *options)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn(words, done.stderr)
+
+    def test_refusals(self):
+        gains = "node: tool, component: ux, proportional: 20"
+        motion = MOTION % (0.01, "radau")
+        self.refusal(gains, MOTION % (0.01, "conserving"), "time: 0.01,",
+                     "(conserving): load motor has feedback")
+        self.refusal("node: tool, component: ux", motion, "", "feedback without a gain")
+        self.refusal(gains + ", from: tool", motion, "", "feedback of node tool from itself")
+        self.refusal(gains, "  held: {static: {stations: [1]}}\n" + motion.replace(
+            "radau", "radau, about: held"), "", "(static) and load motor (feedback): it acts in motions only")
+        self.refusal(gains + ", integral: 1", motion, "", "motor (feedback): --save-state does not store its integral",
+                     "--save-state", self.folder / "end.h5")
+
+
+if __name__ == "__main__":
+    unittest.main()
