@@ -308,7 +308,7 @@ static void write_on(writer *w, const void *entry)
 static void write_temperature(writer *w, const void *entry)
 {
     const scene_load *load = entry;
-    if (load->kind != SCENE_TEMPERATURE)
+    if (load->kind != SCENE_TEMPERATURE || load->elongation != 0)
         return;
     write_values_key(w, "temperature");
     write_values_number(w, load->temperature);

@@ -182,7 +182,8 @@ LOAD(following_force_within, l->kind == SCENE_MEMBER_FORCE && l->follower)
 LOAD(moment_within, l->kind == SCENE_MEMBER_MOMENT)
 LOAD(gravity, l->kind == SCENE_GRAVITY)
 LOAD(weight, l->kind == SCENE_WEIGHT)
-LOAD(temperature, l->kind == SCENE_TEMPERATURE)
+LOAD(temperature, l->kind == SCENE_TEMPERATURE && l->elongation == 0)
+LOAD(elongation, l->elongation != 0)
 
 static int is_fed_back(const scene_load *l)
 {
@@ -422,6 +423,7 @@ const scene_input scene_inputs[] = {
     {"rotating axes", "-uu-u--x-uuu--x", no_spin, has_spin},
     {"damping", "----i--i---uuuu", NULL, has_damping},
     {"dashpot", "----i--i---uuuu", NULL, has_dashpot},
+    {"elongation", "uuuuu-uu-uuu-uu", NULL, has_elongation},
     {"feedback", "xxxxxxxxxxxuxxx", no_feedback, has_feedback},
     {NULL, "", NULL, NULL}};
 

@@ -13,6 +13,9 @@ ROW("gravity", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "m/s^2
 /* for SCENE_TEMPERATURE, whose vector is 0 */
 KEY(double, temperature, , "temperature", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "K",
     .summary = "temperature change of a member, at its centroids")
+/* between the ends of the range, instead of a temperature */
+KEY(double, elongation, , "elongation", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "m",
+    .summary = "stress-free elongation of a member: an actuator, a turnbuckle")
 KEY(double, gradient, [2], "gradient", ENTRY_VECTOR, .count = 2, .unit = "K/m",
     .summary = "gradient of the temperature change along y and z of the section", .usual = "[0, 0]",
     .mirrors = "-+")

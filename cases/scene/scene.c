@@ -438,7 +438,13 @@ int scene_load_turns(const scene_load *load)
 int scene_load_acts(const scene_load *load)
 {
     return vec3_norm(load->vector) > 0 || (load->varies && vec3_norm(load->last) > 0) ||
-           load->temperature != 0 || load->gradient[0] != 0 || load->gradient[1] != 0;
+           load->elongation != 0 || load->temperature != 0 || load->gradient[0] != 0 ||
+           load->gradient[1] != 0;
+}
+
+const char *scene_heat_word(const scene_load *load)
+{
+    return load->elongation != 0 ? "an elongation" : "a temperature";
 }
 
 int scene_has_feedback(const scene *s)

@@ -1029,6 +1029,8 @@ int scene_load_along(const scene_load *load);
 int scene_load_within(const scene_load *load);
 /* Is its vector a moment, not a force? */
 int scene_load_turns(const scene_load *load);
+/* "a temperature" or "an elongation". */
+const char *scene_heat_word(const scene_load *load);
 int scene_has_feedback(const scene *s);
 /* Is it nonzero somewhere on its range? */
 int scene_load_acts(const scene_load *load);

@@ -233,13 +233,18 @@ static status check_temperature(const scene *s, int i, fault *f)
     const scene_load *load = &s->load[i];
     const scene_member *m = &s->member[load->where];
     const int profile[2] = {m->section, m->section_q};
-    int expands = 0;
+    const double gradient[3] = {load->gradient[0], load->gradient[1], 0};
+    int expands = load->temperature == 0 && vec3_norm(gradient) == 0;
     section c;
     if (load->lumped || load->follower || load->axes != SCENE_AXES_FIXED ||
         vec3_norm(load->at) > 0 || load->varies)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a temperature belongs to the sections of its member; remove "
-                         "'to_value', 'lumped', 'at', 'axes' and 'follower'",
+                         "%s: %s belongs to the sections of its member; remove 'to_value', "
+                         "'lumped', 'at', 'axes' and 'follower'",
+                         scene_called(s, SCENE_LOADS, i).text, scene_heat_word(load));
+    if (load->elongation != 0 && (load->temperature != 0 || vec3_norm(gradient) > 0))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: an elongation has no temperature and no gradient; give a second load",
                          scene_called(s, SCENE_LOADS, i).text);
     if (!isfinite(load->temperature) || !isfinite(load->gradient[0]) ||
         !isfinite(load->gradient[1]))
@@ -262,7 +267,8 @@ static status check_load_kind(const scene *s, int i, fault *f)
     section c;
     if (load->kind == SCENE_TEMPERATURE)
         return check_temperature(s, i, f);
-    if (load->temperature != 0 || load->gradient[0] != 0 || load->gradient[1] != 0)
+    if (load->elongation != 0 || load->temperature != 0 || load->gradient[0] != 0 ||
+        load->gradient[1] != 0)
         return fault_set(f, STATUS_REFUSED, "%s: a %s has no temperature or gradient; remove them",
                          scene_called(s, SCENE_LOADS, i).text, entry_of_load(load->kind)->name);
     if (vec3_norm(load->at) > 0 &&

@@ -167,19 +167,20 @@ static status check_temperature(const scene *s, int l, int i, fault *f)
     if (scene_motion_of(&s->analysis[i])->scheme == SCENE_CONSERVING)
         return fault_set(f, STATUS_REFUSED,
                          "%s (conserving): %s changes in time and supplies energy; use the "
-                         "integrator alpha or radau, or a constant temperature",
+                         "integrator alpha or radau, or keep %s constant",
                          scene_called(s, SCENE_ANALYSES, i).text,
+                         scene_called(s, SCENE_LOADS, l).text,
                          scene_called(s, SCENE_LOADS, l).text);
     if (!(fabs(at[0] - begin) <= 1e-9 * (1 + fabs(begin))))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: at 0 s its factor is %g, but the motion starts with a temperature of "
-                         "factor %g; start with that factor",
-                         scene_called(s, SCENE_LOADS, l).text, at[0], begin);
+                         "%s: at 0 s its factor is %g, but the motion starts with %s of factor %g; "
+                         "start with that factor",
+                         scene_called(s, SCENE_LOADS, l).text, at[0], scene_heat_word(load), begin);
     if (!function_smooth(&load->function, path->value[path->stations - 1], &time, &derivative) &&
         derivative == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a temperature cannot jump, as it does at %g s; change it gradually",
-                         scene_called(s, SCENE_LOADS, l).text, time);
+                         "%s: %s cannot jump, as it does at %g s; change it gradually",
+                         scene_called(s, SCENE_LOADS, l).text, scene_heat_word(load), time);
     return STATUS_OK;
 }
 

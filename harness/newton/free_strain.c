@@ -39,7 +39,12 @@ static void add_amounts(const model *m, int element, const scene_load *load, dou
             fmin(1, fmax(0, division_inside(model_division(m), member, number, load->range[i])));
     const double strain = scale * c->expansion * (part[1] - part[0]), a = cos(c->axes_angle),
                  b = sin(c->axes_angle), *along = load->gradient;
-    out[ELONGATION] += strain * load->temperature;
+    const double ends = division_place(model_division(m), member, number, 1) -
+                        division_place(model_division(m), member, number, 0),
+                 length =
+                     model_kind_of(m, element)->length / ends * (load->range[1] - load->range[0]);
+    out[ELONGATION] +=
+        strain * load->temperature + scale * load->elongation / length * (part[1] - part[0]);
     out[ABOUT_Y] += strain * (a * along[1] - b * along[0]);
     out[ABOUT_Z] -= strain * (a * along[0] + b * along[1]);
 }

@@ -280,11 +280,12 @@ static void write_loads(FILE *to, const void *what)
     for (int i = 0; i < s->loads; i++) {
         const scene_load *l = &s->load[i];
         const int along = scene_load_along(l);
-        fprintf(to, "%d,%s,", i + 1, kind[l->kind]);
+        fprintf(to, "%d,%s,", i + 1, l->elongation != 0 ? "elongation" : kind[l->kind]);
         name_cell(to, s, SCENE_NODES, along ? SCENE_NONE : l->where);
         name_cell(to, s, SCENE_MEMBERS, along ? l->where : SCENE_NONE);
         fprintf(to, "%.17g,%.17g,%.17g,%s,%s,%d", l->vector[0], l->vector[1], l->vector[2],
-                unit[l->kind], l->axes == SCENE_AXES_MEMBER ? "member" : "fixed", l->follower);
+                l->elongation != 0 ? "m" : unit[l->kind],
+                l->axes == SCENE_AXES_MEMBER ? "member" : "fixed", l->follower);
         write_extent(to, l);
     }
 }

@@ -152,6 +152,10 @@ static void add(scene *s, const char *name)
         load->gradient[0] = 80;
         load->gradient[1] = -50;
         hold_tip(s);
+    } else if (IS("elongation")) {
+        scene_load_at(s, scene_add_load(s, SCENE_TEMPERATURE, 1, 0, 0, 0))->elongation =
+            s->node[TIP].position[1] > 0 ? -1e-4 : 1e-4; /* likewise */
+        hold_tip(s);
     } else if (IS("strain of a member")) {
         scene_member_at(s, 0)->strain[0] = 2e-4;
         hold_tip(s);
@@ -288,9 +292,9 @@ static void add(scene *s, const char *name)
 /* Without the input, but with what was only added to carry it. */
 static void carry(scene *s, const char *name)
 {
-    static const char *const held[] = {"temperature", "strain of a member", "pretension",
-                                       "unstressed length", "free curvature"};
-    for (int i = 0; i < 5; i++)
+    static const char *const held[] = {"temperature",       "strain of a member", "pretension",
+                                       "unstressed length", "free curvature",     "elongation"};
+    for (int i = 0; i < 6; i++)
         if (strcmp(name, held[i]) == 0)
             hold_tip(s);
     if (strcmp(name, "fork") == 0 || strncmp(name, "warping", 7) == 0)
@@ -511,6 +515,7 @@ static void structure(const posed *p, scene *s)
             s->load[i].vector[k] *= scale;
             s->load[i].last[k] *= scale;
             *(k == 2 ? &s->load[i].temperature : &s->load[i].gradient[k]) *= scale;
+            s->load[i].elongation *= k == 0 ? scale : 1;
         }
     for (int i = 0; i < s->members; i++)
         strain(scene_member_at(s, i), length_of(s, i), p->times * p->size);

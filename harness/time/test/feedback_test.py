@@ -144,5 +144,63 @@ class Feedback(ProgramTest):
                      "--save-state", self.folder / "end.h5")
 
 
+BAR = """beamwork: 1
+sections:
+  bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}
+nodes:
+  wall: {at: [0, 0, 0], hold: all}
+  mass: {at: [2, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 0.5}
+members:
+  bar: {from: wall, to: mass, section: bar, y: [0, 1, 0], warping: free}
+loads:
+  drive: {elongation: %s, on: bar, %s}
+analyses:
+  run: {%s}
+quantities:
+  x: {displacement: {analysis: run, node: mass, component: ux}}
+  N: {internal: {analysis: run, member: bar, end: to, resultant: N}}
+omit: [trapeze, wagner_moments, wagner_torque]
+"""
+
+
+class Elongation(ProgramTest):
+    """A member of driven length, with the stiffness 50 N/m and a mass of 0.5 kg at its end."""
+
+    def solved(self, *words, code=0):
+        path = self.folder / "bar.yaml"
+        path.write_text(BAR % words, encoding="utf-8")
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", "2", "--format", "json")
+        self.assertEqual(done.returncode, code, done.stderr)
+        if code:
+            return done.stdout + done.stderr
+        return {q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
+
+    def test_linear(self):
+        for part in ("", "from: 0.2, to: 0.7,"):
+            self.assertAlmostEqual(self.solved("0.01", part, "linear: {}")["x"], 0.01, 12)
+
+    def test_motion(self):
+        """The mass follows m x'' = k (s(t) - x), s = 0.01 (1 - cos 7 t), with eigenfrequency 10 rad/s."""
+        t = 1.3
+        x = 0.01 * (1 - 100 / 51 * np.cos(7 * t) + (100 / 51 - 1) * np.cos(10 * t))
+        for scheme, step, near in (("radau", 0.01, 1e-7), ("alpha", 5e-4, 1e-4)):
+            found = self.solved("0.01", "time: 1 - cos(7*t)",
+                                f"motion: {{stations: [{t}], step: {step}, integrator: {scheme}}}")
+            self.assertLess(abs(found["x"] - x), near)
+            force = 50 * (x - 0.01 * (1 - np.cos(7 * t)))
+            self.assertLess(abs(found["N"] - force), 100 * near)
+
+    def test_refusals(self):
+        motion = "motion: {stations: [1], step: 0.01, integrator: %s}"
+        self.assertIn("an elongation cannot jump", self.solved(
+            "0.01", "pieces: [{until: 0.5, is: 0}, {is: 1}]", motion % "radau", code=2))
+        self.assertIn("(conserving): load drive changes in time", self.solved(
+            "0.01", "time: 1 - cos(7*t)", motion % "conserving", code=2))
+        self.assertIn("no temperature and no gradient", self.solved(
+            "0.01", "gradient: [0, 1]", "linear: {}", code=2))
+        self.assertIn("an elongation belongs to the sections", self.solved(
+            "0.01", "follower: true", "linear: {}", code=2))
+
+
 if __name__ == "__main__":
     unittest.main()
