@@ -6,25 +6,25 @@
 #include <string.h>
 #include <yaml.h>
 
-typedef struct reader {
+typedef struct document_reader {
     yaml_parser_t parser;
     arena *arena;
     mistakes *mistakes;
     int nodes;
-} reader;
+} document_reader;
 
 enum { MOST_NODES = 100000, MOST_TEXT = 4000 };
 
-static document_node *read_node(reader *r, const yaml_event_t *event, int depth);
+static document_node *read_node(document_reader *r, const yaml_event_t *event, int depth);
 
-static void *refuse(reader *r, yaml_mark_t at, const char *what)
+static void *refuse(document_reader *r, yaml_mark_t at, const char *what)
 {
     mistakes_add(r->mistakes, (int)at.line + 1, (int)at.column + 1, "%s", what);
     return NULL;
 }
 
 /* Reports a syntax error, in beamwork's words if it is a known one, else in those of the parser. */
-static void tell_syntax(reader *r)
+static void tell_syntax(document_reader *r)
 {
     const yaml_parser_t *p = &r->parser;
     const char *context = p->context != NULL ? p->context : "";
@@ -53,7 +53,7 @@ static void tell_syntax(reader *r)
 }
 
 /* Returns 1 when there is another event; the caller deletes it. */
-static int next(reader *r, yaml_event_t *event)
+static int next(document_reader *r, yaml_event_t *event)
 {
     if (yaml_parser_parse(&r->parser, event))
         return 1;
@@ -61,7 +61,7 @@ static int next(reader *r, yaml_event_t *event)
     return 0;
 }
 
-static document_node *new_node(reader *r, document_kind kind, yaml_mark_t at)
+static document_node *new_node(document_reader *r, document_kind kind, yaml_mark_t at)
 {
     if (r->nodes++ >= MOST_NODES)
         return refuse(r, at, "the file has more than 100000 entries; write a smaller one");
@@ -85,7 +85,7 @@ static int characters(const char *text, int bytes)
     return count;
 }
 
-static document_node *read_text(reader *r, const yaml_event_t *event)
+static document_node *read_text(document_reader *r, const yaml_event_t *event)
 {
     const char *value = (const char *)event->data.scalar.value;
     size_t length = event->data.scalar.length;
@@ -113,7 +113,7 @@ static document_node *read_text(reader *r, const yaml_event_t *event)
     return n;
 }
 
-static int add_entry(reader *r, document_node *n, document_node *key, document_node *item)
+static int add_entry(document_reader *r, document_node *n, document_node *key, document_node *item)
 {
     n->item = arena_grow(r->arena, n->item, n->count, sizeof(document_node *));
     if (key != NULL)
@@ -130,7 +130,7 @@ static int add_entry(reader *r, document_node *n, document_node *key, document_n
 }
 
 /* Reads a key of a map; errors that leave it readable are only reported. */
-static int check_key(reader *r, const document_node *map, const document_node *key)
+static int check_key(document_reader *r, const document_node *map, const document_node *key)
 {
     if (key->kind != DOCUMENT_TEXT) {
         document_mistake(r->mistakes, key, 0, "a key must be a name, not a list or map");
@@ -152,7 +152,7 @@ static int check_key(reader *r, const document_node *map, const document_node *k
     return 1;
 }
 
-static int read_entries(reader *r, document_node *n, int depth, yaml_event_type_t end)
+static int read_entries(document_reader *r, document_node *n, int depth, yaml_event_type_t end)
 {
     yaml_event_t event;
     while (next(r, &event)) {
@@ -186,7 +186,7 @@ static int read_entries(reader *r, document_node *n, int depth, yaml_event_type_
     return 0;
 }
 
-static document_node *read_collection(reader *r, const yaml_event_t *event, int depth)
+static document_node *read_collection(document_reader *r, const yaml_event_t *event, int depth)
 {
     const int map = event->type == YAML_MAPPING_START_EVENT;
     if (depth == DOCUMENT_DEPTH)
@@ -197,7 +197,7 @@ static document_node *read_collection(reader *r, const yaml_event_t *event, int 
     return n != NULL && read_entries(r, n, depth, end) ? n : NULL;
 }
 
-static document_node *read_node(reader *r, const yaml_event_t *event, int depth)
+static document_node *read_node(document_reader *r, const yaml_event_t *event, int depth)
 {
     static const char anchor[] = "anchors are not supported; write the entry where it is needed, "
                                  "or use 'for', 'let' or 'parts'";
@@ -229,7 +229,7 @@ static document_node *read_node(reader *r, const yaml_event_t *event, int depth)
 }
 
 /* Reads the first events of the stream, the tree, and the end. */
-static document_node *read_stream(reader *r)
+static document_node *read_stream(document_reader *r)
 {
     yaml_event_t event;
     document_node *root = NULL;
@@ -266,7 +266,7 @@ static document_node *read_stream(reader *r)
 
 document_node *document_read(const char *bytes, size_t size, arena *a, mistakes *m)
 {
-    reader r = {.arena = a, .mistakes = m};
+    document_reader r = {.arena = a, .mistakes = m};
     if (size > DOCUMENT_BYTES) {
         mistakes_add(m, 1, 1, "the file is larger than 1 MB; write a smaller one");
         return NULL;

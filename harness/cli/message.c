@@ -331,12 +331,12 @@ static void add_given(command_line *l, const verb_option *o, const char *value)
     l->given[l->givens++] = (given_option){o, value};
 }
 
-typedef struct reading {
+typedef struct command_reading {
     command_line *line;
     char *request;
-} reading;
+} command_reading;
 
-static void take_option(reading *r, const verb_option *o, size_t at, const char *value)
+static void take_option(command_reading *r, const verb_option *o, size_t at, const char *value)
 {
     fault f;
     add_given(r->line, o, value);
@@ -346,7 +346,7 @@ static void take_option(reading *r, const verb_option *o, size_t at, const char 
 
 static error_t take(int key, char *value, struct argp_state *state)
 {
-    reading *r = state->input;
+    command_reading *r = state->input;
     const verb *v = r->line->verb;
     size_t at;
     if (key == ARGP_KEY_ARG)
@@ -397,7 +397,7 @@ void command_parse(const verb *v, const verb *const *verbs, int count, char **ar
                    command_line *line, void *request)
 {
     struct argp_option row[MOST_ROWS] = {{0}};
-    reading r = {line, request};
+    command_reading r = {line, request};
     const verb_option *o;
     char name[64];
     fault f;

@@ -41,6 +41,9 @@ hits=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]+"[^"]*_impl\.h"' 
     awk -F '[:"]' '{ home = $4; file = $1; sub("/[^/]*$", "", home); sub("/(test/)?[^/]*$", "", file) }
         file != home { print $0 "   <- this is the inside of " home }' || true)
 [ -z "$hits" ] || { echo "$hits"; bad=1; }
+# A type has a name of its own.
+hits=$(grep -rhoE '^\} [a-z_0-9]+;' elements cases harness --include='*.c' --include='*.h' --exclude-dir=test --exclude-dir=tools --exclude-dir=examples | sort | uniq -d)
+[ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- two types have this name|'; bad=1; }
 # The harness walks generated lists: neither a formulation nor a case is named in it.
 for file in elements/*.c cases/*.c cases/*.yaml; do
     [ -f "$file" ] || continue
