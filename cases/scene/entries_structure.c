@@ -427,8 +427,9 @@ const entry_field entry_section[] = {
     {"t", ENTRY_MAP, .needed = 1, .group = 1, .below = tee,
      .summary = "flange along y, web from it towards -z"},
     {"profile", ENTRY_TEXT, .needed = 1, .group = 1,
-     .summary = "rolled section: IPE200, HEA200, HEB200, UPN200, L100x10, SHS100x5, RHS200x100x5, "
-                "CHS114.3x5"},
+     .summary =
+         "rolled section: IPE200, HEA200, HEB200, HEM200, UPN200, L100x10, SHS100x5, RHS200x100x5, "
+         "CHS114.3x5"},
     {"stiffness", ENTRY_NUMBERS, .needed = 1, .group = 1,
      .summary = "(N, Qy, Qz, Mx, My, Mz) from (gx, gy, gz, kx, ky, kz) on the member's line: the "
                 "36 entries of a symmetric matrix, or its diagonal"},

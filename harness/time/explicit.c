@@ -308,6 +308,15 @@ static status check_joined(const model *m, const carried_masses *masses, fault *
 static status explicit_check(const model *m, const carried_masses *masses, fault *f)
 {
     const size_t all = (size_t)model_all_coordinates(m) + 1;
+    for (int i = 0; i < model_scene(m)->members; i++)
+        if (scene_is_beside(&model_scene(m)->member[i], 0) ||
+            scene_is_beside(&model_scene(m)->member[i], 1))
+            return fault_set(
+                f, STATUS_REFUSED,
+                "integrator explicit: %s has an offset, which it does not support; end "
+                "it at a node that is part_of the other, or use alpha, conserving or "
+                "radau",
+                scene_called(model_scene(m), SCENE_MEMBERS, i).text);
     if (model_releases(m) > 0)
         return fault_set(f, STATUS_REFUSED,
                          "integrator explicit: released ends of members have no inertia of their "

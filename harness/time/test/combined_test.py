@@ -67,6 +67,11 @@ class CombinedTest(SceneCase):
             bound = 1e-9 if name == "conserving" else 1e-4
             self.assertLess(abs(got[name]["drift"]), bound * abs(got[name]["energy"]), name)
 
+    def test_explicit(self):
+        """It refuses an offset by its member, with what to write instead."""
+        text = MOVED.replace(", pretension: 3e3", "") + MOTION.format(integrator="explicit", steps="step: 1e-5")
+        self.refused(2, ["member second has an offset", "part_of"], "solve", "--scene", self.scene(text), "-n", 1)
+
     def test_another_order_of_ends(self):
         """Members from the other end: what is at one end is at the other, y turns round."""
         there = HEAD.replace(
