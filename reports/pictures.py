@@ -147,9 +147,10 @@ def hexadecimal(colour):
 
 def title_of(s, state, scale):
     value = f"{s.value[state]:.4g}"
+    acting = ", " + s.acting[state] if s.kind[state] == "linear" and s.acting[state] else ""
     words = {
         "undeformed": "undeformed", "path": f"at path parameter {value}",
-        "linear": "linear solution", "buckling": f"buckling at load factor {value}",
+        "linear": f"linear solution{acting}", "buckling": f"buckling at load factor {value}",
         "mode": f"{value} Hz", FRAME: f"t = {value} s"
     }[s.kind[state]]
     return words + (f", displacements × {scale:g}" if scale != 1 else "")

@@ -38,6 +38,7 @@ class Shapes:
     far: dict  # member: the same at its far end, where the section changes along it
     equivalent: list  # section known by its constants only: a rectangle stands for it
     kind: list
+    acting: list  # what acts in a linear solution, such as "combination ULS"; "": everything
     value: np.ndarray
     position: np.ndarray  # [states x points x 3] in m
     axes: np.ndarray  # [states x points x 3 x 3]: rows are the section's axes
@@ -86,7 +87,8 @@ def read_file(path, name, point="default"):
             text(g.attrs["formulation"]), int(g.attrs["elements"]), g["members"][()],
             g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
             g["released"][()] if "released" in g else np.zeros((len(g["members"]), 2), int), walls,
-            far, equivalent, [text(kind) for kind in g["kind"][()]], g["value"][()],
+            far, equivalent, [text(kind) for kind in g["kind"][()]],
+            [text(one) for one in g["acting"][()]] if "acting" in g else [""] * len(g["kind"]), g["value"][()],
             g["position"][()],
             matrices(g["orientation"][()]), g["nodes"][()])
 

@@ -80,7 +80,7 @@ static status keep_displacements(const analysis_context *c, int analysis, double
     for (int i = 0; i < l->solutions; i++) {
         const analysis_context one = context_under(c, l->acting[i]);
         const double *x = l->x + (size_t)i * l->coordinates;
-        shape_state what = {SHAPE_LINEAR, analysis, i + 1, 1};
+        shape_state what = {SHAPE_LINEAR, analysis, l->acting[i] > 0 ? l->acting[i] : 1, 1};
         TRY(linear_whole_stresses(&one.eq, x, 1, sigma, f));
         TRY(keep_displaced(&one, &what, x, sigma, s, f));
     }

@@ -311,13 +311,18 @@ static void put_columns(record_file *r, hid_t at, const char *name, const shapes
 }
 
 /* Stores one number for every state. */
-static void put_state_numbers(record_file *r, hid_t at, const shapes *s)
+static void put_state_numbers(record_file *r, hid_t at, const scene *sc, const shapes *s)
 {
     const hsize_t size = (hsize_t)s->states;
-    const char **kind = calloc((size_t)s->states + 1, sizeof(const char *));
+    const char **kind = calloc(2 * (size_t)s->states + 1, sizeof(const char *)),
+               **acting = kind + s->states;
+    scene_words *called = calloc((size_t)s->states + 1, sizeof *called);
     double *column = calloc(3 * (size_t)s->states + 1, sizeof *column);
-    r->bad |= kind == NULL || column == NULL;
+    r->bad |= kind == NULL || column == NULL || called == NULL;
     for (int i = 0; i < s->states && !r->bad; i++) {
+        if (s->state[i].kind == SHAPE_LINEAR && sc->cases > 0)
+            called[i] = scene_acting_called(sc, (int)s->state[i].value);
+        acting[i] = called[i].text;
         kind[i] = shapes_kind_name(s->state[i].kind);
         column[i] = s->state[i].analysis;
         column[s->states + i] = s->state[i].value;
@@ -325,11 +330,13 @@ static void put_state_numbers(record_file *r, hid_t at, const shapes *s)
     }
     if (!r->bad) {
         record_texts(r, at, "kind", s->states, kind);
+        record_texts(r, at, "acting", s->states, acting);
         static const char *const name[] = {"analysis", "value", "scale"};
         for (int k = 0; k < 3; k++)
             H5Dclose(record_values(r, at, name[k], 1, &size, column + k * s->states, "1"));
     }
     free(kind);
+    free(called);
     free(column);
 }
 
@@ -422,7 +429,7 @@ static hid_t store_shapes(record_file *r, hid_t at, const char *name, const scen
     put_sections(r, here, sc);
     put_far_ends(r, here, sc);
     put_integers(r, here, "first_point", s->members + 1, 1, s->first);
-    put_state_numbers(r, here, s);
+    put_state_numbers(r, here, sc, s);
     put_columns(r, here, "position", s, 0, 3, "m", "x y z");
     put_columns(r, here, "orientation", s, 3, 4, "1", "w x y z");
     put_columns(r, here, "force", s, 7, 3, "N", "N Qy Qz");

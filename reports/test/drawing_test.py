@@ -1,12 +1,15 @@
 """Scenes drawn: an arrow for each load, a symbol for each support, labels that keep clear of each
 other."""
 import itertools
+import pathlib
+import tempfile
 import unittest
 from dataclasses import replace
 
 import numpy as np
 
 from harness.tools.kit.program import ROOT, run
+from reports import pictures, shapes
 from reports.drawing import describe, draw, geometry, loads, members, scene
 from reports.drawing.canvas import Canvas, boxes_overlap
 from reports.style import plt
@@ -202,6 +205,17 @@ analyses: {run: {linear: {}}}
             self.assertEqual(said, ["held (filled bar): p, c at r, t", "shared: q",
                                     "free (open bar): b at r"] if drawn else None)
             plt.close(figure)
+
+    def test_titles_of_load_cases(self):
+        """The picture of a linear solution says what acts."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "r.h5"
+            run("solve", "--scene", str(ROOT / "cases/examples/continuous_beam.yaml"), "-f", "collocation", "-n", "1",
+                "--shapes", "-o", str(path))
+            s = shapes.read_file(path, "continuous_beam")
+            self.assertEqual([pictures.title_of(s, k, 1) for k in range(len(s.kind))],
+                             ["undeformed", "linear solution, combination both", "linear solution, combination first",
+                              "linear solution, combination second", "linear solution, case dead"])
 
     def test_nothing_written(self):
         self.assertIsNone(scene.read(""))
