@@ -16,7 +16,7 @@ import numpy as np
 import yaml
 from scipy.optimize import nnls
 
-# As harness/study/study.h counts them.
+# As harness/study/study_impl.h counts them.
 WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "compliance",
         "continuation", "rotation_step", "rotation_station", "alpha_step", "conserving_step",
         "radau_step", "explicit_step")
