@@ -410,7 +410,7 @@ status harmonic_reacting(const vibration *, const scene_response *, int *out, fa
 status second_order_list(const scene *, system_matrices *, fault *);
 /* v: matrices of all coordinates, state and modes with ratios; G: NULL, or gyroscopic. */
 status second_order_keep(const vibration *v, const sparse *G, const system_matrices *,
-                         linear_model *, fault *);
+                         state_matrices *, fault *);
 
 /* Modes with damping. */
 status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault *);

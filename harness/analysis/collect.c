@@ -264,8 +264,7 @@ static status keep_model(const analysis_context *c, const model_state *state, co
                          .M = w->M,
                          .C = w->C,
                          .damped = damping_acts(c->scene)};
-    return w->models ? second_order_keep(&v, out->turns ? &w->G : NULL, s, &out->model, f)
-                     : STATUS_OK;
+    return w->models ? second_order_keep(&v, out->turns ? &w->G : NULL, s, out, f) : STATUS_OK;
 }
 
 /* Stores K, which is known, and B; M where the formulation has inertia, and G where the axes
@@ -399,7 +398,7 @@ static status keep_harmonic(analysis_context *c, int analysis, const workspace *
     status outcome = harmonic_system(c, analysis, &v, f);
     if (outcome == STATUS_OK) {
         out->path = kinematics_state_path(v.state);
-        outcome = second_order_keep(&v, NULL, s, &out->model, f);
+        outcome = second_order_keep(&v, NULL, s, out, f);
     }
     if (outcome == STATUS_OK && v.inside)
         outcome = harmonic_inside(c, analysis, &out->model.apart, &out->model.farthest, f);

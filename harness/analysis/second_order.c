@@ -3,9 +3,11 @@
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
 enum { MOST_COORDINATES = 1000 };
@@ -292,9 +294,129 @@ static status keep_state_space(const analysis_context *c, const system_matrices 
     return outcome;
 }
 
-status second_order_keep(const vibration *v, const sparse *G, const system_matrices *s,
-                         linear_model *out, fault *f)
+/* "MODES:NODE,NODE": *modes, and 1 for the coordinates of these nodes. */
+static status read_interface(const vibration *v, const char *text, int *modes, char edge[],
+                             fault *f)
 {
+    int index[KINEMATICS_MOST], used = 0;
+    double T[6 * KINEMATICS_MOST];
+    const scene *s = v->c->scene;
+    const char *from = text;
+    if (sscanf(text, "%d%n", modes, &used) != 1 || *modes < 0 ||
+        (text[used] != '\0' && text[used] != ':'))
+        return fault_set(f, STATUS_REFUSED,
+                         "--reduce %.60s: write the number of modes, or it and the interface "
+                         "nodes, as in 10:base,tip",
+                         text);
+    for (from += used; *from == ':' || *from == ',';) {
+        const size_t length = strcspn(++from, ",");
+        int node = -1;
+        for (int i = 0; i < s->nodes; i++) {
+            const scene_words name = scene_name(s, SCENE_NODES, i);
+            if (strlen(name.text) == length && strncmp(name.text, from, length) == 0)
+                node = i;
+        }
+        if (node < 0)
+            return fault_set(f, STATUS_REFUSED, "--reduce: there is no node %.*s", (int)length,
+                             from);
+        const int count =
+            kinematics_node_jacobian(v->c->model, v->state, node, KINEMATICS_MOST, index, T);
+        for (int k = 0; k < count; k++)
+            if (index[k] < v->free)
+                edge[index[k]] = 1;
+        from += length;
+    }
+    return STATUS_OK;
+}
+
+/* Largest differences of the transfer functions at the frequencies of a harmonic analysis. */
+static status compare_transfer(const vibration *v, const second_order *whole,
+                               const second_order *small, reduced_model *out, fault *f)
+{
+    const scene_path *path = scene_path_of(&v->c->scene->analysis[v->analysis]);
+    const size_t each = (size_t)whole->outputs * (size_t)whole->inputs;
+    double *room = calloc(5 * each + 1, sizeof *room), *one = room, *other = room + 2 * each,
+           *size = room + 4 * each;
+    status outcome = STATUS_OK;
+    out->apart = calloc(each + 1, sizeof *out->apart);
+    out->at = calloc(each + 1, sizeof *out->at);
+    if (room == NULL || out->apart == NULL || out->at == NULL)
+        outcome = no_memory(f);
+    for (int i = 0; outcome == STATUS_OK && i < path->stations; i++) {
+        const double w = 2 * PI * path->value[i];
+        if (w == 0 && whole->motions > 0)
+            continue; /* infinite: a constant acceleration */
+        outcome = second_order_transfer(whole, w, one, f);
+        if (outcome == STATUS_OK)
+            outcome = second_order_transfer(small, w, other, f);
+        for (size_t k = 0; k < each && outcome == STATUS_OK; k++) {
+            const double off = hypot(one[2 * k] - other[2 * k], one[2 * k + 1] - other[2 * k + 1]);
+            size[k] = fmax(size[k], hypot(one[2 * k], one[2 * k + 1]));
+            if (off > out->apart[k]) {
+                out->apart[k] = off;
+                out->at[k] = path->value[i];
+            }
+        }
+    }
+    for (size_t k = 0; k < each && outcome == STATUS_OK; k++)
+        out->apart[k] /= size[k] > 0 ? size[k] : 1;
+    free(room);
+    return outcome;
+}
+
+static status compare_frequencies(const second_order *whole, const second_order *small, int modes,
+                                  reduced_model *out, fault *f)
+{
+    out->whole = calloc((size_t)whole->n + 1, sizeof *out->whole);
+    out->reduced = calloc((size_t)small->n + 1, sizeof *out->reduced);
+    if (out->whole == NULL || out->reduced == NULL)
+        return no_memory(f);
+    TRY(second_order_frequencies(whole, out->whole, f));
+    TRY(second_order_frequencies(small, out->reduced, f));
+    while (out->modes < modes && out->modes < small->n && isfinite(out->whole[out->modes]) &&
+           isfinite(out->reduced[out->modes]))
+        out->modes++;
+    return STATUS_OK;
+}
+
+static status keep_reduced(const vibration *v, const system_matrices *s, const second_order *whole,
+                           reduced_model *out, fault *f)
+{
+    second_order small = {0};
+    double *T = NULL;
+    int modes = 0;
+    char *edge = calloc((size_t)v->free + 1, sizeof *edge);
+    fault why = {""};
+    if (edge == NULL)
+        return no_memory(f);
+    status outcome = read_interface(v, v->c->options->reduce, &modes, edge, f);
+    if (outcome == STATUS_OK) {
+        outcome = second_order_reduce(whole, edge, modes, &small, &T, &why);
+        if (outcome != STATUS_OK)
+            fault_set(f, outcome, "--reduce: %s", why.text);
+    }
+    if (outcome == STATUS_OK)
+        outcome =
+            triplets_of_rows(whole->n + whole->motions, small.n + small.motions, T, &out->T, f);
+    if (outcome == STATUS_OK)
+        outcome = keep_second_order(&small, &out->of, f);
+    if (outcome == STATUS_OK)
+        outcome = keep_state_space(v->c, s, &small, &out->of, f);
+    if (outcome == STATUS_OK)
+        outcome = compare_frequencies(whole, &small, modes, out, f);
+    if (outcome == STATUS_OK && v->analysis != SCENE_NONE &&
+        v->c->scene->analysis[v->analysis].kind == SCENE_HARMONIC)
+        outcome = compare_transfer(v, whole, &small, out, f);
+    second_order_free(&small);
+    free(T);
+    free(edge);
+    return outcome;
+}
+
+status second_order_keep(const vibration *v, const sparse *G, const system_matrices *s,
+                         state_matrices *to, fault *f)
+{
+    linear_model *const out = &to->model;
     int motions = 0;
     if (v->free > MOST_COORDINATES)
         return fault_set(f, STATUS_REFUSED,
@@ -318,6 +440,8 @@ status second_order_keep(const vibration *v, const sparse *G, const system_matri
         outcome = keep_second_order(&m, out, f);
     if (outcome == STATUS_OK)
         outcome = keep_state_space(v->c, s, &m, out, f);
+    if (outcome == STATUS_OK && v->c->options->reduce != NULL)
+        outcome = keep_reduced(v, s, &m, &to->reduced, f);
     second_order_free(&m);
     free(room);
     free(at);

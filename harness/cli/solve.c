@@ -22,6 +22,7 @@ typedef struct solve_request {
     const char *follow;         /* NAME=A..B/N: follow modes over this parameter */
     const char *matrices;       /* folder for the matrices of all states */
     int state_space;            /* 1: and linear models */
+    const char *reduce;         /* and reduced ones */
     const char *ends, *restart; /* files: output for the final state of motions; state from which
                                    motions continue */
 } solve_request;
@@ -55,7 +56,8 @@ static defaults defaults_of(solve_request *r, const case_type *type)
                                  .shapes = r->shapes,
                                  .threads = r->solver.threads,
                                  .error = r->error,
-                                 .systems = r->matrices != NULL ? 1 + r->state_space : 0},
+                                 .systems = r->matrices != NULL ? 1 + r->state_space : 0,
+                                 .reduce = r->reduce},
                       .chosen = &r->chosen,
                       .meshes = &r->meshes,
                       .truths = &r->truths};
@@ -103,18 +105,49 @@ static void tell_apart(const scene *s, const state_matrices *m)
                 s->quantity[m->model.farthest].name);
 }
 
+/* The errors of a reduced model. */
+static void tell_reduced(const scene *s, const system_matrices *all, const state_matrices *m)
+{
+    const reduced_model *r = &m->reduced;
+    double frequency = 0, apart = 0;
+    int y = 0;
+    if (r->T.rows == 0)
+        return;
+    for (int i = 0; i < r->modes; i++)
+        frequency = fmax(frequency, fabs(r->reduced[i] / r->whole[i] - 1));
+    fprintf(stderr, "beamwork: reduced model of %s: %d of %d coordinates; ",
+            m->analysis == SCENE_NONE ? "the undeformed structure"
+                                      : scene_name(s, SCENE_ANALYSES, m->analysis).text,
+            r->T.columns, r->T.rows);
+    if (r->modes > 0)
+        fprintf(stderr, "first %d natural frequencies off by at most %.1e", r->modes, frequency);
+    else
+        fputs("natural frequencies not compared (no modes, or free to move)", stderr);
+    for (int k = 0; r->apart != NULL && k < all->outputs * all->inputs; k++)
+        if (r->apart[k] > apart) {
+            apart = r->apart[k];
+            y = k / all->inputs;
+        }
+    if (r->apart != NULL && all->outputs > 0)
+        fprintf(stderr, "; transfer functions by at most %.1e of the largest (%s)", apart,
+                s->quantity[all->output[y].quantity].name);
+    fprintf(stderr, "\n");
+}
+
 /* Writes the matrices of all states, if requested. */
 static status write_matrices(const solve_request *r, const sweep *s, fault *f)
 {
     const cell_result *cell = &s->series[0].cell[0];
     char title[200];
-    if (r->matrices == NULL)
+    if (r->matrices == NULL || cell->solve.systems.label == NULL) /* why is reported */
         return STATUS_OK;
     snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
              r->chosen.formulation[0].key, r->meshes.elements[0]);
     TRY(system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f));
-    for (int i = 0; i < cell->solve.systems.states; i++)
+    for (int i = 0; i < cell->solve.systems.states; i++) {
         tell_apart(&s->point[0].scene, &cell->solve.systems.state[i]);
+        tell_reduced(&s->point[0].scene, &cell->solve.systems, &cell->solve.systems.state[i]);
+    }
     return STATUS_OK;
 }
 
@@ -222,6 +255,8 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
         return fault_set(
             f, STATUS_REFUSED,
             "--state-space adds to the matrices of --matrices FOLDER; give the folder");
+    if (r->reduce != NULL && !r->state_space)
+        return fault_set(f, STATUS_REFUSED, "--reduce reduces what --state-space writes; add it");
     TRY(files_check(r->of.line, r->shapes > 0, own_tables_packed(&r->truths), f));
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
     if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
@@ -355,6 +390,11 @@ static const verb_option own[] = {
      "second "
      "order; forces, motions and loads are the inputs, responses and displacements the outputs",
      IN(state_space)},
+    {"reduce", 0, "MODES[:NODE,...]",
+     "with --state-space: also reduced models, of static shapes of these interface nodes and modes "
+     "with them fixed (Craig-Bampton), without nodes of modes and static shapes of forces; their "
+     "errors are printed",
+     IN(reduce)},
     {"save-state", 0, "FILE",
      "also store the last state of motions (HDF5): --restart continues there", IN(ends),
      .traits = OPTION_OUTPUT | OPTION_HDF5},

@@ -971,7 +971,8 @@ typedef struct solution_request {
     int restarts;
     const outcome_end
         *restart; /* [restarts] states from which motions continue; none without such motions */
-    int systems;  /* 1: stores the matrices of small motions about all states */
+    int systems;  /* as in solve_options */
+    const char *reduce;
     double
         error; /* relative change of values between meshes that counts as converged; 0: default */
 } solution_request;

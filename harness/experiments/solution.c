@@ -104,6 +104,7 @@ status solution_run(const solution_request *r, const solution_choice *why, sweep
     cell_result *out = &s->series[0].cell[0];
     request.solve.shapes = r->shapes;
     request.solve.systems = r->systems;
+    request.solve.reduce = r->reduce;
     request.solve.keep_ends = r->keep_ends;
     /* what is drawn, written or gone on from is requested */
     request.solve.all_analyses = r->shapes > 0 || r->systems || r->keep_ends;

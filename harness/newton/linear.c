@@ -455,19 +455,33 @@ status linear_system_solve(analysis_context *c, linear_system *s, double path, d
     return outcome;
 }
 
+static void linear_model_free(linear_model *m)
+{
+    triplets *const each[] = {&m->K,    &m->C, &m->M,       &m->B,       &m->L[0],    &m->L[1],
+                              &m->L[2], &m->D, &m->state.A, &m->state.B, &m->state.C, &m->state.D};
+    for (size_t k = 0; k < sizeof each / sizeof *each; k++)
+        triplets_free(each[k]);
+}
+
+static void reduced_model_free(reduced_model *m)
+{
+    linear_model_free(&m->of);
+    triplets_free(&m->T);
+    free(m->whole);
+    free(m->reduced);
+    free(m->apart);
+    free(m->at);
+}
+
 void system_matrices_free(system_matrices *s)
 {
     for (int i = 0; i < s->states; i++) {
         triplets *const each[] = {&s->state[i].K, &s->state[i].M,      &s->state[i].G,
                                   &s->state[i].C, &s->state[i].inside, &s->state[i].B};
-        linear_model *m = &s->state[i].model;
-        triplets *const linear[] = {&m->K,       &m->C,       &m->M,       &m->B,
-                                    &m->L[0],    &m->L[1],    &m->L[2],    &m->D,
-                                    &m->state.A, &m->state.B, &m->state.C, &m->state.D};
         for (size_t k = 0; k < sizeof each / sizeof *each; k++)
             triplets_free(each[k]);
-        for (size_t k = 0; k < sizeof linear / sizeof *linear; k++)
-            triplets_free(linear[k]);
+        linear_model_free(&s->state[i].model);
+        reduced_model_free(&s->state[i].reduced);
         free(s->state[i].frequency);
         free(s->state[i].mode);
     }

@@ -449,6 +449,17 @@ typedef struct linear_model {
     int farthest; /* ... of this quantity */
 } linear_model;
 
+/* A reduced linear model, q = T x, beside the whole one. */
+typedef struct reduced_model {
+    linear_model of;
+    triplets T;
+    int modes;               /* natural frequencies [Hz]: ... */
+    double *whole, *reduced; /* ... [modes] */
+    double *apart, *at;      /* [outputs x inputs] largest difference of transfer functions at the
+                                frequencies of a harmonic analysis, relative to the largest value,
+                                and its frequency [Hz]; NULL: of no harmonic analysis */
+} reduced_model;
+
 /* A load with factor 1, a force or moment of 1 at a node, or an acceleration of 1 of a motion. */
 typedef struct system_input {
     int load, driver, node, component; /* SCENE_NONE: not this */
@@ -471,6 +482,7 @@ typedef struct state_matrices {
     int modes;                /* number of modes of a modal analysis, ascending; else 0 */
     double *frequency, *mode; /* [modes] [rad/s]; [modes x rows] */
     linear_model model;       /* if requested */
+    reduced_model reduced;    /* if requested */
 } state_matrices;
 
 typedef struct system_matrices {
@@ -502,8 +514,9 @@ typedef struct solve_options {
                       results */
     int shapes;    /* largest number of path states with stored centre lines; 0: no shapes */
     int systems; /* 1: store the matrices of small motions about all states; 2: also state space */
-    int whole_steps; /* 1: a time step that fails ends the motion; 0: it is halved */
-    int keep_ends;   /* 1: store the ends of motions, from which another run can continue */
+    const char *reduce; /* "MODES" or "MODES:NODE,NODE" of reduced models; NULL: none */
+    int whole_steps;    /* 1: a time step that fails ends the motion; 0: it is halved */
+    int keep_ends;      /* 1: store the ends of motions, from which another run can continue */
     int restarts;
     const outcome_end
         *restart;     /* [restarts] ends of motions in another run, from which motions continue */

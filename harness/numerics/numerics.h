@@ -349,6 +349,16 @@ typedef struct second_order {
 status second_order_alloc(int n, int motions, int inputs, int outputs, second_order *, fault *);
 void second_order_free(second_order *);
 
+/* Reduced model q = T x (T [(n + motions) x (columns + motions)], which the caller frees in any
+ * case): static shapes of the coordinates with edge[n] 1 and the first modes with these fixed;
+ * without any modes and the static shapes of forces. REFUSED: it is free to move then. */
+status second_order_reduce(const second_order *, const char edge[], int modes, second_order *out,
+                           double **T, fault *);
+/* Natural frequencies without damping and motions [n]; NAN: none. */
+status second_order_frequencies(const second_order *, double hertz[], fault *);
+/* y by u at a circular frequency: out[outputs x inputs x 2], real and imaginary. */
+status second_order_transfer(const second_order *, double w, double out[], fault *);
+
 /* x' = A x + B u, y = C x + D u, dense and row by row. */
 typedef struct state_space {
     int states, eliminated; /* coordinates without mass and damping */

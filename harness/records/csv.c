@@ -184,6 +184,7 @@ typedef struct contents {
     const char *title;
     const scene *scene;
     const system_matrices *of;
+    const reduced_model *reduced; /* of its errors */
 } contents;
 
 /* A matrix with its comment. */
@@ -372,8 +373,23 @@ static status add_matrix(const output_folder *folder, const char *state, const c
     return output_folder_file(folder, file, write_matrix, &what, f);
 }
 
+/* Of a reduced model. */
+static void write_errors(FILE *to, const void *what)
+{
+    const contents *c = what;
+    const reduced_model *m = c->reduced;
+    fprintf(to, "kind,mode,output,input,whole,reduced,error,at,unit\n");
+    for (int i = 0; i < m->modes; i++)
+        fprintf(to, "natural frequency,%d,,,%.17g,%.17g,%.3g,,Hz\n", i + 1, m->whole[i],
+                m->reduced[i], m->reduced[i] / m->whole[i] - 1);
+    for (int i = 0; m->apart != NULL && i < c->of->outputs * c->of->inputs; i++)
+        fprintf(to, "transfer function,,%d,%d,,,%.3g,%.17g,Hz\n", i / c->of->inputs + 1,
+                i % c->of->inputs + 1, m->apart[i], m->at[i]);
+}
+
+/* T: of a reduced model, or NULL. */
 static status add_model(const output_folder *folder, const char *state, const linear_model *m,
-                        const char *title, fault *f)
+                        const triplets *T, const char *title, fault *f)
 {
     char name[2 * NAME], comment[300];
     const struct {
@@ -386,13 +402,15 @@ static status add_model(const output_folder *folder, const char *state, const li
       first[] = {{"A", &m->state.A}, {"B", &m->state.B}, {"C", &m->state.C}, {"D", &m->state.D}};
     if (m->state.A.rows == 0)
         return STATUS_OK;
-    snprintf(name, sizeof name, "%s/second_order", state);
+    snprintf(name, sizeof name, "%s/%s", state, T == NULL ? "second_order" : "reduced");
     snprintf(comment, sizeof comment, "%.100s, %.90s; u: inputs.csv, y: outputs.csv; SI", title,
              name);
     TRY(output_folder_below(folder, name, f));
     for (size_t i = 0; i < sizeof second / sizeof *second; i++)
         TRY(add_matrix(folder, name, second[i].letter, second[i].matrix, comment, f));
-    snprintf(name, sizeof name, "%s/state_space", state);
+    if (T != NULL)
+        TRY(add_matrix(folder, name, "T", T, comment, f));
+    snprintf(name, sizeof name, "%s%s/state_space", state, T == NULL ? "" : "/reduced");
     snprintf(comment, sizeof comment,
              "%.100s, %.90s; u: inputs.csv, y: outputs.csv; coordinates without mass and damping "
              "eliminated: %d; SI",
@@ -417,7 +435,14 @@ static status add_state(const output_folder *folder, const contents *c, const st
     TRY(add_matrix(folder, name, "C", &s->C, comment, f));
     TRY(add_matrix(folder, name, "M_inside", &s->inside, comment, f));
     TRY(add_matrix(folder, name, "B", &s->B, comment, f));
-    return add_model(folder, name, &s->model, c->title, f);
+    TRY(add_model(folder, name, &s->model, NULL, c->title, f));
+    if (s->reduced.T.rows == 0)
+        return STATUS_OK;
+    const contents errors = {.of = c->of, .reduced = &s->reduced};
+    char file[2 * NAME];
+    TRY(add_model(folder, name, &s->reduced.of, &s->reduced.T, c->title, f));
+    snprintf(file, sizeof file, "%s/reduced/errors.csv", name);
+    return output_folder_file(folder, file, write_errors, &errors, f);
 }
 
 static status fill(const output_folder *folder, const contents *c, fault *f)
@@ -438,7 +463,7 @@ status system_folder_write(const char *path, const char *title, const scene *s,
                            const system_matrices *of, fault *f)
 {
     output_folder folder;
-    const contents c = {title, s, of};
+    const contents c = {title, s, of, NULL};
     TRY(output_folder_open(path, &folder, f));
     return output_folder_finish(&folder, fill(&folder, &c, f), f);
 }

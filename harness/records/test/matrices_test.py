@@ -270,12 +270,12 @@ ALL = responses(*(f"node: tip, component: uy, of: {of}, {by}" for of in ("displa
 class StateSpace(Matrices):
     """x' = A x + B u, y = C x + D u beside the harmonic analysis."""
 
-    def transfer(self, folder, state, hertz):
-        """[outputs x inputs]; an acceleration of a motion gives s^-2 of it."""
+    def transfer(self, folder, state, hertz, of_motions=True):
+        """[outputs x inputs], of motions in place of their accelerations."""
         A, B, C, D = (self.read(folder, f"{state}/state_space", letter)
                       if (folder/state/"state_space"/f"{letter}.mtx").exists() else 0 for letter in "ABCD")
         s = 2j*numpy.pi*hertz
-        moved = [s*s if c["kind"] == "acceleration" else 1 for c in self.rows(folder, "inputs.csv")]
+        moved = [s*s if c["kind"] == "acceleration" and of_motions else 1 for c in self.rows(folder, "inputs.csv")]
         return (C @ numpy.linalg.solve(s*numpy.eye(len(A)) - A, B) + D)*moved
 
     def second(self, folder, hertz):
@@ -375,6 +375,62 @@ class StateSpace(Matrices):
         poles = numpy.linalg.eigvals(self.read(folder, "turning_station_1/state_space", "A"))
         found = numpy.sort(poles.imag[poles.imag > 0])/(2*numpy.pi)
         self.agree(values, "turning", found, "poles", 1e-10)
+
+    def test_reduced(self):
+        """Craig-Bampton and modes, beside the same basis by scipy; errors.csv has their errors."""
+        choices = ("node: tip, component: uy, force: tip, along: uy", "node: tip, component: rx, of: velocity, drive: shake",
+                   "node: root, component: uy, of: reaction, force: tip, along: uz",
+                   "node: root, component: uy, of: reaction, drive: shake")
+        scene = (BENT % (2700, SHAKEN, ", mass: 0.02", "", "", ", damping: {mass: 3, stiffness: 1e-5}", "",
+                         responses(*choices))).replace("[3, 11, 60, 250]", "[3, 11, 60]")
+        for formulation, nodes in (("collocation", ("tip",)), ("beamw", ("mid", "tip")), ("sheet_third", ())):
+            shutil.rmtree(self.folder/formulation, ignore_errors=True)
+            folder = self.solve(scene, formulation, "--state-space", "--reduce", "6" + ":"*bool(nodes) + ",".join(nodes), n=4)
+            K, C, M, B = (self.read(folder, "steady/second_order", letter) for letter in "KCMB")
+            n = len(self.rows(folder))
+            edge = [i for i, r in enumerate(self.rows(folder)) if r["node"] in nodes and not r["member"]]
+            inner = [i for i in range(n) if i not in edge]
+            mu, modes = scipy.linalg.eigh(M[numpy.ix_(inner, inner)], K[numpy.ix_(inner, inner)])
+            V = numpy.zeros((len(K), len(edge) + 6 + 1))
+            V[edge, range(len(edge))] = 1
+            V[inner, :len(edge)] = -numpy.linalg.solve(K[numpy.ix_(inner, inner)], K[numpy.ix_(inner, edge)])
+            V[inner, len(edge):len(edge) + 6] = modes[:, :-7:-1]
+            V[inner, -1] = -numpy.linalg.solve(K[numpy.ix_(inner, inner)], K[inner, n])
+            V[n, -1] = 1
+            if not nodes: # static shapes of the two forces
+                V = numpy.hstack((V[:, :-1], numpy.vstack((numpy.linalg.solve(K[:n, :n], B[:n, [0, 2]]), [[0, 0]])), V[:, -1:]))
+            T = self.read(folder, "steady/reduced", "T")
+            self.assertEqual(T.shape, V.shape)
+            self.assertLess(max(scipy.linalg.subspace_angles(T/numpy.linalg.norm(T, axis=0), V/numpy.linalg.norm(V, axis=0))), 1e-5)
+            small = {letter: self.read(folder, "steady/reduced", letter) for letter in "KM"}
+            r = len(small["K"]) - 1
+            for letter, whole in (("K", K), ("M", M)):
+                off = T[:n, :r].T @ whole[:n, :n] @ T[:n, :r] - small[letter][:r, :r]
+                self.assertLess(abs(off).max(), 1e-9*abs(small[letter]).max())
+            errors = self.rows(folder, "steady/reduced/errors.csv")
+            found = frequencies(small["K"][:r, :r], small["M"][:r, :r])[:6]
+            exact = frequencies(K[:n, :n], M[:n, :n])[:6]
+            for error, one, other in zip(errors, exact, found):
+                self.assertLess(abs(float(error["whole"]) - one) + abs(float(error["reduced"]) - other), 1e-8*one)
+                self.assertGreater(other/one, 1 - 1e-10) # Rayleigh and Ritz
+            self.assertLess(max(found/exact), 1.01 if nodes else 1 + 1e-10)
+            H, h = (numpy.array([self.transfer(folder, state, hertz, False) for hertz in (3, 11, 60)])
+                    for state in ("steady", "steady/reduced"))
+            apart = abs(H - h).max(axis=0)/abs(H).max(axis=0)
+            for error in errors[6:]:
+                one = apart[int(error["output"]) - 1, int(error["input"]) - 1]
+                self.assertLess(abs(float(error["error"]) - one), 0.01*one + 1e-8)
+            self.assertEqual(len(errors), 6 + apart.size)
+            self.assertTrue(1e-9 < apart.max() < 0.15, apart)
+
+    def test_reduced_refused(self):
+        scene = BENT % (2700, SHAKEN, "", "", "", "", "", ALL)
+        (self.folder/"scene.yaml").write_text(scene, encoding="utf-8")
+        work = ("solve", "--scene", self.folder/"scene.yaml", "-f", "beamw", "-n", 2, "--matrices", self.folder/"new")
+        self.refused(2, "add it", *work, "--reduce", "4")
+        for text, words in (("4:nix", "no node nix"), ("few", "write the number of modes"), ("4;tip", "write the number")):
+            self.refused(1, words, *work, "--state-space", "--reduce", text, silent=False)
+            self.assertFalse((self.folder/"new").exists())
 
     def test_inside(self):
         """The mass inside elements has no state space: how far off that is, is said."""
