@@ -241,8 +241,12 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
                      scene_analysis_name((scene_analysis_kind)k));
         }
     document_mistake(what->b->mistakes, document_find(what->map, "analysis"), 0,
-                     "'%s' is %s and has no %s; name an analysis that has one: %s", a->name,
-                     scene_analysis_name(a->kind), key, who);
+                     "'%s' is %s and has no %s; name an analysis that has one: %s%s", a->name,
+                     scene_analysis_name(a->kind), key, who,
+                     a->kind == SCENE_HARMONIC && scene_reads_forces(q)
+                         ? "; or join two nodes in place of one by a stiff spring, and multiply "
+                           "its stiffness by the response of one with from: the other"
+                         : "");
 }
 
 /* Functions of time: one expression of t, pieces of them, or a table. */

@@ -511,12 +511,29 @@ quantities:
         for one, other in zip(found["a"], found["b"]):
             self.assertLess(abs(one - other), 1e-9*abs(one))
 
+    def test_force_in_a_member(self):
+        """By a stiff spring in a cut at the root: its moment is what the beam's exponentials give there."""
+        scene = BEAM.replace("  tip: {at", "  cut: {at: [0, 0, 0]}\n  tip: {at").replace("from: root", "from: cut").replace(
+            "springs: {", "springs: {joint: {from: root, to: cut, stiffness: [k, k, k, k, k, k]}, ").replace("c: 15", "c: 15, k: 1e10")
+        scene = scene % ("hold: all", "", "", "", "".join(
+            f"  m_{part}: {{response: {{analysis: steady, node: cut, from: root, component: rz, force: tip, along: uy, part: {part}, "
+            "take: curve}}\n" for part in PARTS))
+        (self.folder/"scene.yaml").write_text(scene, encoding="utf-8")
+        record = self.record("solve", "--scene", self.folder/"scene.yaml", "-f", "beamw", "-n", 8)
+        curves = [c["curve_value"] for c in record["curves"]]
+        for hertz, real, imaginary in zip(FREQUENCIES, *curves):
+            amplitude, roots, _, _ = waves(hertz, 1.0)
+            moment = EI*sum(a*k*k for a, k in zip(amplitude, roots))
+            self.assertLess(abs(1e10*complex(real, imaginary)/moment - 1), 1e-4)
+
     def test_refused(self):
         held = reading("u", component="uy", force="root", along="uy")
         buckled = "loads: {push: {force: [-2000, 0, 0], on: tip}, aside: {force: [0, 0.1, 0], on: tip}}"
         spun = "  before: {static: {stations: [1], spin: {omega: [0, 0, 5]}}}"
         for text, words in (
                 (BEAM % ("hold: all", "", "", "", held), "root is held or driven against the force"),
+                (BEAM % ("hold: all", "", "", "", "  n: {internal: {analysis: steady, member: m, resultant: Mz, where: 0}}"),
+                 "join two nodes in place of one by a stiff spring"),
                 (BEAM % ("hold: all", "", spun, ", about: before", FORCED), "rotating axes"),
                 (BEAM % ("hold: all", buckled, "  before: {static: {stations: [1], steps: 4}}", ", about: before", FORCED),
                  "not_converged|unstable"),
