@@ -226,6 +226,8 @@ void builder_loads(builder *b)
         int given = SCENE_FORCE;
         while (given < OF_TEMPERATURE && !fields_have(&f, entry_load[given].name))
             given++;
+        if (fields_have(&f, "tension"))
+            given = SCENE_FORCE;
         scene_load what = scene_load_of(kind_of(&f, given), SCENE_NONE, 0, 0, 0);
         fields_read(&f, entry_load, &what);
         if (given != OF_TEMPERATURE)

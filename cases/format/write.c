@@ -291,7 +291,7 @@ static void write_known(writer *w, const void *entry)
 static void write_vector(writer *w, const void *entry)
 {
     const scene_load *load = entry;
-    if (load->kind == SCENE_TEMPERATURE)
+    if (load->kind == SCENE_TEMPERATURE || load->towards != SCENE_NONE)
         return;
     write_values_key(w, entry_of_load(load->kind)->name);
     write_values_numbers(w, 3, load->vector);

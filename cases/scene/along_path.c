@@ -166,7 +166,8 @@ static int load_that(const scene *s, int analysis, int (*is)(const scene_load *)
     {                                                                                              \
         return load_that(s, analysis, is_##name, who, size);                                       \
     }
-LOAD(force, l->kind == SCENE_FORCE && !l->follower && vec3_norm(l->at) == 0)
+LOAD(force,
+     l->kind == SCENE_FORCE && l->towards == SCENE_NONE && !l->follower && vec3_norm(l->at) == 0)
 LOAD(following_force, l->kind == SCENE_FORCE && l->follower)
 LOAD(force_beside, l->kind == SCENE_FORCE && vec3_norm(l->at) > 0)
 LOAD(moment, l->kind == SCENE_MOMENT && !l->follower)
@@ -183,6 +184,7 @@ LOAD(moment_within, l->kind == SCENE_MEMBER_MOMENT)
 LOAD(gravity, l->kind == SCENE_GRAVITY)
 LOAD(weight, l->kind == SCENE_WEIGHT)
 LOAD(temperature, l->kind == SCENE_TEMPERATURE && l->elongation == 0)
+LOAD(tension, l->tension != 0)
 LOAD(elongation, l->elongation != 0)
 
 static int is_fed_back(const scene_load *l)
@@ -424,6 +426,7 @@ const scene_input scene_inputs[] = {
     {"damping", "----i--i---uuuu", NULL, has_damping},
     {"dashpot", "----i--i---uuuu", NULL, has_dashpot},
     {"elongation", "uuuuu-uu-uuu-uu", NULL, has_elongation},
+    {"tension between nodes", "uuusu-su-uuu-su", NULL, has_tension},
     {"feedback", "xxxxxxxxxxxuxxx", no_feedback, has_feedback},
     {NULL, "", NULL, NULL}};
 

@@ -13,6 +13,11 @@ ROW("gravity", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "m/s^2
 /* for SCENE_TEMPERATURE, whose vector is 0 */
 KEY(double, temperature, , "temperature", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "K",
     .summary = "temperature change of a member, at its centroids")
+/* for SCENE_FORCE, with the vector 0: pulls the nodes `where` and `towards` together */
+KEY(double, tension, , "tension", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "N",
+    .summary = "force that pulls the node and the node 'towards' together, along their line")
+KEY(int, towards, , "towards", ENTRY_NAME, .summary = "of a tension: the other node",
+    .left_out = "none; required with tension", .of = SCENE_NODES)
 /* between the ends of the range, instead of a temperature */
 KEY(double, elongation, , "elongation", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "m",
     .summary = "stress-free elongation of a member: an actuator, a turnbuckle")

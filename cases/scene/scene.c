@@ -330,6 +330,7 @@ scene_load scene_load_of(scene_load_kind kind, int where, double x, double y, do
     scene_load load = {.kind = kind,
                        .where = where,
                        .vector = {x, y, z},
+                       .towards = SCENE_NONE,
                        .load_case = SCENE_NONE,
                        .feedback = {.node = SCENE_NONE, .from = SCENE_NONE}};
     load.range[1] = scene_load_along(&load) && !scene_load_within(&load);
@@ -438,8 +439,8 @@ int scene_load_turns(const scene_load *load)
 int scene_load_acts(const scene_load *load)
 {
     return vec3_norm(load->vector) > 0 || (load->varies && vec3_norm(load->last) > 0) ||
-           load->elongation != 0 || load->temperature != 0 || load->gradient[0] != 0 ||
-           load->gradient[1] != 0;
+           load->tension != 0 || load->elongation != 0 || load->temperature != 0 ||
+           load->gradient[0] != 0 || load->gradient[1] != 0;
 }
 
 const char *scene_heat_word(const scene_load *load)

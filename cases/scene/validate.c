@@ -328,6 +328,33 @@ static status check_feedback(const scene *s, int i, fault *f)
                                           who.text, scene_called(s, SCENE_NODES, b->node).text);
 }
 
+static status check_tension(const scene *s, int i, fault *f)
+{
+    const scene_load *load = &s->load[i];
+    const scene_words who = scene_called(s, SCENE_LOADS, i);
+    double apart[3];
+    if (load->towards == SCENE_NONE)
+        return load->tension == 0
+                   ? STATUS_OK
+                   : fault_set(f, STATUS_REFUSED,
+                               "%s: a tension pulls two nodes; name the other one with 'towards'",
+                               who.text);
+    if (load->kind != SCENE_FORCE || vec3_norm(load->vector) > 0 || load->follower ||
+        vec3_norm(load->at) > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: 'towards' is of a tension, which has no vector, no 'where', no 'at' "
+                         "and is no follower; remove these",
+                         who.text);
+    for (int k = 0; k < 3; k++)
+        apart[k] = s->node[load->towards].position[k] - s->node[load->where].position[k];
+    return vec3_norm(apart) > 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "%s: both nodes are at one place, so the tension has no direction; move "
+                           "one of them",
+                           who.text);
+}
+
 static status check_load(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
@@ -344,6 +371,7 @@ static status check_load(const scene *s, int i, fault *f)
                              scene_called(s, SCENE_LOADS, i).text);
     TRY(check_range(s, i, f));
     TRY(check_feedback(s, i, f));
+    TRY(check_tension(s, i, f));
     return check_load_kind(s, i, f);
 }
 

@@ -196,6 +196,12 @@ static status check_load(const scene *s, int l, int i, fault *f)
                          "radau, alpha or explicit",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          scene_called(s, SCENE_LOADS, l).text);
+    if (load->towards != SCENE_NONE && scene_motion_of(&s->analysis[i])->scheme == SCENE_CONSERVING)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s (conserving): it does not support %s, a tension between nodes; take "
+                         "integrator: radau, alpha or explicit",
+                         scene_called(s, SCENE_ANALYSES, i).text,
+                         scene_called(s, SCENE_LOADS, l).text);
     if (load->function.pieces == 0) {
         if (load->stations > 0 && s->analysis[i].follows == SCENE_NONE &&
             load->feedback.node == SCENE_NONE)

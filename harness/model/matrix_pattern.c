@@ -64,32 +64,41 @@ static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t c
     return count;
 }
 
-/* Pairs of what a load acts on and what it measures. */
-static size_t collect_feedback(const model *m, const mesh_pattern *p, size_t count, int row[],
-                               int column[])
+/* Pairs of the coordinates of two nodes. */
+static size_t collect_nodes(const model *m, const mesh_pattern *p, const int node[2], size_t count,
+                            int row[], int column[])
 {
-    for (int i = 0; i < m->scene->loads && !p->matrix.symmetric; i++) {
-        const scene_feedback *b = &m->scene->load[i].feedback;
-        const int measured[] = {b->node, b->node != SCENE_NONE ? b->from : SCENE_NONE};
-        for (int k = 0; k < 2; k++) {
-            int on[KINEMATICS_MOST], of[KINEMATICS_MOST];
-            double T[6 * KINEMATICS_MOST];
-            if (measured[k] == SCENE_NONE)
+    int on[KINEMATICS_MOST], of[KINEMATICS_MOST];
+    double T[6 * KINEMATICS_MOST];
+    const int rows = kinematics_node_jacobian(m, NULL, node[0], KINEMATICS_MOST, on, T),
+              columns = kinematics_node_jacobian(m, NULL, node[1], KINEMATICS_MOST, of, T);
+    for (int a = 0; a < rows; a++)
+        for (int c = 0; c < columns; c++) {
+            if (!stored(p, on[a], of[c]))
                 continue;
-            const int rows = kinematics_node_jacobian(m, NULL, m->scene->load[i].where,
-                                                      KINEMATICS_MOST, on, T),
-                      columns =
-                          kinematics_node_jacobian(m, NULL, measured[k], KINEMATICS_MOST, of, T);
-            for (int a = 0; a < rows; a++)
-                for (int c = 0; c < columns; c++) {
-                    if (!stored(p, on[a], of[c]))
-                        continue;
-                    if (row != NULL) {
-                        row[count] = on[a];
-                        column[count] = of[c];
-                    }
-                    count++;
-                }
+            if (row != NULL) {
+                row[count] = on[a];
+                column[count] = of[c];
+            }
+            count++;
+        }
+    return count;
+}
+
+/* Pairs of the nodes that a tension pulls together, and of what a load acts on and measures. */
+static size_t collect_loads(const model *m, const mesh_pattern *p, size_t count, int row[],
+                            int column[])
+{
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        const int on[] = {load->where, load->towards},
+                  of[] = {load->feedback.node, load->feedback.from};
+        for (int a = 0; a < 2; a++) {
+            for (int b = 0; b < 2 && load->towards != SCENE_NONE; b++)
+                count = collect_nodes(m, p, (const int[]){on[a], on[b]}, count, row, column);
+            for (int b = 0; b < 2 && load->feedback.node != SCENE_NONE && !p->matrix.symmetric; b++)
+                if (on[a] != SCENE_NONE && of[b] != SCENE_NONE)
+                    count = collect_nodes(m, p, (const int[]){on[a], of[b]}, count, row, column);
         }
     }
     return count;
@@ -104,7 +113,7 @@ static size_t collect(const model *m, const mesh_pattern *p, int row[], int colu
         count = collect_of(&m->mesh.element[i], p, count, row, column);
     for (int i = 0; i < m->mesh.discretes; i++)
         count = collect_of(&m->mesh.discrete[i].el, p, count, row, column);
-    return collect_feedback(m, p, count, row, column);
+    return collect_loads(m, p, count, row, column);
 }
 
 /* Sets begin[n + 1] of n lists; the lists contain pairs by their index. */

@@ -230,9 +230,34 @@ void applied_element(const model *m, const model_state *s, const scene_load *loa
     }
 }
 
+/* Distance of the nodes of a tension; e: the direction from the first to the second one. */
+static double line_of(const model *m, const model_state *s, const scene_load *load, double e[3])
+{
+    double from[3], to[3];
+    kinematics_position(m, s, load->where, from);
+    kinematics_position(m, s, load->towards, to);
+    for (int i = 0; i < 3; i++)
+        e[i] = to[i] - from[i];
+    const double length = vec3_norm(e);
+    for (int i = 0; i < 3; i++)
+        e[i] /= length;
+    return length;
+}
+
 void applied_each(const model *m, const model_state *s, const scene_load *load, double scale,
                   void (*take)(void *context, const applied *), void *context)
 {
+    if (load->towards != SCENE_NONE) {
+        applied first = {.vertex = load->where}, second = {.vertex = load->towards};
+        line_of(m, s, load, first.F);
+        for (int i = 0; i < 3; i++) {
+            first.F[i] *= scale * load->tension;
+            second.F[i] = -first.F[i];
+        }
+        take(context, &first);
+        take(context, &second);
+        return;
+    }
     if (!scene_load_along(load)) {
         static const double none[3] = {0, 0, 0};
         const applied one = load->kind == SCENE_WEIGHT
@@ -398,9 +423,35 @@ static void add_stiffness(void *context, const applied *what)
             add_following(all, body, F, rho, b, j);
 }
 
+/* Derivative of the forces of a tension with respect to the direction of its line. */
+static void add_turning(const entries *all, const scene_load *load, double tension)
+{
+    const int node[] = {load->where, load->towards};
+    int index[2 * KINEMATICS_MOST], count = 0;
+    double e[3], apart[2 * KINEMATICS_MOST][3];
+    const double length = line_of(all->m, all->s, load, e);
+    for (int k = 0; k < 2; k++) {
+        double T[6 * KINEMATICS_MOST];
+        const int n =
+            kinematics_node_jacobian(all->m, all->s, node[k], KINEMATICS_MOST, index + count, T);
+        for (int c = 0; c < n; c++)
+            for (int i = 0; i < 3; i++)
+                apart[count + c][i] = (k == 0 ? -1 : 1) * T[i * n + c];
+        count += n;
+    }
+    for (int a = 0; a < count; a++)
+        for (int b = 0; b < count; b++)
+            all->take(
+                all->to, index[a], index[b],
+                -tension / length *
+                    (vec3_dot(apart[a], apart[b]) - vec3_dot(e, apart[a]) * vec3_dot(e, apart[b])));
+}
+
 void applied_stiffness(const model *m, const model_state *s, const scene_load *load, double scale,
                        loads_entry take, void *to)
 {
     entries all = {m, s, take, to};
     applied_each(m, s, load, scale, add_stiffness, &all);
+    if (load->towards != SCENE_NONE)
+        add_turning(&all, load, scale * load->tension);
 }

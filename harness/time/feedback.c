@@ -133,28 +133,28 @@ static int measure(const model *m, const model_state *s, int node, int component
     return n;
 }
 
-/* Generalised load for the factor 1; returns the number of coordinates. */
-static int direction_of(const model *m, const model_state *s, const scene_load *load, int index[],
-                        double out[])
+/* Sum of the generalised loads of its nodes for the factor 1. */
+typedef struct feedback_push {
+    const model *m;
+    const model_state *s;
+    int count, index[2 * KINEMATICS_MOST];
+    double value[2 * KINEMATICS_MOST];
+} feedback_push;
+
+static void add_push(void *to, const applied *what)
 {
-    double T[6 * KINEMATICS_MOST], F[6] = {0}, moment[3], at[3], vector[3], q[4];
-    const int n = kinematics_node_jacobian(m, s, load->where, KINEMATICS_MOST, index, T);
-    double place[3];
-    kinematics_frame(m, s, load->where, place, q);
-    memcpy(vector, load->vector, sizeof vector);
-    if (load->follower)
-        rotation_apply(q, load->vector, vector);
-    memcpy(F + (scene_load_turns(load) ? 3 : 0), vector, sizeof vector);
-    rotation_apply(q, load->at, at);
-    vec3_cross(at, F, moment);
-    for (int i = 0; i < 3; i++)
-        F[3 + i] += moment[i];
-    for (int k = 0; k < n; k++) {
-        out[k] = 0;
+    feedback_push *p = to;
+    double T[6 * KINEMATICS_MOST], F[6], moment[3] = {0};
+    const int n =
+        kinematics_node_jacobian(p->m, p->s, what->vertex, KINEMATICS_MOST, p->index + p->count, T);
+    memcpy(F, what->F, sizeof F);
+    if (what->offset)
+        vec3_cross(what->arm, what->F, moment);
+    for (int k = 0; k < n; k++, p->count++) {
+        p->value[p->count] = 0;
         for (int i = 0; i < 6; i++)
-            out[k] += T[i * n + k] * F[i];
+            p->value[p->count] += T[i * n + k] * (F[i] + (i < 3 ? 0 : moment[i - 3]));
     }
-    return n;
 }
 
 void feedback_tangent(const equations *eq, const model_state *s, const feedback_gains *gains,
@@ -170,17 +170,19 @@ void feedback_tangent(const equations *eq, const model_state *s, const feedback_
                                                       b->integral * gains->integral;
         if (b->node == SCENE_NONE || gain == 0 || (b->limit > 0 && fabs(u) >= b->limit))
             continue;
-        int on[KINEMATICS_MOST], of[KINEMATICS_MOST];
-        double push[KINEMATICS_MOST], slope[KINEMATICS_MOST];
-        const int rows = direction_of(m, s, load, on, push);
+        int of[KINEMATICS_MOST];
+        double slope[KINEMATICS_MOST];
+        feedback_push push = {m, s, 0, {0}, {0}};
+        applied_each(m, s, load, 1, add_push, &push);
         const double acts =
             scene_acting_factor(model_scene(m), eq->loading.acting, load->load_case);
         for (int k = 0; k < 2; k++) {
             const int columns =
                 node[k] != SCENE_NONE ? measure(m, s, node[k], b->component, of, slope) : 0;
-            for (int a = 0; a < rows; a++)
+            for (int a = 0; a < push.count; a++)
                 for (int c = 0; c < columns; c++)
-                    take(to, on[a], of[c], (k == 0 ? 1 : -1) * acts * gain * push[a] * slope[c]);
+                    take(to, push.index[a], of[c],
+                         (k == 0 ? 1 : -1) * acts * gain * push.value[a] * slope[c]);
         }
     }
 }

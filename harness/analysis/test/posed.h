@@ -152,6 +152,10 @@ static void add(scene *s, const char *name)
         load->gradient[0] = 80;
         load->gradient[1] = -50;
         hold_tip(s);
+    } else if (IS("tension between nodes")) {
+        scene_load *load = scene_load_at(s, scene_add_load(s, SCENE_FORCE, TIP, 0, 0, 0));
+        load->towards = ROOT;
+        load->tension = 80;
     } else if (IS("elongation")) {
         scene_load_at(s, scene_add_load(s, SCENE_TEMPERATURE, 1, 0, 0, 0))->elongation =
             s->node[TIP].position[1] > 0 ? -1e-4 : 1e-4; /* likewise */
@@ -516,6 +520,7 @@ static void structure(const posed *p, scene *s)
             s->load[i].last[k] *= scale;
             *(k == 2 ? &s->load[i].temperature : &s->load[i].gradient[k]) *= scale;
             s->load[i].elongation *= k == 0 ? scale : 1;
+            s->load[i].tension *= k == 0 ? scale : 1;
         }
     for (int i = 0; i < s->members; i++)
         strain(scene_member_at(s, i), length_of(s, i), p->times * p->size);

@@ -3,6 +3,7 @@ import json
 import unittest
 
 import numpy as np
+from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from harness.tools.kit.program import ProgramTest, run
@@ -200,6 +201,77 @@ class Elongation(ProgramTest):
             "0.01", "gradient: [0, 1]", "linear: {}", code=2))
         self.assertIn("an elongation belongs to the sections", self.solved(
             "0.01", "follower: true", "linear: {}", code=2))
+
+
+BOOM = """beamwork: 1
+sections:
+  stiff: {constants: {A: 1, Iy: 1, Iz: 1, It: 1}, young: 1e12, shear_modulus: 1e12}
+nodes:
+  hinge: {at: [0, 0, 0], hold: [ux, uy, uz, rx, ry]}
+  lug: {at: [1, 0, 0]}
+  tip: {at: [2, 0, 0], mass: 50}
+  top: {at: [0, 1, 0], hold: all}
+members:
+  inner: {from: hinge, to: lug, section: stiff, y: [0, 1, 0], warping: free}
+  outer: {from: lug, to: tip, section: stiff, y: [0, 1, 0], warping: free}
+springs:
+  spring: {to: hinge, stiffness: [0, 0, 0, 0, 0, 1000]}
+loads:
+  pull: {tension: 800, on: lug, towards: top%s}
+analyses:
+  run: {%s}
+quantities:
+  angle: {displacement: {analysis: run, node: hinge, component: rz}}
+  pulls: {reaction: {analysis: run, node: top, component: uy}}
+omit: [trapeze, wagner_moments, wagner_torque]
+"""
+
+
+class Tension(ProgramTest):
+    """A rigid boom on a spring, pulled towards a fixed point: one degree of freedom."""
+
+    def solved(self, *words, code=0):
+        path = self.folder / "boom.yaml"
+        path.write_text(BOOM % words, encoding="utf-8")
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", "1", "--format", "json")
+        self.assertEqual(done.returncode, code, done.stderr)
+        if code:
+            return done.stdout + done.stderr
+        return {q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
+
+    @staticmethod
+    def lever(angle):
+        """Minus the derivative of the distance between lug and top."""
+        return np.cos(angle) / np.sqrt(2 - 2 * np.sin(angle))
+
+    def test_static(self):
+        found = self.solved("", "static: {stations: [1]}")
+        angle = found["angle"]
+        self.assertAlmostEqual(1000 * angle / (800 * self.lever(angle)), 1, 8)
+        self.assertAlmostEqual(found["pulls"], 800 * (1 - np.sin(angle)) / np.sqrt(
+            2 - 2 * np.sin(angle)), 5)
+
+    def test_motion(self):
+        """A function of time, and feedback of the angle, against an integrator of ordinary equations."""
+        for words, force in (
+                (", time: 1 + 0.2*sin(3*t)", lambda t, y: 800 * (1 + 0.2 * np.sin(3 * t))),
+                (", time: 0.5, feedback: {node: hinge, component: rz, proportional: 3, derivative: 1, "
+                 "integral: 2}", lambda t, y: 800 * (3 * (0.5 - y[0]) - y[1] + 2 * y[2]))):
+            exact = solve_ivp(
+                lambda t, y, force=force: [y[1], (force(t, y) * self.lever(y[0]) - 1000 * y[0]) /
+                                           200, 0.5 - y[0]], (0, 1), [0, 0, 0], rtol=1e-10,
+                atol=1e-12).y[0][-1]
+            for scheme, step, near in (("radau", 0.005, 1e-7), ("alpha", 1e-3, 1e-5)):
+                found = self.solved(
+                    words, f"motion: {{stations: [1], step: {step}, integrator: {scheme}}}")
+                self.assertLess(abs(found["angle"] - exact), near)
+
+    def test_refusals(self):
+        for words, analysis, text in (
+                (", follower: true", "static: {stations: [1]}", "'towards' is of a tension"),
+                (", time: t", "motion: {stations: [1], step: 0.01, integrator: conserving}",
+                 "a tension between nodes")):
+            self.assertIn(text, self.solved(words, analysis, code=2))
 
 
 if __name__ == "__main__":
