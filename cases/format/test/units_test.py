@@ -37,6 +37,8 @@ springs:
 loads:
   push: {force: [0, 1, 0], on: b}
   line: {distributed: [0, 1, 0], on: ab}
+  holds: {force: [0, 1, 0], on: b, feedback: {node: b, component: uy, proportional: 1}}
+  damps: {force: [0, 1, 0], on: b, feedback: {node: b, component: uy, derivative: 1}}
 """, """analyses:
   path: {static: {stations: [1]}}
   still: {compliance: {node: b}}
