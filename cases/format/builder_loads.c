@@ -325,33 +325,57 @@ void builder_springs(builder *b)
     }
 }
 
-/* Nodes of 'equal'. */
-static void read_equal(const fields *f, int index)
+/* Nodes of 'equal' or of a diaphragm. */
+static void read_nodes(const fields *f, const char *key, int least, int index)
 {
-    const document_node *n = document_find(f->map, "equal");
-    if (n->kind != DOCUMENT_LIST || n->count < 2) {
-        document_mistake(f->b->mistakes, n, 0, "equal: give a list of at least two nodes");
+    const document_node *n = document_find(f->map, key);
+    if (n->kind != DOCUMENT_LIST || n->count < least) {
+        document_mistake(f->b->mistakes, n, 0, "%s: give a list of at least %s", key,
+                         least > 1 ? "two nodes" : "one node");
         return;
     }
     for (int i = 0; i < n->count; i++)
         scene_constrain(f->b->scene, index, fields_entry_of(f, n->item[i], SCENE_NODES));
 }
 
+enum { FORMS = 3, OF_FORM = 4 };
+
+/* 0: equal, 1: a ratio, 2: a diaphragm; -1: none of them. */
+static int form_of(const fields *f)
+{
+    static const char *const form[FORMS][OF_FORM] = {{"equal", "components", NULL, NULL},
+                                                     {"node", "component", "ratio", "of"},
+                                                     {"diaphragm", "master", "normal", NULL}};
+    for (int i = 0; i < FORMS; i++) {
+        int wrong = 0;
+        for (int k = 0; k < FORMS * OF_FORM; k++) {
+            const char *key = form[k / OF_FORM][k % OF_FORM];
+            wrong |= key != NULL && fields_have(f, key) != (k / OF_FORM == i);
+        }
+        if (!wrong)
+            return i;
+    }
+    return -1;
+}
+
 void builder_constraints(builder *b)
 {
-    static const char *const form[2][4] = {{"equal", "components", NULL, NULL},
-                                           {"node", "component", "ratio", "of"}};
     for (int i = 0; i < b->list[SCENE_CONSTRAINTS].count; i++) {
         const fields f = fields_of(b, &b->list[SCENE_CONSTRAINTS].entry[i]);
-        const int two = !fields_have(&f, "equal");
-        int wrong = 0;
-        for (int k = 0; k < 4; k++)
-            wrong |= (form[two][k] != NULL && !fields_have(&f, form[two][k])) ||
-                     (form[!two][k] != NULL && fields_have(&f, form[!two][k]));
-        if (wrong) {
+        const int form = form_of(&f), two = form == 1;
+        if (form < 0) {
             document_mistake(b->mistakes, f.map, 0,
-                             "give {equal: [NODE, NODE], components: [ux]}, or {node: NODE, "
-                             "component: ux, ratio: -2, of: NODE}");
+                             "give {equal: [NODE, NODE], components: [ux]}, {node: NODE, "
+                             "component: ux, ratio: -2, of: NODE}, or {diaphragm: [NODE], master: "
+                             "NODE, normal: z}");
+            continue;
+        }
+        if (form == 2) {
+            const int across =
+                scene_add_diaphragm(b->scene, fields_entry(&f, "master", SCENE_NODES),
+                                    fields_word(&f, "normal", "x|y|z", 2));
+            builder_call(b, SCENE_CONSTRAINTS, across, i);
+            read_nodes(&f, "diaphragm", 1, across);
             continue;
         }
         const int index = scene_add_constraint(
@@ -359,7 +383,7 @@ void builder_constraints(builder *b)
             two ? fields_number(&f, "ratio", 1) : 1);
         builder_call(b, SCENE_CONSTRAINTS, index, i);
         if (!two) {
-            read_equal(&f, index);
+            read_nodes(&f, "equal", 2, index);
             continue;
         }
         scene_constrain(b->scene, index, fields_entry(&f, "of", SCENE_NODES));

@@ -353,14 +353,21 @@ static void write_terms(writer *w, const void *entry)
 static void write_constraint(writer *w, const void *entry)
 {
     const scene_constraint *c = entry;
-    const int equal = c->ratio == 1;
-    write_values_key(w, equal ? "equal" : "node");
+    const int equal = c->ratio == 1, across = c->master != SCENE_NONE;
+    write_values_key(w, across ? "diaphragm" : equal ? "equal" : "node");
     for (int i = 0; i < c->nodes && equal; i++)
         write_values_named(w, i > 0 ? ", " : "[", SCENE_NODES, c->node[i]);
     if (equal)
         fputc(']', w->to);
     else
         write_values_named(w, "", SCENE_NODES, c->node[1]);
+    if (across) {
+        write_values_key(w, "master");
+        write_values_named(w, "", SCENE_NODES, c->master);
+        write_values_key(w, "normal");
+        fputc("xyz"[c->normal], w -> to);
+        return;
+    }
     write_values_key(w, equal ? "components" : "component");
     const char *before = equal ? "[" : "";
     for (int k = SCENE_UX; k <= SCENE_RZ; k++)

@@ -289,6 +289,15 @@ static int has_constraint(const scene *s, int analysis, char *who, int size)
     return s->constraints > 0 && called(s, SCENE_CONSTRAINTS, 0, who, size);
 }
 
+static int has_diaphragm(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    for (int i = 0; i < s->constraints; i++)
+        if (s->constraint[i].master != SCENE_NONE)
+            return called(s, SCENE_CONSTRAINTS, i, who, size);
+    return 0;
+}
+
 /* Is a warping coordinate shared by the ends of two members? */
 static int has_shared_warping(const scene *s, int analysis, char *who, int size)
 {
@@ -367,6 +376,8 @@ static const char *const
         "removes it from the others",
     *const no_strains = "has stresses that the undeformed state lacks; request it about a static "
                         "or a linear analysis",
+    *const no_diaphragm = "is a diaphragm, which motions in time do not support; connect the nodes "
+                          "by part_of, or brace them by stiff members",
     *const no_drive =
         "is moved, but a continuation changes loads only; remove it, or use a static path",
     *const no_spin = "rotates, but this analysis omits the Coriolis forces on moving masses; use a "
@@ -416,6 +427,7 @@ const scene_input scene_inputs[] = {
     {"node attached to another", "uuuuuuuuuuuuuuu", NULL, has_tied},
     {"supports in rotated axes", "uuuuuuuuuuuuuuu", NULL, has_axes},
     {"constraint", "uuuuuuuuuuuuuuu", NULL, has_constraint},
+    {"diaphragm", "uuuuuuuuuuuxuuu", no_diaphragm, has_diaphragm},
     {"fork", "uuuuuuuuuuuuuuu", NULL, has_fork},
     {"mass of a node", "-ii-iuuu-iuuuuu", NULL, has_mass},
     {"inertia of a node", "-ii-iuuu-iuuuuu", NULL, has_inertia},

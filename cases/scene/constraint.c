@@ -17,7 +17,39 @@ int scene_add_constraint(scene *s, unsigned components, double ratio)
     if (i >= 0) {
         s->constraint[i].components = components;
         s->constraint[i].ratio = ratio;
+        s->constraint[i].master = s->constraint[i].normal = SCENE_NONE;
     }
+    return i;
+}
+
+/* Gives a node that turns by spatial components a sequence that begins with the normal. */
+static void turn_across(scene_node *n, int normal)
+{
+    if (n->rotation != SCENE_ROTATION_SPATIAL)
+        return;
+    const int given[3] = {n->angle[0], n->angle[1], n->angle[2]};
+    n->rotation = SCENE_ROTATION_SEQUENCE;
+    memset(n->axis, 0, sizeof n->axis);
+    for (int k = 0; k < 3; k++) {
+        n->angle[k] = given[(normal + k) % 3];
+        n->axis[k][(normal + k) % 3] = 1;
+    }
+    if (n->angle[1] == SCENE_HELD && n->angle[2] == SCENE_HELD) {
+        memset(n->axis[1], 0, sizeof n->axis[1]);
+        memset(n->axis[2], 0, sizeof n->axis[2]);
+    }
+}
+
+int scene_add_diaphragm(scene *s, int master, int normal)
+{
+    const unsigned across = 1u << (normal + 1) % 3 | 1u << (normal + 2) % 3;
+    const int i = scene_add_constraint(s, across | 1u << (SCENE_RX + normal), 1);
+    if (i < 0)
+        return i;
+    s->constraint[i].master = master;
+    s->constraint[i].normal = normal;
+    if (master >= 0 && master < s->nodes)
+        turn_across(&s->node[master], normal);
     return i;
 }
 
@@ -29,13 +61,16 @@ void scene_constrain(scene *s, int constraint, int node)
     const int i = scene_grow(s, &c->node, &c->nodes, sizeof *c->node);
     if (i >= 0)
         c->node[i] = node;
+    if (c->master != SCENE_NONE && node >= 0 && node < s->nodes)
+        turn_across(&s->node[node], c->normal);
 }
 
 int scene_is_constrained(const scene *s, int node, unsigned components)
 {
     for (int i = 0; i < s->constraints; i++)
-        for (int k = 0; k < s->constraint[i].nodes; k++)
-            if (s->constraint[i].node[k] == node && (s->constraint[i].components & components) != 0)
+        for (int k = -1; k < s->constraint[i].nodes; k++)
+            if ((k < 0 ? s->constraint[i].master : s->constraint[i].node[k]) == node &&
+                (s->constraint[i].components & components) != 0)
                 return 1;
     return 0;
 }
@@ -160,6 +195,17 @@ static int motion_at(const scene *s, scene_tie at)
                                     : n->angle[at.coordinate - SCENE_RX];
 }
 
+/* Does a diaphragm move the component? */
+static int is_across(const scene *s, int node, int component)
+{
+    for (int i = 0; i < s->constraints; i++)
+        for (int k = -1; k < s->constraint[i].nodes && s->constraint[i].master != SCENE_NONE; k++)
+            if ((k < 0 ? s->constraint[i].master : s->constraint[i].node[k]) == node &&
+                (s->constraint[i].components >> component & 1u) != 0)
+                return 1;
+    return 0;
+}
+
 /* The component of node k is the ratio times that of the first: joins what they follow. */
 static status join(const scene *s, int constraint, int k, int component, scene_tie tie[], fault *f)
 {
@@ -167,6 +213,10 @@ static status join(const scene *s, int constraint, int k, int component, scene_t
     int at[2] = {0, 0}, motion;
     TRY(coordinate_of(s, constraint, c->node[0], component, &at[0], &motion, f));
     TRY(coordinate_of(s, constraint, c->node[k], component, &at[1], &motion, f));
+    for (int i = 0; i < 2; i++)
+        if (is_across(s, c->node[i == 0 ? 0 : k], component))
+            return refuse(s, constraint, c->node[i == 0 ? 0 : k], component,
+                          "is in a diaphragm, too; remove it from one of them", f);
     const scene_tie first = follow(tie, c->node[0], at[0]), other = follow(tie, c->node[k], at[1]);
     /* other.ratio root_other = ratio first.ratio root_first */
     const double ratio = c->ratio * first.ratio / other.ratio;
@@ -186,15 +236,74 @@ static status join(const scene *s, int constraint, int k, int component, scene_t
     return STATUS_OK;
 }
 
+/* What a node must be that a diaphragm moves. */
+static status check_across(const scene *s, int i, int node, fault *f)
+{
+    const scene_constraint *c = &s->constraint[i];
+    const scene_node *n = &s->node[node];
+    const scene_words who = scene_called(s, SCENE_CONSTRAINTS, i),
+                      whose = scene_called(s, SCENE_NODES, node);
+    double R[9];
+    if (s->plane != SCENE_SPACE)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a diaphragm needs a scene in space; connect the nodes by part_of",
+                         who.text);
+    if (n->attached != SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED, "%s: %s moves with %s; name that node", who.text,
+                         whose.text, scene_called(s, SCENE_NODES, n->attached).text);
+    if (scene_node_axes(n, R))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: %s has axes of its own, and a diaphragm is in those of the scene; "
+                         "remove its axes",
+                         who.text, whose.text);
+    if (n->rotation != SCENE_ROTATION_SEQUENCE || !(n->axis[0][c->normal] > 0) ||
+        n->axis[0][(c->normal + 1) % 3] != 0 || n->axis[0][(c->normal + 2) % 3] != 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the rotation of %s is not by components, or a sequence that begins "
+                         "with the normal of the diaphragm; remove its rotation",
+                         who.text, whose.text);
+    return STATUS_OK;
+}
+
+/* The translations of all nodes across the normal and their first angles are those of the master.
+ */
+static status join_across(const scene *s, int i, scene_tie tie[], fault *f)
+{
+    const scene_constraint *c = &s->constraint[i];
+    const int of[3] = {(c->normal + 1) % 3, (c->normal + 2) % 3, SCENE_RX};
+    for (int k = -1; k < c->nodes; k++) {
+        const int node = k < 0 ? c->master : c->node[k];
+        TRY(check_across(s, i, node, f));
+        for (int j = 0; j < 3; j++) {
+            const int named = of[j] < SCENE_RX ? of[j] : SCENE_RX + c->normal;
+            scene_tie *at = &tie[ALL * node + of[j]];
+            if (at->node != SCENE_NONE)
+                return refuse(s, i, node, named,
+                              "is in another constraint, too; remove it from one of them", f);
+            if (k >= 0 && motion_at(s, (scene_tie){node, of[j], 1}) != SCENE_FREE)
+                return refuse(s, i, node, named,
+                              "is fixed or driven, but follows the master of the diaphragm; fix or "
+                              "drive that node",
+                              f);
+            *at = (scene_tie){c->master, of[j], 1};
+        }
+    }
+    return STATUS_OK;
+}
+
 static status check_names(const scene *s, int i, fault *f)
 {
     const scene_constraint *c = &s->constraint[i];
+    const int diaphragm = c->master != SCENE_NONE || c->normal != SCENE_NONE;
     const scene_words who = scene_called(s, SCENE_CONSTRAINTS, i);
     int single = c->components != 0 && (c->components & (c->components - 1)) == 0;
     if (c->components == 0 || c->components >> ALL != 0)
         return fault_set(f, STATUS_REFUSED,
                          "%s: no components are given; give ux, uy, uz, rx, ry, rz", who.text);
-    if (c->nodes < 2)
+    if (diaphragm && (c->master < 0 || c->master >= s->nodes || c->normal < 0 || c->normal > 2))
+        return fault_set(f, STATUS_REFUSED, "%s: its master does not exist; add it first",
+                         who.text);
+    if (c->nodes < (diaphragm ? 1 : 2))
         return fault_set(f, STATUS_REFUSED, "%s: it has fewer than two nodes; give two or more",
                          who.text);
     if (!isfinite(c->ratio) || !(fabs(c->ratio) >= 1e-6 && fabs(c->ratio) <= 1e6))
@@ -209,8 +318,8 @@ static status check_names(const scene *s, int i, fault *f)
         if (c->node[k] < 0 || c->node[k] >= s->nodes)
             return fault_set(f, STATUS_REFUSED, "%s: one of its nodes does not exist; add it first",
                              who.text);
-        for (int j = 0; j < k; j++)
-            if (c->node[j] == c->node[k])
+        for (int j = diaphragm ? -1 : 0; j < k; j++)
+            if ((j < 0 ? c->master : c->node[j]) == c->node[k])
                 return fault_set(f, STATUS_REFUSED, "%s: %s is named twice; name another node",
                                  who.text, scene_called(s, SCENE_NODES, c->node[k]).text);
     }
@@ -223,7 +332,12 @@ status scene_ties(const scene *s, scene_tie tie[], fault *f)
         tie[i] = (scene_tie){SCENE_NONE, 0, 1};
     for (int i = 0; i < s->constraints; i++) {
         TRY(check_names(s, i, f));
-        for (int k = 1; k < s->constraint[i].nodes; k++)
+    }
+    for (int i = 0; i < s->constraints; i++)
+        if (s->constraint[i].master != SCENE_NONE)
+            TRY(join_across(s, i, tie, f));
+    for (int i = 0; i < s->constraints; i++) {
+        for (int k = 1; s->constraint[i].master == SCENE_NONE && k < s->constraint[i].nodes; k++)
             for (int c = 0; c < ALL; c++)
                 if (s->constraint[i].components >> c & 1u)
                     TRY(join(s, i, k, c, tie, f));

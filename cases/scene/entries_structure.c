@@ -259,6 +259,13 @@ const entry_field entry_constraint[] = {
     {"ratio", ENTRY_NUMBER, .unit = "1", .summary = "may be negative, not 0",
      .left_out = "1, with 'equal'"},
     {"of", ENTRY_NAME, .summary = "the other node", .left_out = "none, with 'equal'"},
+    {"diaphragm", ENTRY_FORMS,
+     .summary = "[NODE, ...]: move with 'master' across 'normal' and about it, as a rigid floor",
+     .left_out = "none, with 'equal'"},
+    {"master", ENTRY_NAME, .summary = "node that the nodes of the diaphragm follow",
+     .left_out = "none, with 'equal'"},
+    {"normal", ENTRY_WORD, .words = "x|y|z", .summary = "axis across which the diaphragm is rigid",
+     .left_out = "none, with 'equal'"},
     {.name = NULL}};
 
 const entry_field entry_imperfection[] = {

@@ -791,6 +791,8 @@ typedef struct scene_constraint {
     int nodes, *node;    /* [nodes] */
     unsigned components; /* bits 1 << SCENE_UX .. SCENE_RZ */
     double ratio;
+    int master, normal; /* of a diaphragm, rigid across the axis `normal` (0, 1 or 2), the node that
+                           the others follow; else SCENE_NONE */
     char name[SCENE_NAME];
 } scene_constraint;
 
@@ -987,6 +989,9 @@ int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
 /* Without nodes; the first of these is the one that others follow. */
 int scene_add_constraint(scene *s, unsigned components, double ratio);
 void scene_constrain(scene *s, int constraint, int node);
+/* A diaphragm of the nodes that scene_constrain adds, which turn by a sequence of angles from then
+ * on: about the normal, then about the two other axes. */
+int scene_add_diaphragm(scene *s, int master, int normal);
 
 /* Without a mode or shifts. */
 int scene_add_imperfection(scene *s);

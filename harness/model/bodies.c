@@ -599,7 +599,12 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
         }
         if (m->mesh.vertex[body].angles > 0) {
             kinematics_axes(m, s, body, b);
+            const double *F = force + (ptrdiff_t)NODE_COORDINATES * k;
+            double moved[3] = {0, 0, 0};
+            if (m->mesh.vertex[body].led)
+                kinematics_arm(m, s, body, moved);
             sequence_force(m->mesh.vertex[body].angles, b, force + NODE_COORDINATES * k);
+            force[NODE_COORDINATES * k + 3] += vec3_dot(moved, F);
         }
         kinematics_to_own(&m->mesh.vertex[body], force + NODE_COORDINATES * k);
     }
@@ -631,6 +636,21 @@ static void sequence_matrix(int n, int at, int angles, double b[3][3], const dou
         }
 }
 
+/* The first angle also moves the body on its arm; F NULL: no force. */
+static void swing_matrix(const model *m, const model_state *s, int body, int n, int at,
+                         const double F[3], double K[])
+{
+    double moved[3], inward[3];
+    kinematics_arm(m, s, body, moved);
+    vec3_cross(m->mesh.vertex[body].axis[0], moved, inward);
+    for (int i = 0; i < n; i++)
+        K[i * n + at + 3] += vec3_dot(&K[i * n + at], moved);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < 3; i++)
+            K[(at + 3) * n + j] += moved[i] * K[(at + i) * n + j];
+    K[(at + 3) * n + at + 3] += F != NULL ? vec3_dot(F, inward) : 0;
+}
+
 void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
                       const double force[], double K[])
 {
@@ -660,6 +680,9 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
             sequence_matrix(n, NODE_COORDINATES * k, m->mesh.vertex[body].angles, b,
                             force != NULL ? moment + 3 : NULL, K);
         }
+        if (m->mesh.vertex[body].led)
+            swing_matrix(m, s, body, n, NODE_COORDINATES * k,
+                         force != NULL ? force + NODE_COORDINATES * k : NULL, K);
         kinematics_turn_matrix(&m->mesh.vertex[body], n, NODE_COORDINATES * k, K);
     }
 }

@@ -44,12 +44,50 @@ void kinematics_axes(const model *m, const model_state *s, int index, double b[3
     sequence_orientation(m, s, index, b, q);
 }
 
+void kinematics_arm(const model *m, const model_state *s, int vertex, double moved[3])
+{
+    const mesh_vertex *v = &m->mesh.vertex[vertex];
+    const double angle = s->angle[3 * vertex];
+    double across[3];
+    vec3_cross(v->axis[0], v->arm, across);
+    for (int i = 0; i < 3; i++)
+        moved[i] = across[i] * cos(angle) - v->arm[i] * sin(angle);
+}
+
+void kinematics_swing(const model *m, const model_state *s, int vertex, double more, double by[3])
+{
+    const mesh_vertex *v = &m->mesh.vertex[vertex];
+    const double mean = s->angle[3 * vertex] + more / 2, twice = 2 * sin(more / 2);
+    double across[3];
+    vec3_cross(v->axis[0], v->arm, across);
+    for (int i = 0; i < 3; i++)
+        by[i] = twice * (across[i] * cos(mean) - v->arm[i] * sin(mean));
+}
+
+/* Across the normal of its diaphragm: u = u_master + (R - 1) arm. */
+static void follow_leader(const model *m, model_state *s, int vertex)
+{
+    const mesh_vertex *v = &m->mesh.vertex[vertex];
+    const double angle = s->angle[3 * vertex], half = sin(angle / 2);
+    double across[3];
+    vec3_cross(v->axis[0], v->arm, across);
+    for (int i = 0; i < 3; i++)
+        if (!(fabs(v->axis[0][i]) > 0.5))
+            s->u[3 * vertex + i] =
+                s->u[3 * v->leader + i] + across[i] * sin(angle) - 2 * half * half * v->arm[i];
+}
+
 /* Rigid offset: u = u_body + (R - 1) offset. */
 void kinematics_follow(const model *m, model_state *s)
 {
     for (int i = 0; i < m->scene->nodes; i++)
         if (m->mesh.vertex[i].angles > 0)
             sequence_orientation(m, s, i, NULL, &s->q[4 * i]);
+    for (int i = 0; i < m->scene->nodes; i++) {
+        const mesh_vertex *v = &m->mesh.vertex[i];
+        if (v->led)
+            follow_leader(m, s, i);
+    }
     for (int i = 0; i < m->scene->nodes; i++) {
         const mesh_vertex *v = &m->mesh.vertex[i];
         if (v->body == i)
@@ -112,6 +150,12 @@ static void body_increment(const model *m, const model_state *s, int body, const
         d[c] = v->coordinate[c] == NONE ? 0 : dx[v->coordinate[c]];
     kinematics_to_fixed(v, d);
     memcpy(out, d, 6 * sizeof(double));
+    if (v->led) {
+        double moved[3];
+        kinematics_arm(m, s, body, moved);
+        for (int i = 0; i < 3; i++)
+            out[i] += moved[i] * d[3];
+    }
     if (v->angles > 0) {
         double b[3][3];
         kinematics_axes(m, s, body, b);
@@ -332,10 +376,12 @@ int kinematics_node_jacobian(const model *m, const model_state *s, int node, int
                 T[i * count + slot[c]] += body->turned ? body->along[3 * i + c] : i == c;
             continue;
         }
-        double moved[3];
+        double moved[3], swung[3] = {0, 0, 0};
         vec3_cross(b[c - 3], rho, moved);
+        if (body->led && c == 3)
+            kinematics_arm(m, state, v->body, swung);
         for (int i = 0; i < 3; i++) {
-            T[i * count + slot[c]] += v->body != node ? moved[i] : 0;
+            T[i * count + slot[c]] += swung[i] + (v->body != node ? moved[i] : 0);
             T[(3 + i) * count + slot[c]] += b[c - 3][i];
         }
     }

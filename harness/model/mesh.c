@@ -87,6 +87,21 @@ static int is_tied(const model *m, int node)
     return tied;
 }
 
+/* Arms from the masters of diaphragms. */
+static void lead_vertices(model *m)
+{
+    const scene *s = m->scene;
+    for (int i = 0; i < s->constraints; i++)
+        for (int k = 0; k < s->constraint[i].nodes && s->constraint[i].master != SCENE_NONE; k++) {
+            mesh_vertex *v = &m->mesh.vertex[s->constraint[i].node[k]];
+            const double *from = m->mesh.vertex[s->constraint[i].master].position;
+            for (int c = 0; c < 3; c++)
+                v->arm[c] = c == s->constraint[i].normal ? 0 : v->position[c] - from[c];
+            v->led = vec3_norm(v->arm) > 0;
+            v->leader = s->constraint[i].master;
+        }
+}
+
 static void scene_vertices(model *m)
 {
     const scene *s = m->scene;
@@ -113,6 +128,7 @@ static void scene_vertices(model *m)
                     !(is_free(n) && s->plane == SCENE_SPACE && !is_tied(m, i));
         stretch_axes(m, i, v);
     }
+    lead_vertices(m);
 }
 
 static int same_vector(const double a[3], const double b[3])

@@ -199,7 +199,9 @@ typedef struct mesh_vertex {
     int coordinate[6];  /* of a body: global coordinate or NONE where fixed */
     int turned;         /* 1: its translations are along the columns of `along` */
     double along[9];
-    int angles; /* > 0: the rotation is a sequence of this number of angles about the axes */
+    int led, leader; /* 1: a diaphragm moves it with this node, on an arm about its first axis */
+    double arm[3];   /* [m] across that axis */
+    int angles;      /* > 0: the rotation is a sequence of this number of angles about the axes */
     double axis[3][3];
     int idle;             /* bits of angles that are fixed because nothing depends on them */
     int vector_driver[3]; /* drivers of the prescribed rotation vector; NONE: not prescribed */
@@ -664,6 +666,10 @@ void kinematics_turn_matrix(const mesh_vertex *, int n, int at, double K[]);
 void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,
                        node_state x[]);
 void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
+/* Of a body that is led: derivative of its position with respect to its first angle. */
+void kinematics_arm(const model *, const model_state *, int vertex, double moved[3]);
+/* What it moves by where that angle grows by `more` in the state. */
+void kinematics_swing(const model *, const model_state *, int vertex, double more, double by[3]);
 /* Spatial axes of a sequence's angles in the current state: b[angles][3]. */
 void kinematics_axes(const model *m, const model_state *s, int vertex, double b[3][3]);
 /* Recomputes everything that depends on the bodies' coordinates. */

@@ -282,12 +282,15 @@ typedef struct entries {
 /* Derivative of the generalised load of a follower force F and moment F + 3 at rho with respect to
  * a rotation about b: that of b x F and b x F[3..5]. */
 static void add_following(const entries *all, const mesh_vertex *body, const double F[6],
-                          const double rho[3], double b[3][3], int column)
+                          const double rho[3], double b[3][3], const double moved[3], int column)
 {
     double force[3], moment[3], arm[3];
     vec3_cross(b[column], F, force);
     vec3_cross(b[column], F + 3, moment);
     vec3_cross(rho, force, arm);
+    if (body->led)
+        all->take(all->to, body->coordinate[3], body->coordinate[3 + column],
+                  vec3_dot(moved, force));
     kinematics_to_own(body, force);
     for (int i = 0; i < 3; i++) {
         all->take(all->to, body->coordinate[i], body->coordinate[3 + column], force[i]);
@@ -388,7 +391,14 @@ static void add_stiffness(void *context, const applied *what)
     }
     const mesh_vertex *v = model_vertex(all->m, what->vertex),
                       *body = model_vertex(all->m, v->body);
-    double rho[3], D[9], moment[3] = {0, 0, 0}, b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double rho[3], D[9], moment[3] = {0, 0, 0}, b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                         moved[3] = {0, 0, 0};
+    if (body->led) {
+        double inward[3];
+        kinematics_arm(all->m, all->s, v->body, moved);
+        vec3_cross(body->axis[0], moved, inward);
+        all->take(all->to, body->coordinate[3], body->coordinate[3], vec3_dot(F, inward));
+    }
     if (v->body == what->vertex && !what->offset && !what->follower && F[3] == 0 && F[4] == 0 &&
         F[5] == 0)
         return;
@@ -420,7 +430,7 @@ static void add_stiffness(void *context, const applied *what)
         }
     if (what->follower)
         for (int j = 0; j < 3; j++)
-            add_following(all, body, F, rho, b, j);
+            add_following(all, body, F, rho, b, moved, j);
 }
 
 /* Derivative of the forces of a tension with respect to the direction of its line. */

@@ -242,6 +242,13 @@ static int coordinate_row(const linkage *l, int node, int coordinate, double row
         for (int i = 0; i < 3; i++)
             row[j] += scale * axis[i] * C[N * (turns ? 3 + i : i) + j];
     }
+    if (v->led && !turns) { /* without what the angle about the normal moves it by */
+        double moved[3];
+        vec3_cross(v->axis[0], v->arm, moved);
+        for (int j = 0; j < N; j++)
+            for (int i = 0; i < 3; i++)
+                row[j] -= scale * vec3_dot(axis, moved) * v->axis[0][i] * C[N * (3 + i) + j];
+    }
     return l->number[supports_root(l->part, node)];
 }
 

@@ -113,6 +113,12 @@ static double advance_vertex(const model *m, model_state *s, int index, const do
     for (int c = 0; c < 6; c++)
         d[c] = v->coordinate[c] == NONE ? 0 : dx[v->coordinate[c]];
     kinematics_to_fixed(v, d);
+    if (v->led) {
+        double by[3];
+        kinematics_swing(m, s, index, d[3], by);
+        for (int c = 0; c < 3; c++)
+            d[c] += by[c];
+    }
     for (int c = 0; c < 3; c++) {
         s->u[3 * index + c] += d[c];
         s->angle[3 * index + c] += d[3 + c];

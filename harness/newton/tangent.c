@@ -133,6 +133,11 @@ static status complete(analysis_context *c, const scene_compliance *a, const mod
     }
     if (t->condensed == NULL)
         border_fill(&t->border, t->free, &t->K);
+    if (model_vertex(c->model, model_body(c->model, a->node))->led)
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s follows the master of a diaphragm; request the compliance of that node",
+            scene_called(model_scene(c->model), SCENE_NODES, a->node).text);
     t->coordinates =
         kinematics_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
     return STATUS_OK;

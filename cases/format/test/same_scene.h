@@ -75,7 +75,8 @@ static inline int same_spring(const scene_spring *a, const scene_spring *b)
 
 static inline int same_constraint(const scene_constraint *a, const scene_constraint *b)
 {
-    return a->nodes == b->nodes && a->components == b->components &&
+    return a->nodes == b->nodes && a->components == b->components && a->master == b->master &&
+           a->normal == b->normal &&
            memcmp(a->node, b->node, (size_t)a->nodes * sizeof *a->node) == 0 &&
            same_numbers(1, &a->ratio, &b->ratio);
 }

@@ -255,6 +255,8 @@ static void add(scene *s, const char *name)
         const int c = scene_add_constraint(s, 1u << SCENE_UY, 3);
         scene_constrain(s, c, MIDDLE);
         scene_constrain(s, c, TIP);
+    } else if (IS("diaphragm")) {
+        scene_constrain(s, scene_add_diaphragm(s, TIP, 2), MIDDLE);
     } else if (IS("fork")) {
         twist(s);
         ended_in_a_fork(s);
