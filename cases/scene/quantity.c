@@ -264,7 +264,9 @@ void scene_keep_quantities(scene *s, const scene *of)
                         s->quantity[k].over[j] == i)
                         s->quantity[k].over[j] = kept;
             s->quantity[kept++] = s->quantity[i];
-        } else
+        } else {
             free(s->quantity[i].over);
+            s->quantity[i].overs = 0; /* later ones look at all */
+        }
     s->quantities = kept;
 }
