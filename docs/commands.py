@@ -1,8 +1,8 @@
-"""The commands that pages show, run as a reader would: from the root of a clone, in order.
+"""Runs the commands that pages show as a reader would: from the root of a clone, in order.
 
 A page has commands in blocks of the kind `console`: a line that begins with `$ ` is a command, `> `
-continues it, and what follows is what it prints. Files of the reader stand in blocks whose
-`:caption:`, or first line `# NAME`, is their name. In what is printed, `...` is any text of a line; a line `...` is any lines.
+continues it, and what follows is what it prints. Files of the reader are in blocks whose `:caption:`, or first line
+`# NAME`, is their name. In outputs, `...` matches any text of a line; a line `...` matches any lines.
 
 usage: commands.py PAGE...     prints pages whose output differs, and writes what was printed
 """
@@ -22,7 +22,7 @@ CAPTION = re.compile(r"\A(?::caption:|#) (\S+\.\w+)\n+")
 
 
 def pages():
-    """All that may show commands."""
+    """All pages that may show commands."""
     return sorted([*ROOT.glob("README*.md"), *DOCS.rglob("*.md")])
 
 
@@ -40,12 +40,12 @@ def commands(body):
 
 
 def fits(line, printed):
-    """Is a line printed as the page has it?"""
+    """Does a printed line match that of the page?"""
     return re.fullmatch(".*".join(map(re.escape, line.rstrip().split("..."))), printed.rstrip()) is not None
 
 
 def match(expected, printed):
-    """Are these the lines of the page?"""
+    """Do these lines match those of the page?"""
     if not expected:
         return not printed
     if expected[0].strip() == "...":
@@ -54,7 +54,7 @@ def match(expected, printed):
 
 
 def reader_file(page, name):
-    """A file of the reader as a page has it."""
+    """A file of the reader as shown on a page."""
     bodies = [body for _, body in BLOCK.findall((DOCS / page).read_text(encoding="utf-8"))]
     body, = (b for b in bodies if CAPTION.match(b) and CAPTION.match(b).group(1) == name)
     return body[CAPTION.match(body).end():]
@@ -77,7 +77,7 @@ class Folder:
         }
 
     def run(self, command):
-        """Lines that a command prints, errors among them."""
+        """Lines that a command prints, including errors."""
         done = subprocess.run(["bash", "-c", command], cwd=self.path, env=self.environment, text=True,
                               check=False, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT)
@@ -105,12 +105,12 @@ def differences_in(folder, text):
 
 
 def shown(command, lines):
-    """A command and its lines as they stand in a block."""
+    """A command and its lines as written in a block."""
     return "\n".join(["$ " + command.replace("\n", "\n> "), *lines]) + "\n"
 
 
 def main(names):
-    """Writes what was printed into pages; lines that a mark of the page covers stay."""
+    """Writes outputs into pages; lines that match a mark of the page do not change."""
     program = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
     for name in map(pathlib.Path, names):
         text = name.read_text(encoding="utf-8")

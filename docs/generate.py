@@ -26,7 +26,7 @@ VERB = re.compile(r"^  ([a-z-]+) {2,}\S", re.M)
 
 
 class Site:
-    """The program asked, and the folder written into."""
+    """The program that is run, and the folder that is written."""
 
     def __init__(self, program, folder, stored):
         self.program, self.folder, self.results = program, folder, stored
@@ -37,19 +37,19 @@ class Site:
                               stdout=subprocess.PIPE).stdout
 
     def write(self, name, text):
-        """A page, made from the program and so without a source to edit."""
+        """A page that is generated from the program and has no source to edit."""
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text.rstrip() + "\n", encoding="utf-8")
 
 
 def literal(text):
-    """Text as the program prints it."""
+    """Text exactly as the program prints it."""
     return f"```text\n{text.strip(chr(10))}\n```"
 
 
 def table(head, rows):
-    """Rows of words as Markdown."""
+    """Rows of words as a Markdown table."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(str(c).replace("|", r"\|") for c in line) + " |"
                      for line in lines)
@@ -70,7 +70,7 @@ def write_commands(site):
 
 
 def write_sections(site, name, title, text, heading):
-    """A text of the program, a section for each line that `heading` matches, with its words."""
+    """A text of the program, with a section for each line that `heading` matches."""
     starts = [m.start() for m in heading.finditer(text)]
     parts = [f"# {title}\n\n{literal(text[:starts[0]])}"]
     for start, end in zip(starts, starts[1:] + [len(text)]):
@@ -83,7 +83,7 @@ HEADERS = {"c_interface": ("C interface of the library", "harness/library/beamwo
 
 
 def write_interfaces(site):
-    """The headers that users include, and what the Python module says of itself."""
+    """The headers that users include, and the documentation of the Python module."""
     for page, (title, header) in HEADERS.items():
         text = (ROOT / header).read_text("utf-8").strip()
         site.write(f"reference/{page}.md", f"# {title}\n\n`{header}`, whole:\n\n```c\n{text}\n```")
@@ -162,7 +162,7 @@ def problem(site, case):
 
 
 def verdicts(site, case):
-    """Verdicts at the default parameters, and a figure, where results are there."""
+    """Verdicts at the default parameters, and a figure, if there are results."""
     point = results.read(site.results, case).points[0]
     rows = [[s.key, v.quantity, f"{v.limit:.9g}", results.percent(v), v.verdict]
             for s in point.series for v in s.verdicts if v.verdict not in ("skip", "no truth")]
@@ -200,7 +200,7 @@ def collect(folder):
     for name in (*INCLUDED, *(p.relative_to(ROOT) for p in (ROOT / "elements").glob("*.md"))):
         target = folder / "sources" / name
         target.parent.mkdir(parents=True, exist_ok=True)
-        # Their links are relative to where they stand: the names alone are left.
+        # Their links are relative to their location; only the names remain.
         target.write_text(LINK.sub(r"\1", (ROOT / name).read_text("utf-8")), encoding="utf-8")
 
 

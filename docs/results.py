@@ -1,4 +1,4 @@
-"""Tables and figures of a file of results for pages: verdicts, and error against run time of one quantity.
+"""Tables and figures of a results file for pages: verdicts, and error against run time of one quantity.
 
 usage, from the root: python3 -m docs.results build/results.h5 docs/images/sheet_cantilever.svg
 """
@@ -20,7 +20,7 @@ MARKERS = "os^vD<>Pp*"
 
 
 def cases(path):
-    """Names of the cases that a file has."""
+    """Names of the cases in a file."""
     with h5py.File(path) as file:
         return list(file.get("cases", ()))
 

@@ -21,8 +21,8 @@ def read_accepted(path):
         try:
             datetime.date.fromisoformat(row["since"])
         except ValueError as why:
-            raise Refused(f"{where}: since '{row['since']}' is no day such as 2026-11-21") from why
+            raise Refused(f"{where}: since '{row['since']}' is not a date such as 2026-11-21") from why
         if not re.fullmatch(r"\d+\.\d+\.\d+", row["version"]):
-            raise Refused(f"{where}: version '{row['version']}' is no version such as 0.1.0")
+            raise Refused(f"{where}: version '{row['version']}' is not a version such as 0.1.0")
         rows.append(row)
     return rows

@@ -1,4 +1,4 @@
-"""The glossary: words of the program and the report, explained."""
+"""The glossary: terms of the program and the report with their explanations."""
 import re
 
 from reference.table import Refused, read_csv
@@ -12,7 +12,7 @@ def looked_up(word):
 
 
 def read_glossary(path):
-    """Entries, each with names of its own; what they send to exists."""
+    """Reads the entries; checks that names are unique and that references exist."""
     rows, names = [], {}
     for number, row in read_csv(path, GLOSSARY_COLUMNS):
         where = f"{path.name}:{number}"
@@ -28,5 +28,5 @@ def read_glossary(path):
     for row in rows:
         for word in filter(None, row["see"].split("|")):
             if word not in terms or word == row["term"]:
-                raise Refused(f"{path.name}: '{row['term']}' sends to '{word}', which is no other term")
+                raise Refused(f"{path.name}: '{row['term']}' sends to '{word}', which is not another term")
     return rows

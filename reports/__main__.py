@@ -1,7 +1,6 @@
 """python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--imported THEIRS.h5]
-[--sweep SWEEP.h5] -o FOLDER: the report as one self-contained folder of HTML and SVG. A sweep may
-stand in the place of results. With --film FILM.html in the place of -o FOLDER: a motion as one file
-that any browser plays from disk."""
+[--sweep SWEEP.h5] -o FOLDER: the report as one self-contained folder of HTML and SVG. A sweep may replace the
+results. With --film FILM.html instead of -o FOLDER: a motion as one file that any browser plays from disk."""
 import argparse
 import sys
 
@@ -15,7 +14,7 @@ def main():
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("-o", dest="folder")
     what.add_argument("--film", help="an HTML file: a motion that plays in any browser")
-    parser.add_argument("-k", dest="case", help="whose film, where the results hold several")
+    parser.add_argument("-k", dest="case", help="case of the film, if the results contain several")
     parser.add_argument("--bench",
                         help="times of 'beamwork bench -o'; without it those of single runs")
     parser.add_argument("--imported",
@@ -24,7 +23,7 @@ def main():
                         help="results of other programs, stored by 'beamwork import'")
     parser.add_argument("--beside", action="append", dest="imported", help=argparse.SUPPRESS)
     parser.add_argument("--sweep", action="append", default=[],
-                        help="what 'beamwork sweep -o' stored, beside the results")
+                        help="results of 'beamwork sweep -o', in addition to those of verify")
     given = parser.parse_args()
     if given.film:
         from reports import film

@@ -1,19 +1,19 @@
 """Which formulation, with how many elements, reaches a tolerance at the lowest cost: the answers that pages show.
 
-One rule, that of harness/study/study.h: n is the least mesh from which on the error of every mesh is
-within the level; formulations stand in the order of the cost of their counted work on that mesh, so
-that two runs say the same; those whose costs differ by less than the uncertainty of the
-cost model tie; one that does not pass in the requested quantity is never the cheapest, but is listed. Measured times are shown. Variants
-that only repeat the formulation without their options are not shown.
+The rule is that of harness/study/study.h: n is the coarsest mesh from which the error of every mesh is within the
+level; formulations are sorted by the cost of their counted work on that mesh, so that two runs give the same order;
+costs that differ by less than the uncertainty of the cost model tie; a formulation that does not pass in the
+requested quantity is never the cheapest, but is listed. Measured times are shown. Variants that give the same results
+as the formulation without their options are not shown.
 
     found = answers.answer(point, quantity, level)    # quantity: a name, or ALL
     found.best       [Way] the cheapest one, and those whose costs tie with it; empty: none
     `found.dearer`   [Way] the other ones that pass, by cost
     found.defective  [Way] within the level too, but with a verdict that is not a pass, by cost
     found.faster     [Way] of the more expensive ones: measured faster than the cheapest in every round
-    found.unranked   [Way] that pass and whose costs rank nothing (Way.unranked says why), by name
+    found.unranked   [Way] that pass but have no rank (Way.unranked gives the reason), by name
     found.missed     [key] not within the level on these meshes
-    found.unjudged   [key] without a reference value of their theory in all that is asked
+    found.unjudged   [key] without a reference value of their theory for all requested quantities
 """
 import math
 from dataclasses import dataclass, field
@@ -28,16 +28,16 @@ LEVELS = tuple(data.REACH)
 
 @dataclass
 class Way:
-    """The least mesh from which on a formulation stays within a level."""
+    """The coarsest mesh from which a formulation stays within a level."""
     key: str
     n: int
     cost: float  # [s] of counted work, with the cost coefficients of the reference machine
     clock: object  # data.Clock: measured
     error: float  # the largest one of the requested quantities, on that mesh
-    worst: object  # data.Verdict: the worst of those that it takes
-    defects: list  # verdicts of them that are not a pass
+    worst: object  # data.Verdict: the worst of those involved
+    defects: list  # those of them that are not a pass
     priced: bool = True  # with cost coefficients of its formulation, not the general ones
-    unranked: str = ""  # why its cost ranks nothing; it has none then
+    unranked: str = ""  # reason why it has no rank; it then has no cost
 
     @property
     def seconds(self):
@@ -81,13 +81,13 @@ def verdict_of(series, quantity):
 
 
 def error_of(mesh, quantities):
-    """The one of largest size; NaN where one is missing."""
+    """The error of largest magnitude; NaN if one is missing."""
     errors = [mesh.errors.get(q, math.nan) for q in quantities]
     return math.nan if any(not math.isfinite(e) for e in errors) else max(errors, key=abs)
 
 
 def first_within(series, quantity, level):
-    """Elements of the least mesh from which on every error is within the level, or None."""
+    """Elements of the coarsest mesh from which every error is within the level, or None."""
     found = None
     for mesh in reversed(series.meshes):
         if not abs(mesh.errors.get(quantity, math.nan)) <= level:
@@ -97,22 +97,21 @@ def first_within(series, quantity, level):
 
 
 def reach(series, v, level):
-    """The same: as the judge has stored it, at its levels."""
+    """The same, as stored by the evaluation at its levels."""
     if not math.isfinite(v.truth):
         return None
     return v.reach.get(level) if level in data.REACH else first_within(series, v.quantity, level)
 
 
 def verdicts_on(series, quantities):
-    """Verdicts on all of them, or None where one has no truth of the formulation's theory."""
+    """Verdicts on all of them, or None if one has no reference value of the formulation's theory."""
     found = [verdict_of(series, q) for q in quantities]
     known = not series.missing and found and all(v and math.isfinite(v.truth) for v in found)
     return found if known else None
 
 
 def repeats(point, series, quantities):
-    """Is it a variant that does what the formulation does without these options: the same errors by
-    the same work on every mesh?"""
+    """Is it a variant without effect: the same errors and the same work on every mesh as without these options?"""
     name, colon, _ = series.key.partition(":")
     plain = next((s for s in point.series if colon and s.key == name and not s.missing), None)
 
@@ -123,7 +122,7 @@ def repeats(point, series, quantities):
 
 
 def way(series, quantities, level):
-    """The way of one formulation to have all these quantities within the level, or None."""
+    """The coarsest mesh and cost with which a formulation has all these quantities within the level, or None."""
     verdicts = verdicts_on(series, quantities)
     if verdicts is None:
         return None
@@ -183,14 +182,15 @@ def faster(a, b):
 
 
 def differ(a, b):
-    """Do the times of two clocks differ by more than their noise? All rounds of one below all of the other; single runs by a factor of two."""
+    """Do the times of two clocks differ by more than their noise? All rounds of one below all of the other; single
+    runs by a factor of two."""
     if a.repeats > 1 and b.repeats > 1:
         return a.most < b.least or b.most < a.least
     return max(a.least, b.least) > 2 * min(a.least, b.least)
 
 
 def front(point, quantity):
-    """[(series, mesh)] not beaten in both time and error, by time; of what ranks."""
+    """[(series, mesh)] that no ranked one beats in both time and error, sorted by time."""
     cells = [(s, m) for s in point.series if not s.missing and not s.other and not s.unranked
              for m in s.meshes
              if math.isfinite(m.errors.get(quantity, math.nan))]
@@ -221,12 +221,12 @@ def savings(point):
     return [(s, m) for s in point.series for m in s.meshes if m.kept is not None]
 
 
-# The way of every case to each level at the lowest cost: what the heat map and the index show.
+# The lowest-cost mesh of every case for each level, for the heat map and the index.
 
 
 @dataclass
 class CaseLine:
-    """A case at its defaults: all its judged quantities together."""
+    """A case at its defaults: all its quantities with verdicts together."""
 
     case: object  # data.Case
     quantities: list  # with a reference value to judge by
@@ -234,7 +234,7 @@ class CaseLine:
 
 
 def line_of_case(case):
-    """None where nothing is judged."""
+    """None if there are no verdicts."""
     point = case.points[0]
     names = judged(point)
     if not names:

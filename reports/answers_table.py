@@ -2,9 +2,8 @@
 
     python -m reports.answers_table RESULTS [--error 0.3%] [--format text|csv|json] [-k WORDS] [-o FILE]
 
-A row for each formulation that is within the tolerance, in the order of its counted work; rank 0:
-its verdict is not a pass, or its costs rank nothing (`unranked` says why), so that it has no place
-in that order.
+A row for each formulation that is within the tolerance, in the order of its counted work; rank 0: it does not pass,
+or has no rank (`unranked` gives the reason), so that it has no place in that order.
 """
 import argparse
 import csv
@@ -34,12 +33,12 @@ def asked_of(point):
 
 
 def short(value):
-    """A number with the digits that are worth keeping; None where there is none."""
+    """A number with its significant digits; None if there is none."""
     return float(f"{value:.3g}") if math.isfinite(value) else None
 
 
 def rows(cases, levels=LEVELS, everywhere=False):
-    """[{column: value}]; everywhere: at all parameter points, else at the defaults."""
+    """[{column: value}]; everywhere: at all parameter points, otherwise at the defaults."""
     out = []
     for case in cases:
         for point in case.points if everywhere else case.points[:1]:
@@ -63,7 +62,7 @@ def as_csv(found):
 
 
 def as_json(found, about):
-    """One object: what was run, names and units of the columns, and a line for each question:
+    """One object: the run, names and units of the columns, and a line for each question:
     case, parameters, quantity, tolerance, then its answers as lists, each beginning with the
     index of its formulation."""
     keys = sorted({row["formulation"] for row in found})
@@ -80,7 +79,7 @@ def as_json(found, about):
 
 
 def sentence(answer):
-    """An answer in words: the formulation of lowest cost, ties, and those that are wrong there."""
+    """An answer in words: the formulation with the lowest cost, ties, and those that are wrong there."""
     def told(ways):
         return ", ".join(f"{w.key} n = {w.n}" for w in ways)
 
@@ -115,7 +114,7 @@ def as_text(cases, levels, everywhere=False):
 
 
 def tolerance(text):
-    """0.3% or 0.003, as a part of the value."""
+    """0.3% or 0.003, as a fraction of the value."""
     value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
     if not 0 < value < 1:
         raise argparse.ArgumentTypeError(f"'{text}': give an error such as 0.3% or 0.003")
@@ -125,12 +124,12 @@ def tolerance(text):
 def main():
     arguments = argparse.ArgumentParser(
         prog="python -m reports.answers_table",
-        description="Which formulation, with how many elements, is within an error at least cost.")
-    arguments.add_argument("results", help="as verify writes it")
+        description="Which formulation, with how many elements, is within an error at the lowest cost.")
+    arguments.add_argument("results", help="results of verify")
     arguments.add_argument("--error", type=tolerance, action="append",
                            help="0.3%% or 0.003; may be repeated (10, 1, 0.1, 0.01%%)")
     arguments.add_argument("--format", choices=("text", "csv", "json"), default="text")
-    arguments.add_argument("--all-points", action="store_true", help="not only the defaults")
+    arguments.add_argument("--all-points", action="store_true", help="all parameter points, not only the defaults")
     arguments.add_argument("-k", "--case", action="append", help="this case only; may be repeated")
     arguments.add_argument("-o", "--output", type=argparse.FileType("w"), default=sys.stdout)
     r = arguments.parse_args()
@@ -157,7 +156,7 @@ NAVIGATION = [("answers.html", "answers")]
 
 
 def outward(value):
-    """Six digits, none of them less than the value: a mesh is not within what it is not."""
+    """Six digits, rounded up, so that no mesh appears more accurate than it is."""
     if not math.isfinite(value):
         return None
     near = float(f"{value:.6g}")
@@ -167,7 +166,7 @@ def outward(value):
 
 
 def staying(series, quantities):
-    """For each mesh the largest error of it and all finer ones; None where one has no value."""
+    """For each mesh, the largest error of it and all finer ones; None if one has no value."""
     out, worst = [], 0.0
     for mesh in reversed(series.meshes):
         worst = max([worst, *(abs(mesh.errors.get(q, math.nan)) for q in quantities)],
@@ -214,7 +213,7 @@ def defect_of(verdicts):
 
 
 def embedded(value):
-    """JSON that may stand in a page: no end of a script, no comment."""
+    """JSON that can be embedded in a page: no end of a script, no comment."""
     text = json.dumps(value, separators=(",", ":"), allow_nan=False)
     return Markup(text.replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e"))
 

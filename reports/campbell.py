@@ -1,4 +1,5 @@
-"""Stationary rotation: frequencies against angular velocity (Campbell diagrams) and the turning C-shaped cantilever."""
+"""Stationary rotation: frequencies against angular velocity (Campbell diagrams) and the rotating C-shaped
+cantilever."""
 import functools
 import math
 
@@ -112,7 +113,7 @@ def channel_at(speed, w=1.0):
 
 
 def draw_channel(site, look):
-    """J Fig. 13: load against deflection at several angular velocities; exact points where they are known."""
+    """J Fig. 13: load against deflection at several angular velocities, with exact points where known."""
     figure, ax = plt.subplots(figsize=(7.2, 4.8))
     drawn = False
     for speed, shade in zip(SPEEDS, np.linspace(0.75, 0, len(SPEEDS))):

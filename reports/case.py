@@ -1,5 +1,5 @@
-"""A page for each case: its scene, the quantities, which formulation answers, one figure per
-question, the rest folded."""
+"""A page for each case: its scene, the quantities, the best formulations, one figure per question, and folded
+details."""
 import functools
 import math
 from dataclasses import dataclass
@@ -42,7 +42,7 @@ MOST_DIGITS = 15
 
 @dataclass(frozen=True)
 class Truth:
-    """One truth of a quantity, in its unit; of: the formulations it is for, where not all."""
+    """One reference value of a quantity, in its unit; of: the formulations to which it applies, if not all."""
     value: str
     digits: int
     kind: str
@@ -52,7 +52,7 @@ class Truth:
 
 @dataclass
 class Quantity:
-    """meaning: what it is; truths: none where it is not judged."""
+    """meaning: its description; truths: none if it has no verdict."""
     name: str
     unit: str
     meaning: str
@@ -68,7 +68,7 @@ def digits_of(value, uncertainty):
 
 
 def truths_of(point, name):
-    """The different truths that formulations are judged by, each once."""
+    """The different reference values for verdicts on formulations, each once."""
     out = {}
     for series in point.series:
         v = answers.verdict_of(series, name)
@@ -117,7 +117,7 @@ def cell_of(series, name):
 
 
 def matrix(point):
-    """(series, [(quantity, cells)]) of what is judged."""
+    """(series, [(quantity, cells)]) with verdicts."""
     names = answers.judged(point)
     shown = [s for s in point.series if any(cell_of(s, n).look != "skip" for n in names)]
     return shown, [(name, [cell_of(s, name) for s in shown]) for name in names]
@@ -160,7 +160,7 @@ def question_of(site, point, quantity, name):
 
 
 def told_of(point, quantity):
-    """Is any of its errors more than round-off?"""
+    """Does any of its errors exceed round-off?"""
     return any(e > plots.FLOOR for s in point.series for _, e in plots.finite(s, quantity))
 
 
@@ -231,8 +231,8 @@ def limits_of(point):
 
 
 def verdicts_of(point, index):
-    """[(series, verdicts)] for the table: of the first parameter point all that say something, of
-    the others what is not a pass."""
+    """[(series, verdicts)] for the table: at the first parameter point all verdicts, at the others those that are not
+    a pass."""
     def told(v):
         own = v.verdict not in ("skip", "no truth", *(("pass",) if index else ()))
         return own or math.isfinite(v.model_truth) and v.verdict != "pass"
@@ -258,7 +258,8 @@ def parts_of(site, case, index):
     return {
         "point": point, "figures": figures, "quantity":
             main, "table": table_of(point, main) if main else [],
-        "limits": limits_of(point) if index == 0 or not names else [], "others": data.rows_beside(point), "cheapest": cheapest_of(point),
+        "limits": limits_of(point) if index == 0 or not names else [], "others": data.rows_beside(point), "cheapest":
+        cheapest_of(point),
         "front": answers.front(point, main) if main else [], "failures":
             answers.failures(point), "savings": answers.savings(point), "noise": sorted(noise),
         "causes": causes_of(point), "shown": shown, "cells": cells,
@@ -325,7 +326,8 @@ def tasks(site):
 
 
 def sheet(site, case):
-    """The first judged quantity of the defaults: its figure, and for each formulation limit, order, errors, time to every level."""
+    """The first quantity of the defaults with verdicts: its figure, and for each formulation its limit, order,
+    errors, and time to every level."""
     point = case.points[0]
     names = answers.judged(point)
     if not names:

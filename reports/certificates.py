@@ -1,6 +1,6 @@
-"""Certificates: what a paper should print of its element. For each formulation the contract of the
-interface, claim by claim, uniform and linear states, locking and orders of convergence, as
-`beamwork element-test` left them in the results."""
+"""Certificates: the properties that a paper should report of its element. For each formulation the interface
+requirements one by one, uniform and linear states, locking and orders of convergence, from the results of `beamwork
+element-test`."""
 import functools
 import math
 
@@ -16,7 +16,7 @@ MARKS = {"holds": "✔", "broken": "✘", "not claimed": "–"}
 
 
 def part_of(record, formulation, family, points):
-    """A family of a formulation: its claims, and what is measured with its points."""
+    """A group of a formulation: its requirements, and measurements with their points."""
     def own(table):
         return [row for row in record[table]
                 if (row["formulation"], row["family"]) == (formulation, family["family"])]
@@ -48,7 +48,7 @@ def stored(site):
 
 
 def shown(site):
-    """Certificates of the formulations that the results are of."""
+    """Certificates of the formulations in the results."""
     record = stored(site)
     if record is None:
         return []
@@ -76,7 +76,7 @@ def percent(error):
 
 
 def standing(part):
-    """(worst outcome of its claims, how many it has that hold or are broken)."""
+    """(worst outcome of its requirements, number of them that are satisfied or violated)."""
     made = [c["outcome"] for c in part["claims"] if c["outcome"] != "not claimed"]
     return "broken" if "broken" in made else made[0] if made else "not claimed", len(made)
 

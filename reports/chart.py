@@ -1,9 +1,9 @@
-"""Charts of curves in panels, written as SVG by themselves: most figures of the report are of this
-kind, and matplotlib takes a hundred times as long for their ticks.
+"""Charts of curves in panels, written directly as SVG: most figures of the report are of this kind, and matplotlib
+takes a hundred times as long for their ticks.
 
 A chart has panels in rows; a panel has curves with marks, levels, words and a ground, in the
-coordinates of its data. Lengths of the picture are in pixels. What a curve says of itself (colour,
-marker, line, whose it is) is what style.Styles.of and Site.points return."""
+coordinates of its data. Lengths of the picture are in pixels. The attributes of a curve (colour, marker, line,
+formulation) are those that style.Styles.of and Site.points return."""
 import functools
 import math
 import zlib
@@ -90,7 +90,7 @@ class Axis:
 
 INK = "currentColor"
 DASHES = {"-": "", "--": "4.4 1.9", ":": "1.2 2", "-.": "7.7 1.9 1.2 1.9", "none": "none"}
-WIDTH = 1.5  # of a curve that says nothing else
+WIDTH = 1.5  # of a curve without other attributes
 LETTER = 6.7  # mean width of a letter of 11 pixels
 
 
@@ -163,8 +163,8 @@ class Panel:
 
 
 class Chart:
-    """columns: of panels; size: of a panel's axes, in pixels; apart: panels of one row whose curves
-    are not of the same things, so that each has its entries of the legend below itself."""
+    """columns: of panels; size: of a panel's axes, in pixels; apart: panels of one row with different curves, so that
+    each has its own legend below it."""
 
     def __init__(self, columns, size, gap=(62, 52), apart=False):
         self.columns, self.size, self.gap, self.apart = columns, size, gap, apart

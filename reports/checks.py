@@ -1,5 +1,5 @@
-"""Page of checks and their numbers: truths by kind, cells judged, limits' uncertainties, the smallest
-faults that `make verify` notices, injected faults, executions with any bytes as input."""
+"""Page of checks and their numbers: reference values by kind, cells with verdicts, uncertainties of limits, the
+smallest faults that `make verify` detects, injected faults, runs with random bytes as input."""
 import csv
 import functools
 import json
@@ -15,14 +15,14 @@ CONSISTENT = ("beamw_consistent", "collocation", "geometrically_exact")
 
 
 def stored(site, name):
-    """A table that another target left beside the results, or None."""
+    """A table that another target wrote next to the results, or None."""
     path = pathlib.Path(site.results).parent / name
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
 
 
 def noticed(cases):
-    """The committed tables of the smallest faults that are noticed, of these cases; false: there are
-    none, as where beamwork is installed."""
+    """The committed tables of the smallest detected faults of these cases; false: there are none, as in an installed
+    copy."""
     paths = [ROOT / "harness" / name for name in ("blind_spots.csv", "planted_faults.csv")]
     if not all(path.is_file() for path in paths):
         return None
@@ -110,21 +110,21 @@ def tasks(site):
 # Programs and machine of the results, how times were measured, and whether injected delays were found.
 
 OUTCOME = ("outcome", "sentence")  # of the run, which the first page says
-# (command of make, files that it leaves beside the results, what they add)
+# (command of make, files that it writes next to the results, what they add)
 ADDS = (
-    ("lab L=bench-check", ("bench_check.json", ), "injected work that the times must show"),
+    ("lab L=bench-check", ("bench_check.json", ), "injected delays that the times must show"),
     ("lab L=bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
-     "times of the joint and the hexapod beside the published ones"),
+     "times of the joint and the hexapod next to the published ones"),
     ("lab L=causes", ("causes.json", ), "experiments on the causes of known deviations"),
-    ("lab L=newton", ("newton.json", ), "Newton with stresses as unknowns beside displacements only"),
+    ("lab L=newton", ("newton.json", ), "Newton's method with stresses as unknowns, and with displacements only"),
     ("lab L=paces", ("paces.json", ), "integrators on all cases of motion: profiles, error against cost"),
     ("lab L=faults", ("faults.json", ), "injected faults"),
-    ("lab L=fuzz", ("fuzz.json", ), "any bytes as input"),
+    ("lab L=fuzz", ("fuzz.json", ), "random bytes as input"),
 )
-# (command of make, experiment whose group it leaves in the results, what it adds)
+# (command of make, experiment whose group it writes into the results, what it adds)
 GROUPS = (
     ("bench", "bench", "times with their noise"),
-    ("lab L=certificates", "element-test", "what each formulation keeps of its interface, and can do"),
+    ("lab L=certificates", "element-test", "interface requirements and features of each formulation"),
     ("stress", "stress", "every formulation at its extremes"),
     ("motion", "motion", "integrators of motions: orders, what they conserve, large steps"),
 )
@@ -137,7 +137,7 @@ def planted(site):
 
 
 def more(site):
-    """[(command, what it adds)] of commands that have left nothing in the results or beside them."""
+    """[(command, what it adds)] of commands whose results are missing."""
     here = pathlib.Path(site.results).parent
     groups = [(command, what) for command, name, what in GROUPS
               if not experiments.holds(site.results, name)]

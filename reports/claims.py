@@ -11,7 +11,7 @@ from reports.site import ROOT, number, percent
 from reports.style import plt
 from reports.verdicts import OWN_LIMITS
 
-# Errors of our formulations and of other programs that were run elsewhere, side by side.
+# Errors of beamwork's formulations and of other programs that were run elsewhere, side by side.
 
 
 def peers_figure(site, ours, others, name):
@@ -33,7 +33,7 @@ def peers_figure(site, ours, others, name):
     return chart.image(site, name)
 
 
-# On the page of the column: the printed form levels off where it was derived to.
+# On the page of the column: the printed form levels off at its derived limit.
 
 COLUMN_CASE, COLUMN_POINT, COLUMN_QUANTITY = "c_column", "section_data=printed", "buckling_load"
 COLUMN_ALT = ("Error of the buckling load against elements: beamw levels off, "
@@ -61,7 +61,7 @@ def draw_column(axes, series, style):
 
 
 def column_figure(site, point):
-    """The figure; None where one of the two was not run."""
+    """The figure; None if one of the two was not run."""
     found = {s.key: s for s in point.series}
     if not all(key in found and plots.finite(found[key], COLUMN_QUANTITY) for key in COLUMN_PAIR):
         return None
@@ -176,20 +176,21 @@ def column(look, truths):
 
 
 def claims(cases, truths):
-    """[(claim, published, measured)] as far as the results reach."""
+    """[(claim, published, measured)] as far as the results contain them."""
     look = Lookup(cases)
     rows = [row for family in (sheets, joint, column) for row in family(look, truths)]
     return [row for row in rows if "nan" not in row[2] and not row[2].endswith("–")]
 
 
 def interval(slow, fast):
-    """The ratio of two times with the interval that their rounds allow."""
+    """The ratio of two times with the interval that follows from their rounds."""
     middle = slow.least / fast.least
     return f"{middle:.2f}" if slow.repeats == 1 else f"{middle:.2f} ({slow.least / fast.most:.2f} to {slow.most / fast.least:.2f})"
 
 
 def baseline(site):
-    """The joint and the hexapod with the dense baseline, where 'make lab L=bench-mechanisms' wrote them beside the results."""
+    """The joint and the hexapod with the dense baseline, where 'make lab L=bench-mechanisms' wrote them beside the
+    results."""
     files = {"spherical_joint": "mechanisms_joint.h5", "hexapod": "mechanisms_hexapod.h5"}
     here = pathlib.Path(site.results).parent
     return [
@@ -293,7 +294,7 @@ def write(site):
 
 
 def peers_section(site, case):
-    """On the page of the peers' case, where it was run at their parameters: where they are."""
+    """On the page of the peers' case, if it was run at their parameters: a link to their results."""
     if case.name != "sheet_cantilever" or peers_point(site) is None:
         return []
     return [(
@@ -310,7 +311,7 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_papers, site)]
 
 
-# The papers figure by figure (reference/papers.csv), beside what is measured here, and equation by
+# The papers figure by figure (reference/papers.csv), next to the values measured here, and equation by
 # equation (reference/equations.csv).
 
 TABLE = ROOT / "reference" / "papers.csv"

@@ -1,4 +1,5 @@
-"""Reads results.h5 and truths.h5 into plain records. `beamwork schema` describes the tables, whose columns keep their names here."""
+"""Reads results.h5 and truths.h5 into plain records. `beamwork schema` describes the tables, whose columns keep their
+names here."""
 import math
 import multiprocessing
 
@@ -8,7 +9,7 @@ from reports.records import Case, Clock, Dense, Kept, Mesh, Point, Series, Verdi
 
 
 class Unreadable(Exception):
-    """A file that is missing, damaged or of another kind; the text names it."""
+    """Raised for a file that is missing, damaged or of another kind; the text names it."""
 
 
 def text(value):
@@ -80,7 +81,7 @@ def read_cell(row):
 
 
 def read_meshes(group):
-    """{(point, formulation, elements): Mesh} with what each found, {point: {quantity: unit}}"""
+    """{(point, formulation, elements): Mesh} with the results of each, {point: {quantity: unit}}"""
     meshes, units = {of_mesh(row): read_cell(row) for row in rows(group, "cells")}, {}
     for row in rows(group, "quantities"):
         mesh, name = meshes[of_mesh(row)], row["quantity"]
@@ -90,7 +91,7 @@ def read_meshes(group):
         units.setdefault(row["point"], {})[name] = row["unit"]
         if math.isfinite(row["prediction"]):
             mesh.predictions[name] = row["prediction"]
-    for row in rows(group, "verdicts"):  # also of what has no cell
+    for row in rows(group, "verdicts"):  # also of points without a cell
         units.setdefault(row["point"], {}).setdefault(row["quantity"], row["unit"])
     x, value = group["curve_x"][()], group["curve_value"][()]
     for row in rows(group, "curves"):
@@ -106,7 +107,7 @@ def read_verdict(row):
 
 
 def unranked(declared):
-    """Why the costs of a formulation rank nothing, by its row of /declarations; else nothing."""
+    """The reason why a formulation has no rank, from its row of /declarations; otherwise empty."""
     if declared.get("differences"):
         return "by differences"
     if declared.get("misprint"):
@@ -142,7 +143,7 @@ def read_points(group, meshes, units, noise):
             series[of_series(row)].other = row["not_modelled"]
     for (point, key, _), mesh in sorted(meshes.items()):
         series[point, key].meshes.append(mesh)
-        if series[point, key].other:  # drawn beside the others, and never ranked
+        if series[point, key].other:  # drawn next to the others, and never ranked
             mesh.errors.update(mesh.model_errors)
     for row in rows(group, "verdicts"):
         series[of_series(row)].verdicts.append(read_verdict(row))
@@ -158,7 +159,7 @@ def read_points(group, meshes, units, noise):
 
 
 def read_words(group, points):
-    """Scenes and meanings of quantities, of the points; what can be set of the case."""
+    """Scenes and meanings of quantities of the points; parameters of the case."""
     if "scenes" not in group:
         return []
     scenes = {row["point"]: row["scene"] for row in rows(group, "scenes")}
@@ -198,7 +199,7 @@ def read_case(path, name, bench=None, root=of_root):
 
 
 def read_bench(path, name, meshes):
-    """Times of a benchmark into the cells of the same name."""
+    """Copies times of a benchmark into the cells of the same name."""
     with h5py.File(path) as file:
         cases = root_of_bench(file)["cases"]
         if name in cases:
@@ -206,7 +207,7 @@ def read_bench(path, name, meshes):
 
 
 def read_about(path, root=of_root):
-    """Environment {name: text} that a file of results was made in."""
+    """Environment {name: text} in which a results file was made."""
     try:
         with h5py.File(path) as file:
             if text(file.attrs.get("schema", "")) != SCHEMA:
@@ -224,7 +225,7 @@ def read_about(path, root=of_root):
 
 
 def read_results(path, bench=None):
-    """(environment, [Case]); cases are read side by side."""
+    """(environment, [Case]); cases are read in parallel."""
     environment = read_about(path)
     try:
         with h5py.File(path) as file:
@@ -237,7 +238,7 @@ def read_results(path, bench=None):
 
 
 def holds(parameters, at):
-    """Does a reference value with these parameters, `*` for any value, hold at a point?  Both are `name=value;...`."""
+    """Does a reference value with these parameters, `*` for any value, apply at a point?  Both are `name=value;...`."""
     said = dict(item.split("=", 1) for item in parameters.split(";") if item)
     there = dict(item.split("=", 1) for item in at.split(";") if item)
     return all(value == "*" or there.get(name) == value
@@ -257,7 +258,8 @@ def read_other_model(path, case, parameters, quantity):
 
 
 def read_rules(path):
-    """[{column: value}] of the list of known deviations (reference/findings.csv) that the reference values were packed with."""
+    """[{column: value}] of the list of known deviations (reference/findings.csv) that the reference values were
+    packed with."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
             columns = {name: column(values[()]) for name, values in file["findings"].items()}
@@ -279,7 +281,7 @@ def read_declarations(path):
 
 
 def read_glossary(path):
-    """[{column: text}] of the words that the reference values were packed with; [] where there are none."""
+    """[{column: text}] of the glossary packed with the reference values; [] if there is none."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
             if "glossary" not in file:
@@ -308,12 +310,12 @@ def read_truth_counts(path):
 
 
 def truths_of(point):
-    """{quantity: (truth, kind)} that the formulations of a point are judged by."""
+    """{quantity: (truth, kind)} for the verdicts on formulations at a point."""
     return {v.quantity: v.truth for s in point.series for v in s.verdicts if math.isfinite(v.truth)}
 
 
 def with_errors(series, truths):
-    """The series with errors against our truths; of another model they are errors of the model."""
+    """The series with errors against beamwork's reference values; those of another model are model errors."""
     for mesh in series.meshes:
         into = mesh.errors if series.model == "beam" else mesh.model_errors
         for quantity, value in mesh.values.items():
@@ -323,7 +325,7 @@ def with_errors(series, truths):
 
 
 def add_beside(cases, path):
-    """Adds the imported series of a file to points that the results have; those of the same name are there already."""
+    """Adds the imported series of a file to the points of the results, except those that already exist by name."""
     with h5py.File(path) as file:
         names = set(file["cases"])
     for case in cases:
@@ -342,7 +344,7 @@ def beside_named(point, key):
 
 
 def style_beside(index):
-    """Grey, hollow, dotted: taken elsewhere."""
+    """Grey, hollow, dotted: measured elsewhere."""
     return {
         "color": "currentColor", "marker": "sDv^<>ph"[index % 8], "hollow": True,
         "linestyle": (0, (1, 1)), "linewidth": 1, "markersize": 6, "alpha": 0.85 - 0.08 * (index % 8)

@@ -1,4 +1,4 @@
-"""The list of known deviations (reference/findings.csv): one line for each known cause, and what verdicts show."""
+"""The list of known deviations (reference/findings.csv): one line for each known cause, and the verdicts."""
 import functools
 import math
 import re
@@ -25,7 +25,7 @@ def headings():
 
 
 def link_of(proof, titles):
-    """Where a proof can be read in this report; '' where it is a test or a program only."""
+    """The location of a proof in this report; '' if it is a test or a program only."""
     if "ERRATA" not in proof:
         return ""
     named = next((t for t in titles if t.lower() in proof.lower()), None)
@@ -54,8 +54,8 @@ def predictions(rows):
 
 
 def left(v):
-    """Returns the unexplained part of a limit: its distance from the derived one, where there is one,
-    else from the reference value; in parts of the reference value, as errors are."""
+    """Returns the unexplained part of a limit: its distance from the derived one if there is one, otherwise from the
+    reference value; relative to the reference value, like errors."""
     if not math.isfinite(v.predicted) or not v.error:
         return abs(v.error)
     return abs((v.limit - v.predicted) * v.error / (v.limit - v.truth))
@@ -130,7 +130,7 @@ def tasks(site):
     return [functools.partial(page, site) for page in pages]
 
 
-# Experiments on the causes of the list of known deviations, which `make lab L=causes` leaves beside the results.
+# Experiments on the causes of known deviations, which `make lab L=causes` writes next to the results.
 
 
 
@@ -143,7 +143,7 @@ def verdict_of(study):
         f"without {e['what']}" if e["kind"] == "without" else f"with {e['formulation']}"
         for e in gone
     ]
-    return "gone " + ", ".join(names) if names else "none of these takes it away"
+    return "gone " + ", ".join(names) if names else "none of these removes it"
 
 
 def by_rule(record):

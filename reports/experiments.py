@@ -1,8 +1,9 @@
-"""Reads the results of experiments other than verify: a group each, below /experiments. `beamwork schema` describes their tables, whose columns keep their names here.
+"""Reads the results of experiments other than verify: a group each, below /experiments. `beamwork schema` describes
+their tables, whose columns keep their names here.
 
     python -m reports.experiments RESULTS.h5 EXPERIMENT PROGRAM
 
-Status 0: its group has been written since the program was built; 1: not."""
+Status 0: its group was written after the program was built; 1: it was not."""
 import contextlib
 import datetime
 import math
@@ -17,7 +18,7 @@ GROUPS = "experiments"
 
 
 def plain(value):
-    """A number that does not exist is none."""
+    """Converts numbers that do not exist to None."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
@@ -40,7 +41,7 @@ def opened(path):
 
 
 def holds(path, name):
-    """Has the experiment left a group there?"""
+    """Does the file contain a group of the experiment?"""
     if not os.path.exists(path):
         return False
     with opened(path) as file:
@@ -48,7 +49,7 @@ def holds(path, name):
 
 
 def read(path, name):
-    """{attribute or table: value or rows} of an experiment, or None where it has left none."""
+    """{attribute or table: value or rows} of an experiment, or None if there is none."""
     if not holds(path, name):
         return None
     with opened(path) as file:
@@ -60,7 +61,7 @@ def read(path, name):
 
 
 def made(path):
-    """[(experiment, attributes)] of all that is there."""
+    """[(experiment, attributes)] of all experiments in the file."""
     if not os.path.exists(path):
         return []
     with opened(path) as file:
@@ -76,7 +77,7 @@ def grouped(found, *names):
 
 
 def is_newer(path, name, program):
-    """Is the group of a run that was after this file was written?"""
+    """Is the group newer than this file?"""
     run = dict(made(path)).get(name)
     if run is None:
         return False

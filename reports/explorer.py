@@ -1,8 +1,8 @@
 """A page on which the reader chooses case, quantity and axes; assets/explorer.js draws.
 
-The numbers of each case are a file of their own, data_CASE.js, loaded when the case is chosen:
-lists are texts of numbers between blanks, `-` where there is none. A text that is needed more than
-once stands in the list `w`, and its index where it is needed. Where a reference value is known the values are
+The numbers of each case are in a separate file, data_CASE.js, which is loaded when the case is chosen: lists are
+texts of numbers separated by blanks, with `-` for missing ones. A text that is needed more than once is in the list
+`w`, and is replaced by its index. Where a reference value is known the values are
 not stored: reference x (1 + error) gives them to seven digits."""
 import collections
 import functools
@@ -35,15 +35,15 @@ def error_text(error):
 
 
 def follow(values, errors, truth):
-    """True where all finite values are truth x (1 + error)."""
+    """True if all finite values are truth x (1 + error)."""
     return truth != 0 and all(
         not math.isfinite(v) and not math.isfinite(e) or abs(truth * (1 + e) - v) <= 1e-9 * abs(v)
         for v, e in zip(values, errors))
 
 
 def columns_of(values, errors, verdict):
-    """[errors, verdict, truth, values] of a quantity: empty texts where there are none, without
-    values where they follow from the others."""
+    """[errors, verdict, truth, values] of a quantity: empty texts if there are none, and no values if they follow
+    from the others."""
     said = verdict.verdict if verdict else ""
     truth = verdict.truth if verdict else math.nan
     if math.isfinite(truth) and follow(values, errors, truth):

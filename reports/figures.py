@@ -1,10 +1,7 @@
-"""A drawn figure as a short SVG that stands in the page itself.
-
-What matplotlib writes is parsed and written again: coordinates to a tenth of a point, identifiers
-that
-are unique in the page, what children share said once by their parent. Black and grey become the
-colour of
-the text, so that a figure follows the page into the dark; colours of formulations become variables.
+"""A figure as a short SVG that is embedded in the page. The output of matplotlib is parsed and written again: with
+coordinates to a tenth of a point, identifiers that are unique in the page, and common attributes of children moved to
+their parent. Black and grey become the colour of the text, so that a figure follows the page into dark mode; colours
+of formulations become variables.
 
 Groups whose gid is `f|KEY` (style.py) carry data-f="KEY": what belongs to a formulation, and
 entries of legends data-l="KEY"; data-off names those that are not shown at first.
@@ -22,7 +19,7 @@ from markupsafe import Markup, escape
 
 from reports import style
 
-# Markers of charts, and what the curves of a page share: said once in the page.
+# Markers of charts, and common attributes of the curves of a page: defined once in the page.
 
 MARKERS = {}  # identifier of a marker of charts: its definition
 CURVE = re.compile(r'stroke="([^"]*)"((?: [\w-]+="[^"]*")*) '
@@ -35,12 +32,12 @@ def markers_in(markup):
 
 
 def markers_by_name(markup):
-    """Colours of formulations by their names only, which a page has from its style sheet."""
+    """Replaces colours of formulations by names that the style sheet of the page defines."""
     return re.sub(r"var\((--f\d+),#[0-9a-f]{6}\)", r"var(\1)", markup)
 
 
 def with_classes(page):
-    """The page with colour and marker of each kind of curve said once, in a class."""
+    """The page with colour and marker of each kind of curve defined once, in a class."""
     looks = {}
 
     def named(found):
@@ -78,8 +75,7 @@ NUMBER = re.compile(r"-?\d*\.?\d+(?:e-?\d+)?")
 @dataclasses.dataclass(frozen=True)
 class Image:
     """A figure of the site. name: of its file; markup: the SVG for the page, without a title;
-    points: what its marks
-    say (points.py), as JSON."""
+    points: the texts of its marks, as JSON."""
     name: str
     markup: str
     points: str = ""
@@ -88,7 +84,7 @@ class Image:
         return self.name
 
     def inline(self, alt):
-        """The SVG with its description, and its points beside it."""
+        """The SVG with its description, followed by its points."""
         data = f'<script type="application/json">{self.points}</script>' if self.points else ""
         name = escape(self.name.removesuffix(".svg"))
         width = re.search(r' width="(\d+)"', self.markup)
@@ -98,7 +94,7 @@ class Image:
 
 
 def plain(value, digits):
-    """A number as short as it may be, a text as it is, None for what is neither."""
+    """A number in its shortest form, a text unchanged, None for anything else."""
     if isinstance(value, (str, int)) or value is None:
         return value
     if not math.isfinite(value):
@@ -108,7 +104,7 @@ def plain(value, digits):
 
 
 def said_of(told):
-    """What marks say, as JSON for script.js: heads are said once (h), and so are columns (v);
+    """The texts of marks, as JSON for script.js: heads are stored once (h), and so are columns (v);
     values that are the same in all rows of a curve (k) are in none. A curve names its columns
     (r)."""
     if not told:
@@ -136,7 +132,7 @@ def number(text, digits=1):
 
 
 def path(text, digits):
-    """Commands of a path without spaces that say nothing."""
+    """Commands of a path without redundant spaces."""
     rounded = NUMBER.sub(lambda found: number(found.group(), digits), text)
     return re.sub(r"\s*([MLCQzZ])\s*", r"\1", " ".join(rounded.split())).replace(" -", "-")
 
@@ -163,7 +159,7 @@ def ink(own, name):
 
 
 def dressed(element, fixed):
-    """The attributes of an element with its style among them, in the shortest words."""
+    """The attributes of an element including its style, in the shortest form."""
     own = properties(element.get("style", ""))
     own.update({name: element.get(name) for name in ("clip-path",) if element.get(name)})
     if not fixed:
@@ -216,7 +212,7 @@ class Writer:
         return own
 
     def read(self, element, fixed=False):
-        """(tag, attributes, children, text), or None where nothing is drawn."""
+        """(tag, attributes, children, text), or None if nothing is drawn."""
         tag = element.tag.removeprefix(SVG)
         fixed = fixed or element.get("id") == "fixed"
         own = self.attributes(element, tag, fixed)
@@ -236,7 +232,7 @@ class Writer:
 
     @staticmethod
     def joined(children):
-        """Lines that follow each other and look alike as one path."""
+        """Joins consecutive lines of the same look to one path."""
         out = []
         for child in children:
             tag, own, _, _ = child
@@ -272,7 +268,7 @@ class Writer:
 
 
 def short(svg, name):
-    """(SVG for a page, points it names) of what matplotlib wrote."""
+    """(SVG for a page, points it names) from the output of matplotlib."""
     root = ElementTree.fromstring(svg)
     writer = Writer(root, f"{zlib.crc32(name.encode()):08x}"[:5].translate(
         str.maketrans("0123456789", "ghijklmnop")))
@@ -287,7 +283,7 @@ def short(svg, name):
 
 
 def alone(markup):
-    """The same SVG as a file of its own."""
+    """The same SVG as a separate file."""
     names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
     used = [MARKERS[m] for m in markers_in(markup)]
     markup = markup.replace("</svg>", f"<defs>{''.join(used)}</defs></svg>") if used else markup
@@ -296,7 +292,7 @@ def alone(markup):
 
 
 def handles_of(legend):
-    """The drawn ones; matplotlib 3.7 gave them another name."""
+    """The drawn ones; matplotlib 3.7 renamed them."""
     return legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles
 
 

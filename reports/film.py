@@ -1,7 +1,6 @@
 """python -m reports.film RESULTS.h5 [-k CASE] -o FILM.html: a motion as one file that any browser
-plays from disk: the viewer in space (assets/viewer.js, assets/player.js) with the frames in it. It
-plays again and again, can be paused (Space), turned and looked at frame by frame; where less motion
-is asked for it waits."""
+plays from disk: the viewer in space (assets/viewer.js, assets/player.js) with the frames in it. It plays repeatedly,
+can be paused (Space), rotated and viewed frame by frame; if the browser requests reduced motion, it waits."""
 import argparse
 import os
 import sys
@@ -45,11 +44,11 @@ PAGE = """<!DOCTYPE html>
 
 
 class NoFilm(Exception):
-    """Why there is nothing to be filmed."""
+    """Returns the reason why there is no film."""
 
 
 def films(path):
-    """{case: (summary, point)} of the cases with frames, of each the first point that has some."""
+    """{case: (summary, point)} of the cases with frames, each with its first point that has some."""
     out = {}
     with h5py.File(path) as file:
         for name, group in file["cases"].items():
@@ -60,13 +59,13 @@ def films(path):
 
 
 def chosen(path, wanted):
-    """(case, summary, point): the one that is wanted, or the only one."""
+    """(case, summary, point): the requested one, or the only one."""
     found = films(path)
     name = next(iter(found)) if wanted is None and len(found) == 1 else wanted
     if name in found:
         return name, *found[name]
     if not found:
-        raise NoFilm(f"{path}: holds no frames of a motion; 'beamwork solve CASE --shapes -o FILE' "
+        raise NoFilm(f"{path}: contains no frames of a motion; 'beamwork solve CASE --shapes -o FILE' "
                      "writes them")
     asked = f"no frames of '{wanted}'" if wanted else "several motions"
     raise NoFilm(f"{path}: {asked}; choose one with -k: {', '.join(sorted(found))}")
@@ -100,7 +99,7 @@ def page(path, wanted=None):
 
 
 def write(text, path):
-    """Appears complete or not at all."""
+    """Writes the file completely or not at all."""
     part = f"{path}.part"
     try:
         with open(part, "w", encoding="utf-8") as out:
@@ -115,7 +114,7 @@ def write(text, path):
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="reports.film", description=__doc__)
     parser.add_argument("results", help="of 'beamwork solve --shapes -o' or 'verify --shapes -o'")
-    parser.add_argument("-k", dest="case", help="its name, where the file holds several motions")
+    parser.add_argument("-k", dest="case", help="its name, if the file contains several motions")
     parser.add_argument("-o", dest="film", required=True, help="an HTML file")
     given = parser.parse_args(arguments)
     try:

@@ -1,4 +1,4 @@
-"""A page for each formulation: theory, what it offers, where it fails and why, how fast it is."""
+"""A page for each formulation: theory, supported physics, where it fails and why, and its speed."""
 import functools
 import math
 import re
@@ -13,14 +13,14 @@ from reports.chart import Chart
 from reports.site import ROOT, file_of
 from reports.verdicts import SEVERITY, UNJUDGED, worst
 
-# elements/NAME.md: what a formulation is, in words and equations, for its page.
+# elements/NAME.md: the description of a formulation, in words and equations, for its page.
 
 DISPLAY = re.compile(r"\$\$(.+?)\$\$", re.S)
 INLINE = re.compile(r"\$([^$\n]+?)\$")
 
 
 def rendered(text):
-    """Markdown with equations between dollars ($ in a line, $$ on lines of their own) as HTML."""
+    """Markdown with equations between dollars ($ in a line, $$ on separate lines) as HTML."""
     equations = []
 
     def keep(found, display):
@@ -52,7 +52,7 @@ def linked(page, pages):
 
 
 def explanation_of(name, pages):
-    """[(heading, HTML)] of a formulation; [] where nothing explains it."""
+    """[(heading, HTML)] of a formulation; [] if there is no description."""
     path = ROOT / "elements" / f"{name}.md"
     if not path.is_file():
         return []
@@ -60,7 +60,7 @@ def explanation_of(name, pages):
             for h, body in sections(path.read_text(encoding="utf-8"))]
 
 
-# Error against elements of a formulation, where it is least and where it is largest.
+# Error against elements of a formulation, for the cases with the smallest and the largest error.
 
 FLOOR = 1e-12  # errors below are drawn there
 TITLES = ("least", "largest")
@@ -75,8 +75,8 @@ def curve(series, quantity):
 
 
 def candidates(found):
-    """[(error on the finest mesh, case name, quantity, (case, point, series))] with three meshes at
-    least: the first judged quantity of each case, and those whose limit is known to be wrong."""
+    """[(error on the finest mesh, case name, quantity, (case, point, series))] with at least three meshes: the first
+    quantity with a verdict of each case, and those with a wrong limit."""
     out = []
     for case, point, series in found:
         names = answers.judged(point)[:1]
@@ -114,9 +114,9 @@ def draw_extremes(site, key, items, name):
 
 
 NAVIGATION = [("cases.html", "all cases"), ("formulations.html", "all formulations")]
-CHOICE = "When to choose it"  # heading of a text, to which what is measured is added
+CHOICE = "When to choose it"  # heading of a text, to which measurements are added
 ANALYSES = ("statics", "vibration", "buckling")
-# Verdicts that say that more elements do not give the answer.
+# Verdicts for which more elements do not help.
 WRONG = ("wrong limit, as predicted", "wrong limit", "refused", "diverged")
 
 
@@ -141,18 +141,18 @@ def example(name, choices):
 
 
 def standing(series):
-    """The worst verdict of a series that is judged, or None."""
+    """The worst verdict of a series, or None."""
     judged = [v for v in series.verdicts if v.verdict not in UNJUDGED]
     return worst(judged) if judged and not series.missing else None
 
 
 def defaults(cases, key):
-    """[(case, point, series)] at the default parameters of every case that knows it."""
+    """[(case, point, series)] at the default parameters of every case with this formulation."""
     return [(c, c.points[0], s) for c in cases for s in c.points[0].series if s.key == key]
 
 
 def rules(rows, known, titles):
-    """The rules of the list of known deviations that were shown: their verdicts, worst one and cases."""
+    """The known deviations that were observed: their verdicts, the worst one, and cases."""
     found = {}
     for row in rows:
         if row.verdict.finding:
@@ -161,7 +161,7 @@ def rules(rows, known, titles):
     for rule in known:
         own = found.get(rule["rule"])
         if own:
-            # A verdict that a kept misprint repeats counts here, on its own page.
+            # A verdict that a formulation with a misprint repeats counts here, on its own page.
             counted = [verdicts.TallyRow(r.case, r.parameters, r.formulation, r.verdict,
                                          verdicts.OWN) for r in own]
             out.append({**deviations.line(rule, counted, titles),
@@ -170,7 +170,7 @@ def rules(rows, known, titles):
 
 
 def lacking(found, attribute):
-    """[(what it lacks, cases)]: missing: it is not run on them; other: it solves another model."""
+    """[(unsupported physics, cases)]: missing: it is not run on them; other: it solves another model."""
     lacks = {}
     for case, _, series in found:
         if getattr(series, attribute):
@@ -212,7 +212,7 @@ def speed(found, key, known):
 
 def table(found):
     """[(case, judged parameter points, [(verdict, number)], worst verdict, its page, its point)]
-    of what was judged; the three last are None where all is a pass."""
+    of what has verdicts; the last three are None if everything passes."""
     cases = {}
     for case, point, series in found:
         shown = [] if series.missing else [v for v in series.verdicts if v.verdict not in UNJUDGED]
@@ -333,7 +333,7 @@ def grouped(rows, name):
 
 
 def wrong_in(cases, key):
-    """Cases at whose default parameters more elements do not give the answer."""
+    """Cases at whose default parameters more elements do not help."""
     found = [(c.name, standing(s)) for c in cases for s in c.points[0].series if s.key == key]
     return [name for name, v in found if v is not None and v.verdict in WRONG]
 

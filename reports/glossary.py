@@ -1,4 +1,4 @@
-"""The words of the report and of the program, explained: truths.h5, /glossary."""
+"""Explanations of the terms of the report and of the program: truths.h5, /glossary."""
 import functools
 import re
 
@@ -20,7 +20,7 @@ def present(site):
 
 @functools.lru_cache(maxsize=4)
 def terms(truths):
-    """[{term, also, group, meaning, see}] in the order of the file; [] where there is none."""
+    """[{term, also, group, meaning, see}] in the order of the file; [] if there is none."""
     return data.read_glossary(truths)
 
 
@@ -43,7 +43,7 @@ def places(rows):
 
 
 def linker(truths):
-    """The filter `term`: words as a link to the glossary, where it has them."""
+    """The filter `term`: words as a link to the glossary, if it contains them."""
     known = places(terms(truths))
 
     def term(words, name=None):

@@ -12,7 +12,7 @@ from reports.profiles import panel
 
 # Topic of a case, from the analyses of its scene.
 
-# A case is of the first kind one of whose analyses it has.
+# A case belongs to the first kind of which it has an analysis.
 KINDS = (
     ("stiffness and compliance", ("compliance",)),
     ("past a limit point", ("continuation",)),
@@ -57,9 +57,9 @@ def grouped_by_kind(cases, path):
     return sorted(groups.items(), key=lambda item: order.index(item[0]))
 
 
-# Where there is no truth: the limit that formulations agree on, and how they stand to it.
+# For quantities without a reference value: the limit on which formulations agree, and their distance from it.
 
-AGREED = "agreement"  # as the judge calls it: of at least two families of formulations
+AGREED = "agreement"  # its name in the results: it is an agreement of at least two families of formulations
 
 
 @dataclass
@@ -78,20 +78,20 @@ class AgreedRow:
 
     @property
     def farthest(self):
-        """The formulation whose limit is farthest off; None where all are the same."""
+        """The formulation whose limit is farthest from it; None if all are the same."""
         key = max(self.errors, key=lambda key: (abs(self.errors[key]), key))
         return key if self.errors[key] else None
 
     @property
     def fewest(self):
-        """(elements, formulations that need no more), or None."""
+        """(elements, formulations that need no more than these), or None."""
         least = min(self.meshes.values(), default=None)
         keys = (k for k, n in self.meshes.items() if n == least)
         return least and (least, sorted(keys, key=lambda key: (":" in key, key)))
 
 
 def first_within(series, quantity, level):
-    """Elements from which on every mesh is within the level of what is agreed, or None."""
+    """Elements from which every mesh is within the level of the agreement, or None."""
     found = None
     for mesh in reversed(series.meshes):
         if not abs(mesh.model_errors.get(quantity, math.nan)) <= level:
@@ -113,7 +113,7 @@ def row_of(case, quantity, level):
 
 
 def rows_agreed(cases, level):
-    """[Row] of quantities that are agreed on and have no truth, at the defaults of each case."""
+    """[Row] of quantities with an agreement but no reference value, at the defaults of each case."""
     found = []
     for case in cases:
         point = case.points[0]
@@ -123,7 +123,7 @@ def rows_agreed(cases, level):
     return found
 
 
-# Results in three sentences: speed, verdicts, reference values. The template has words.
+# Results in three sentences: speed, verdicts, reference values. The template contains the words.
 
 NAMED = 3  # cases that a sentence names
 
@@ -135,7 +135,7 @@ def ahead(values):
 
 
 def of_speed(compared, rows):
-    """Formulations that are near the best most often, and that solve most; None where nothing is compared."""
+    """Formulations that are most often near the best, and that solve most; None if nothing is compared."""
     if not compared.any:
         return None
     known = [r for r in rows if math.isfinite(r.solved)]
@@ -153,7 +153,8 @@ def of_speed(compared, rows):
 
 
 def of_trust(cases, rows):
-    """Formulations that never have a wrong limit, the one that has most and where, and the number of derived limits."""
+    """Formulations that never have a wrong limit, the one with most wrong limits and where, and the number of derived
+    limits."""
     if not rows:
         return None
     worst = max(rows, key=lambda r: (r.wrong, r.key))
@@ -194,7 +195,7 @@ def of_truths(cases):
 NAVIGATION = [("index.html", "beamwork")]
 LEVEL = 0.01  # of the answers
 MOST_ROWS = 10  # of the table of trust on the first screen
-PLACES = (  # where to go next, as far as this site has it
+PLACES = (  # pages to read next, if this site has them
     ("answers.html", "your tolerance"),
     ("profiles.html", "profiles"),
     ("profiles.html#winners", "winners at each tolerance"),

@@ -9,7 +9,7 @@ from reports import experiments
 from reports.data import Unreadable
 
 PACES = "paces.json"
-KEPT = 1e-11  # of the largest energy: what does not drift by more keeps it
+KEPT = 1e-11  # of the largest energy: a smaller drift counts as conserved
 ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # of legends and tables
 KEYS = ("case", "parameters", "formulation", "elements")  # of a problem
 NONE_WANTED = "none is wanted"  # of a reference
@@ -18,8 +18,8 @@ STIFFENING = "stiffening"  # parameter of cases that says how many times as stif
 
 @dataclass(frozen=True)
 class Run:
-    """One motion. error: of time alone; cost [s] of counted work; energy, momentum: largest
-    relative change that nothing explains; fate: what became of it once nothing acts; large: of a map of
+    """One motion. error: time error only; cost [s] of counted work; energy, momentum: largest unexplained relative
+    change; fate: outcome once no load acts; large: of a map of
     large steps, whose errors are not computed."""
 
     scheme: str
@@ -38,7 +38,7 @@ class Run:
 
     @property
     def setting(self):
-        """Returns the tolerance where it controls the steps, else the step."""
+        """Returns the tolerance if it controls the steps, otherwise the step."""
         return f"tolerance {self.tolerance:.2g}" if self.tolerance else f"step {self.step:.3g} s"
 
     @property
@@ -80,7 +80,7 @@ class Problem:
     formulation: str
     elements: int
     stiffening: float
-    reference: str  # why there is none; empty: there is one
+    reference: str  # reason why there is none; empty: there is one
     uncertainty: float
     runs: list
     ladders: list
@@ -106,7 +106,7 @@ class Problem:
 
 
 def ordered(schemes):
-    """Known ones in their order, those with options behind."""
+    """Known ones in their order, followed by those with options."""
     def place(scheme):
         name = scheme.partition(":")[0]
         return ORDER.index(name) if name in ORDER else len(ORDER), scheme
@@ -144,7 +144,8 @@ def stiffening_in(parameters):
 
 
 def problem_of(tables, key):
-    """Returns the runs of a case, set of parameters, formulation and mesh: those with errors, then those of which only the outcome is known."""
+    """Returns the runs of a case, set of parameters, formulation and mesh: those with errors, then those of which
+    only the outcome is known."""
     def own(name):
         return tables[name].get(key, [])
 
@@ -167,8 +168,7 @@ def problems_of(found):
 
 @dataclass(frozen=True)
 class Check:
-    """Difference of the reference of a problem from `explicit` at two tolerances; reason: why that is
-    not known."""
+    """Difference of the reference of a problem from `explicit` at two tolerances; reason: why it is unknown."""
 
     name: str
     formulation: str
@@ -179,7 +179,7 @@ class Check:
 
 @dataclass
 class Record:
-    """verdicts: rows of what is judged against what is expected. compared: problems on which
+    """verdicts: rows with observed and expected verdicts. compared: problems on which
     integrators are compared, every case of motion where `make lab L=paces` ran them; left_out:
     {(case, formulation): why it is not run}. about: the program that ran them."""
 
@@ -196,7 +196,7 @@ class Record:
 
 
 def load(path):
-    """Returns the contents of a file, or None where it does not exist."""
+    """Returns the contents of a file, or None if it does not exist."""
     if not os.path.exists(path):
         return None
     with open(path, encoding="utf-8") as file:
@@ -211,7 +211,7 @@ def check_of(row):
 
 
 def compared_in(path):
-    """Returns the contents of paces.json: (problems, left_out, checks), or None where there is none."""
+    """Returns the contents of paces.json: (problems, left_out, checks), or None if there is none."""
     try:
         paces = load(path)
         return None if paces is None else (
@@ -224,7 +224,7 @@ def compared_in(path):
 
 
 def read(path):
-    """The Record of a file of results and of paces.json beside it, or None where there is none."""
+    """The Record of a results file and of paces.json next to it, or None if there is none."""
     found = experiments.read(path, "motion")
     if found is None:
         return None
@@ -233,8 +233,8 @@ def read(path):
     return Record(problems, found["verdicts"], *(compared_in(beside) or (problems, {}, [])), found)
 
 
-# Which integrator, with which step, has the lowest cost within an error of time; and whether that is
-# verified. `beamwork motion` itself reports what a scheme needs for an error.
+# Which integrator, with which step, has the lowest cost within a time error; and whether that is
+# verified. `beamwork motion` itself reports the cost of a scheme for an error.
 
 LEVELS = (1e-2, 1e-4, 1e-6)
 FACTORS = [10**(i / 12) for i in range(25)]  # of profiles: from 1 to 100
@@ -242,7 +242,7 @@ FACTORS = [10**(i / 12) for i in range(25)]  # of profiles: from 1 to 100
 
 @dataclass(frozen=True)
 class Answer:
-    """ways: the cheapest first; ties: schemes that are as soon, within the noise of costs."""
+    """ways: the cheapest first; ties: schemes whose costs differ by less than the noise of costs."""
 
     level: float
     ways: tuple
@@ -322,7 +322,7 @@ def series(problem, scheme):
 
 
 def doubt(problem, way):
-    """Why the error of a run may not be what it says; empty: nothing speaks against it."""
+    """Reason why the error of a run may be wrong; empty: there is none."""
     ladder = problem.ladder(way.scheme)
     if ladder is not None and ladder.verdict == "low order":
         return f"its error falls with order {ladder.order:.1f}, not {ladder.nominal:g}"
@@ -343,8 +343,7 @@ def wins(problems, level, noise=1.0):
 
 
 def profile(problems, level):
-    """{scheme: [share of problems within FACTORS of the least cost]}, every case weighs the
-    same."""
+    """{scheme: [share of problems within FACTORS of the least cost]}, every case has the same weight."""
     cases = {}
     for problem in problems:
         cases.setdefault(problem.case, []).append(answer(problem, level))
@@ -368,8 +367,7 @@ def structures(problems):
 
 
 def iterations(problems):
-    """({(name, scheme, step): {stiffening: iterations a step}}, stiffenings): what was run with
-    several stiffenings."""
+    """({(name, scheme, step): {stiffening: iterations a step}}, stiffenings): for runs with several stiffenings."""
     rows = {}
     for own in structures(problems).values():
         for problem in own:

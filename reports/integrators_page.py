@@ -68,7 +68,7 @@ def first(problems, noise):
     """The first sentences of the page."""
     told = integrators.judged(problems)
     if not told:
-        return "No run of these results has an error of time."
+        return "No run of these results has a time error."
     where = (f"{told[0].name}: lowest cost" if len(told) == 1 else
              f"Of {len(told)} problems (a case with a formulation) the lowest cost has")
     levels = "; ".join(soonest(told, level, noise) for level in integrators.LEVELS)
@@ -76,7 +76,7 @@ def first(problems, noise):
 
 
 def chosen(ways):
-    """`tolerance 1e-05`, `step 0.01 to 0.02 s`: of most of the ways."""
+    """`tolerance 1e-05`, `step 0.01 to 0.02 s`: that of most ways."""
     by_tolerance = [w.run.tolerance for w in ways if w.run.tolerance]
     if 2 * len(by_tolerance) >= len(ways):
         return f"tolerance {between(by_tolerance, '{:.2g}')}"
@@ -86,10 +86,10 @@ def chosen(ways):
 def keeping(found):
     """Returns the integrators that reach the error and conserve energy, with their cost relative to the least."""
     if not found.keeping:
-        return "none of those within it keeps energy to round-off"
+        return "none of those within it conserves energy to round-off"
     names = joined(dict.fromkeys(scheme for scheme, _ in found.keeping))
     ratios = between([ratio for _, ratio in found.keeping], "{:.2g}")
-    return f"keeps energy to round-off: {names}, at {ratios} times the cost"
+    return f"conserves energy to round-off: {names}, at {ratios} times the cost"
 
 
 def drift(ways):
@@ -125,12 +125,12 @@ def iterations(rows):
 
 
 def verdicts(rows):
-    """One sentence on what is judged."""
+    """One sentence on the verdicts."""
     off = sum(not row["as_expected"] for row in rows)
     if not rows:
         return ""
     told = f"{len(rows)} verdicts on orders, conservation and large steps: "
-    return told + (f"{off} differ from what is expected." if off else "all as expected.")
+    return told + (f"{off} differ from the expected ones." if off else "all as expected.")
 
 
 # Figures of integrators: work-precision diagrams and performance profiles.
@@ -138,7 +138,7 @@ def verdicts(rows):
 SIZE, ONE, PROFILE = (250, 190), (420, 250), (250, 165)
 COLUMNS = 3
 FLOOR = 1e-14  # of what is drawn
-SLOPES = (2, 5)  # orders with a line of their own
+SLOPES = (2, 5)  # orders with their own line
 
 
 def slope_lines(panel, runs):
@@ -157,7 +157,7 @@ def slope_lines(panel, runs):
 
 
 def draw_scheme(site, panel, problem, scheme):
-    """Its curve, equal steps and steps by a tolerance apart."""
+    """Its curve, separate for equal steps and for steps by a tolerance."""
     for own in integrators.series(problem, scheme):
         known = [r for r in own if r.known and r.cost > 0]
         if not known:
@@ -210,12 +210,12 @@ def profile(site, problems, level):
     return chart.image(site, f"integrators_profile_{level:g}".replace(".", "_"))
 
 
-# Maps of stability: step across, stiffness down, for each integrator a panel; what happened has a
+# Maps of stability: step across, stiffness down, a panel for each integrator; each outcome has a
 # colour and a letter, so that the map can be read without colours.
 
 # fate: letter, colour, colour of the letter, meaning
 LOOK = {
-    "exact": ("E", "#009e73", "#111418", "energy and momenta kept to round-off"),
+    "exact": ("E", "#009e73", "#111418", "energy and momenta conserved to round-off"),
     "bounded": ("B", "#8fd3f4", "#111418", "its energy does not grow"),
     "grows": ("G", "#e69f00", "#111418", "its energy grows by more than 1 %"),
     "stops": ("S", "currentColor", "var(--paper,#fff)", "a step finds no solution"),
@@ -259,7 +259,7 @@ def map_panel(scheme, found, steps, stiffenings, left, top):
 
 
 def fates(problems):
-    """{(scheme, step, stiffening): run}: what was run with equal steps and became something."""
+    """{(scheme, step, stiffening): run}: runs with equal steps and a known outcome."""
     return {(r.scheme, r.step, p.stiffening): r for p in problems for r in p.runs
             if r.fate and not r.tolerance}
 
@@ -338,8 +338,8 @@ def unmeasured(problems):
 
 
 def failures_of(problems):
-    """[(case, parameters, scheme, runs that failed, formulations, one of them)] of what has no
-    error; large steps that are to stop stand in the maps."""
+    """[(case, parameters, scheme, runs that failed, formulations, one of them)] of runs without an error; large steps
+    that are expected to stop are in the maps."""
     found = {}
     for p in problems:
         for r in p.runs:

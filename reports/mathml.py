@@ -2,7 +2,7 @@
 
 Letters, numbers and operators; `_`, `^` and `'`; groups in braces; Greek letters and symbols;
 names of functions; \\frac, \\sqrt, \\mathbf, \\mathrm, \\text; accents; \\left and \\right.
-What it does not know is refused with its name.
+Unknown commands are rejected by name.
 """
 import re
 

@@ -1,4 +1,5 @@
-"""The joint and the hexapod beside N sections 4.2 and 4.3: curves, relative times, growth, parts of an iteration, dense baseline.
+"""The joint and the hexapod, compared with N sections 4.2 and 4.3: curves, relative times, growth, parts of an
+iteration, dense baseline.
 
 Times come from `make lab L=bench-mechanisms`, whose files are in the folder of the results."""
 import functools
@@ -11,7 +12,8 @@ from reports.style import plt
 
 NAVIGATION = [("mechanisms.html", "mechanisms")]
 
-# N Fig. 8 and its text: formulation, elements per sheet, largest support stiffness in N/m, time relative to the first row
+# N Fig. 8 and its text: formulation, elements per sheet, largest support stiffness in N/m, time relative to the first
+# row
 PUBLISHED = (("sheet_third", 1, 9.77e5, 1.0), ("sheet_third", 2, 9.61e5, 3.3),
              ("sheet_second", 1, 10.95e5, 0.9), ("sheet_second", 2, 9.68e5, 3.1), ("sheet_second",
                                                                                    4, 9.63e5, 9.6))
@@ -75,7 +77,8 @@ def comparison(site, cells):
 
 
 def curve_figure(site):
-    """Support stiffness around the turn: one and two elements against the converged beam and the published shell maximum."""
+    """Support stiffness around the turn: one and two elements against the converged beam and the published shell
+    maximum."""
     case = site.case("spherical_joint")
     point = next((p for p in case.points if p.name == "default"), None) if case else None
     wanted = (("collocation", 1), ("sheet_third", 1), ("sheet_third", 2), ("sheet_second", 1),
@@ -152,7 +155,7 @@ def factor_of_orders(cells):
 
 
 def farthest(rows):
-    """Largest relative difference from what is published; NaN where one is not known."""
+    """Largest relative difference from the published values; NaN if one is unknown."""
     known = [abs(r["ours"] / r["published"] - 1) for r in rows]
     return max(known) if all(map(math.isfinite, known)) else math.nan
 

@@ -1,5 +1,5 @@
-"""Motions in time: what integrated them, energies, momenta, steps, quantities over time; a page for
-each case that has one (table `motion` of the results)."""
+"""Motions in time: integrators, energies, momenta, steps, quantities over time; a page for each case that has one
+(table `motion` of the results)."""
 import functools
 import math
 import re
@@ -15,8 +15,8 @@ from reports.chart import Chart
 from reports.data import holds, text
 from reports.style import COLOURS
 
-# Motions as a result file holds them: the table `motion`, a row for each step that was kept, and
-# what integrated them, from the scene.
+# Motions in a results file: the table `motion`, with a row for each accepted step, and
+# the settings of their integrators, from the scene.
 
 TABLE = "motion"
 MOMENTA = {"P": ("px", "py", "pz"), "L": ("lx", "ly", "lz")}
@@ -58,7 +58,7 @@ class Motion:
         return np.stack([self.columns[name] for name in MOMENTA[which]], axis=1)
 
     def stays(self, which):
-        """Largest change of a momentum in parts of it, or NaN where there is none."""
+        """Largest relative change of a momentum, or NaN if there is none."""
         found = self.momentum(which)
         size = np.linalg.norm(found, axis=1).max()
         change = np.linalg.norm(found - found[0], axis=1).max()
@@ -66,7 +66,7 @@ class Motion:
 
 
 def motions_of(path, case, point="default"):
-    """[Motion] of a case at a point: of each formulation the finest mesh."""
+    """[Motion] of a case at a point: the finest mesh of each formulation."""
     with h5py.File(path) as file:
         group = file[f"cases/{case}"]
         if TABLE not in group or not len(group[TABLE]):
@@ -87,7 +87,7 @@ def motions_of(path, case, point="default"):
 
 
 def has_motions(path):
-    """Does any case of the file have one?"""
+    """Does any case of the file have a motion?"""
     with h5py.File(path) as file:
         return any(TABLE in group and len(group[TABLE]) for group in file["cases"].values())
 
@@ -108,7 +108,7 @@ class Truth:
 
 
 def truths_of(path, case, quantity, end):
-    """[Truth] of a quantity at the defaults, whatever `time` is; end: its default."""
+    """[Truth] of a quantity at the defaults, for any `time`; end: its default."""
     with h5py.File(path, driver="core", backing_store=False) as file:
         group = file["truths"].get(case)
         names = ("parameters", "quantity", "model", "formulation")
@@ -124,13 +124,13 @@ def truths_of(path, case, quantity, end):
     return [Truth(*item) for item in sorted(found.items())]
 
 
-# Sentences about a motion: what integrated it, its steps, what it drifts by.
+# Sentences about a motion: its integrator, steps and drift.
 
-ROUND_OFF = 1e-6  # momenta that change by less are said to stay
+ROUND_OFF = 1e-6  # momenta that change by less count as conserved
 
 
 def scheme(how):
-    """Name and parameters of what integrated a motion."""
+    """Name and parameters of the integrator of a motion."""
     name = how.get("integrator", "alpha")
     if name != "alpha":
         return name
@@ -226,8 +226,8 @@ def fitting(values, unit):
 
 WIDE, HALF = (640, 200), (300, 170)
 MOST_POINTS = 150  # of a curve
-MOST_CURVES = 7  # with the reference value one less than a figure shows at first
-FLOOR = 1e-17  # of drifts that are drawn
+MOST_CURVES = 7  # with the reference value, one fewer than a figure shows at first
+FLOOR = 1e-17  # of the drifts that are drawn
 # column: name, colour, line
 ENERGIES = {"kinetic": ("kinetic", 0, "-"), "strain": ("strain", 1, "-"),
             "work": ("work", 2, "--"), "dissipated": ("dissipated", 3, "-."),
@@ -236,19 +236,19 @@ AXES = {"x": (0, "-"), "y": (1, "--"), "z": (2, ":")}
 
 
 def thinned(values, most=MOST_POINTS):
-    """Indices of so many of the values, evenly, both ends among them."""
+    """Indices of this number of values, evenly spaced, including both ends."""
     return np.unique(np.linspace(0, len(values) - 1, min(len(values), most)).round().astype(int))
 
 
 def largest(x, y, most=MOST_POINTS):
-    """(x, y) where y is largest in each of so many parts: no peak is lost."""
+    """(x, y) of the largest y in each of this number of parts, so that no peak is lost."""
     parts = np.array_split(np.arange(len(y)), min(len(y), most))
     at = [int(part[np.nanargmax(y[part])]) for part in parts]
     return x[at], y[at]
 
 
 def line(site, panel, name, look, x, y, unit, size):
-    """A curve that is no formulation's; size: of the unit that the axis has."""
+    """A curve that belongs to no formulation; size: that of the unit of the axis."""
     index, dash = look
     marks = thinned(x, 9)
     told = site.points(name, ("time", f"value [{unit}]"),
@@ -259,7 +259,7 @@ def line(site, panel, name, look, x, y, unit, size):
 
 
 def draw_energies(site, motion, name):
-    """Kinetic, strain, work and what was dissipated."""
+    """Kinetic energy, strain energy, work and dissipated energy."""
     chart = Chart(1, WIDE)
     values = {**motion.columns, "energy": motion.energy}
     size, unit = fitting(motion.scale, "J")
@@ -313,7 +313,7 @@ def draw_drifts(site, motions, name):
 
 
 def draw_steps(site, motions, name):
-    """Lengths of steps and iterations; of steps that are all alike the latter only."""
+    """Lengths of steps and iterations; for equal steps, iterations only."""
     told = leading(motions)
     equal = all(np.ptp(m.steps) <= 1e-6 * m.steps.max() for m in told)
     chart = Chart(1 if equal else 2, WIDE if equal else HALF, gap=(76, 52))
@@ -333,7 +333,7 @@ def draw_steps(site, motions, name):
 
 def over_time(case, quantity):
     """{formulation: (times, values, elements, whole)} of finest meshes: the curve of the quantity,
-    or its values at points that differ in `time` only."""
+    or its values at points that only differ in `time`."""
     out, end = {}, end_of(case)
     for series in case.points[0].series:
         curves = [m for m in series.meshes if quantity in m.curves and
@@ -362,8 +362,7 @@ def end_of(case):
 
 
 def draw_quantity(site, case, name, image):
-    """A quantity over time with its truths, as far as it was computed; None where that is one
-    instant only."""
+    """A quantity over time with its reference values, as far as it was computed; None for a single instant."""
     found, end = over_time(case, name), end_of(case)
     instants = {t for x, *_ in found.values() for t in x}
     if len(instants) < 2:

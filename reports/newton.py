@@ -1,4 +1,5 @@
-"""Newton's method in coordinates, strains and stresses at once beside displacements only: how far one step may go, and what it costs."""
+"""Compares Newton's method in coordinates, strains and stresses at once with that in displacements only: the largest
+possible step, and its cost."""
 import functools
 import json
 import os

@@ -1,13 +1,14 @@
 """The pages of the report. A page is a module of this package with
 
     NAVIGATION = [("newton.html", "iterations")]    # files and titles for the bar on top of every page
-    def tasks(site): return [functools.partial(write, site)]    # functions without arguments that write its files, run side by side
+    def tasks(site): return [functools.partial(write, site)]    # functions without arguments that write its files,
+    run side by side
 
-and, if it has something for the pages of cases, def section(site, case), which returns [(heading, markup)].
+and, if it adds to the pages of cases, def section(site, case), which returns [(heading, markup)].
 
-A page whose files depend on what is drawn also has def navigation(site), which returns more of them.
+A page whose files depend on the results also has def navigation(site), which returns more of them.
 
-A page that needs more than every result file holds also has def present(site): without its data it is omitted
+A page that needs data that not every results file contains also has def present(site): without its data it is omitted
 from the site, from the bar (navigation.py) and from links (has_page in templates).
 """
 import importlib
@@ -52,7 +53,7 @@ def _run(index):
 
 
 def present(site):
-    """The modules whose data are there."""
+    """The modules whose data exist."""
     names = ALONE if site.alone else PAGES
     modules = [importlib.import_module(f"reports.{name}") for name in names]
     return [m for m in modules if not hasattr(m, "present") or m.present(site)]

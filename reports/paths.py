@@ -1,4 +1,5 @@
-"""Equilibrium paths: load against deflection of the C-shaped cantilever beside 3-D solids, what the paper concludes from them, limit points."""
+"""Equilibrium paths: load against deflection of the C-shaped cantilever next to 3-D solids, the conclusions of the
+paper from them, limit points."""
 import dataclasses
 import functools
 import math
@@ -14,11 +15,11 @@ NAVIGATION = [("paths.html", "paths")]
 
 CASE = "c_cantilever"
 EDGES = {"D": "load_height=edge;w=2.6",
-         "E": "load_point=E;load_height=edge;w=1.2"}  # the points that solids were computed for
+         "E": "load_point=E;load_height=edge;w=1.2"}  # the points for which solids were computed
 FORMS = (("beamw_first", "first-order modes"), ("beamw_vlasov", "J Eq. 66"),
          ("beamw_consistent", "consistent second order"))
 EXACT, COARSE = "collocation", 10
-WAGNER = "wagner_moments=1"  # with the part of the Wagner moments that J leaves out
+WAGNER = "wagner_moments=1"  # with the part of the Wagner moments that J omits
 SHEAR = ((1.0, ""), (2.5, ""), (1.0, "load_point=E;"))
 SNAPS = ("lee_frame", "snap_through")
 EVENTS = ("limit point", "bifurcation", "branch jump")
@@ -26,7 +27,7 @@ EVENTS = ("limit point", "bifurcation", "branch jump")
 
 @dataclasses.dataclass
 class Solid:
-    """Points of a curve that another model gives."""
+    """Points of a curve of another model."""
     w: np.ndarray
     value: np.ndarray
     source: str
@@ -214,7 +215,7 @@ def model_points(site, parameters):
 
 
 def continued(site, case):
-    """Has the case a path at its default parameters?"""
+    """Does the case have a path at its default parameters?"""
     found = site.case(case)
     return found is not None and any("curve" in m.curves for s in found.points[0].series
                                      if s.key == "beamw_consistent" for m in s.meshes[-1:])

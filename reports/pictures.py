@@ -1,5 +1,5 @@
-"""Pictures of every scene, undeformed and deformed, with its modes (shapes.py): a still one, and
-what can be turned.
+"""Pictures of every scene, undeformed and deformed, with its modes (shapes.py): a still one, and a model that can be
+rotated.
 
 Surfaces are projected in parallel and painted from back to front."""
 import functools
@@ -39,7 +39,7 @@ class View:
 
 
 def best_view(s, states):
-    """From the side, or more from above when that shows clearly more of the displacements."""
+    """Viewed from the side, or more from above if that shows significantly more of the displacements."""
 
     def seen(view):
         return max((float(np.linalg.norm(view.flat(s.position[k] - s.position[0]), axis=1).max())
@@ -63,8 +63,7 @@ def shade(polygon, colour):
 
 
 def supports(s):
-    """Nodes that stay in place: held ones that are no bodies, what is attached to a clamped body,
-    hinges."""
+    """Nodes that do not move: held ones that are not bodies, those attached to a clamped body, hinges."""
     owner = {int(b) for b in s.body}
     return [
         i for i, (b, held) in enumerate(zip(s.body, s.held))
@@ -117,7 +116,7 @@ class Sheet:
 
 
 def still(s, state):
-    """One state over the pale undeformed one, as SVG: what is seen where nothing can be turned."""
+    """One state over the pale undeformed one, as SVG: shown where the model cannot be rotated."""
     scale = 1 if s.kind[state] == FRAME else exaggeration(s, state)
     view = best_view(s, [state])
     rest, here = drawn_polygons(s, state, scale)
@@ -157,8 +156,8 @@ def title_of(s, state, scale):
 
 
 def chosen(s):
-    """States worth a picture: of a path the first that has moved far and the last that is farthest
-    from it, a linear solution, the first modes."""
+    """States with a picture: the first far state of a path and the last state that is farthest from it, a linear
+    solution, the first modes."""
     path = [k for k, kind in enumerate(s.kind) if kind in ("path", FRAME)]
     out = [0]
     if path:
@@ -174,7 +173,7 @@ def chosen(s):
 
 
 def draw(site, case, s):
-    """The still picture and the shape that can be turned, as files."""
+    """The still picture and the shape that can be rotated, as files."""
     worth = chosen(s)
     first = worth[min(1, len(worth) - 1)]
     start = max((k for k in worth if s.kind[k] in ("path", FRAME)), default=first)
@@ -200,7 +199,7 @@ def caption(s):
 
 
 def markup(case, s):
-    """The place of the viewer with the still picture in it: case pages take it from here."""
+    """The element of the viewer with the still picture in it, for the pages of cases."""
     name = html.escape(case.name)
     image = f'<img src="picture_{name}.svg" alt="{name}, undeformed and deformed" loading="lazy">'
     place = shapes.markup(case.name, image, f"{case.name} in space")

@@ -9,8 +9,8 @@ from reports import answers, data, style, verdicts
 from reports.chart import Chart
 
 FLOOR = 1e-13  # below it errors are round-off
-NEARLY = 1e-10  # errors that no reader asks about
-CEILING = 1e3  # above it a value is a divergence
+NEARLY = 1e-10  # errors that are of no interest
+CEILING = 1e3  # larger values count as diverged
 MOST_CURVES = style.MOST  # of formulations in a figure
 OPEN = "open: below the reference value's own digits"
 
@@ -45,14 +45,13 @@ def clipped(error):
 
 
 def finite(series, quantity, errors="errors"):
-    """[(mesh, size of its error)] of those that have a value."""
+    """[(mesh, magnitude of its error)] of those that have a value."""
     return [(m, clipped(getattr(m, errors)[quantity])) for m in series.meshes
             if math.isfinite(getattr(m, errors).get(quantity, math.nan))]
 
 
 def work_of(point):
-    """(label, function of a mesh) of what is counted: iterations, or elements evaluated where
-    nothing iterates."""
+    """(label, function of a mesh) of the counted work: iterations, or evaluated elements if nothing iterates."""
     if any(m.iterations > 0 for s in point.series for m in s.meshes):
         return "Newton iterations", lambda m: m.iterations
     return ("evaluations of elements",
@@ -76,8 +75,8 @@ def tolerance_of(point, quantity):
 
 
 def digits_of(point, quantity):
-    """Relative uncertainty of the reference value: smaller errors have no meaning. None where it is
-    exact to more than is drawn."""
+    """Relative uncertainty of the reference value: smaller errors have no meaning. None if it is below the range of
+    the plot."""
     found = (answers.verdict_of(s, quantity) for s in point.series)
     known = [v.truth_uncertainty / abs(v.truth) for v in found
              if v and v.truth and math.isfinite(v.truth)]
@@ -103,8 +102,8 @@ def leading(point, quantity):
 
 
 def telling(point, quantities):
-    """The first of these in which most formulations differ from the reference value on their coarsest mesh, where
-    there is one; else the first."""
+    """The first of these in which most formulations differ from the reference value on their coarsest mesh, if there
+    is one; otherwise the first."""
     def tells(quantity):
         least = max(digits_of(point, quantity) or 0, NEARLY)
         first = [pairs[0][1] for pairs in (finite(s, quantity) for s in point.series) if pairs]
@@ -114,8 +113,7 @@ def telling(point, quantities):
 
 
 def marks_of(site, point, series, quantity, meshes, errors="errors"):
-    """Arguments of plot() for the curve of a formulation through these meshes, whose marks say what
-    was found."""
+    """Arguments of plot() for the curve of a formulation through these meshes, with the values for its marks."""
     v = answers.verdict_of(series, quantity)
     unit = point.units.get(quantity, "")
     columns = ("elements", f"value [{unit}]" if unit else "value", "error", "time [s]", "unknowns",
@@ -156,7 +154,7 @@ def draw_series(site, panel, point, series, quantity, where, errors="errors", to
 
 
 def slope_triangle(panel, shown, quantity):
-    """Order of the most accurate formulation beside its last points."""
+    """Order of the most accurate formulation, next to its last points."""
     best = None
     for series in shown:
         pairs, v = finite(series, quantity), answers.verdict_of(series, quantity)
@@ -173,7 +171,7 @@ def slope_triangle(panel, shown, quantity):
 
 
 def draw_failures(site, panel, shown, quantity, where):
-    """Crosses on the upper edge, where a cell has no value."""
+    """Crosses on the upper edge for cells without a value."""
     for series in shown:
         look = site.styles.of(series.key)
         for mesh in series.meshes:
@@ -194,7 +192,7 @@ def front_line(point, quantity):
 # paths.
 
 ONE = (520, 280)  # axes of a figure with one panel [pixels]
-TWO = (400, 260)  # of each of two beside each other
+TWO = (400, 260)  # of each of two side by side
 SMALL = (250, 150)  # of one among many
 
 
@@ -223,7 +221,7 @@ def draw_errors(site, panel, point, quantity, shown, abscissa, told):
         draw_series(site, panel, point, series, quantity, where, told=told)
     for i, series in enumerate(point.others):
         pairs = [(where(m), e) for m, e in finite(series, quantity) if where(m) > 0]
-        if pairs:  # not everything is said of other programs
+        if pairs:  # not all data are known for other programs
             panel.plot([x for x, _ in pairs], [e for _, e in pairs], label=series.label,
                        **data.style_beside(i))
     if abscissa == "elements":
@@ -234,7 +232,7 @@ def draw_errors(site, panel, point, quantity, shown, abscissa, told):
 
 
 def draw_times(site, panel, point, shown, quantity):
-    """The front that nothing beats, and the noise of times."""
+    """The front of the best results, and the noise of times."""
     line = front_line(point, quantity)
     panel.plot([x for x, _ in line], [y for _, y in line], back=True, color="currentColor",
                linewidth=5, alpha=0.15)

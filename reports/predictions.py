@@ -1,4 +1,4 @@
-"""Analytic predictions beside single elements, on the pages of the cases that have some."""
+"""Compares analytic predictions with single elements, on the pages of the cases that have some."""
 import math
 
 from markupsafe import Markup

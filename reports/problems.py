@@ -1,11 +1,11 @@
-"""The problems that formulations are compared on, and what each of them pays to solve one.
+"""The problems on which formulations are compared, and the cost of each formulation to solve one.
 
 A problem is a quantity with an exact reference value of the same model, at a parameter point of a case.
-Second names of the same entry are not counted. Every case weighs the same, and inside a case every
-problem does: a case with 60 parameter points rules no more than one with a single point.
+Second names of the same entry are not counted. Every case has the same weight, and so has every problem within a
+case: a case with 60 parameter points counts as much as one with a single point.
 
 A formulation has solved a problem to a level with its coarsest mesh whose error, and that of all
-finer ones, is within the level, unless its limit is known to be another one, beyond the level.
+finer ones, is within the level, unless its limit is known to be outside the level.
 """
 import math
 from collections import Counter
@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from reports import answers, verdicts
 from reports.verdicts import OWN_LIMITS, UNJUDGED
 
-COUNTS = {  # what a mesh is paid in
+COUNTS = {  # measures of cost of a mesh
     "cost": lambda mesh: mesh.cost,  # [s] counted work, with the cost coefficients of the reference machine
     "unknowns": lambda mesh: max(1, mesh.free),
 }
@@ -22,19 +22,18 @@ COUNTS = {  # what a mesh is paid in
 
 @dataclass
 class Problem:
-    """tries: {formulation: (data.Series, data.Verdict)} of those that offer what it needs."""
+    """tries: {formulation: (data.Series, data.Verdict)} of those that support what it needs."""
 
     case: str
     point: str
     quantity: str
     tries: dict
     meshes: list  # of all runs of the same structure
-    least: dict = field(default_factory=dict)  # what is counted -> least of all those meshes
+    least: dict = field(default_factory=dict)  # measure -> smallest value of all those meshes
 
 
 def contestants(cases):
-    """Keys of formulations that were run and whose costs rank, without options and kept misprints
-    where it can be."""
+    """Keys of formulations that were run and have a rank, without options and misprints if possible."""
     keys = {s.key for c in cases for p in c.points for s in p.series
             if not s.missing and not s.unranked}
     plain = {k for k in keys if ":" not in k and verdicts.corrected(k) is None}
@@ -52,7 +51,7 @@ def tries_of(point, quantity, keys):
 
 
 def problems_of(case, keys):
-    """The problems of a case, with the least that any run of their structure took."""
+    """The problems of a case, with the smallest cost of any run of their structure."""
     found, second_names = [], verdicts.aliases(case)
     for point in case.points:
         meshes = [m for s in point.series for m in s.meshes if m.status == "ok"]
@@ -72,24 +71,24 @@ def problems(cases, keys):
 
 
 def defect(verdict, level):
-    """Is its limit known to be another one than the reference value, and farther from it than the level?"""
+    """Is its limit known to differ from the reference value by more than the level?"""
     return verdict.verdict in OWN_LIMITS and abs(verdict.error) > level
 
 
 def any_defect(verdict, level):
-    """Is its limit known to be another one than the reference value, however near?"""
+    """Is its limit known to differ from the reference value, by any amount?"""
     del level
     return verdict.verdict in OWN_LIMITS
 
 
 def no_defect(verdict, level):
-    """Whatever is known of the limit, the errors of the meshes count alone."""
+    """Only the errors of the meshes count, regardless of the limit."""
     del verdict, level
     return False
 
 
 def solved(problem, key, level, forbids=defect):
-    """The data.Mesh that solves it, or None. forbids: which known defect counts as not solved."""
+    """The data.Mesh that solves it, or None. forbids: the known defect that counts as not solved."""
     if key not in problem.tries:
         return None
     series, verdict = problem.tries[key]
@@ -100,27 +99,27 @@ def solved(problem, key, level, forbids=defect):
 
 
 def weights(found, key=None):
-    """Weight of each problem, all together 1; key: of those that this formulation offers."""
+    """Weight of each problem, with a sum of 1; key: only problems that this formulation supports."""
     kept = [p for p in found if key is None or key in p.tries]
     sizes = Counter(p.case for p in kept)
     return [(p, 1 / sizes[p.case] / len(sizes)) for p in kept]
 
 
 def paid(problem, keys, level, count, forbids=defect):
-    """{formulation: what the mesh that solves it counts}; infinite where none does."""
+    """{formulation: cost of the mesh that solves it}; infinite if none does."""
     meshes = {key: solved(problem, key, level, forbids) for key in keys}
     return {key: COUNTS[count](m) if m else math.inf for key, m in meshes.items()}
 
 
 def to_the_best(problem, bills, count):
-    """Unit of performance profiles (Dolan and More 2002): the least that any formulation pays."""
+    """Unit of performance profiles (Dolan and More 2002): the lowest cost of any formulation."""
     del problem, count
     return min(bills.values(), default=math.inf)
 
 
 def to_the_smallest(problem, bills, count):
-    """Unit of data profiles (More and Wild 2009), which hangs on no tolerance and on no rival: the
-    least that any run of the same structure took, however large its error."""
+    """Unit of data profiles (More and Wild 2009), which depends neither on a tolerance nor on other formulations: the
+    smallest cost of any run of the same structure, regardless of its error."""
     del bills
     return problem.least[count]
 
@@ -136,7 +135,7 @@ class Question:
 
 
 def factors(found, keys, question):
-    """{formulation: [(problem, what it pays by the unit)]}; infinite where it does not solve it."""
+    """{formulation: [(problem, its cost over the unit)]}; infinite if it does not solve it."""
     out = {key: [] for key in keys}
     for problem in found:
         bills = paid(problem, keys, question.level, question.count, question.forbids)
@@ -146,7 +145,7 @@ def factors(found, keys, question):
     return out
 
 
-# Trust beside speed: what the judge says of each formulation, and how soon it is there.
+# Reliability and speed: the verdicts on each formulation, and its cost.
 
 LEVEL, NEAR = 0.01, 2  # "within twice the best, to 1 %"
 GROUPS = {  # column -> verdicts counted in it
@@ -170,7 +169,7 @@ class TrustRow:
     offered: float = math.nan
     solved: float = math.nan  # to LEVEL
     near: float = math.nan  # to LEVEL within NEAR times the best
-    factor: float = math.nan  # to the best: the median over what it solves to LEVEL
+    factor: float = math.nan  # relative to the best: the median over the problems that it solves to LEVEL
 
     @property
     def judged(self):
@@ -208,12 +207,12 @@ def count_trust(cases):
 
 
 def judged(cases):
-    """Every formulation with a verdict, whatever its options."""
+    """Every formulation with a verdict, with any options."""
     return [key for key, counts in count_trust(cases).items() if sum(counts.values())]
 
 
 def speed(row, found, pairs):
-    """Fills what a row says of problems. pairs: [(problem, factor to the best)]."""
+    """Fills the data on problems of a row. pairs: [(problem, factor to the best)]."""
     weight = {id(p): w for p, w in weights(found)}
     reached = [(f, weight[id(p)]) for p, f in pairs if math.isfinite(f)]
     row.offered = sum(weight[id(p)] for p in found if row.key in p.tries)
@@ -223,7 +222,7 @@ def speed(row, found, pairs):
 
 
 def trust_table(cases, found, keys):
-    """[Row] of these formulations, as far as they were judged."""
+    """[Row] of these formulations, as far as they have verdicts."""
     counts, measured = count_trust(cases), factors(found, contestants(cases), Question(LEVEL))
     rows = [TrustRow(key, counts[key]) for key in keys if sum(counts.get(key, {}).values())]
     for row in rows:
@@ -233,13 +232,14 @@ def trust_table(cases, found, keys):
 
 
 def trust_order(row):
-    """Sorts by the number of solved problems; formulations that are not compared (options, kept misprints) come last."""
+    """Sorts by the number of solved problems; formulations that are not compared (options, kept misprints) come
+    last."""
     solved = row.solved if math.isfinite(row.solved) else -1
     return -round(solved, 6), -round(row.share, 6), row.key
 
 
 def wrong_cases(cases, key):
-    """{case: verdicts} where a formulation tends to a wrong limit, most first."""
+    """{case: verdicts} for which a formulation converges to a wrong limit, most first."""
     sizes = {}
     for row in verdicts.rows(cases):
         wrong = COLUMN.get(row.verdict.verdict) in ("predicted", "wrong")

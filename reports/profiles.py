@@ -1,4 +1,4 @@
-"""Performance profiles and data profiles: what share of the problems is solved within a factor."""
+"""Performance profiles and data profiles: the share of the problems that is solved within a factor."""
 import csv
 import functools
 import math
@@ -13,12 +13,12 @@ from reports.style import plt
 
 ROUND = (1, 1.2, 1.4, 1.7, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8)  # in each decade, where shares are read
 FARTHEST = {to_the_best: 100, to_the_smallest: 1000}  # where the axis ends
-SLACK = 1e-9  # of a factor: equal bills stay equal in floating point
+SLACK = 1e-9  # of a factor: equal costs stay equal in floating point
 
 
 @dataclass(frozen=True)
 class Picture:
-    """One figure for each level. offered: every formulation is asked only what it offers."""
+    """One figure for each level. offered: only problems that a formulation supports count."""
 
     name: str
     count: str
@@ -69,7 +69,7 @@ def weight_of(found, key=None):
 
 
 def profile(found, keys, question, offered=False):
-    """{formulation: shares at `places`, and of all that it solves}."""
+    """{formulation: shares at `places`, and the share that it solves at all}."""
     at, everything = places(FARTHEST[question.unit]), weight_of(found)
     out = {}
     for key, pairs in problems.factors(found, keys, question).items():
@@ -101,7 +101,7 @@ class Compared:
         return bool(self.problems) and len(self.keys) > 1
 
     def profile(self, question, offered=False):
-        """{formulation: shares at `places`, and of all that it solves}."""
+        """{formulation: shares at `places`, and the share that it solves at all}."""
         if (question, offered) not in self._profiles:
             found = profile(self.problems, self.keys, question, offered)
             self._profiles[question, offered] = found
@@ -123,7 +123,7 @@ def xlabel(picture):
 
 
 def marks_of(site, key, at, shares, marked):
-    """Arguments of plot() for a curve whose marks say the share, and what is solved at any cost."""
+    """Arguments of plot() for a curve whose marks give the share, and the share solved at any cost."""
     rows = [(f"{x:g}", f"{100 * share:.1f} %", f"{100 * shares[-1]:.1f} %")
             for x, share in list(zip(at, shares))[marked]]
     return site.points(key, ("factor", "solved", "at any cost"), rows)
@@ -213,7 +213,7 @@ READINGS = (defect, no_defect, any_defect)
 
 
 def panel(site, compared, picture, level, name=None, size=(250, 175)):
-    """A figure with what is read from it as an example: the curve that is ahead at NEAR."""
+    """A figure with a reading example: the leading curve at NEAR."""
     curves = compared.profile(picture.question(level), picture.offered)
     at = places(FARTHEST[picture.unit])
     factor = NEAR[picture.unit]

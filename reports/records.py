@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Clock:
-    """Time of a cell: least of all repetitions, and the least and the greatest round; of a single run all three are the same."""
+    """Time of a cell: smallest of all repetitions, and the smallest and largest round; for a single run all three are
+    the same."""
     setup: float
     solve: float
     least: float
@@ -23,7 +24,8 @@ class Kept:
 
 @dataclass
 class Dense:
-    """The same cell by the published algorithm (newton=dense). whole: a run was timed, not one iteration times their number."""
+    """The same cell by the published algorithm (newton=dense). whole: a run was timed, not one iteration times their
+    number."""
     seconds: float
     unknowns: int
     whole: bool
@@ -43,7 +45,7 @@ class Mesh:
     values: dict = field(default_factory=dict)  # quantity -> value
     errors: dict = field(default_factory=dict)  # quantity -> relative error of discretisation
     model_errors: dict = field(default_factory=dict)
-    reasons: dict = field(default_factory=dict)  # quantity -> why it has no value
+    reasons: dict = field(default_factory=dict)  # quantity -> reason why it has no value
     curves: dict = field(default_factory=dict)  # quantity -> (x, value, x name, x unit, unit)
     kept: Kept = None
     parts: dict = field(default_factory=dict)  # part of Newton's iterations -> seconds
@@ -59,7 +61,7 @@ class Mesh:
 
 @dataclass
 class Verdict:
-    """One line of the judge: columns of the table `verdicts`, in SI; errors are relative."""
+    """One verdict: columns of the table `verdicts`, in SI; errors are relative."""
 
     quantity: str
     verdict: str
@@ -94,7 +96,7 @@ class Verdict:
     model_error: float = math.nan
     reach: dict = field(
         default_factory=dict
-    )  # level -> elements of the coarsest mesh from which on every mesh is within it
+    )  # level -> elements of the coarsest mesh from which every mesh is within it
 
 
 @dataclass
@@ -106,12 +108,12 @@ class Series:
     missing: str
     meshes: list
     verdicts: list
-    imported: str = ""  # file of another program that it was read from
+    imported: str = ""  # file of another program from which it was read
     model: str = "beam"
-    unranked: str = ""  # why its costs rank nothing: derivatives by differences, another process
+    unranked: str = ""  # reason why it has no rank: derivatives by differences, another process
     is_new: bool = False  # not accepted yet: its verdicts do not affect the exit status
-    other: str = ""  # physics that it leaves out where that matters: another model
-    without: str = ""  # what it leaves out, and what that changes
+    other: str = ""  # physics that it omits where that matters: another model
+    without: str = ""  # what it omits, and the effect of that
 
     @property
     def marks(self):
@@ -136,8 +138,8 @@ class Point:
     others: list = field(default_factory=list)  # series of other programs (reports/data.py)
     noise: float = 1.25  # costs whose ratio is below it tie
     scene: str = ""  # as a scene file
-    meanings: dict = field(default_factory=dict)  # quantity -> what it is, in one line
-    omitted: str = ""  # physics that the scene leaves out, in words
+    meanings: dict = field(default_factory=dict)  # quantity -> description in one line
+    omitted: str = ""  # physics that the scene omits, in words
     assumed: list = field(default_factory=list)  # (kind, what is assumed of a section)
 
 

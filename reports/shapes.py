@@ -16,10 +16,10 @@ from scipy.spatial.transform import Rotation
 
 from reports.data import text
 
-SYMBOL = 0.03  # half a side of a rectangle that stands for constants, to the size, at most
+SYMBOL = 0.03  # half a side of a rectangle that represents constants, relative to the size, at most
 THIN = 0.2  # thickness to length of a wall that is drawn as a surface
-VISIBLE = 0.02  # displacement to size below which the picture exaggerates
-GAP = 0.35  # between the points of a body, to its extent, beyond which they are drawn as parts joined by rods
+VISIBLE = 0.02  # displacement relative to size below which the picture exaggerates
+GAP = 0.35  # distance between the points of a body, relative to its extent, beyond which they are drawn as parts joined by rods
 CLAMPED = 63  # all six components held
 FRAME = "motion"  # kind of a state that is a frame of a motion; its value is the time [s]
 
@@ -35,8 +35,8 @@ class Shapes:
     held: np.ndarray  # [nodes]: bits
     released: np.ndarray  # [members x 2]: bits of both ends
     sections: list  # [walls x 4 x 2] in m
-    far: dict  # member: the same at its far end, where the section changes along it
-    equivalent: list  # section known by its constants only: a rectangle stands for it
+    far: dict  # member: the same at its far end, if the section changes along it
+    equivalent: list  # section known by its constants only: drawn as a rectangle
     kind: list
     acting: list  # what acts in a linear solution, such as "combination ULS"; "": everything
     value: np.ndarray
@@ -103,14 +103,14 @@ def turns(s, a, b):
 
 
 def distance(s, a, b):
-    """Largest displacement of a corner, nearly."""
+    """Approximate largest displacement of a corner."""
     radius = max(np.linalg.norm(walls, axis=2).max() for walls in s.sections)
     return float((np.linalg.norm(s.position[a] - s.position[b], axis=1) +
                   radius * np.linalg.norm(turns(s, a, b), axis=1)).max())
 
 
 def exaggeration(s, state):
-    """1 when the displacements can be seen, else the round number that makes them visible."""
+    """1 if the displacements are visible, otherwise the round factor that makes them visible."""
     moved = distance(s, state, 0)
     if moved == 0 or moved > VISIBLE * size_of(s):
         return 1
@@ -192,8 +192,8 @@ def clusters(points):
 
 
 def groups_of_bodies(s):
-    """[(nodes of a rigid body, groups of those that lie together)]. A body has its own node too
-    when that is a hinge, which is held in part."""
+    """[(nodes of a rigid body, groups of those that lie together)]. A body also contains its own node if that is a
+    hinge, which is partly held."""
     out = []
     for b in sorted({int(b) for b in s.body if b >= 0}):
         attached = np.append(np.flatnonzero(s.body == b), [b] * (s.held[b] not in (0, CLAMPED)))
@@ -219,7 +219,7 @@ def bodies(s, state, scale):
 #
 # Positions and axes of all stored states are whole numbers of 16 bits: a position is that part of
 # half
-# the scene's size from its middle, axes are quaternions. What is too small to be seen is drawn
+# the scene's size from its middle, axes are quaternions. Invisible displacements are exaggerated
 # larger,
 # as in the still pictures; the words of the state say how much.
 
@@ -241,8 +241,8 @@ def frames_of(s):
 
 
 def drawn_states(s, most=MOST_FRAMED):
-    """States that are stored: all but of a motion so many frames, evenly, that `most` points are
-    enough; both its ends are among them."""
+    """States that are stored: all, except that a motion has only as many evenly spaced frames, including both ends,
+    as `most` points allow."""
     frames = frames_of(s)
     count = max(2, most // (LEAST * max(1, len(s.members))))
     if len(frames) > count:
@@ -337,7 +337,8 @@ def shape(s, words, supports, hinges, start, view, most=MOST_FRAMED):
     times = [float(s.value[k]) if s.kind[k] == FRAME else None for k in drawn]
     return {
         **({"times": times} if any(t is not None for t in times) else {}),
-        "count": len(at), "ends": nodes.shape[1], "half": half, "view": view, "start": drawn.index(min(drawn, key=lambda k: abs(k - start))),
+        "count": len(at), "ends": nodes.shape[1], "half": half, "view": view, "start": drawn.index(min(drawn,
+        key=lambda k: abs(k - start))),
         "states": [words(s, k, f) for k, f in scales], "members": of_member,
         "profiles": profiles, "bodies": faces, "rods": rods, "held": [int(i) for i in supports],
         "hinges": [known[int(i)] for i in hinges if int(i) in known],
@@ -360,6 +361,6 @@ def store(site, name, found):
 
 
 def markup(name, still, alt):
-    """The place of a viewer, with the still picture that stays where nothing can be turned."""
+    """The element of a viewer, with the still picture that is shown where the model cannot be rotated."""
     return Markup(f'<div class="viewer" data-shape="{escape(name)}" data-alt="{escape(alt)}">'
                   f"{still}</div>")

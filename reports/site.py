@@ -25,7 +25,7 @@ def percent(value):
 
 
 def limit(v):
-    """A limit to the digits that are known, and one more, with its uncertainty."""
+    """A limit to its significant digits, and one more, with its uncertainty."""
     if not math.isfinite(v.limit):
         return "–"
     if not math.isfinite(v.limit_uncertainty):
@@ -52,7 +52,7 @@ def file_of(key):
 
 
 def file_name(path):
-    """A name that may stand in an address, from that of a file."""
+    """A name that can be used in an address, from that of a file."""
     return "".join(c if c.isalnum() or c in "-_" else "_" for c in pathlib.Path(path).stem)
 
 
@@ -131,7 +131,7 @@ class Site:
         return f"{name}_{same + 1}" if same else name
 
     def page_of(self, sweep):
-        """The file of a sweep's page; the first one is the first page where there is no other."""
+        """The file of a sweep's page; that of the first sweep is the first page if there is no other."""
         alone = self.alone and sweep is self.sweeps[0]
         return "index.html" if alone else f"sweep_{self.name_of(sweep)}.html"
 
@@ -147,8 +147,8 @@ class Site:
             out.write(figures.with_markers(text))
 
     def points(self, key, columns, rows, title=""):
-        """Arguments of plot() for a curve whose marks say more than where they are: with the pointer
-        on a mark, or from the keyboard, a box shows title, formulation and the row of the mark.
+        """Arguments of plot() for a curve whose marks have data: with the pointer on a mark, or by keyboard, a box
+        shows title, formulation and the row of the mark.
 
         key: formulation; columns: names of what is in a row, of which `error` is shown in percent
         and `time [s]` in the unit that suits; rows: one for each mark that is drawn, in their
@@ -170,7 +170,7 @@ class Site:
         return image
 
     def keep(self, image):
-        """Writes an image as a file of its own, too; its name."""
+        """Writes an image also as a separate file; returns its name."""
         with open(os.path.join(self.folder, image.name), "w", encoding="utf-8") as out:
             out.write(figures.alone(image.markup))
         return image.name

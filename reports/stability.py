@@ -1,4 +1,5 @@
-"""Stability: every formulation at every extreme, as a map, as curves of error against the parameter that is varied, and in numbers."""
+"""Stability: every formulation at every extreme, as a map, as curves of error against the parameter that is varied,
+and in numbers."""
 import functools
 import math
 
@@ -22,7 +23,7 @@ def map_text(x, y, words, more=""):
 
 
 class Fields:
-    """All fields, gathered by what happened: one path and one group of signs for each kind."""
+    """All fields, gathered by outcome: one path and one group of signs for each kind."""
 
     def __init__(self, look):
         self.look = look
@@ -30,7 +31,7 @@ class Fields:
         self.absent = []
 
     def strip(self, found, values, left, top):
-        """One field: a part for each value, in the colour and with the sign of what happened."""
+        """One field: a part for each value, with the colour and the sign of its outcome."""
         middle = top + TALL / 2 + 3
         if found is None:
             self.absent.append(map_text(left + WIDE / 2 - 2, middle, "–"))
@@ -56,8 +57,7 @@ class Fields:
 
 
 def paint(kind, colour):
-    """Colours of a field and its sign: what is wrong has that of the ink, which changes on a dark
-    page."""
+    """Colours of a field and its sign: wrong values have the colour of the text, which changes on a dark page."""
     return ("currentColor", "var(--paper,#fff)") if kind == "wrong" else (colour, "#111418")
 
 
@@ -114,7 +114,7 @@ LOOK = {
 }
 MEANING = {
     "value": "a value within the extreme's tolerance",
-    "coarse": "outside it, falls with more elements", "named": "a named refusal or failure",
+    "coarse": "outside it, falls with more elements", "named": "a reported failure",
     "wrong": "a wrong number, known and explained below", "fault": "crashed"
 }
 FLOOR = 1e-16  # of what is drawn
@@ -161,7 +161,8 @@ class Cell:
 
 
 def cells(record):
-    """{(extreme, formulation): {x: Cell}} of what was tried: some values of x only, where the others need what is not offered."""
+    """{(extreme, formulation): {x: Cell}} of all runs: only some values of x, if the others need unsupported
+    physics."""
     groups = {}
     for o in record["outcomes"]:
         if o["outcome"] != "skip":
@@ -204,7 +205,8 @@ def draw_curve(site, extreme, keys, all_cells):
 
 
 def findings(record):
-    """[(extreme, formulations, outcome, values, proof)] of what is neither a value nor coarse, values of x together, and formulations of which all that is alike."""
+    """[(extreme, formulations, outcome, values, proof)] of outcomes that are neither a value nor coarse, with equal
+    values of x and equal formulations together."""
     rows, told = {}, {}
     for o in record["outcomes"]:
         if kind(o) in ("named", "wrong", "fault"):

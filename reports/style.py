@@ -1,9 +1,8 @@
-"""One colour and marker per formulation, the same for ever: a new formulation changes none of the
-old ones.
+"""One permanent colour and marker per formulation: a new formulation does not change those of others.
 
 Distinguishable without colour vision (Okabe and Ito; the last two Tol). On a dark page each colour
 has a
-lighter one of the same hue; figures.py writes the variable, base.html says what it is."""
+lighter one of the same hue; figures.py writes the variable, base.html defines it."""
 import zlib
 
 import matplotlib
@@ -32,7 +31,7 @@ SCHEMES = {
     "radau": ("#009e73", "#2bc495", "D"), "explicit": ("#882255", "#d8639b", "^"),
     "hht": ("#56b4e9", "#8fd2fa", "v"), "trapezoidal": ("#000000", "#f4f6f9", "X"),
 }
-# Formulations that the table does not name take one of these by their name.
+# Formulations that are not in the table get one of these by their name.
 RESERVE = (("#6a51a3", "#a793dc"), ("#a6761d", "#dfb060"), ("#c51b7d", "#f06cb4"),
            ("#1b7837", "#5fc07c"), ("#5b6675", "#aab4c2"))
 RESERVE_MARKERS = "hpd8H"
@@ -48,7 +47,7 @@ MEANINGS = {"#b03a00": "var(--bad,#b03a00)", "#005a94": "var(--accent,#005a94)",
             "#6a5a00": "var(--fair,#6a5a00)"}
 VARIABLES = MEANINGS | {light: f"var(--f{i},{light})" for i, (light, _) in enumerate(COLOURS)}
 
-# Text stays text: it can be searched, and the figures stay small.
+# Text remains text, so that it can be searched and figures are small.
 plt.rcParams.update({
     "font.size": 9, "axes.grid": True, "grid.alpha": 0.25, "grid.linewidth": 0.5,
     "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False,

@@ -19,8 +19,8 @@ from reports.sweep import answers, gather, maps
 
 MOST_DOTS = 400  # scattered points that are drawn one by one
 SLICES, WORDS = 4, 6  # maps side by side over a third axis of numbers, of words
-NARROW = 170  # width of a map that stands beside others, pixels
-TOLD = 0.01  # share of the points for which the cheapest one is listed first
+NARROW = 170  # width of a map next to others, pixels
+TOLD = 0.01  # share of the points for which the cheapest formulation is listed first
 FLOOR = 1e-12  # of errors that are drawn
 
 
@@ -33,7 +33,7 @@ def projected(found, table, axes):
 
 
 def by_influence(found):
-    """Axes, those first along which what is within changes most; those of words last."""
+    """Axes, first those along which the result changes most; those of words last."""
     within = found.reach[:, :, -1, :-2].sum(axis=(1, 2))
     score = []
     for a, part in enumerate(found.parts):
@@ -44,7 +44,7 @@ def by_influence(found):
 
 
 def slices_of(part):
-    """[(words, parts)] of a third axis: its parts, few of them together."""
+    """[(words, parts)] of a third axis: its parts, grouped."""
     most = WORDS if part.axis.words else SLICES
     groups = np.array_split(np.arange(len(part)), min(most, len(part)))
     return [(answers.condition(part, list(g)) if len(g) < len(part) else part.axis.name, list(g))
@@ -76,7 +76,7 @@ class Validity:
         return self.look.legend(self.used)
 
     def scattered(self):
-        """(points, their states [points, F]) where they are few and of two axes; else None."""
+        """(points, their states [points, F]) if there are few on two axes; otherwise None."""
         sweep = self.sweep
         if len(sweep.axes) != 2 or sweep.points > MOST_DOTS or not any(
                 a.scattered for a in sweep.axes):
@@ -200,7 +200,7 @@ def curves(site, sweep, found, q=-1):
 # Data of the runs of a sweep, for maps over the axes of the reader's choice: a script of its
 # own beside the page, which assets/sweep.js loads when something is chosen.
 #
-# Cells are letters, each with how often it follows itself. The last axis changes first.
+# Cells are letters, each with its number of repetitions. The last axis varies fastest.
 
 # Upper ends of the classes of errors, percent, beside the tolerance; then come larger errors, and
 # none at all.
@@ -259,7 +259,8 @@ def axis_of(part):
     stand, in parts."""
     low, high = part.low[0], part.high[-1]
     return {"name": part.axis.name, "range": [float(f"{low:.6g}"), float(f"{high:.6g}")],
-            "cuts": part.cuts.tolist(), "words": bool(part.axis.words), "title": maps.title_of(part), "names": [part.name(i) for i in range(len(part))],
+            "cuts": part.cuts.tolist(), "words": bool(part.axis.words), "title": maps.title_of(part), "names":
+            [part.name(i) for i in range(len(part))],
             "slices": [[words, [int(group[0]), int(group[-1])]]
                        for words, group in slices_of(part)],
             "ticks": [[round(float(at), 3), words] for at, words in maps.marks(part)]}
@@ -296,7 +297,7 @@ def write_cells(site, name, sweep, found, order):
 
 
 NAVIGATION = []  # its files have the names of the sweeps
-MOST_WORST, MOST_CURVES = 20, 12  # points that are named, quantities with curves of their own
+MOST_WORST, MOST_CURVES = 20, 12  # points that are named, quantities with their own curves
 
 
 def navigation(site):
@@ -322,7 +323,7 @@ def axis_words(part):
 
 
 def solving(sweep, row):
-    """The command that solves a point that was kept."""
+    """The command that solves a stored point."""
     scene = shlex.quote(sweep.scene_of(row))
     return f"beamwork solve --scene {scene} -f {row.formulation} -n {row.elements}"
 

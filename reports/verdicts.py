@@ -1,4 +1,4 @@
-"""The verdicts of the judge in words: sign, look, meaning, what a record says beside its name."""
+"""Verdicts in words: sign, look, meaning, additional text of a record."""
 import math
 from dataclasses import dataclass
 
@@ -13,10 +13,10 @@ class Kind:
     meaning: str
 
 
-# From good to bad, then what is not judged: of several verdicts the last one counts.
+# From good to bad, then those without a verdict: of several the last one counts.
 KINDS = (
-    Kind("pass", "✓", "pass", "the limit is the reference value as far as both are known"),
-    Kind("low order", "↓", "other", "the limit is the reference value, approached more slowly than need be"),
+    Kind("pass", "✓", "pass", "the limit agrees with the reference value within the uncertainties"),
+    Kind("low order", "↓", "other", "the limit is the reference value, approached more slowly than expected"),
     Kind("undecided", "~", "other", "the limit is not known well enough to say more"),
     Kind("biased", "≈", "other", "within the tolerance, but significantly different from the reference value"),
     Kind(
@@ -32,10 +32,10 @@ KINDS = (
         "a different limit beyond the tolerance, derived for the form as printed: the program does what is printed",
     ),
     Kind("wrong limit", "≠", "wrong", "a limit that is significantly beyond the tolerance"),
-    Kind("refused", "R", "other", "the finest mesh was refused, with its reason"),
+    Kind("refused", "R", "other", "the finest mesh was rejected, with a reason"),
     Kind("diverged", "✗", "wrong", "the finest mesh has no value"),
-    Kind("skip", "·", "skip", "needs what the formulation does not support"),
-    Kind("no truth", "·", "skip", "there is none of its theory"),
+    Kind("skip", "·", "skip", "requires physics that the formulation does not support"),
+    Kind("no truth", "·", "skip", "no reference value for its theory"),
     Kind("other model", "○", "skip",
          "without physics that the formulation does not support: shown, not judged"),
 )
@@ -65,7 +65,7 @@ def met(v):
 
 
 def of_limit(v):
-    """Describes a limit that is not the reference value, or not known to be."""
+    """Describes a limit that differs from the reference value, or may do so."""
     if v.verdict == "undecided" and v.truth:
         known = 100 * v.limit_uncertainty / abs(v.truth)
         return [f"{percent(v.error)} from the reference value, known to ± {known:.2g} %"]
@@ -80,7 +80,7 @@ def of_limit(v):
 
 def remarks(v, distance=True):
     """Short sentences for a verdict's cell in a table; distance: of a limit from the reference value, too,
-    which a table with a column for it does without."""
+    which is omitted in a table with a column for it."""
     words = of_limit(v) if math.isfinite(v.limit) else []
     if not distance and v.verdict in OWN_LIMITS:
         words = words[1:]
@@ -93,8 +93,8 @@ def remarks(v, distance=True):
 
 # Every verdict once: which are counted, and which only repeat another one.
 #
-# An alias is a second name of the same entry of a matrix. That it is one is seen in the results:
-# both names have the same bits in every cell. A misprint kept as a formulation shares all but one
+# An alias is a second name of the same entry of a matrix. It is recognised from the results:
+# both names have the same bits in every cell. A formulation with a misprint shares all but one
 # sign with the corrected form: where both have the same verdict, the misprint adds nothing.
 
 ALIASES = {"C_xx": "C_ux_Fx", "C_zz": "C_uz_Fz"}
@@ -104,7 +104,7 @@ OWN, ALIAS, MISPRINT = "counted", "alias", "misprint"
 
 @dataclass(frozen=True)
 class TallyRow:
-    """A verdict and where it stands."""
+    """A verdict and its location."""
 
     case: str
     parameters: str
@@ -118,7 +118,7 @@ def same(a, b):
 
 
 def is_alias(case, name, other):
-    """Have both names the same value wherever either has one, and is there such a place?"""
+    """Do both names have the same value wherever either has one, and is there at least one?"""
     values = [m.values for p in case.points for s in p.series for m in s.meshes]
     pairs = [(v.get(name, math.nan), v.get(other, math.nan)) for v in values]
     return all(same(*pair) for pair in pairs) and any(math.isfinite(a) for a, _ in pairs)
@@ -130,13 +130,13 @@ def aliases(case):
 
 
 def corrected(key):
-    """The formulation that a kept misprint is a variant of, its options kept; or None."""
+    """The formulation of which one with a misprint is a variant, with its options; or None."""
     name, colon, options = key.partition(":")
     return MISPRINTS[name] + colon + options if name in MISPRINTS else None
 
 
 def standing(v, key, second_names, judged):
-    """judged: {(formulation, quantity): verdict} of the point."""
+    """judged: {(formulation, quantity): verdict} at the point."""
     if v.quantity in second_names:
         return ALIAS
     return MISPRINT if judged.get((corrected(key), v.quantity)) == v.verdict else OWN

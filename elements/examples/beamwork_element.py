@@ -52,10 +52,10 @@ def checked(value, name, count, each, why, numbers="biuf"):
     try:
         found = np.asarray(value)
     except ValueError:
-        raise Refused(f"{name}: an array is due, its rows differ in length") from None
+        raise Refused(f"{name}: an array is expected, but its rows differ in length") from None
     if value is None or found.dtype.kind not in numbers:
         what = "None" if value is None else f"numbers of type {found.dtype}"
-        raise Refused(f"{name} returned {what}, real numbers of real states are due")
+        raise Refused(f"{name} returned {what}, real numbers are expected for real states")
     shape = (count, *each) if count else each
     if found.shape != shape:
         with_N = f", here N = {count}" if count else ""
@@ -160,7 +160,7 @@ def described(body, said):
 def three(name, found, mask, parts, N, c, why):
     """Returns those of energy[N], a vector [N, c] and a matrix [N, c, c]."""
     if not isinstance(found, (tuple, list)) or len(found) != 3:
-        raise Refused(f"{name} must return three: energy, {parts[0]}, {parts[1]}")
+        raise Refused(f"{name} must return three values: energy, {parts[0]}, {parts[1]}")
     all_three = [None if v is None and not mask >> i & 1 else
                  checked(v, f"{name}, for {part},", N, (c,) * i, f"{why} wants" if i else "wants")
                  for i, (v, part) in enumerate(zip(found, ("energy", *parts)))]
@@ -232,7 +232,7 @@ def inertia(mask, kind, x, body, functions):
         functions["analytic mass"] = is_analytic(
             kind, lambda *at: mass(*at).reshape(-1, c * c), x[:1])
         if not functions["analytic mass"]:
-            raise Refused("derivatives are complex steps, and mass is not analytic (abs, norm, a "
+            raise Refused("derivatives are complex steps, but mass is not analytic (abs, norm, a "
                           "comparison, .real?): correct it")
     zero = np.zeros((N, c))
     found = [mass(kind, *states(x))] if mask & 1 else [None]
@@ -269,7 +269,7 @@ def answers(what, mask, kind, body, said, functions):
     if mask & 6 and not functions.get("analytic") and np.isfinite(x[0]).all():
         functions["analytic"] = is_analytic(kind, strain, x[:1])
         if not functions["analytic"]:
-            raise Refused("derivatives are complex steps, and strain is not analytic (abs, norm, "
+            raise Refused("derivatives are complex steps, but strain is not analytic (abs, norm, "
                           "a comparison, .real?): correct it, or say gives='e'")
     of = (lambda: strain(kind, *state), lambda: derivatives(kind, strain, x, None),
           lambda: derivatives(kind, strain, x, body[:, 16 * n:]))

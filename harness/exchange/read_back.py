@@ -2,8 +2,8 @@
 
     python3 harness/exchange/read_back.py DECK.inp... [-o VALUES.csv]
 
-DECK.dat stands beside each deck. Decks of one scene with other meshes are one series: its limit is
-what the solid comes to. Answers (lines `**Q`) are explained in exchange_impl.h. The uncertainty
+DECK.dat is next to each deck. Decks of one scene with different meshes form one series, whose limit is that of the
+solid. Answers (lines `**Q`) are explained in exchange_impl.h. The uncertainty
 of a value is that of its 7 digits.
 """
 import argparse
@@ -54,7 +54,7 @@ def value_of(answer, blocks):
 
 
 def unknowns(lines):
-    """Coordinates of the nodes of the solid, held ones too."""
+    """Coordinates of the nodes of the solid, including held ones."""
     first = next(i for i, line in enumerate(lines) if line.startswith("*NODE,"))
     last = next(i for i in range(first + 1, len(lines)) if lines[i].startswith("*"))
     return 3 * (last - first - 1)
@@ -93,7 +93,7 @@ def rows(deck):
 
 
 def series(decks):
-    """Head and rows of decks of one scene, with other meshes each."""
+    """Header and rows of decks of one scene, each with a different mesh."""
     heads, out, meshes = set(), [], set()
     for deck in decks:
         head, found = rows(deck)
@@ -101,9 +101,9 @@ def series(decks):
         meshes.add(found[0][2] if found else None)
         out += found
     if len(heads) > 1:
-        raise Incomplete("the decks are of several scenes or parameters; read each by itself")
+        raise Incomplete("the decks belong to several scenes or parameters; read each separately")
     if len(meshes) < len(decks):
-        raise Incomplete("two decks have as many elements; give each mesh once")
+        raise Incomplete("two decks have the same number of elements; give each mesh once")
     return heads.pop(), out
 
 

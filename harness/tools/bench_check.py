@@ -1,4 +1,4 @@
-"""Tests `bench`: injects delays of known size, which the comparison must find.
+"""Tests `bench`: injects delays of known size, which the comparison must detect.
 
 usage: bench_check.py PROGRAM [-o FILE]
 * 20 % of its own time is added to one of two equal formulations in one process: must be called

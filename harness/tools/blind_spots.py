@@ -1,17 +1,17 @@
 #!/usr/bin/python3
-"""The smallest faults that `make verify` notices.
+"""Finds the smallest faults that `make verify` detects.
 
 usage: blind_spots.py FAULTY VERIFY_JSON RESULTS_H5 FINDINGS_CSV -o BLIND_SPOTS_CSV -p PLANTED_FAULTS_CSV
 
 FAULTY is the program with a fault of 1e-3 in one constant of all elements, or in one kind of loads
-(plant.c).  For each constant its values on the two coarsest meshes beside those without the
-fault give the derivative of every limit.  VERIFY_JSON, of a run without a fault, has what a verdict
-allows the limit: the band that it may move in until another verdict is seen than the expected one
-(harness/study/verdict.c, judgement.c).  The band over the derivative is the fault.  Two doors:
-  verdict    the verdict differs, whichever sign the fault has;
+(plant.c).  For each constant, the values on the two coarsest meshes with and without the fault give the derivative of
+every limit. VERIFY_JSON, of a run without a fault, contains the band in which a limit may move without changing its
+verdict (harness/study/verdict.c, judgement.c). The band divided by the derivative is the fault. There are two ways of
+detection:
+  verdict    the verdict differs, for either sign of the fault;
   baseline   the limit at the default point differs from the committed one by more than 1e-5
-             (harness/experiments/verification.c), where no exact reference value judges it as closely.
-Errors of meshes against the committed ones notice some smaller faults of one sign: not counted.
+             (harness/experiments/verification.c), where no exact reference value checks it as closely. Comparisons of
+             mesh errors with the committed ones detect some smaller faults of one sign; these are not counted.
 """
 import argparse
 import csv
@@ -32,8 +32,8 @@ SIZE = 1e-3  # of the injected faults
 WANTED = 1e-3  # faults that no row may let pass without a reason
 LEAST = 1e-9  # smallest difference of two faults
 SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # study/verdict.c; of a prediction; experiments/verification.c
-CHANGED = 1e-7  # of a value: less is taken for round-off and the steps of a motion
-NEAR = 1e-2  # of a limit: a value on coarse meshes that is farther off predicts it badly
+CHANGED = 1e-7  # of a value: smaller changes are treated as round-off or as effects of the steps of a motion
+NEAR = 1e-2  # of a limit: values on coarse meshes with larger errors predict it badly
 SOUND = 1e-3  # tolerance of a limit, cases/scene/scene.h
 UNJUDGED = ("skip", "other model", "refused", "diverged")
 CLOSELY = ("pass", "biased, as predicted", "wrong limit, as predicted")
@@ -71,8 +71,8 @@ def scale_of(v):
 
 
 def band_of(v, rules):
-    """(how far the limit may be from where it belongs, how far it is) before the verdict differs;
-    infinite: it never does."""
+    """(largest distance of the limit from its expected value before the verdict differs, actual distance); infinite:
+    it never differs."""
     if v["truth"] is None or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf, 0
     scale, doubt = scale_of(v), v["limit_uncertainty"] or 0
@@ -95,7 +95,7 @@ def band_of(v, rules):
 
 
 def moved_of(v):
-    """Returns by how much the limit may differ from the committed one; infinite: an exact reference value judges it."""
+    """Returns by how much the limit may differ from the committed one; infinite: an exact reference value checks it."""
     if v["point"] != "default" or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf
     slack = MOVED * max(abs(v["limit"]), scale_of(v))
@@ -106,8 +106,8 @@ def moved_of(v):
 
 
 def relative(v, values):
-    """({constant: derivative of its value by the size of a fault}, error of that value) of a verdict
-    on the coarse meshes, both in parts of its size; None: these have no value."""
+    """({constant: derivative of its value with respect to the size of a fault}, error of that value) of a verdict on
+    the coarse meshes, both relative to its size; None: these have no value."""
     key, size = key_of(v), max(abs(v["limit"]), scale_of(v))
     whole, changes = values[0].get(key), {}
     if whole is None or size == 0:
@@ -120,8 +120,8 @@ def relative(v, values):
 
 
 def derivatives(verdicts, values):
-    """(verdict, {constant: |derivative| of the limit}) of each: of the values on its coarse meshes;
-    where these have none or are far off, of those of the formulation that is nearest."""
+    """(verdict, {constant: |derivative| of the limit}) of each, from the values on its coarse meshes; if these have
+    none or large errors, from those of the nearest formulation."""
     own, best = [(v, relative(v, values)) for v in verdicts], {}
     for v, known in own:
         if known is not None and known[1] < best.get(v["point"], ({}, math.inf))[1]:
@@ -137,7 +137,7 @@ def derivatives(verdicts, values):
 
 @dataclass(frozen=True)
 class Notice:
-    """The smallest fault of a constant that is noticed, by a door, in a verdict; inf: none is."""
+    """The smallest detected fault of a constant, in one of the two ways, in a verdict; inf: none is."""
 
     size: float
     slope: float  # of the limit by the fault
@@ -150,7 +150,7 @@ class Notice:
 
 
 def notices(v, slopes, rules):
-    """[Notice] by both doors of all constants that change the limit of a verdict."""
+    """[Notice] in both ways, for all constants that change the limit of a verdict."""
     band, away = band_of(v, rules)
     slack, found = moved_of(v), []
     for constant, slope in slopes.items():
@@ -160,7 +160,7 @@ def notices(v, slopes, rules):
 
 
 def weakest(found, formulations):
-    """Returns the formulation that notices least, by its best quantity; None: nothing is noticed."""
+    """Returns the formulation that detects least, by its best quantity; None: nothing is detected."""
     best = {key: None for key in formulations}
     for one in found:
         key = one.verdict["formulation"]
@@ -180,12 +180,12 @@ def digits(size):
 
 
 def passes(text):
-    """Does a fault of 0.1 % pass?"""
+    """Does a fault of 0.1 % remain undetected?"""
     return not text or float(text) > WANTED
 
 
 def reason_of(verdicts, noticed):
-    """Why a fault of 0.1 % of every constant passes in one of the formulations."""
+    """The reason why a fault of 0.1 % of every constant remains undetected in one of the formulations."""
     if noticed is not None:
         part = noticed.slope * WANTED / scale_of(noticed.verdict)
         return f"0.1 % of a constant changes it by {part:.0e} of itself at most ({noticed.constant})"

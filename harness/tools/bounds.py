@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""What each known deviation allows, what was observed, and how its derived limits were met.
+"""For each known deviation: the allowed error, the observed error, and the agreement with derived limits.
 
 usage: bounds.py VERIFY_JSON FINDINGS_CSV [--loose]
 
 A rule's largest_error is the least of 1, 2 and 5 times a power of ten that no limit of its verdicts
-exceeds: in its distance from the derived limit where there is one, else from the reference value, relative to
-the reference value; empty where none of them has an error.  Where one of them has no derived limit it is the
-least of 1, 1.5, 2, 3, 4, 5 and 7 times a power of ten.  Status 1 where the list of known deviations differs from it.
-It is loose where it is more than ten times what those with a derived limit show, or more than 1.5
-times what those without one do; --loose says that alone.  The digits are those of the limit that is
+exceeds: in its distance from the derived limit if there is one, otherwise from the reference value, relative to the
+reference value; empty if none of them has an error. If one of them has no derived limit, it is the least of 1, 1.5,
+2, 3, 4, 5 and 7 times a power of ten.  Status 1 if the list of known deviations differs from it. It is loose if it is
+more than ten times the errors with a derived limit, or more than 1.5 times those without one; --loose prints only
+this.  The digits are those of the limit that is
 farthest from its prediction, on the meshes of the verdict.
 """
 import argparse
@@ -23,7 +23,8 @@ LOOSE, FINE_LOOSE = 10, 1.5  # so many times what is seen
 
 
 def bound_of(seen, steps=STEPS):
-    """The least of the steps times a power of ten that is not below, as the list of known deviations writes it."""
+    """The least of the steps times a power of ten that is not below the value, as written in the list of known
+    deviations."""
     if seen is None:
         return ""
     power = math.floor(math.log10(seen))
@@ -37,7 +38,8 @@ def apart(verdict):
 
 
 def departure(verdict):
-    """Returns the distance of a limit from the derived one, else from the reference value, relative to that; None: no limit."""
+    """Returns the distance of a limit from the derived one, or else from the reference value, relative to the latter;
+    None: no limit."""
     if verdict["predicted"] is None or not verdict["error"]:
         return verdict["error"] and abs(verdict["error"])
     size = (verdict["limit"] - verdict["truth"]) / verdict["error"]
@@ -51,7 +53,7 @@ def digits(verdicts):
 
 
 def line(rule, verdicts):
-    """Returns the line of an entry: its verdicts, errors and predictions, and whether its bound stands."""
+    """Returns the line of an entry: its verdicts, errors and predictions, and whether its bound is right."""
     derived, others = (
         max((departure(v) for v in verdicts if v["error"] is not None and (v["predicted"] is None) == free),
             default=None) for free in (False, True)
@@ -82,8 +84,8 @@ def lines(rules, verdicts):
 
 
 def covered(verdicts):
-    """(limits that lie within what they and their predictions are known to, all with a prediction),
-    whatever the verdict: what calling a limit predicted by its uncertainty alone rests on."""
+    """(limits within the uncertainties of themselves and their predictions, all limits with a prediction), for any
+    verdict: the basis for calling a limit predicted by its uncertainty alone."""
     told = [v for v in verdicts if v["predicted"] is not None and v["limit"] is not None]
     near = [
         abs(v["limit"] - v["predicted"]) <= SURELY *

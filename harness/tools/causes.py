@@ -3,14 +3,14 @@
 
 usage: causes.py PROGRAM VERIFY_JSON -o FILE [--minutes M] [--rule RULE]...
 
-For each known deviation and each case that it was observed in, the verdict whose limit is farthest
-from the reference value is examined again:
+For each known deviation and each case that it was observed in, the verdict whose limit is farthest from the reference
+value is examined further:
   finer      the same on more elements, up to 256;
   without    with one feature of the scene omitted (shear, trapeze, wagner, warping);
   instead    with a formulation that differs in one thing.
-A change that takes nine tenths of the error away shows where it comes from.  Limits, uncertainties
-and truths are the program's own; where a changed scene has no truth, the limit of collocation
-stands in for one.  What does not begin within the time is written down as not run.
+A change that removes nine tenths of the error shows its cause. Limits, uncertainties and reference values are those
+of the program; if a changed scene has no reference value, the limit of collocation replaces it. Experiments that do
+not begin within the time are recorded as not run.
 """
 import argparse
 import concurrent.futures
@@ -58,7 +58,7 @@ def siblings(formulation, vibrates):
 
 
 def newton_of(formulation):
-    """The same with the other form of Newton's method, for what does not converge."""
+    """The same with the other form of Newton's method, for runs that do not converge."""
     separator = "," if ":" in formulation else ":"
     return f"{formulation}{separator}newton=displacement", "unknowns of Newton's method"
 
@@ -75,19 +75,19 @@ class Laboratory:
         self.program, self.deadline, self.kept = program, deadline, {}
 
     def ask(self, case, formulation, parameters, meshes):
-        """({quantity: record}, '') of a series, or (None, why not)."""
+        """({quantity: record}, '') of a series, or (None, reason)."""
         command = [self.program, "converge", case, "-f", formulation, "-j", "1", "--format", "json"]
         command += ["-n", ",".join(map(str, meshes))] + [w for p in parameters for w in ("-s", p)]
         left = self.deadline - time.monotonic()
         if left <= 0:
-            return None, "not run: the time was over"
+            return None, "not run: the time limit was reached"
         try:
             done = subprocess.run(
                 command, capture_output=True, text=True, timeout=min(SECONDS, left), check=False
             )
         except subprocess.TimeoutExpired:
             return None, f"no answer within {min(SECONDS, left):.0f} s"
-        if done.returncode not in (0, 1, 3) or not done.stdout:  # 3: it was refused, and says why
+        if done.returncode not in (0, 1, 3) or not done.stdout:  # 3: it was refused, with a reason
             return None, done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "failed"
         series = json.loads(done.stdout)["series"][0]
         if series["missing"]:
@@ -100,7 +100,7 @@ class Laboratory:
         return self.kept[what]
 
     def stand_in(self, case, parameters, quantity):
-        """A limit of collocation, where that is known to 1e-6; else NaN."""
+        """A limit of collocation with an uncertainty below 1e-6; otherwise NaN."""
         found, _ = self.series(case, EXACT, parameters, EXACT_MESHES)
         record = (found or {}).get(quantity)
         if not record or record["limit"] is None or record["limit_uncertainty"] is None:
@@ -109,7 +109,7 @@ class Laboratory:
         return record["limit"] if sure else math.nan
 
     def exact(self, case, parameters, quantity, record, known):
-        """(value, where from) to compare a limit with; known: the same scene's truth, or None."""
+        """(value, source) with which a limit is compared; known: the reference value of the same scene, or None."""
         if record["truth"] is not None:
             return record["truth"], "truth"
         if known is not None:
@@ -139,7 +139,7 @@ class Laboratory:
 
 
 def worst_of(verdicts):
-    """{(rule, case): verdict} with the largest error; one without a value where none has one."""
+    """{(rule, case): verdict} with the largest error; if none has an error, a verdict without a value."""
     found = {}
     for v in verdicts:
         key = v["finding"], v["case"]
@@ -151,7 +151,7 @@ def worst_of(verdicts):
 
 
 def rounds(found):
-    """One case of every rule first, then a second one, so that no rule goes without."""
+    """One case of every rule first, then a second one, so that every rule has one."""
     of_rule = {}
     for rule, case in sorted(found, key=lambda key: -abs(found[key]["error"] or 0)):
         of_rule.setdefault(rule, []).append((rule, case))
@@ -160,14 +160,14 @@ def rounds(found):
 
 
 def switches(program, case, given):
-    """Features that a case lets one omit and that are not set already."""
+    """Features that can be omitted in a case and are not set already."""
     listed = subprocess.run([program, "list", case], capture_output=True, text=True, check=False)
     names = re.findall(r"^  (\w+) ", listed.stdout, re.M)
     return [f for f in FEATURES if f in names and all(p.split("=")[0] != f for p in given)]
 
 
 def experiments(laboratory, v):
-    """[what was changed, what came of it] of one verdict; the first has finer meshes only."""
+    """[change, result] of one verdict; the first has finer meshes only."""
     case, quantity, key = v["case"], v["quantity"], v["formulation"]
     given = tuple(p for p in v["parameters"].split(";") if p)
     vibrates = v["unit"] == "Hz" or "omega" in v["parameters"]
@@ -217,8 +217,8 @@ def main():
     parser.add_argument("program")
     parser.add_argument("verdicts")
     parser.add_argument("-o", dest="out", required=True)
-    parser.add_argument("--minutes", type=float, default=10, help="no series begins later")
-    parser.add_argument("--rule", action="append", help="this one only; may be repeated")
+    parser.add_argument("--minutes", type=float, default=10, help="time limit for starting a series")
+    parser.add_argument("--rule", action="append", help="only this known deviation; may be repeated")
     given = parser.parse_args()
     with open(given.verdicts, encoding="utf-8") as file:
         verdicts = [

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Refuses circles: of calls between source files, and of calls or includes between their folders.
-nm says what an object defines and what it needs.
+"""Rejects circles of calls between source files, and of calls or includes between their folders. nm lists what an
+object defines and needs.
 
 usage: circles.py OBJECT...     one line for each circle; exit status 1 when there is one
 """
@@ -67,14 +67,14 @@ FOLDER = re.compile(r"(?:.*/)?((?:elements|cases/format|cases|harness/\w+)/)(?:.
 
 
 def folder(path):
-    """Returns the folder of a source or an object: build/harness/time/step.o is of harness/time. The elements are one,
-    and so are the cases but for their format."""
+    """Returns the folder of a source or an object: build/harness/time/step.o belongs to harness/time. The elements
+    count as one folder, and so do the cases except their format."""
     found = FOLDER.match(path)
     return found[1] if found else str(pathlib.Path(path).parent)
 
 
 def includes_of(objects):
-    """{(file, file): ""} of the sources and headers beside those of the objects."""
+    """{(file, file): ""} of the sources and headers next to those of the objects."""
     matches = map(FOLDER.match, objects)
     places = {found[0][found.start(1):] for found in matches if found}
     return {(str(path), other): {""} for place in places for path in pathlib.Path(place).glob("*.[ch]")

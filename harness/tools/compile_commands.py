@@ -1,4 +1,4 @@
-"""compile_commands.json of what make says that it would run: make -Bnk V=1 all tests | this."""
+"""Makes compile_commands.json from the commands that make would run: make -Bnk V=1 all tests | this."""
 import json
 import os
 import re

@@ -2,9 +2,9 @@
 were solved (`make lab L=expense`; the file of the last `make verify`).
 
 Cost [s] = sum over what an analysis does of times * (once * o + element * e * elements), elements
-of all members together. `once` and `element` belong to the kind of work, the factors o and e to the
-formulation: one that has no row has ones. How good it is is asked of cells that took no part: the
-cases in five groups, each predicted from the other four.
+of all members together. `once` and `element` belong to the kind of work, the factors o and e to the formulation; one
+without a row has factors of one. The accuracy is measured on cells that were not used in the fit: the cases are in
+five groups, and each is predicted from the other four.
 """
 import argparse
 import collections
@@ -22,12 +22,12 @@ WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "
         "radau_step", "explicit_step")
 FOLDS = 5
 ROUNDS = 15
-DEAR = 0.75  # relative errors count by cost^0.25: expensive runs more, cheap ones too
-LARGE = 0.3  # of the logarithm: errors beyond it count less
+DEAR = 0.75  # relative errors are weighted by cost^0.25: expensive runs count more, but cheap ones count too
+LARGE = 0.3  # of the logarithm: larger errors count less
 
 
 def stations_of(analyses, body):
-    """Returns the number of stations of the path of an analysis, or of the one whose states it is about."""
+    """Returns the number of stations of the path of an analysis, or of its base analysis."""
     while "stations" not in body and "about" in body:
         ((_, body),) = analyses[body["about"]].items()
         body = body or {}
@@ -98,7 +98,7 @@ def predict(cells, prices, factors):
 
 
 def fit(cells):
-    """Cost coefficients and factors in turn, by least squares of weighted errors, none below zero."""
+    """Fits cost coefficients and factors in turn, by least squares of weighted errors, none below zero."""
     times, elements, names = columns_of(cells)
     cost = np.array([c["cost"] for c in cells])
     factors = {name: (1.0, 1.0) for name in sorted(set(names))}
@@ -121,7 +121,7 @@ def fit(cells):
 
 
 def spread(predicted, cost):
-    """Factors between the two, in the median and for nine of ten, the common one taken out."""
+    """Factors between the two, in the median and for nine of ten, without the common factor."""
     off = np.log(np.maximum(predicted, 1e-12) / cost)
     off = np.abs(off - np.median(off))
     return math.exp(np.quantile(off, 0.5)), math.exp(np.quantile(off, 0.9))
@@ -139,7 +139,7 @@ def validate(cells):
 
 
 def write(path, cells):
-    """The table; in its head how good it is."""
+    """The table, with its accuracy in the header."""
     prices, factors = fit(cells)
     cost = np.array([c["cost"] for c in cells])
     said = [(name, *spread(predicted, against)) for name, predicted, against in (

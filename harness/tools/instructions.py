@@ -1,16 +1,15 @@
 #!/usr/bin/python3
-"""Counts the instructions of the parts of a solution, counted by callgrind, so the same on
-a busy machine, beside the least that is thinkable.
+"""Counts the instructions of the parts of a solution by callgrind, independent of the load of the machine, next to
+the smallest conceivable number.
 
 usage: instructions.py PROGRAM [-o FILE] [--only WORD]     a table; FILE: the same as JSON
-       instructions.py PROGRAM --callgrind FILE            parts of a profile that is there
-
-A part is what the harness calls by these names, with all that it calls itself. Least: operations
-on doubles (+ - * / sqrt) without loads, stores and loops. Of strains, stresses and updates those
-that their equations take as they stand, counted in the program; of J^T C J with a symmetric result
+       instructions.py PROGRAM --callgrind FILE            parts of an existing profile A part consists of the
+       functions of the harness with these names, and all that they call. Least: operations
+on doubles (+ - * / sqrt) without loads, stores and loops. For strains, stresses and updates these are the operations
+of their equations as written, counted in the program; of J^T C J with a symmetric result
 m n (2 m + n + 1) (m strains, n coordinates); of the factors the counted ones, of two sweeps over
-their entries 4 each; of elimination and assembly one for each number of a symmetric matrix. With
-four numbers in a register a quarter of it would do.
+their entries 4 each; of elimination and assembly one for each number of a symmetric matrix. With four numbers in a
+register, a quarter of it would be enough.
 """
 import argparse
 import collections
@@ -61,7 +60,7 @@ class Profile:
             self.read(lines)
 
     def name(self, kind, number, text):
-        """Names stand once, with a number that is used from then on."""
+        """Names occur once, with a number that replaces them afterwards."""
         if number is None:
             return text
         if text:
@@ -111,7 +110,7 @@ def part_of(function):
 
 
 def frames(profile):
-    """Functions that are reached without a part: what they call is counted, and nothing twice."""
+    """Functions that are reached without a part: their callees are counted, and nothing is counted twice."""
     callees = collections.defaultdict(set)
     for caller, callee in profile.calls:
         callees[caller].add(callee)
@@ -156,7 +155,7 @@ def profiled(program, cell, inside, read=Profile, *more):
 
 
 def arithmetic(program):
-    """{address: doubles that an instruction of the program adds, multiplies, divides}."""
+    """{address: number of doubles that an instruction of the program adds, multiplies or divides}."""
     out = {}
     for line in run("objdump", "-d", "--no-show-raw-insn", program).splitlines():
         found = OPERATION.match(line)
@@ -200,7 +199,7 @@ def as_they_stand(program, cell, profile, numbers):
 
 
 def least(counts, form):
-    """{part: operations} of what all formulations have in common, for the whole run."""
+    """{part: operations} common to all formulations, for the whole run."""
     m, n = form["strains"], 7 * form["nodes"]
     triangle = n * (n + 1) // 2
     return {"J^T C J": counts["strain_evaluations"] * m * n * (2 * m + n + 1),

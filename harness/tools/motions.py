@@ -1,14 +1,11 @@
-"""All stored values of motions in time against limits of meshes: each value, beamwork's on the finest
+"""Compares all stored values of motions in time with limits of meshes: each stored value, the value on the finest
 mesh, its limit and the uncertainty.
 
-usage: motions.py PROGRAM [CASE...] [--fine] [-o FILE.csv]     ends with status 1 where a limit is
-farther from its reference value than the larger of the reference value's uncertainty and its own.  It also counts the
-limits whose uncertainty exceeds a hundredth of the largest value of their unit; --fine
-takes finer ones, and longer.
-
-One integration for all instants of a structure: what the case asks for at one time, its scene
-asks for at each.  Steps are so short that the error of time is below that of the meshes;
-geometrically_exact is the formulation whose limits are known best.
+usage: motions.py PROGRAM [CASE...] [--fine] [-o FILE.csv]     ends with status 1 if the distance of a limit from its
+reference value exceeds both uncertainties. It also counts the limits whose uncertainty exceeds a hundredth of the
+largest value of their unit; --fine uses finer meshes, and takes longer. One integration serves all instants of a
+structure: the scene requests at each time what the case requests at one. Steps are so short that the time error is
+below that of the meshes; geometrically_exact is the formulation with the most accurate limits.
 """
 import argparse
 import concurrent.futures
@@ -27,7 +24,7 @@ FORMULATION = "geometrically_exact"
 HOW = ("integrator", "step", "tolerance")
 COLUMNS = ("case,parameters,time,quantity,unit,kind,truth,truth_uncertainty,elements,finest,limit,"
            "limit_uncertainty,off,within").split(",")
-# meshes, and the tolerance, relative to the motion; of those named alone: with these parameters
+# meshes, and the tolerance relative to the motion; for named cases only: with these parameters
 CASES = {
     "rigid_body": {"": ((1, 2, 4), 1e-11)},
     "spin_up": {"": ((2, 4, 8), 1e-8)},
@@ -77,8 +74,8 @@ def _run(program, *words):
 
 
 def asked_at(scene, times):
-    """The scene with its motion read at all the times: a quantity for each, NAME_0 and so on;
-    others stay."""
+    """The scene with its motion evaluated at all the times: a quantity for each, NAME_0 and so on; others do not
+    change."""
     motions = [name for name, a in scene["analyses"].items() if "motion" in a]
     scene["analyses"][motions[0]]["motion"]["stations"] = times
     quantities = {}
@@ -142,7 +139,7 @@ def table(program, case, chosen=None):
 
 
 def tables(program, cases, chosen):
-    """Case by case, several at a time; the last ones, which take longest, begin first."""
+    """Runs several cases at a time; the last ones, which take longest, begin first."""
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as some:
         asked = [some.submit(lambda one: list(table(program, one, chosen)), case)
                  for case in reversed(cases)]
@@ -150,7 +147,7 @@ def tables(program, cases, chosen):
 
 
 def is_loose(row, rows):
-    """Is the error of the meshes beyond a hundredth of the largest value of that unit?"""
+    """Does the error of the meshes exceed a hundredth of the largest value of that unit?"""
     size = max(abs(float(other["truth"])) for other in rows if other["unit"] == row["unit"])
     return row["limit_uncertainty"] is not None and row["limit_uncertainty"] > LOOSE * size
 

@@ -1,15 +1,15 @@
-"""Faults to be injected, as a list for mutants.sh: made in C sources, or those of physics.
+"""Lists faults for mutants.sh to inject: generated from C sources, or physical ones.
 
-usage: mutate.py [A..B] [--count N]; A..B: on lines that these commits wrote and that still stand
+usage: mutate.py [A..B] [--count N]; A..B: on lines that these commits wrote and that still exist
        mutate.py --physics [FILE]; those of faults.csv
 
-What is made is one edit: it swaps an operator (+ -, * /, < <=, > >=, == !=, && ||), drops a sign,
-changes a constant or an index, negates a condition, leaves out a TRY or another call whose value
-is not used, or reports another status; at most one on a line. Which ones are taken hangs on the
-texts of the file, the line and the edit alone: the same sources give the same faults, and what
-changes nearby changes nothing. Comments, strings, the preprocessor, types, sizes of arrays and of
-memory, and assertions stay as they are. Edits without an effect are in mutants_equivalent.csv,
-each with its reason, and are not made.
+A generated fault is one edit: it swaps an operator (+ -, * /, < <=, > >=, == !=, && ||), drops a sign,
+changes a constant or an index, negates a condition, omits a TRY or another call whose value is not used, or reports
+another status; at most one per line. The selection depends only on the texts of the file, the line and the edit: the
+same sources give the same faults, and changes nearby have no influence. Comments, strings, the preprocessor, types,
+sizes of arrays and of
+memory, and assertions stay as they are. Edits without an effect are listed in mutants_equivalent.csv, each with its
+reason, and are not generated.
 """
 
 import argparse
@@ -45,7 +45,7 @@ RELEASED = re.compile(r"(\w*(free|alloc|close|end)|assert|_Static_assert)$")
 
 
 def tokens(source):
-    """(kind, text, line from 1, column from 0) of what is code."""
+    """(kind, text, line from 1, column from 0) of the tokens that are code."""
     source = PREPROCESSOR.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), source)
     at, line, begin = 0, 1, 0
     while at < len(source):
@@ -59,7 +59,7 @@ def tokens(source):
 
 
 def constant(text, index):
-    """Another constant; None: there is none that is of use."""
+    """Another constant; None if there is no useful one."""
     value = re.sub(r"[uUlLfF]+$", "", text)
     if value.isdigit():
         other = int(value) - 1 if index and int(value) > 0 else int(value) + 1
@@ -96,7 +96,7 @@ class Reader:
         return self.tokens[at][1] if 0 <= at < len(self.tokens) else ""
 
     def ends(self, at):
-        """Does a statement begin behind a token?"""
+        """Does a statement begin after a token?"""
         text = self.word(at)
         if not self.open or text == ";":
             return not (self.open and self.open[-1][0] == "(")
@@ -158,7 +158,7 @@ class Reader:
         return None
 
     def call(self, at):
-        """A statement that only calls, if it ends on its line; None: it is none."""
+        """A statement that is only a call, if it ends on its line; otherwise None."""
         _, name, line, column = self.tokens[at]
         if at != self.statement or self.word(at + 1) != "(" or name in NO_CALLS or \
                 RELEASED.match(name):
@@ -179,7 +179,7 @@ class Reader:
         kind, text, line, column = self.tokens[at]
         index = self.open[-1][0] == "["
         alone = index and self.word(at - 1) == "[" and self.word(at + 1) == "]"
-        # The layout has blanks around products, none behind the star of a pointer.
+        # The layout has blanks around products, but none after the star of a pointer.
         spaced = self.lines[line - 1][column + len(text):][:1] in (" ", "")
         if kind == "number" and (alone or not index):
             if new := constant(text, index):
@@ -220,13 +220,13 @@ def listed(*arguments):
 
 
 def sources():
-    """The library's and the program's own: no tests, no tools."""
+    """The sources of the library and the program, without tests and tools."""
     every = listed("ls-files", "elements/*.c", "cases/*.c", "harness/*.c")
     return [file for file in every if not re.search("/(test|tools|examples|fuzz)/", file)]
 
 
 def touched(commits, file):
-    """Lines of a file that commits wrote and that still stand."""
+    """Lines of a file that commits wrote and that still exist."""
     blamed = listed("blame", "-l", "-s", "--root", file)
     return {k for k, line in enumerate(blamed, 1) if line[:40] in commits}
 
@@ -281,7 +281,7 @@ BESIDE = {
     "cases/textbook/": "cases/format/closed",
     "harness/cli/": "harness/study/bench|harness/experiments/|harness/exchange/",
 }
-# Tests in C that are near: of the folder, or of others all the same.
+# Tests in C that are near: those of the folder, or related ones of others.
 NEAR = {
     "elements": "elements/test/|harness/experiments/test/contract_|harness/analysis/test/(frequency"
                 "|critical|along_eq)|harness/time/test/consistent_test",
@@ -289,7 +289,7 @@ NEAR = {
     "cases/format": "cases/format/test/",
 }
 CALLERS = 8
-# They last half a minute and more: after all others.
+# They take half a minute or more and run after all others.
 SLOW = tuple(f"{name}_test.c" for name in ("invariants", "consistent_mesh", "inputs",
                                            "condensation"))
 JUDGED = "verify:" + " or ".join(f"{case}/default" for case in (
@@ -307,8 +307,8 @@ def tests():
 
 
 def checks(file, texts):
-    """Returns the checks that should notice a fault of a file: tests of its folder, of others that call its functions,
-    cells that are judged, and tests in Python that show it."""
+    """Returns the checks that should detect a fault of a file: tests of its folder, tests of others that call its
+    functions, cells with verdicts, and tests in Python that use it."""
     room = file.split("/")
     near = re.compile(NEAR.get("/".join(room[:2])) or NEAR.get(room[0]) or
                       f"{room[0]}/{room[1]}/test/")
@@ -330,7 +330,7 @@ def checks(file, texts):
 
 
 def physics(path):
-    """Reads a table: name, file, what sed looks for and puts in its place, and the check."""
+    """Reads a table: name, file, search pattern and replacement for sed, and the check."""
     with open(path, encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
             change = f"s|{row['pattern']}|{row['replacement']}|"

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs Newton's method in its two forms side by side, and along the paths that need it most.
+"""Runs the two forms of Newton's method side by side, and along the most demanding paths.
 
 usage: newton.py PROGRAM -o FILE      JSON for the report: "singles", targets tried in one step;
 `contests`, one comparison per case, formulation and first step, with both forms; "histories", the corrections

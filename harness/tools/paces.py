@@ -1,15 +1,14 @@
 #!/usr/bin/python3
-"""Integrators on every case of motion, with every formulation that offers it and is practical: the
-problems of work-precision diagrams and performance profiles (harness/experiments/paces.csv).
+"""Runs integrators on every case of motion, with every practical formulation that supports it: the problems of
+work-precision diagrams and performance profiles (harness/experiments/paces.csv).
 
 usage: paces.py PROGRAM -o FILE [WORD]     JSON for the report, and a line for each problem; WORD:
 only the rows whose case has it.
 
-Each row is one run of `beamwork motion`. The reference that it judges by, radau at 1e-10, is held
-against `explicit` (Runge-Kutta of order 8, which shares neither Newton nor a tangent with it) at
-two tolerances on the same mesh, once for each row where that is possible (column check: with which
-formulation). The remaining difference falls with the tolerance as far as it is the error of
-`explicit`.
+Each row is one run of `beamwork motion`. Its reference, radau at 1e-10, is compared with `explicit` (Runge-Kutta of
+order 8, which uses neither Newton's method nor a tangent) at two tolerances on the same mesh, once for each row where
+that is possible (column check: the formulation). The difference decreases with the tolerance as long as the error of
+`explicit` dominates.
 """
 import argparse
 import csv
@@ -40,7 +39,7 @@ TABLES = ("references", "runs", "orders", "reached")
 
 
 def refused(record):
-    """{formulation: why} of those that do not offer the motion."""
+    """{formulation: reason} of those that do not support the motion."""
     offered = {r["formulation"] for r in record["runs"] if r["status"] != "refused"}
     return {r["formulation"]: r["reason"] for r in reversed(record["runs"])
             if r["formulation"] not in offered}

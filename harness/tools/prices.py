@@ -1,10 +1,10 @@
 """Cost coefficients of counted work, fitted to measured times (`make lab L=prices`).
 
-The defaults of every case run several times, one process, the formulations in turn; the least time
-of a cell counts. Cost coefficients are fitted by least squares of relative errors, none below zero; large
-errors count less. How good they are is asked of cells that took no part: the cases in five groups,
-each predicted from the other four. The noise is the least ratio of two costs from which on nine of
-ten measured times of two formulations of a case stand in the same order.
+The defaults of every case run several times in one process, the formulations in turn; the shortest time of a cell
+counts. Cost coefficients are fitted by least squares of relative errors, none below zero; large
+errors count less. Their accuracy is measured on cells that were not used in the fit: the cases are in five groups,
+and each is predicted from the other four. The noise is the smallest ratio of two costs from which nine of ten pairs
+of measured times of two formulations of a case are in the same order.
 """
 import argparse
 import collections
@@ -32,8 +32,8 @@ VARIANTS = ("collocation:stages=3", "collocation:stages=4", "collocation:stages=
             "geometrically_exact:nodes=3", "beamw_consistent:torsion=hyperbolic",
             "beamw_consistent:inside=linear")
 FOLDS = 5
-NEAR = 3  # cells of a case are compared whose times are within this factor
-STEP = 1.05  # of the ratios at which it is asked how often the order is right
+NEAR = 3  # cells of a case are compared if their times are within this factor
+STEP = 1.05  # of the ratios at which the fraction of right orders is determined
 
 
 def name_of(key):
@@ -80,7 +80,7 @@ def product(cells, count):
 
 
 def columns_of(cells, names):
-    """{(formulation, count): values}; of no names, what holds for any formulation."""
+    """{(formulation, count): values}; without a name, those of any formulation."""
     own = np.array([c["name"] for c in cells])
     out = {("", count): product(cells, count) for count in SHARED}
     if not names:
@@ -134,7 +134,7 @@ def pairs(cells, predicted):
 
 
 def noise_of(predicted, measured):
-    """The least ratio from which on nine of ten pairs are measured in the order of their costs."""
+    """The smallest ratio from which nine of ten pairs are measured in the order of their costs."""
     edge = math.log(STEP)
     for k in range(int(math.log(NEAR) / edge), 0, -1):
         here = (predicted >= (k - 1) * edge) & (predicted < k * edge)
@@ -144,8 +144,8 @@ def noise_of(predicted, measured):
 
 
 def validate(cells, names):
-    """Predictions of every cell by cost coefficients fitted without its case; the same as of a
-    formulation without coefficients of its own."""
+    """Predictions of every cell by cost coefficients fitted without its case; the same for a formulation without its
+    own coefficients."""
     cases = sorted({c["case"] for c in cells})
     own, generic = np.zeros(len(cells)), np.zeros(len(cells))
     for fold in range(FOLDS):
@@ -162,7 +162,7 @@ def validate(cells, names):
 
 
 def write(path, cells, names, runs):
-    """The table, with what it was fitted to and how good it is in its head."""
+    """The table; its header states the data of the fit and the accuracy."""
     own, generic = validate(cells, names)
     seconds = np.array([c["seconds"] for c in cells])
     cost, time = pairs(cells, own)

@@ -1,6 +1,8 @@
-"""Rigid bodies joined by geometrically exact beams (beam.py): equilibrium by Newton's method, and the linear response there.
+"""Rigid bodies joined by geometrically exact beams (beam.py): equilibrium by Newton's method, and the linear response
+there.
 
-Unknowns: of each body position x, rotation and the load (f, mu) on its reference point; of each beam F, m0 (moment about
+Unknowns: of each body position x, rotation and the load (f, mu) on its reference point; of each beam F, m0 (moment
+about
 the origin, constant along the beam), its states at the ends of the intervals; numbers of the problem's own.
 Equations: body, equilibrium of forces and moments and six conditions; beam, its intervals, the closure at its end, one
 condition of warping at each end.
@@ -14,13 +16,16 @@ from reference.derive.beam import (STEP, Scaled, chebyshev, cross_matrix, expone
 
 # Loads along a beam (beam.py): six more states, F and m0 (moment about the origin, fixed axes) less those at the start,
 #   F' = -f q,   m0' = -f ((r + R d) x q + c),
-# per initial length, q and c in fixed axes, or turning with the sections, linear along the beam (then s is a state before the six);
+# per initial length, q and c in fixed axes, or turning with the sections, linear along the beam (then s is a state
+# before the six);
 # d: where q acts, from the centroid; f: factor at the level.
 
 
 class LineLoad:
-    """force [N/m], moment [N] at each length, in fixed axes, or in those of the section, with which they turn; at [m]: of the force, in the
-    section's axes; factor(level); more: what force and moment are more at the end than at the start, linear between, or None."""
+    """force [N/m], moment [N] at each length, in fixed axes, or in those of the section, with which they turn; at
+    [m]: of the force, in the
+    section's axes; factor(level); more: what force and moment are more at the end than at the start, linear between,
+    or None."""
 
     def __init__(self, force, moment, at, turns, factor, more=None):
         self.force, self.moment, self.at, self.turns, self.factor = (*(np.array(
@@ -114,7 +119,8 @@ class Member:
         return y
 
     def linearise(self):
-        """Per interval: Y = base + A y_start + B p for changes, with the residual of the current values folded into base."""
+        """Per interval: Y = base + A y_start + B p for changes, with the residual of the current values folded into
+        base."""
         m, n1, n = self.y.shape
         columns = self.y.reshape(-1, n).T
         f, fy, fp = self.beam.slope_and_derivatives(
@@ -167,12 +173,14 @@ class Network:
         return self.bodies[-1]
 
     def joint(self, body, position, conditions):
-        """A massless body at position [m], whose load acts back on another body; its conditions see the place and rotation of that one last."""
+        """A massless body at position [m], whose load acts back on another body; its conditions see the place and
+        rotation of that one last."""
         self.bodies.append(Body(np.array(position) / self.length, conditions, body))
         return self.bodies[-1]
 
     def member(self, beam, first, second, start, axes, warp=("fixed", "fixed"), loads=()):
-        """start [m]: where the beam begins, fixed to the first body; axes: columns are its x, y, z; loads: LineLoad along it."""
+        """start [m]: where the beam begins, fixed to the first body; axes: columns are its x, y, z; loads: LineLoad
+        along it."""
         offset = np.array(start) / self.length - first.x
         scaled = beam.scaled(self.length, self.force)
         if loads:
@@ -348,7 +356,7 @@ class Network:
         self._advance(step)
         size = np.max(np.abs(step) / (1 + self._magnitudes()))
         if not np.isfinite(size):
-            raise ArithmeticError("Newton's method left the numbers")
+            raise ArithmeticError("Newton's method produced NaN or Inf")
         return size
 
     def solve(self, path=(1.0, ), tolerance=1e-12):

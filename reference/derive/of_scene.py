@@ -1,10 +1,13 @@
-"""Exact values of a scene that is a network of geometrically exact beams, rigid bodies and supports: displacements, reactions, stiffnesses,
+"""Exact values of a scene that is a network of geometrically exact beams, rigid bodies and supports: displacements,
+reactions, stiffnesses,
 resultants at the ends of members, frequencies about the undeformed state.
 
-usage: of_scene.py [FILE]     The scene (FILE or standard input) as 'beamwork scene' writes it.  One line for each quantity, as at.py has them.
+usage: of_scene.py [FILE]     The scene (FILE or standard input) as 'beamwork scene' writes it.  One line for each
+quantity, as at.py has them.
 Exit status: 0; 3 the scene, or all of its quantities, are beyond this program, with a line for each that says what is.
 
-A value is that of the finer of two grids; its uncertainty is twice the difference, and at least round-off.  Grids are refined until
+A value is that of the finer of two grids; its uncertainty is twice the difference, and at least round-off.  Grids are
+refined until
 the difference is below 1e-10 of the value (or of its scale).
 """
 import os
@@ -46,13 +49,13 @@ class Question:
         if self.kind == "internal" and (self.of["resultant"] not in RESULTANTS or
                                         self._end() is None):
             raise Refused(
-                f"{name}: of internal forces {', '.join(RESULTANTS)} at the ends of members are within the deriving program"
+                f"{name}: of internal forces {', '.join(RESULTANTS)} at the ends of members are supported by the deriving program"
             )
         if self.kind == "frequency" and (self.of.get("family", "any") != "any" or
                                          self.of.get("half_waves", "0") != "0"):
-            raise Refused(f"{name}: a family of modes is not within the deriving program")
+            raise Refused(f"{name}: a family of modes is not supported by the deriving program")
         if self.of.get("take") == "curve":
-            raise Refused(f"{name}: a curve is not within the deriving program")
+            raise Refused(f"{name}: a curve is not supported by the deriving program")
 
     def _end(self):
         """0, 1; None: inside."""
@@ -116,7 +119,7 @@ def analyses(scene, questions, grid, scales=None):
         if kind == "linear":
             for q in asked:
                 if q.kind not in ("displacement", "internal"):
-                    out[q.name] = Refused(f"{q.name}: {q.kind} of a linear analysis is not within the deriving program")
+                    out[q.name] = Refused(f"{q.name}: {q.kind} of a linear analysis is not supported by the deriving program")
             asked = [q for q in asked if q.name not in out]
             network = SceneNetwork(scene, *grid)
             moved, inside = linear(network)
@@ -181,7 +184,8 @@ def analyses(scene, questions, grid, scales=None):
 
 
 def solve(scene, form=lambda beam: beam):
-    """Yields (quantity, value, unit, uncertainty, convention), and (quantity, Refused) where it is beyond the program; form: of the beams."""
+    """Yields (quantity, value, unit, uncertainty, convention), and (quantity, Refused) where it is beyond the
+    program; form: of the beams."""
     questions, scene = [], cut(scene)
     for name, entry in scene["quantities"].items():
         try:

@@ -233,7 +233,7 @@ class ScaledPrinted(Scaled):
             x = x - step
             if max(np.max(np.abs(step[:6])), np.max(np.abs(step[6:]) / scale)) < SETTLED:
                 return x
-        raise ArithmeticError("the strains at a point did not settle")
+        raise ArithmeticError("the strains at a point did not converge")
 
     def _derivatives(self, x, given):
         """Derivatives of (gamma, kappa, B') [many, 7, 7] by (N, M, a), and B' [many]."""

@@ -29,19 +29,20 @@ class Place:
 
 
 class Frame:
-    """Undeformed axis of a member, straight or an arc about the section's z axis: length, curvature, triad at its start (described, principal)."""
+    """Undeformed axis of a member, straight or an arc about the section's z axis: length, curvature, triad at its
+    start (described, principal)."""
 
     def __init__(self, first, last, y, curvature, where):
         if curvature[0] or curvature[1]:
             raise Refused(
-                f"{where}: initial twist or curvature about y is not within the deriving program")
+                f"{where}: initial twist or curvature about y is not supported by the deriving program")
         chord, self.curvature = np.array(last) - np.array(first), curvature[2]
         distance = np.linalg.norm(chord)
         half = math.asin(distance * self.curvature /
                          2) if abs(distance * self.curvature) < 2 else None
         if half is None:
             raise Refused(
-                f"{where}: an arc of half a turn or more is not within the deriving program")
+                f"{where}: an arc of half a turn or more is not supported by the deriving program")
         self.length = 2 * half / self.curvature if self.curvature else distance
         x = chord / distance
         y = np.array(y) - (np.array(y) @ x) * x
@@ -59,13 +60,13 @@ class Frame:
 def physics_of(scene):
     """All but what the scene leaves out; shear in stability after Haringx."""
     if scene.get("shear_theory", "haringx") == "engesser":
-        raise Refused("shear_theory: 'engesser' is not within the deriving program")
+        raise Refused("shear_theory: 'engesser' is not supported by the deriving program")
     omitted = scene.get("omit", [])
     if omitted == "all":
         return frozenset()
     for word in omitted:
         if word not in PHYSICS:
-            raise Refused(f"omit: '{word}' is not within the deriving program")
+            raise Refused(f"omit: '{word}' is not supported by the deriving program")
     return PHYSICS.difference(omitted)
 
 
@@ -111,7 +112,7 @@ class SceneNetwork:
         name = member["section"]
         if isinstance(name, list):
             raise Refused(
-                "a section that changes along a member is not within the deriving program")
+                "a section that changes along a member is not supported by the deriving program")
         return named(self.scene["sections"], name, "section", "members"), name
 
     def _new_number(self):
@@ -133,7 +134,7 @@ class SceneNetwork:
         i = WORDS.index(what["component"])
         if i > 2:
             raise Refused(
-                f"{name}: an unknown motion that fixes a turn is not within the deriving program")
+                f"{name}: an unknown motion that fixes a turn is not supported by the deriving program")
         k = self.unknown[name] = self._new_number()
         self.motion[name] = lambda level, numbers: numbers[k]
 
@@ -251,7 +252,7 @@ class SceneNetwork:
             follows = entry.get("follower") in ("true", "yes")
             if self.frames[member].curvature and (follows or "at" in entry or
                                                   entry.get("axes") == "member"):
-                raise Refused(f"{name}: on a curved member it is not within the deriving program")
+                raise Refused(f"{name}: on a curved member it is not supported by the deriving program")
             kind = next(k for k in ("distributed", "distributed_moment", "gravity") if k in entry)
             turn = principal.T @ axes if follows else axes
             first, last = (turn @ np.array(numbers(entry[key], name, 3)) *
@@ -274,7 +275,7 @@ class SceneNetwork:
             frame, (section, where) = self.frames[name], self.section_of(entry)
             if frame.curvature and constants_of(section, where).turned:
                 raise Refused(
-                    f"{name}: a curved member with inclined principal axes is not within the deriving program"
+                    f"{name}: a curved member with inclined principal axes is not supported by the deriving program"
                 )
             plain, s = beam(section, self.physics, frame.length, frame.curvature, where)
             ends = [named(self.places, entry[end], "node", name) for end in ("from", "to")]
@@ -302,7 +303,7 @@ class SceneNetwork:
             return place.body
         if frame.curvature:
             raise Refused(
-                f"{name}: a release of a curved member is not within the deriving program")
+                f"{name}: a release of a curved member is not supported by the deriving program")
         release = Release(words, frame.described, place.offset / self.length, self._new_number)
         joint = self.net.joint(place.body, self.length * place.body.x + place.offset,
                                release.conditions)
@@ -334,7 +335,7 @@ class Pieces:
                 for end in ("from", "to")]
         curvature = numbers(self.entry.get("curvature", ["0"] * 3), name, 3)
         if places and any(curvature):
-            raise Refused(f"{name}: a load on a part of a curved member is not within the deriving program")
+            raise Refused(f"{name}: a load on a part of a curved member is not supported by the deriving program")
         self.ends = np.array(ends)
         self.axes = None if any(curvature) else Frame(*ends, numbers(self.entry["y"], name, 3), curvature, name).described
 
@@ -371,11 +372,11 @@ class Pieces:
         place = number(entry["where"], name)
         end = {0.0: "from", 1.0: "to"}.get(place)
         if end in self.entry.get("release", {}):
-            raise Refused(f"{name}: at a released end it is not within the deriving program")
+            raise Refused(f"{name}: at a released end it is not supported by the deriving program")
         out = {key: value for key, value in entry.items() if key not in (*OF_PART, "axes")}
         if entry.get("axes") == "member":
             if self.axes is None:
-                raise Refused(f"{name}: on a curved member it is not within the deriving program")
+                raise Refused(f"{name}: on a curved member it is not supported by the deriving program")
             for key in ("force", "moment", "at"):
                 if key in entry:
                     out[key] = [repr(float(x)) for x in self.axes @ numbers(entry[key], name, 3)]

@@ -1,4 +1,5 @@
-"""States of a scene's network (scene_network.py), and what is read from them: along a static path, in one linear step, and the response to
+"""States of a scene's network (scene_network.py), and what is read from them: along a static path, in one linear
+step, and the response to
 small loads on a node.
 
 The path is followed from the undeformed state, in steps that are halved where Newton's method fails.
@@ -83,14 +84,14 @@ def settle(net, level):
         before, size = size, net.iterate(level)
         if size < 1e-14 or (size < 1e-8 and size > before / 4):
             return
-    raise Refused(f"Newton's method does not settle at {level:g} of the path")
+    raise Refused(f"Newton's method does not converge at {level:g} of the path")
 
 
 def reaction(scene, name, component, level):
     place = scene.places[name]
     if place.support is None:
         raise Refused(
-            f"the reaction at a part of a body ({name}) is not within the deriving program")
+            f"the reaction at a part of a body ({name}) is not supported by the deriving program")
     loads = place.body.load - place.support.applied(level, place.body.R)
     return loads[component] * scene.force * (scene.length if component > 2 else 1.0)
 
@@ -100,7 +101,7 @@ def compliance(scene, level, entry, name):
     net, place = scene.net, scene.places[entry["node"]]
     if place.support is None:
         raise Refused(
-            f"{name}: the compliance of a part of a body is not within the deriving program")
+            f"{name}: the compliance of a part of a body is not supported by the deriving program")
     support, released = place.support, [WORDS.index(word) for word in entry.get("released", [])]
     now = place.body.load - support.applied(level, place.body.R)
     turns = [i for i in released if i > 2]
@@ -108,7 +109,7 @@ def compliance(scene, level, entry, name):
     if support.angles:
         if len(turns) in (1, 2):
             raise Refused(
-                f"{name}: some of the turns of a sequence are released, not all; this is not within the deriving program"
+                f"{name}: some of the turns of a sequence are released, not all; this is not supported by the deriving program"
             )
         axes = None if turns else support.axes_now(level, net.numbers)
         first = min(support.angles)
@@ -153,12 +154,13 @@ def under(C, moment, convention, name):
 
 
 def linear(scene):
-    """({node: [6]}: displacements and turns, {member: [2, 6]}: resultants at its ends) of one linear step, loads and motions at 1."""
+    """({node: [6]}: displacements and turns, {member: [2, 6]}: resultants at its ends) of one linear step, loads and
+    motions at 1."""
     supports = [place.support for place in scene.places.values() if place.support]
     for support in supports:
         if support.sequence or support.vector or any(callable(kind) for kind in support.kinds[3:]):
             raise Refused(
-                "a linear analysis with prescribed turns is not within the deriving program")
+                "a linear analysis with prescribed turns is not supported by the deriving program")
         for load in support.loads:
             load.stays = True
     for beam in (m.beam for m in scene.net.members if m.beam.carries):
@@ -184,7 +186,8 @@ def linear_resultants(scene, m, step):
 
 
 def resultants(scene, name):
-    """[2, 6] (N, Qy, Qz, Mx, My, Mz) at the ends of a member, of what lies beyond, in the axes of the turned section [N, N m]."""
+    """[2, 6] (N, Qy, Qz, Mx, My, Mz) at the ends of a member, of what lies beyond, in the axes of the turned section
+    [N, N m]."""
     m, rows = scene.member[name], []
     for y in (m.y[0, 0], m.y[-1, -1]):
         p = m.p + (y[-6:] if m.beam.carries else 0.0)
@@ -198,10 +201,13 @@ def in_units(scene, load):
     return load * scene.force * np.array([1.0] * 3 + [scene.length] * 3)
 
 
-# Frequencies of a scene about its undeformed state: L z = omega^2 M z of the bodies and of all members at their Chebyshev points.
+# Frequencies of a scene about its undeformed state: L z = omega^2 M z of the bodies and of all members at their
+# Chebyshev points.
 #
-# Fields of a member are those of equilibrium.Vibration, z = (dy, dp); its inertia rho A, rho (Ip, Iy, Iz), rho Iw, of which Iy, Iz and Iw count
-# with `rotary_inertia`.  Of a body: external load, those of the members' ends and omega^2 (m (u + theta x c), J theta) are in equilibrium.
+# Fields of a member are those of equilibrium.Vibration, z = (dy, dp); its inertia rho A, rho (Ip, Iy, Iz), rho Iw, of
+# which Iy, Iz and Iw count
+# with `rotary_inertia`.  Of a body: external load, those of the members' ends and omega^2 (m (u + theta x c), J
+# theta) are in equilibrium.
 
 
 def inertia_of(scene, name):
@@ -341,5 +347,5 @@ def lowest(left, mass, count):
               tol=1e-14)
     mu = mu[np.argsort(-np.abs(mu))][:count]
     if np.any(np.abs(mu.imag) > 1e-6 * np.abs(mu.real)) or np.any(mu.real <= 0):
-        raise Refused("a mode that does not vibrate is not within the deriving program")
+        raise Refused("a mode that does not vibrate is not supported by the deriving program")
     return np.sqrt(1 / np.sort(mu.real)[::-1]) / (2 * math.pi)

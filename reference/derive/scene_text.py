@@ -1,4 +1,5 @@
-"""A scene as `beamwork scene` writes it, loops and expressions written out: text and numbers, and nothing read that is not understood.
+"""A scene as `beamwork scene` writes it, loops and expressions written out: text and numbers, and nothing read that
+is not understood.
 
 What a program here does not know is refused in one line that names it, never passed over.
 """
@@ -13,7 +14,7 @@ from reference.derive.torsion import rectangle_constant
 
 
 class Refused(Exception):
-    """The line for the user: what of the scene is not within the deriving program."""
+    """The line for the user: what of the scene is not supported by the deriving program."""
 
 
 def read(text):
@@ -31,7 +32,7 @@ def only(entry, where, known):
     """Refuses an entry with a key that is not known."""
     for key in entry:
         if key not in known:
-            raise Refused(f"{where}: '{key}' is not within the deriving program")
+            raise Refused(f"{where}: '{key}' is not supported by the deriving program")
 
 
 def number(word, where):
@@ -72,11 +73,14 @@ def table(path, value):
 
 # The beam (beam.py) of a section of a scene, with the physics that the scene does not leave out.
 #
-# A fibre turns about the shear centre: the trapeze term has ys^2 + zs^2 and the Wagner moments -2 ys, -2 zs wherever the shear centre is
+# A fibre turns about the shear centre: the trapeze term has ys^2 + zs^2 and the Wagner moments -2 ys, -2 zs wherever
+# the shear centre is
 # off the centroid; Ip/A only with `trapeze`, int y (y^2 + z^2) dA and int z (y^2 + z^2) dA only with `wagner_moments`.
-# Rectangle: EIw by Saint-Venant's series (warping_constant), 1/F = k A with k = 5/6 where it is not given, and then 5/6 of the warping shear too; c = (w^5 t + w t^5)/1440 = 1/8 (int r^4 dA - Ip^2/A).
+# Rectangle: EIw by Saint-Venant's series (warping_constant), 1/F = k A with k = 5/6 where it is not given, and then
+# 5/6 of the warping shear too; c = (w^5 t + w t^5)/1440 = 1/8 (int r^4 dA - Ip^2/A).
 # Walls: c = 1/8 (int r^4 dA - Ip^2/A - wagner_y^2/Iz - wagner_z^2/Iy), r^2 = y^2 + z^2 (section.py).
-# Ring of radii R > r: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m = r/R (Renton 1991; Cowper 1966 at nu = 0), c = 1/8 int (r^2 - Ip/A)^2 dA.
+# Ring of radii R > r: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m = r/R (Renton 1991; Cowper 1966 at nu = 0), c = 1/8 int
+# (r^2 - Ip/A)^2 dA.
 
 MATERIAL = ("young", "shear_modulus", "density", "given")
 OVERRIDES = ("Iw", "ys", "zs", "It", "Ip", "wagner_torque")
@@ -86,7 +90,8 @@ PLACES = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
 class Constants:
-    """A, Iy, ... in SI; F [3, 3]: shear flexibilities times G; turned: principal y axis from that of the description [rad]."""
+    """A, Iy, ... in SI; F [3, 3]: shear flexibilities times G; turned: principal y axis from that of the description
+    [rad]."""
 
     def __init__(self, **values):
         for name in NAMES:
@@ -96,7 +101,8 @@ class Constants:
 
 
 def warping_constant(wide, thin):
-    """int omega^2 dA, omega = y z + sum C_n sin(k_n y) sinh(k_n z) with stress-free sides, by integration over the area."""
+    """int omega^2 dA, omega = y z + sum C_n sin(k_n y) sinh(k_n z) with stress-free sides, by integration over the
+    area."""
     a, b = mp.mpf(thin) / 2, mp.mpf(wide) / 2
     ks = [(2*n + 1) * mp.pi / 2 / a for n in range(60)]
     cs = [-4 * (-1)**n / (a * k**3) for n, k in enumerate(ks)]
@@ -193,7 +199,7 @@ SHAPES = {"rectangle": rectangle, "tube": tube, "walls": walls, "constants": con
 def constants_of(entry, where):
     shape = [name for name in SHAPES if name in entry]
     if len(shape) != 1:
-        raise Refused(f"{where}: its shape is not within the deriving program")
+        raise Refused(f"{where}: its shape is not supported by the deriving program")
     out = SHAPES[shape[0]](entry, where)
     given = entry.get("given", {})
     only(given, where, (*OVERRIDES, *RIGIDITIES))

@@ -178,8 +178,8 @@ class Pack(unittest.TestCase):
                            ("needs group", "order,,,A power.,"), ("needs term", ",,g,A power.,"),
                            ("is explained at", "order,END,convergence,A power.,"),
                            ("is explained at", "Limit,,convergence,A power.,"),
-                           ("which is no other term", "order,,convergence,A power.,end"),
-                           ("which is no other term", "order,,convergence,A power.,order")):
+                           ("which is not another term", "order,,convergence,A power.,end"),
+                           ("which is not another term", "order,,convergence,A power.,order")):
             with self.subTest(line=line):
                 self.write("glossary.csv", [head, good, line])
                 self.refused(word, self.row)
@@ -193,8 +193,8 @@ class Pack(unittest.TestCase):
         for word, line in (("without options", "beam:mass=lumped,2026-11-21,0.1.0"),
                            ("without options", ",2026-11-21,0.1.0"),
                            ("is accepted at", "beam,2026-11-22,0.1.0"),
-                           ("is no day", "other,yesterday,0.1.0"),
-                           ("is no version", "other,2026-11-21,first"),
+                           ("is not a date", "other,yesterday,0.1.0"),
+                           ("is not a version", "other,2026-11-21,first"),
                            ("wrong number of fields", "other,2026-11-21")):
             with self.subTest(line=line):
                 self.write("accepted.csv", [head, good, line])

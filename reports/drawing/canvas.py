@@ -1,5 +1,4 @@
-"""A drawing in points (1/72 inch): what is drawn, labels that keep clear of it, and of each
-other."""
+"""A drawing in points (1/72 inch): shapes, and labels that avoid them and each other."""
 import itertools
 
 import numpy as np
@@ -29,13 +28,13 @@ def vector(values, unit):
     return f"{said} {unit}"
 
 
-# Greys follow the page into the dark, loads and motions have a colour for each (style.py).
+# Greys follow the page into dark mode; loads and motions have a colour for each (style.py).
 INK, SOFT, LOAD, MOTION, SPRING = "#141414", "#606060", "#b03a00", "#005a94", "#6a5a00"
 STEEL, BODY, ROD, MASS = "#c9d3de", "#e3dcc8", "#a89f86", "#8c8468"
 FONT = 9  # [pt]
 WIDE, HIGH = 0.6, 1.25  # of a letter, to the size of the font
-MOST_FACES = 100  # whose edges labels keep clear of
-SPACING = 3  # of the points that stand for a line, where labels look for room [pt]
+MOST_FACES = 100  # whose edges labels avoid
+SPACING = 3  # of the points that represent a line when labels are placed [pt]
 WAYS = [np.array([np.cos(a), np.sin(a)]) for a in np.arange(8) * np.pi / 4]
 
 
@@ -53,7 +52,7 @@ class Canvas:
         self.faces, self.draws, self.points, self.labels, self.boxes = [], [], [], [], []
 
     def occupy(self, line):
-        """A polyline [n x 2] that labels keep clear of."""
+        """A polyline [n x 2] that labels avoid."""
         line = np.atleast_2d(line)
         self.points.append(line)
         for a, b in itertools.pairwise(line):
@@ -124,11 +123,11 @@ class Canvas:
         self.draws.append(draw)
 
     def label(self, at, text, colour=INK, size=FONT, near=4, towards=None):
-        """Somewhere around a point, where there is room; towards: preferred direction."""
+        """Places a label around a point where there is room; towards: preferred direction."""
         self.labels.append((np.asarray(at), text, colour, size, near, towards))
 
     def text(self, at, text, colour=INK, size=FONT, rotation=0):
-        """At a place, in the middle."""
+        """Places a label centred at a position."""
         width, height = WIDE * size * len(text), HIGH * size
         c, s = abs(np.cos(np.radians(rotation))), abs(np.sin(np.radians(rotation)))
         half = 0.5 * np.array([c * width + s * height, s * width + c * height])

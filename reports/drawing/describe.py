@@ -44,7 +44,7 @@ def load(one):
 
 
 def extent(within):
-    """Describes a part of a member's length."""
+    """Describes a fraction of a member's length."""
     if within in (None, (0, 1)):
         return ""
     begin, end = (f"{number(100 * part)} %" for part in within)
@@ -52,7 +52,7 @@ def extent(within):
 
 
 def axis(one):
-    """Along which axis, where it is one."""
+    """The axis along which it acts, if it is one."""
     along = np.flatnonzero(np.abs(one.vector) + np.abs(one.last))
     if one.varies():
         return ""
@@ -93,7 +93,7 @@ def mass(node):
 
 
 def warping(scene):
-    """Where ends hold it and where they leave it free: nodes, or members where ends differ there."""
+    """Where warping is held and where it is free: nodes, or members if their ends differ at a node."""
     at = {}
     for member, end, word in ends_that_warp(scene):
         at.setdefault(member.ends[end], []).append((word, member.name))
@@ -111,13 +111,13 @@ def warping(scene):
 
 
 def shortened(lines):
-    """Few of many lines."""
+    """A few of many lines."""
     found = [line for line in lines if line]
     return found[:MOST] + [f"and {len(found) - MOST} more"] if len(found) > MOST else found
 
 
 def describe(scene):
-    """[(heading, lines)] of what there is."""
+    """[(heading, lines)] of the contents."""
     spin = scene.spin
     turning = [] if spin is None else [f"{place(spin.omega)} rad/s about {place(spin.centre)}"]
     kinds = (("Supports", [support(scene, n) for n in scene.nodes.values()]),

@@ -8,8 +8,8 @@ from reports.drawing.canvas import Canvas, INK, SOFT, STEEL, length
 
 # Main sizes of a structure and its axes.
 
-CLEAR = 13  # between a size and what is drawn [pt]
-SMALL = 0.02  # extents below this part of the largest have no dimension
+CLEAR = 13  # between a dimension and the drawing [pt]
+SMALL = 0.02  # extents below this fraction of the largest have no dimension
 
 
 def edges(low, high, axis):
@@ -25,7 +25,7 @@ def edges(low, high, axis):
 
 
 def put_size(canvas, view, low, high, axis):
-    """A dimension line beyond all that is drawn, on the lower or the right side."""
+    """A dimension line outside the drawing, on the lower or the right side."""
     along = view(np.eye(3)[axis]) / view.scale
     if np.linalg.norm(along) < 0.2:
         return
@@ -75,7 +75,7 @@ def put_axes(canvas, view):
         canvas.text(at + 26 * way + 7 * way / np.linalg.norm(way), name, INK, 8)
 
 
-# Sections beside a drawing, to a scale of their own, with their sizes.
+# Sections next to a drawing, at their own scale, with their sizes.
 
 SIZE, THINNEST = 84, 1.6  # largest size on paper, least thickness [pt]
 GAP = 46  # between two sections [pt]
@@ -83,7 +83,7 @@ MOST = 3
 
 
 def thick(polygon, scale):
-    """On paper, thin ones widened so that they can be seen."""
+    """The section on paper, with thin walls widened so that they are visible."""
     flat = polygon * scale
     sides = np.linalg.norm(np.roll(flat, -1, axis=0) - flat, axis=1)
     if len(flat) != 4 or min(sides[:2]) >= THINNEST:
@@ -172,7 +172,7 @@ def draw_sections(scene):
     return canvas.finish()
 
 
-FAR = 5  # sizes of a structure from which an axis is no longer drawn
+FAR = 5  # distance in sizes of the structure from which an axis is no longer drawn
 MOST_NAMES = 9  # nodes whose names are written
 
 
@@ -222,7 +222,7 @@ def put_names(canvas, look, scene):
 
 
 def near_spin(scene, points):
-    """Is the axis about which all turns so near that it can be drawn?"""
+    """Is the axis of rotation so near that it can be drawn?"""
     if scene.spin is None:
         return False
     away = np.linalg.norm(scene.spin.centre - points.mean(axis=0))

@@ -1,4 +1,4 @@
-"""Where members and their sections lie in space, undeformed."""
+"""Undeformed positions of members and their sections in space."""
 import itertools
 import math
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ class Line:
 
 
 def triad(x, y):
-    """Rows: along x, y as far as it is across, and the third."""
+    """Rows: the axis along x, the part of y normal to it, and the third axis."""
     x = x / np.linalg.norm(x)
     y = y - x * (x @ y)
     y = y / np.linalg.norm(y)
@@ -25,8 +25,7 @@ def triad(x, y):
 
 
 def chord(k, s):
-    """Where the arc of torsion and curvature k [1/m] is after a length s, in the triad at its
-    beginning."""
+    """Position on an arc with torsion and curvature k [1/m] after a length s, in the triad at its beginning."""
     w = np.linalg.norm(k)
     e = np.array([1.0, 0, 0])
     if w * s < 1e-9:
@@ -66,12 +65,12 @@ def rectangle(y, z, height, width):
 
 
 def meet(walls):
-    """Do they have a point in common: does an open section of them not warp?"""
+    """Do they have a point in common, so that an open section of them does not warp?"""
     return bool(set.intersection(*({w["from"], w["to"]} for w in walls)))
 
 
 def warps(section):
-    """Has it a constant of warping?"""
+    """Does it have a warping constant?"""
     given = section.get("given", {})
     if "Iw" in given:
         return float(given["Iw"]) > 0
@@ -124,13 +123,13 @@ def prism(line, here, there):
     return np.concatenate(sides), [edges[0], edges[-1]]
 
 
-# From where a structure is looked at: face-on where it lies in a plane, else from above at an
+# Viewpoint of a structure: face-on if it lies in a plane, otherwise from above at an
 # angle.
 
 WIDTH, HEIGHT = 400, 230  # of the structure on paper, at most [pt]
-FLAT = 1e-6  # extent below this part of the whole counts as none
+FLAT = 1e-6  # extent below this fraction of the whole counts as none
 AZIMUTHS, ELEVATIONS = (-72, -64, -56, -48, -40, -32), (18, 24, 31)  # [degrees]
-MOST_POINTS = 60  # that an angle is judged by
+MOST_POINTS = 60  # by which an angle is rated
 
 
 @dataclass
@@ -167,15 +166,14 @@ FACES = (View(X, Y), View(X, Z), View(Y, Z))
 
 
 def in_plane(normal, flat, shifts, turns):
-    """Does all lie and move in the plane across an axis, and turn about that axis only?"""
+    """Does everything lie and move in the plane normal to an axis, and rotate about that axis only?"""
     others = np.eye(3)[[i for i in range(3) if i != normal]]
     return bool(flat[normal] and all(abs(v[normal]) <= FLAT * np.linalg.norm(v) for v in shifts)
                 and all(max(abs(others @ v)) <= FLAT * np.linalg.norm(v) for v in turns))
 
 
 def openness(view, points):
-    """Least distance on paper between points that are apart in space, to the size of the
-    picture."""
+    """Smallest distance on paper between points that are separate in space, relative to the size of the picture."""
     flat = view(points)
     apart = [(np.linalg.norm(flat[i] - flat[k]), np.linalg.norm(points[i] - points[k]))
              for i, k in itertools.combinations(range(len(points)), 2)]
@@ -203,6 +201,6 @@ def choose_view(points, shifts, turns, solid):
 
 
 def scaled(view, points):
-    """The same view, as large as there is room for these points [n x 3]."""
+    """The same view, at the largest scale that fits these points [n x 3]."""
     width, height = np.maximum(np.ptp(View(view.right, view.up)(points), axis=0), 1e-300)
     return View(view.right, view.up, min(WIDTH / width, HEIGHT / height))

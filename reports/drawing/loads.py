@@ -1,4 +1,4 @@
-"""Arrows of loads, of driven motions and of axes that turn."""
+"""Arrows of loads, of driven motions and of rotating axes."""
 from dataclasses import replace
 
 import numpy as np
@@ -8,7 +8,7 @@ from reports.drawing.scene import COMPONENTS
 
 ARROW, SHORT, RADIUS = 38, 20, 15  # [pt]
 ALONG = 9  # arrows of a load along a member
-MOST_MOTIONS = 4  # with their ranges; more are in the list below the drawing
+MOST_MOTIONS = 4  # with their ranges; others are in the list below the drawing
 UNITS = {"force": "N", "moment": "N m", "distributed": "N/m", "distributed_moment": "N m/m",
          "gravity": "m/s²"}
 
@@ -18,7 +18,7 @@ def unit(v):
 
 
 def arc(view, at, axis, radius=RADIUS, begin=-0.35, turn=1.5):
-    """Around an axis through a point, right-handed, on paper [n x 2]. turn: of pi."""
+    """An arc around an axis through a point, right-handed, on paper [n x 2]. turn: in units of pi."""
     axis = unit(axis)
     side = view.right - axis * (axis @ view.right)
     side = unit(side if np.linalg.norm(side) > 0.2 else view.up - axis * (axis @ view.up))
@@ -28,7 +28,7 @@ def arc(view, at, axis, radius=RADIUS, begin=-0.35, turn=1.5):
 
 
 def straight(view, at, way, ways, size=ARROW):
-    """An arrow on paper [2 x 2]: away from the point, or onto it where a member lies in its way."""
+    """An arrow on paper [2 x 2]: away from the point, or towards it if a member is in the way."""
     flat = view(unit(way)) / view.scale
     size = size * max(np.linalg.norm(flat), 0.45)
     flat = unit(flat)
@@ -38,7 +38,7 @@ def straight(view, at, way, ways, size=ARROW):
 
 
 def size(load):
-    """Returns the size of the load's vector, or of both where it varies."""
+    """Returns the magnitude of the load's vector, or of both if it varies."""
     unit_of = UNITS[load.kind]
     if not load.varies():
         return vector(load.vector, unit_of)
@@ -61,7 +61,7 @@ def put_force(canvas, view, load, at, ways):
 def put_moment(canvas, view, load, at):
     line = arc(view, at, load.vector)
     canvas.arrow(line, LOAD, mark=load.name)
-    if np.ptp(line, axis=0).min() < 0.3 * RADIUS:  # seen from its edge: its axis is clearer
+    if np.ptp(line, axis=0).min() < 0.3 * RADIUS:  # an arc seen from its edge: draw its axis, which is clearer
         shaft = straight(view, at, load.vector, [], ARROW + 8)
         canvas.arrow(shaft, LOAD, 1.0, head=6)
         canvas.arrow(shaft[0] + 0.86 * (shaft - shaft[0]), LOAD, 1.0, head=6)
@@ -69,7 +69,7 @@ def put_moment(canvas, view, load, at):
 
 
 def beside_member(flat, way, gravity):
-    """Where arrows are moved to that would lie on the member, or, of gravity, on other loads."""
+    """Shifts arrows that would lie on the member or, for gravity, on other loads."""
     along = unit(flat[-1] - flat[0])
     if abs(along @ way) > 0.9:
         return SHORT * np.array([-1.0, 0]) if abs(along[1]) > 0.5 else SHORT * np.array([0, -1.0])
@@ -77,18 +77,18 @@ def beside_member(flat, way, gravity):
 
 
 def in_fixed(load, line, v):
-    """A vector of a load on a member."""
+    """The vector of a load on a member."""
     return line.axes[0].T @ v if load.member_axes else v
 
 
 def point_on(line, places):
-    """Points of a member at parts of its length [n x 3]."""
+    """Points of a member at fractions of its length [n x 3]."""
     share = np.linspace(0, 1, len(line.points))
     return np.array([np.interp(places, share, line.points[:, i]) for i in range(3)]).T
 
 
 def put_within(canvas, view, load, line):
-    """A force or a moment at a place of a member."""
+    """A force or a moment at a position of a member."""
     at = point_on(line, load.within[:1])[0]
     fixed = replace(load, vector=in_fixed(load, line, load.vector))
     if load.kind == "moment":
@@ -98,8 +98,8 @@ def put_within(canvas, view, load, line):
 
 
 def put_along(canvas, view, load, line, told):
-    """Arrows along a member, onto its line; a thin line joins their tails. `told`: words that are
-    there already."""
+    """Arrows along a member, pointing to its line; a thin line joins their tails. `told`: words that are already
+    drawn."""
     parts = np.linspace(0.03, 0.97, ALONG)[:, None]
     begin, end = load.within or (0, 1)
     ways = (1 - parts) * in_fixed(load, line, load.vector) + parts * in_fixed(load, line, load.last)
@@ -151,7 +151,7 @@ def put_loads(canvas, view, scene, lines, into):
 
 
 def motions_of(scene, node):
-    """[(direction, is a turn, name of the motion)] of the prescribed components that move."""
+    """[(direction, whether it is a rotation, name of the motion)] of the prescribed components that move."""
     out = [(np.eye(3)[COMPONENTS.index(c) % 3], c[0] == "r", motion)
            for c, motion in node.driven.items()]
     out += [(t.axis, True, t.angle) for t in node.turns if t.angle in scene.motions]
@@ -191,7 +191,7 @@ def put_motions(canvas, view, scene, into):
 
 
 def put_spin(canvas, view, scene, size):
-    """The axis about which everything turns, and which way."""
+    """The axis about which everything rotates, and its direction."""
     if scene.spin is None:
         return
     omega, at = scene.spin.omega, scene.spin.centre

@@ -15,7 +15,7 @@ WARPING = 7  # likewise
 
 
 def shade(colour, quad):
-    """Lighter where it faces the light."""
+    """Returns a lighter colour if it faces the light."""
     normal = np.cross(quad[1] - quad[0], quad[2] - quad[1])
     size = np.linalg.norm(normal)
     bright = abs(normal @ LIGHT) / size if size > 0 else 1
@@ -56,7 +56,7 @@ def put_solid(canvas, view, line, here, there):
 
 
 def breadth(view, line, polygons):
-    """Returns the breadth of a member on paper, across its line [pt]."""
+    """Returns the width of a member on paper, normal to its line [pt]."""
     if not polygons:
         return 0
     flat = view(line.points[[0, -1]])
@@ -88,7 +88,7 @@ def put_hinges(canvas, view, member, line):
 
 
 def ends_that_warp(scene):
-    """(member, its end: 0 or 1, fixed, free or shared) of all whose section warps."""
+    """(member, its end: 0 or 1, fixed, free or shared) of all members whose section warps."""
     if "warping" in scene.omitted or "all" in scene.omitted:
         return
     for member in scene.members.values():
@@ -115,7 +115,7 @@ def put_warping(canvas, view, scene, lines):
 
 
 def put_bodies(canvas, view, scene):
-    """Convex hulls of what moves together; rods between parts that are far from each other."""
+    """Convex hulls of nodes that move together; rods between parts that are far from each other."""
     for name, node in scene.nodes.items():
         own = [n.position for n in scene.nodes.values() if n.part_of == name]
         if not own or node.part_of:
@@ -159,7 +159,7 @@ def spiral(turns=2.2, radius=12):
 
 
 def stands_along(view, spring):
-    """Direction on paper of a spring to the ground: that of its stiffest shift, else downwards."""
+    """Direction on paper of a spring to the ground: that of its stiffest displacement, otherwise downwards."""
     k = spring.stiffness[:3] if spring.stiffness[:3].any() else spring.acts[:3]
     way = view(np.eye(3)[int(np.argmax(k))]) if k.any() else np.zeros(2)
     way = way if np.linalg.norm(way) > 0.2 * view.scale else np.array([0, -1.0])
@@ -191,7 +191,7 @@ def put_springs(canvas, view, scene):
 
 
 def put_ground(canvas, at, away):
-    """A hatched line across a direction."""
+    """A hatched line normal to a direction."""
     way = away / np.linalg.norm(away)
     across = np.array([-way[1], way[0]])
     canvas.line([at - 11 * across, at + 11 * across], INK, 1.3)
@@ -203,19 +203,18 @@ def put_ground(canvas, at, away):
 
 PLATE = 15  # half a side of a clamp's plate [pt]
 HATCHES = 9  # lines of a plate
-MOST_LETTERS = 4  # supports with letters; more are in the list below the drawing
+MOST_LETTERS = 4  # supports with letters; others are in the list below the drawing
 
 
 def held_of(scene, node):
-    """Components that do not move: held, driven by a motion that stays at zero, turns that are
-    held."""
+    """Components that do not move: held ones, those driven by a motion that stays at zero, and held rotations."""
     still = [c for c, motion in node.driven.items() if scene.motions.get(motion) == (0, 0)]
     turned = [f"turn {i + 1}" for i, t in enumerate(node.turns) if t.angle == "held"]
     return [c for c in COMPONENTS if c in node.held or c in still] + turned
 
 
 def rigid(scene, name):
-    """Nodes that move with one, itself among them."""
+    """Nodes that move with a node, including itself."""
     return [name] + [n.name for n in scene.nodes.values() if n.part_of == name]
 
 
@@ -231,7 +230,7 @@ def into(scene, lines, name):
 
 
 def put_plate(canvas, view, at, way, mark):
-    """A plate across a member in space; 0: it is seen from its edge."""
+    """A plate normal to a member in space; 0 if it is seen from its edge."""
     side = np.cross(way, [0, 0, 1.0] if abs(way[2]) < 0.9 else [1.0, 0, 0])
     side /= np.linalg.norm(side)
     other, h = np.cross(way, side), PLATE / view.scale
@@ -250,7 +249,7 @@ def put_plate(canvas, view, at, way, mark):
 
 
 def put_edge(canvas, view, at, way, mark):
-    """The plate from its edge: a hatched line behind the node."""
+    """The plate seen from its edge: a hatched line behind the node."""
     flat = view(way)
     flat = flat / np.linalg.norm(flat) if np.linalg.norm(flat) > 0.1 * view.scale else \
         np.array([0, 1.0])
@@ -259,7 +258,7 @@ def put_edge(canvas, view, at, way, mark):
 
 
 def put_pin(canvas, at, way, mark, roller):
-    """A triangle on the side `way` of the node; roller: something slides across."""
+    """A triangle on the side `way` of the node; roller: it can slide."""
     across = np.array([-way[1], way[0]])
     foot = at + 11 * way
     canvas.area(np.array([at, foot - 7 * across, foot + 7 * across]), "white", INK, 1.1, mark=mark,
@@ -282,8 +281,7 @@ def put_fork(canvas, view, at, fork, mark):
 
 
 def pin_way(view, seen, ways):
-    """Below the node; where one direction on paper is held only, along it, away from the
-    members."""
+    """The symbol is below the node; if only one direction on paper is held, it is along it, away from the members."""
     down = np.array([0, -1.0])
     if not view.face_on or len(seen) != 1:
         return down
@@ -293,7 +291,7 @@ def pin_way(view, seen, ways):
 
 
 def put_support(canvas, view, scene, lines, node):
-    """Symbol of one node, whose components are held at least in part."""
+    """Symbol of a node with held components."""
     mark, at, held = f"support_{node.name}", view(node.position), held_of(scene, node)
     ways = into(scene, lines, node.name)
     if len(held) == 6:

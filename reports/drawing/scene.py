@@ -5,12 +5,12 @@ import numpy as np
 import yaml
 
 COMPONENTS = ("ux", "uy", "uz", "rx", "ry", "rz")
-Loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)  # every scalar is text until it is read
+Loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)  # every scalar is text until it is converted
 
 
 @dataclass
 class Turn:
-    """A turn about an axis, which is free, held or follows a motion."""
+    """A rotation about an axis, which is free, held or follows a motion."""
     axis: np.ndarray
     angle: str
 
@@ -46,8 +46,8 @@ class Member:
 @dataclass
 class Load:
     """kind: force, moment, distributed, distributed_moment, gravity; on: a node or a member.
-    within: of which parts of its length, twice the same of a force or a moment, None: at a node;
-    last: the vector where that ends."""
+    within: the fractions of its length between which it acts, equal for a force or a moment, None at a node; last:
+    the vector at its end."""
     name: str
     kind: str
     vector: np.ndarray
@@ -66,7 +66,7 @@ class Load:
 
 @dataclass
 class Spring:
-    """Between two nodes; ends[0] is empty where it stands on the ground."""
+    """Connects two nodes; ends[0] is empty if it is connected to the ground."""
     name: str
     ends: tuple
     stiffness: np.ndarray  # diagonal [6]
@@ -75,13 +75,13 @@ class Spring:
 
     @property
     def acts(self):
-        """Along and about which axes?"""
+        """Axes along and about which it acts."""
         return (self.stiffness != 0) | (self.damping != 0) | np.array(self.tables)
 
 
 @dataclass
 class Spin:
-    """Axes that turn. omega [rad/s] at the end of the path, centre [m]."""
+    """Rotating axes. omega [rad/s] at the end of the path, centre [m]."""
     omega: np.ndarray
     centre: np.ndarray
 
@@ -90,7 +90,7 @@ class Spin:
 class Scene:
     """Content of a scene file."""
     name: str
-    sections: dict  # name -> what the file says of it
+    sections: dict  # name -> its entry in the file
     nodes: dict
     members: dict
     loads: list
@@ -142,7 +142,7 @@ KINDS = ("force", "moment", "distributed", "distributed_moment", "gravity")
 
 
 def read_load(name, said):
-    """None: a temperature, which is no arrow."""
+    """None: a temperature, which has no arrow."""
     kind = next((k for k in KINDS if k in said), None)
     if kind is None:
         return None
@@ -199,7 +199,7 @@ def nodes_asked(said):
 
 
 def read(text):
-    """The scene of a file's text, or None where there is no text."""
+    """The scene in the text of a file, or None if there is no text."""
     if not text:
         return None
     said = yaml.load(text, Loader)

@@ -13,8 +13,9 @@ WIDER = 1.01  # of the first one, for which a range of more elements is listed, 
 
 @dataclass
 class Range:
-    """Where a formulation with so many elements is within. box: or None; reached: points that are
-    within, anywhere; known: with a reference; whole: all; exceptions: points of the box that are not."""
+    """Range in which a formulation with this number of elements is within the tolerance. box: or None; reached: all
+    points within it; known: points with a reference; whole: all points; exceptions: points of the box that are not
+    within it."""
 
     mesh: int
     box: object
@@ -30,10 +31,9 @@ class Range:
 
 @dataclass
 class Answer:
-    """of: ranges in all quantities by mesh; single: {quantity: the same}; first: the one that is
-    listed first, None where there is none; fewer: one of fewer elements; wider: one of more;
-    absent: it offers at no point what is needed; decided: the quantity that takes the most
-    elements, empty where no single one does."""
+    """of: ranges in all quantities by mesh; single: {quantity: the same}; first: the one that is listed first, or
+    None; fewer: one with fewer elements; wider: one with more; absent: it does not support what is needed at any
+    point; decided: the quantity that needs the most elements, empty if no single one does."""
 
     key: str
     of: list
@@ -45,7 +45,7 @@ class Answer:
     decided: str = ""
 
     def decide(self):
-        """With the most elements that do not do in all quantities: is one of these behind?"""
+        """With the most elements that are not enough in all quantities: is one of these the reason?"""
         short = [i for i, r in enumerate(self.of) if r.reached < r.known]
         if not short or not self.single:
             return
@@ -175,7 +175,7 @@ def together(made):
 
 
 def unknown(sweep, found, q):
-    """(points, Box or None) without a reference for a quantity."""
+    """(points, Box or None) that lack a reference for a quantity."""
     known = found.known[:, q]
     without = found.points - known
     if not without.any():
@@ -233,7 +233,7 @@ def count(number):
 
 
 def plenty(number):
-    """A number with its thousands apart."""
+    """A number with separated thousands."""
     return f"{number:,}".replace(",", "\u202f")
 
 
@@ -295,7 +295,7 @@ def condition(part, chosen):
 
 
 def conditions(box: Box):
-    """All of a box: empty where it is everywhere."""
+    """Describes a box; empty if it covers everything."""
     return " and ".join(condition(p, c) for p, c in zip(box.lattice.parts, box.chosen)
                         if c is not None)
 
@@ -317,5 +317,5 @@ def held(box):
 
 
 def unjudged(whole, asked):
-    """Points at which something has nothing to be measured by."""
+    """Points at which something has no reference."""
     return f"; {plenty(whole - asked)} of all {plenty(whole)} cannot be judged" if asked < whole else ""

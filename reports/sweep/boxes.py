@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 ALLOWED = 0.03  # share of the points of a box that may be exceptions
-LEAST = 0.05  # share of all points below which a box is not worth a sentence
+LEAST = 0.05  # share of all points below which a box is not printed
 FEWEST = 3  # points
 GAIN = 1.2  # of points, for which another condition is taken
 WEIGHT = 3  # of an exception against a point that holds: a box ends before mixed ground
@@ -102,12 +102,12 @@ def choices_of(parts):
 
 
 def fewest(whole):
-    """Points of a box that is worth a sentence."""
+    """Number of points from which a box is printed."""
     return max(min(FEWEST, whole), LEAST * whole)
 
 
 def scored(good, bad, whole):
-    """Points that hold less what exceptions weigh; -infinite where a box is not allowed."""
+    """Points that hold minus the weight of exceptions; -infinite if a box is not allowed."""
     points = good + bad
     fine = (bad <= ALLOWED * points) & (points >= fewest(whole))
     return np.where(fine, good - WEIGHT * bad, -np.inf)
@@ -180,8 +180,8 @@ class Search:
         self.keep(score, {c: rows[c], a: rows[a], b: rows[b]}, {})
 
     def climb(self, weight):
-        """One axis after the other, from everything, while exceptions weigh so much: a way to boxes
-        of many conditions where those of few are not allowed."""
+        """Restricts one axis after the other, starting from everything, with this weight of exceptions: finds boxes
+        with many conditions if those with few are not allowed."""
         fixed, before = {}, None
         for _ in range(ROUNDS):
             if fixed == before:
@@ -193,7 +193,7 @@ class Search:
                 fixed[axis] = int(value.argmax())
 
     def ascend(self):
-        """One axis after the other, from the best there is until nothing is gained."""
+        """Changes one axis after the other, starting from the best box, until nothing is gained."""
         before = None
         while self.best and before != self.best:
             before = dict(self.best)
@@ -247,7 +247,7 @@ def candidates(lattice, good, bad, whole):
 
 
 def largest(lattices, counts, whole=None):
-    """The Box, or None where points hold in no box that is worth a sentence.
+    """The Box, or None if points hold in no box that is large enough.
     counts: [(good, bad)] of the cells of each lattice; the first one is preferred. whole: as in
     Search."""
     every = [box for lattice, (good, bad) in zip(lattices, counts)

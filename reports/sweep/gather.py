@@ -1,5 +1,5 @@
-"""One pass over a sweep: what the page needs of any number of points, counted in the cells of a
-lattice. The last quantity of every table stands for all of them together."""
+"""One pass over a sweep: collects the data of the page for any number of points, counted in the cells of a lattice.
+The last quantity of every table represents all of them together."""
 import itertools
 import math
 from dataclasses import dataclass, field
@@ -146,7 +146,7 @@ def with_ratio(sweep, parts, pair, extent):
     names = "/".join(sweep.axes[k].name for k in pair)
     axis = stored.Axis(names, "1", "ratio", 0, True)
     rest = [k for k in range(len(parts)) if k not in pair]
-    most = 2 * max(len(parts[k]) for k in pair)  # one column in the place of two
+    most = 2 * max(len(parts[k]) for k in pair)  # one column instead of two
     return Lattice((pair, *((k,) for k in rest)),
                    (parts_of(axis, extent, most), *(parts[k] for k in rest)))
 
@@ -172,7 +172,7 @@ def lattice_of(sweep):
             *(with_ratio(sweep, parts, pair, extent) for pair, extent in zip(pairs, found))]
 
 
-NAMED = 3  # exceptions of a box that are kept, the worst ones
+NAMED = 3  # exceptions of a box that are stored, the worst ones
 
 
 @dataclass
@@ -240,7 +240,7 @@ def empty(sweep, lattices):
 
 
 def known_in(sweep, piece):
-    """Is there a reference? [points, Q+1]; of all: of one at least."""
+    """Is there a reference? [points, Q+1]; last: for at least one quantity."""
     own = ~np.isin(piece.kind, sweep.without)
     return np.concatenate([own, own.any(axis=1, keepdims=True)], axis=1)
 
@@ -311,7 +311,7 @@ def take_outcomes(into, sweep, piece):
 
 
 def count(reach, cell, asked, reached):
-    """Adds points to a table of what is reached."""
+    """Adds points to a table of reached levels."""
     _, f, q, classes = reach.shape
     flat = ((cell[:, None, None] * f + np.arange(f)[None, :, None]) * q +
             np.arange(q)[None, None, :]) * classes + reached

@@ -1,7 +1,6 @@
 """Maps of a sweep as SVG of their own: a field for each cell of two axes, with a colour and a sign
-that says the same. Fields of a row that are alike are one, so that maps stay short.
-
-assets/sweep.js draws the same maps over other axes: what is changed here is changed there."""
+that says the same. Equal adjacent fields of a row are joined, so that maps are short. assets/sweep.js draws the same
+maps over other axes; change both together."""
 import numpy as np
 from markupsafe import escape
 from matplotlib import colormaps
@@ -11,7 +10,7 @@ from reports import style
 from reports.chart import linear_ticks, log_ticks
 from reports.figures import FONT, Image, number
 
-EMPTY, UNKNOWN = -2, -1  # no point there; no reference to judge by
+EMPTY, UNKNOWN = -2, -1  # no point; no reference
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 WIDE, LEAST_FIELD, MOST_FIELD = 230, 11.5, 40  # of a map, of a field, pixels
 LEFT, TOP, BELOW, RIGHT = 52, 36, 38, 12
@@ -69,7 +68,7 @@ def states(reach, points, look):
 
 
 def runs(row):
-    """[(first, length, state)] of what is drawn of a row."""
+    """[(first, length, state)] of the fields that are drawn in a row."""
     ends = np.flatnonzero(np.diff(row, prepend=row[0] - 1, append=row[-1] - 1))
     return [(int(a), int(b - a), int(row[a])) for a, b in zip(ends, ends[1:]) if row[a] != EMPTY]
 
@@ -95,7 +94,7 @@ def place_of(part, values):
 
 
 def marks(part):
-    """[(place in parts, words)] where ticks may stand: at fields of one value, or round numbers."""
+    """[(position in parts, words)] of possible ticks: at fields of one value, or at round numbers."""
     if part.axis.words or (part.exact and (part.low == part.high).all()):
         return [(i + 0.5, part.name(i)) for i in range(len(part))]
     low, high = part.low[0], part.high[-1]

@@ -1,4 +1,4 @@
-"""Reads what `beamwork sweep` stored, piece by piece: no more of it is in memory than a piece."""
+"""Reads the results of `beamwork sweep` piece by piece: only one piece is in memory."""
 import pathlib
 from dataclasses import dataclass
 
@@ -8,18 +8,18 @@ import numpy as np
 from reports.data import Unreadable, text
 
 MARK, VERSION = "beamwork_sweep", 1
-GROUP = "experiments/sweep"  # of files of before: the root
+GROUP = "experiments/sweep"  # in older files: the root
 PIECE = 1_000_000  # values of one table that are read at once
 SCATTERED = ("sobol", "halton", "random")
-NONE = "none"  # how kinds of references begin that there are not
-OTHER = "other_model"  # the outcome of a formulation that leaves physics out where that matters
-ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of what was not asked
+NONE = "none"  # prefix of kinds of missing references
+OTHER = "other_model"  # the outcome of a formulation that omits relevant physics
+ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of runs that were not requested
 
 
 @dataclass(frozen=True)
 class Axis:
-    """A parameter that was varied. log: its range is cut by equal factors; words: its texts, by
-    index; empty where it has numbers."""
+    """A parameter that was varied. log: its range is divided by equal factors; words: its texts, by index; empty if
+    it has numbers."""
 
     name: str
     unit: str
@@ -33,7 +33,7 @@ class Axis:
         return self.kind in SCATTERED
 
     def value(self, number):
-        """A value of a point, as the reader says it."""
+        """A value of a point, as text for readers."""
         if self.words:
             return self.words[int(number)]
         return f"{number:.4g}" + (f" {self.unit}" if self.unit not in ("", "1") else "")
@@ -47,8 +47,8 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Worst:
-    """A point that a formulation is worst at. quantity: empty where there is no solution, as status
-    says; error: relative; scene: name of the scene file that was kept, or empty."""
+    """A worst point of a formulation. quantity: empty if there is no solution (see status); error: relative; scene:
+    name of the scene file that was kept, or empty."""
 
     point: int
     formulation: str
@@ -62,8 +62,7 @@ class Worst:
 @dataclass
 class Piece:
     """Some consecutive points. at: [points, axes]; reference, its uncertainty `doubt`, kind: [points, quantities];
-    value, error: [points, formulations, meshes, quantities], NaN where there is none; error is
-    relative;
+    value, error: [points, formulations, meshes, quantities], NaN if there is none; error is relative;
     status, cost [s]: [points, formulations, meshes]; least: elements from which on every mesh is
     within the tolerance, 0 for none [points, formulations, quantities]."""
 
@@ -103,7 +102,7 @@ class Sweep:
 
     @property
     def without(self):
-        """Numbers of the kinds of references that there are not."""
+        """Numbers of the kinds of missing references."""
         return [k for k, name in enumerate(self.kinds) if name.startswith(NONE)]
 
     def outcomes(self, names):
@@ -160,12 +159,12 @@ class Sweep:
 
 
 def home(file):
-    """Where a file has the tables of a sweep, or None."""
+    """Location of the tables of a sweep in a file, or None."""
     return file if MARK in file.attrs else file.get(GROUP)
 
 
 def is_there(path):
-    """Does the file hold a sweep? False for what cannot be read."""
+    """Does the file contain a sweep? False for files that cannot be read."""
     try:
         with h5py.File(path) as file:
             return home(file) is not None
@@ -174,7 +173,7 @@ def is_there(path):
 
 
 def is_alone(path):
-    """A sweep, and nothing of verify?"""
+    """Does it contain a sweep and no results of verify?"""
     if not is_there(path):
         return False
     with h5py.File(path) as file:
@@ -204,7 +203,7 @@ def axes_of(file):
 
 
 def check(file, sweep):
-    """ValueError where a table has not the size that the others ask for."""
+    """Raises ValueError if the size of a table does not match the others."""
     f, m, q = len(sweep.keys), len(sweep.meshes), len(sweep.quantities)
     whole = {"points": (len(sweep.axes),), "reference_doubt": (q,), "reference_kind": (q,),
              "value": (f, m, q), "error": (f, m, q), "status": (f, m), "cost": (f, m),
@@ -223,7 +222,7 @@ def worst_of(file):
 
 
 def read(path):
-    """The Sweep of a file; Unreadable names what is wrong with it."""
+    """The Sweep of a file; raises Unreadable with the reason."""
     try:
         with h5py.File(path) as whole:
             file = home(whole)

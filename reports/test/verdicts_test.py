@@ -92,7 +92,7 @@ class Causes(ProgramTest):
         for last, words in (
             ([experiment("without", True)], "gone without shear"),
             ([instead], "gone with other"),
-            ([experiment("without", False)], "none of these takes it away"),
+            ([experiment("without", False)], "none of these removes it"),
         ):
             self.assertEqual(deviations.verdict_of({"experiments": [finer, *last]}), words)
         coarse = {"experiments": [experiment("finer", True, "more elements"), instead]}

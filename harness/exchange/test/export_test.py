@@ -112,7 +112,7 @@ class Decks(ExportTest):
             "Poisson": plain.replace("shear_modulus: 100e9", "shear_modulus: 1e9"),
             "on members": plain.replace("force: [1.0, 0, 0], on: tip",
                                         "distributed: [1, 0, 0], on: bar"),
-            "push: on members": plain.replace("force: [1.0, 0, 0], on: tip",
+            "push: loads on members": plain.replace("force: [1.0, 0, 0], on: tip",
                                               "force: [1.0, 0, 0], on: bar, where: 0.5"),
             "one stiffness of a loaded": cantilever(1.0, PATH).replace(
                 "quantities:", "  stiff: {compliance: {node: tip, about: run}}\nquantities:\n"
@@ -194,7 +194,7 @@ class Answers(ExportTest):
                                                 encoding="utf-8")
         found = read_back.series(decks)[1]
         self.assertEqual([row[2] for row in found if row[0] == "turn"], ["8", "16"])
-        with self.assertRaisesRegex(read_back.Incomplete, "as many elements"):
+        with self.assertRaisesRegex(read_back.Incomplete, "same number of elements"):
             read_back.series([decks[0], decks[0]])
         text = decks[1].read_text(encoding="utf-8")
         decks[1].write_text(text.replace("**CASE ", "**CASE other"), encoding="utf-8")

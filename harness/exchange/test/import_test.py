@@ -221,7 +221,7 @@ class Import(ProgramTest):
         self.refused(2, "--imported-must-pass requires --imported FILE.h5", *select, "--imported-must-pass")
         self.refused(2, "nothing of", "verify", "-k", "roll_up/default", "-f", "collocation", "--imported",
                      self.folder / "theirs.h5", "--imported-must-pass")
-        self.refused(2, "no imported value was judged", "verify", "-k", "elastica/default and u_over_L", "-f",
+        self.refused(2, "no imported value has a verdict", "verify", "-k", "elastica/default and u_over_L", "-f",
                      "collocation", "--imported", self.folder / "theirs.h5", "--imported-must-pass")
 
     def test_quantities_on_their_own_meshes(self):
@@ -260,7 +260,7 @@ class Import(ProgramTest):
             "rivals.h5: 1 of 2 series are of cases or parameters that were not run, the first elastica/default/rival",
             done.stderr)
         (self.folder / "copy.h5").write_bytes((self.folder / "theirs.h5").read_bytes())
-        self.refused(2, "is in this run already; give it once", *select, "--imported",
+        self.refused(2, "is already in this run; give it once", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "copy.h5")
         self.refused(2, "is given twice; give it once", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "theirs.h5")

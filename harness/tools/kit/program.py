@@ -1,6 +1,5 @@
-"""The program as its tests call it, and what they write: one place for every test in Python.
-
-reference/test does without it: what derives truths shares nothing with what they judge.
+"""Calls of the program, and files, that all tests in Python share. reference/test does not use it, because programs
+that derive reference values share nothing with the program under test.
 """
 import json
 import os
@@ -17,13 +16,12 @@ if "BEAMWORK_TRUTHS" in os.environ:  # also for programs that are run in another
     os.environ["BEAMWORK_TRUTHS"] = TRUTHS
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
-# A shell's background job ignores it, and the program leaves ignored what was ignored.
+# Background jobs of a shell ignore it, and the program keeps ignored signals ignored.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def run(*arguments, program=PROGRAM, **options):
-    """The finished process with its text; options as of subprocess.run. Never raises for a
-    status."""
+    """The finished process with its text; options as for subprocess.run. Never raises for a status."""
     return subprocess.run([program, *map(str, arguments)], text=True, check=False,
                           **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 
@@ -49,7 +47,7 @@ def drawn(folder, *selection, options=()):
 
 
 def broken(record):
-    """Sentences of the claims that are broken, of what `element-test --format json` says."""
+    """Sentences of violated requirements, from the output of `element-test --format json`."""
     return [c["sentence"] for c in record["claims"] if c["outcome"] == "broken"]
 
 
@@ -59,7 +57,7 @@ def read_json(path):
 
 
 class ProgramTest(unittest.TestCase):
-    """A test with a folder of its own, which is empty before and gone after it."""
+    """A test with its own folder, which is empty before the test and removed after it."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -84,7 +82,7 @@ class ProgramTest(unittest.TestCase):
         return json.loads(self.answered(*arguments, "--format", "json", **options).stdout)
 
     def refused(self, code, words, *arguments, silent=True, **options):
-        """One line of error with all the words, that code, and nothing was computed."""
+        """Requires an error of one line with all the words, the given status, and no computation."""
         done = run(*arguments, **options)
         self.assertEqual(done.returncode, code, (arguments, done))
         self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)

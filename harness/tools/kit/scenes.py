@@ -2,7 +2,7 @@
 import pathlib
 import re
 
-# Ten lines are enough: a leaf spring clamped at one end, loaded at the other.
+# A minimal scene: a leaf spring clamped at one end and loaded at the other.
 LEAF = """\
 beamwork: 1
 sections:

@@ -19,12 +19,12 @@ def escaped(text):
 
 
 def is_behind(source, start):
-    """Does it stand behind something on its line, or continue there?"""
+    """Does it follow something on its line, or continue such a comment?"""
     return bool(source[source.rfind("\n", 0, start) + 1:start].strip())
 
 
 def comments(source):
-    """Each as documentation of what it stands before, or, behind something, of that."""
+    """Makes each comment document the following declaration or, if it follows something on its line, that."""
     seen = []
 
     def one(found):
@@ -45,15 +45,15 @@ def features(source):
 
 
 def is_alone(code):
-    """Is what follows a declaration that no comment of its own documents?"""
+    """Is the following declaration without its own comment?"""
     declaration = code[:code.find(";") + 1]
     behind = code[len(declaration):].split("\n", 1)[0]
     return "/*" not in declaration + behind
 
 
 def groups(source):
-    """Members behind "Required: ..." or "Optional: ..." stand together under these words; where
-    nothing else is said of the first one, the words document it too."""
+    """Groups members after "Required: ..." or "Optional: ..." under these words, which also document the first one if
+    it has no other comment."""
     start = source.find("typedef struct element_type {")
     end = source.find("} element_type;")
     if start < 0:
@@ -76,7 +76,7 @@ def groups(source):
 
 
 def apart(source):
-    """Members that are declared together share what stands behind them."""
+    """Members that are declared together share the comment after them."""
     return re.sub(r"^( +[\w ]+?)((?: \w+(?:\[\w*\])?,)+)( \w+(?:\[\w*\])?; +)(/\*.*?\*/)",
                   lambda found: found[1] + found[2].replace(",", f" {found[4]},") + found[3]
                   + found[4], source, flags=re.MULTILINE | re.DOTALL)
@@ -86,7 +86,7 @@ def main(path):
     """Writes the header to standard output."""
     source = apart(features(pathlib.Path(path).read_text(encoding="utf-8")))
     marked = groups(source)
-    # what groups() wrote is documentation already
+    # output of groups() is already documentation
     parts = re.split(r"(/\*\*@.*?\*/)", marked, flags=re.DOTALL)
     kept = parts[1::2]
     text = comments("\0".join(parts[::2]))

@@ -21,14 +21,14 @@ def utf8(value, what):
 
 
 def required(value, what):
-    """The bytes of a text that must be there."""
+    """The bytes of a required text."""
     if value is None:
         raise TypeError(f"{what}: a text is expected, not None")
     return utf8(value, what)
 
 
 def names(values, what):
-    """Formulations, separated by blanks; None where there are none."""
+    """Formulations, separated by blanks; None if there are none."""
     return b" ".join(required(v, what) for v in values) if values else None
 
 
@@ -57,7 +57,7 @@ def whole_list(values, what):
 
 
 def options(values):
-    """Options as JSON; None where there are none."""
+    """Options as JSON; None if there are none."""
     try:
         return json.dumps(values, allow_nan=False,
                           default=lambda v: v.item()).encode() if values else None

@@ -10,7 +10,7 @@ def escape(value):
 
 
 def significant(value, digits):
-    """A number with so many digits; nothing where there is none."""
+    """A number with this number of digits; nothing if there is none."""
     if value is None or not math.isfinite(value):
         return ""
     return f"{value:.{max(1, digits)}g}"
@@ -78,7 +78,7 @@ def scene(about, text):
 
 
 def mistakes(told):
-    """HTML of the mistakes of a scene that cannot be built."""
+    """HTML of the errors of a scene that cannot be built."""
     return table(("mistakes", ), ((str(m), ) for m in told))
 
 
@@ -94,7 +94,7 @@ def result(shown):
 
 
 def convergence(shown):
-    """A row for each limit: the errors over the meshes, and what is said of it."""
+    """A row for each limit: the errors over the meshes, and its message."""
     meshes = sorted({r["elements"] for r in shown})
     errors = {(r["formulation"], r["quantity"], r["elements"]): r for r in shown}
 
@@ -115,7 +115,7 @@ def convergence(shown):
 
 
 def outcome(shown):
-    """PASS, FAIL or that nothing was judged, and the counts."""
+    """PASS, FAIL or the absence of verdicts, and the counts."""
     counted = ", ".join(f"{n} {word}" for word, n in shown.counts.items() if n)
     word = {"pass": "PASS", "fail": "FAIL"}.get(shown.outcome, shown.outcome)
     return f"{word}: {counted}"

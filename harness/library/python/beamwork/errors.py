@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Mistake:
-    """One mistake of a scene: where (line and column from 1; 0: nowhere), and what is meant."""
+    """One error of a scene: its position (line and column from 1; 0: none), and its text."""
     file: str
     line: int
     column: int
@@ -18,7 +18,7 @@ class Mistake:
 
 
 class Error(Exception):
-    """Every failure of the library; result: what was computed until then, or None."""
+    """Base of all failures of the library; result: the partial result, or None."""
     result = None
     partial = None  # the library's memory of it
 
@@ -28,7 +28,7 @@ class Error(Exception):
 
 
 class Refused(Error, ValueError):
-    """An input that cannot be meant; mistakes: those of a scene, each a Mistake, in their order."""
+    """Invalid input; mistakes: those of a scene, each a Mistake, in their order."""
     mistakes = ()
 
 
@@ -37,7 +37,7 @@ class NotConverged(Error):
 
 
 class Singular(Error):
-    """Nothing holds the structure, or it has lost its stiffness."""
+    """The structure is not held, or has lost its stiffness."""
 
 
 class Fault(Error):
@@ -45,7 +45,7 @@ class Fault(Error):
 
 
 class TimeLimit(Error):
-    """Stopped by the clock."""
+    """Stopped by a time limit."""
 
 
 class NoValue(Error):

@@ -1,4 +1,4 @@
-"""The C library: where it is, its functions, and what it gives that must be freed."""
+"""The C library: its location, its functions, and objects that must be freed."""
 import ctypes
 import os
 import pathlib
@@ -37,7 +37,7 @@ def _load():
             except OSError as error:
                 if path.name != str(path):
                     raise ImportError(f"beamwork: {path} cannot be loaded: {error}") from None
-    what = f"BEAMWORK_LIBRARY={tried[0]} is no file" if len(tried) == 1 else f"no {FILE}"
+    what = f"BEAMWORK_LIBRARY={tried[0]} is not a file" if len(tried) == 1 else f"no {FILE}"
     raise ImportError(f"beamwork: {what}; run 'make library' in a clone of beamwork, or name the "
                       "file in BEAMWORK_LIBRARY")
 
@@ -90,7 +90,7 @@ def _declare(library, path):
         try:
             function = getattr(library, f"bw_{name}")
         except AttributeError:
-            raise ImportError(f"beamwork: {path} has no bw_{name}: it is of another version than "
+            raise ImportError(f"beamwork: {path} has no bw_{name}: it has another version than "
                               "this module") from None
         function.restype, function.argtypes = returns, arguments
         declared[name] = function
@@ -115,7 +115,7 @@ class Owned:
             self._free(self.pointer)
 
     def text(self):
-        """Returns the text, or '' where there is none."""
+        """Returns the text, or '' if there is none."""
         return ctypes.string_at(self.pointer).decode("utf-8", "replace") if self.pointer else ""
 
 
@@ -128,14 +128,14 @@ def call(name, *arguments, entries=()):
 
 
 def text_of(name, *arguments, entries=()):
-    """The text that bw_NAME gives."""
+    """Returns the text of bw_NAME."""
     text = Owned("text")
     call(name, *arguments, ctypes.byref(text.pointer), entries=entries)
     return text.text()
 
 
 def owned_by(kind, name, *arguments, entries=()):
-    """The scene or result that bw_NAME makes; of a failure with a result it is error.partial."""
+    """Returns the scene or result of bw_NAME; after a failure, a partial result is error.partial."""
     made = Owned(kind)
     try:
         call(name, *arguments, ctypes.byref(made.pointer), entries=entries)

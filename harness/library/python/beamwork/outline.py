@@ -3,12 +3,12 @@ import math
 
 from .errors import Error
 
-# Points and weights that integrate what is of fourth degree over a triangle (Dunavant 1985).
+# Points and weights that integrate polynomials of fourth degree over a triangle (Dunavant 1985).
 _RULE = [(0.445948490915965, 0.223381589678011), (0.091576213509771, 0.109951743655322)]
 
 
 def _integral(mesh, f):
-    """Of f(y, z) over the straight triangles of a mesh."""
+    """Integral of f(y, z) over the straight triangles of a mesh."""
     corner = mesh["vertices"][mesh["triangles"][:, :3]]  # [triangles, 3, 2]
     a, b = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
     area = abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
@@ -52,8 +52,8 @@ def outline(points, holes=(), parts=2000, **material):
                     "section's constants") from None
     shape = shapely.Polygon(points, holes)
     if not shape.is_valid or not shape.area > 0:
-        raise ValueError(f"the outline is no area: {shapely.is_valid_reason(shape)}")
-    size = math.sqrt(shape.area)  # in units of which meshes are made, whatever the size is
+        raise ValueError(f"the outline does not enclose an area: {shapely.is_valid_reason(shape)}")
+    size = math.sqrt(shape.area)  # unit in which meshes are made, independent of the size
     shape = shapely.affinity.scale(shape, 1 / size, 1 / size, origin=(0, 0))
     first = _meshed(shape, parts).section_props
     across = first.iyy_c - first.ixx_c

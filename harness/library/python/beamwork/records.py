@@ -8,7 +8,7 @@ class Records(list):
     """A list of records (dicts with the same keys), with its columns as arrays and a frame."""
 
     def column(self, key):
-        """[records] array of one key: floats where all are numbers (None: NaN), else objects."""
+        """[records] array of one key: floats if all are numbers (None: NaN), otherwise objects."""
         values = [record.get(key) for record in self]
         if not any(key in record for record in self):
             known = ", ".join(self[0]) if self else "there are no records"
@@ -22,7 +22,7 @@ class Records(list):
         return Records(r for r in self if all(r.get(k) == v for k, v in wanted.items()))
 
     def frame(self):
-        """The records as a pandas.DataFrame; ImportError where pandas is not installed."""
+        """The records as a pandas.DataFrame; ImportError if pandas is not installed."""
         try:
             import pandas
         except ImportError:
@@ -73,7 +73,8 @@ class Verdicts(Records):
     limit_uncertainty, truth, error (relative) and all that `verify --json` writes.
 
     passed: the outcome of the run is "pass", as `verify` ends with status 0: there is a verdict, and none that affects
-    the exit status is unexpected.  outcome: "pass", "fail" or "nothing was judged".  broken_contracts: formulations that break the
+    the exit status is unexpected.  outcome: "pass", "fail" or "nothing was judged".  broken_contracts: formulations
+    that break the
     interface, and how.  unexpected: records that differ.  counts: {verdict: how many}.
     document: all as `beamwork verify --json` writes it."""
 

@@ -34,7 +34,7 @@ MOTION = ("time", "step", "iterations", "rejected", "error", "kinetic", "strain"
 
 
 class _Memory:
-    """Memory of a result as numpy sees it; an array made of it keeps the result alive."""
+    """Memory of a result for numpy; an array made from it keeps the result alive."""
 
     def __init__(self, owner, array, *shape):
         self.owner = owner
@@ -45,7 +45,7 @@ class _Memory:
 
 
 class Result:
-    """Answers of one cell. `result["k_drive"]` is a value [SI]; curves: `result.curve(name)`.
+    """Results of one cell. `result["k_drive"]` is a value [SI]; curves: `result.curve(name)`.
 
     values: {quantity: value}; errors: {quantity: relative error against its reference value}; units.
     at: {quantity: where its value was taken}: of a motion the time [s], as of a largest value.
@@ -98,7 +98,7 @@ class Result:
         return KeyError(f"no quantity {name!r}: {hint}")
 
     def __getitem__(self, name):
-        """A value [its unit in SI]; KeyError for a name that is none, or that of a curve."""
+        """A value [its unit in SI]; KeyError for an unknown name, or that of a curve."""
         if name in self.curves:
             raise KeyError(f"{name!r} is a curve: result.curve({name!r})")
         try:
@@ -125,7 +125,7 @@ class Result:
 
     @property
     def shapes(self):
-        """Shapes of the solution where they were asked for (solve(..., shapes=20)), else None."""
+        """Shapes of the solution if they were requested (solve(..., shapes=20)), otherwise None."""
         handle, points = self._open(), ctypes.c_size_t()
         position, first = ctypes.POINTER(ctypes.c_double)(), ctypes.POINTER(ctypes.c_int)()
         with handle.lock:
@@ -142,7 +142,7 @@ class Result:
 
     @functools.cached_property
     def document(self):
-        """All that is known of the cell, as `beamwork solve --format json` writes it."""
+        """All data of the cell, as written by `beamwork solve --format json`."""
         with self._open().lock:
             return json.loads(text_of("result_json", self._handle.pointer))
 
@@ -192,7 +192,7 @@ class Result:
                 for m in self.document.get("matrices", [])]
 
     def close(self):
-        """Lets go of the library's memory; arrays of curves keep theirs."""
+        """Releases the memory of the library; arrays of curves keep theirs."""
         self._handle = None
 
     def __enter__(self):

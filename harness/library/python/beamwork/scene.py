@@ -49,7 +49,7 @@ class Scene:
 
     def __init__(self, name="scene", *, summary="", source="", plane=""):
         self._name, self.summary, self.source, self.plane = name, summary, source, plane
-        self._make = None  # of scenes that are not built here: what makes the handle
+        self._make = None  # for scenes that are not built here: the function that makes the handle
         self._entries = {key: [] if key in LISTS else {} for key in ENTRIES}
         self._values, self._written, self._handle, self._lines = {}, None, None, ()
         self._lock = threading.RLock()
@@ -75,7 +75,7 @@ class Scene:
 
     @classmethod
     def text(cls, text, name="scene"):
-        """The text of a scene file; name: what mistakes call it."""
+        """The text of a scene file; name: its name in error messages."""
         content, label = required(text, "text"), required(name, "name")
         return cls._made(name,
                          lambda: owned_by("scene", "scene_read", content, len(content), label))
@@ -100,7 +100,7 @@ class Scene:
             raise AttributeError(f"a scene has no {key!r}: {', '.join(ENTRIES)}")
 
     def _ready(self):
-        """The library's scene as it is now, with all values that were set."""
+        """The current scene of the library, with all values that were set."""
         lines = ()
         if self._make is None:
             head = dict(zip(HEAD, (self._name, self.summary, self.source, self.plane)))
@@ -121,8 +121,8 @@ class Scene:
         return self._handle
 
     def set(self, **values):
-        """Values of parameters, as set(thickness=0.5e-3, kind="wide"); all of them or, where one is
-        refused, none. Returns the scene."""
+        """Sets values of parameters, such as set(thickness=0.5e-3, kind="wide"): all of them or, if one is rejected,
+        none. Returns the scene."""
         assignments = {}
         for key, value in values.items():
             value = value.tolist() if hasattr(value, "tolist") else value
@@ -153,8 +153,8 @@ class Scene:
         return {k: Records(v) if isinstance(v, list) else v for k, v in told.items()}
 
     def write(self, path=None):
-        """The scene as a file says it, loops and expressions written out, 17 digits: the text; with
-        path: into that file too."""
+        """The text of the scene as a file, with loops and expressions expanded and 17 digits; with path: also writes
+        that file."""
         with self._lock:
             text = text_of("scene_write", self._ready().pointer, entries=self._lines)
         if path is not None:
@@ -205,7 +205,7 @@ class Scene:
                             self._lines)
 
     def copy(self):
-        """One of its own with the same entries and values."""
+        """Returns a copy with the same entries and values."""
         return copy.deepcopy(self)
 
     __copy__ = copy

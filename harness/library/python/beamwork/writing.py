@@ -16,7 +16,7 @@ _DEEPEST = 40
 
 
 def number(value, where):
-    """A float or an integer in the least digits that give the same bits when they are read."""
+    """A float or an integer with the fewest digits that give the same bits when they are read."""
     if not math.isfinite(value):
         raise Refused(f"{where} is {value}: a finite number is expected")
     return repr(value)
@@ -25,7 +25,7 @@ def number(value, where):
 def quoted(text, where):
     """Returns the text as a word, or between quotation marks."""
     if not text.isprintable():
-        raise Refused(f"{where}: {text[:40]!r} has a character that is not printed; write it in "
+        raise Refused(f"{where}: {text[:40]!r} contains a non-printing character; write it in "
                       "one line, without tabs")
     if _WORD.match(text):
         return text
@@ -54,11 +54,11 @@ def written(value, where, depth=0):
     if isinstance(value, (list, tuple, range)):
         return "[" + ", ".join(
             written(v, f"{where}[{i}]", depth + 1) for i, v in enumerate(value)) + "]"
-    raise Refused(f"{where} is {type(value).__name__}: numbers, texts, lists and dicts are written")
+    raise Refused(f"{where} is {type(value).__name__}: only numbers, texts, lists and dicts can be written")
 
 
 def name(key, where):
-    """A key as it is written; from_, for_ and is_, which Python takes as keywords, without the _."""
+    """A key as it is written; from_, for_ and is_, which are keywords of Python, without the _."""
     if not isinstance(key, str) or not key:
         raise Refused(f"{where}: the key {key!r} is not a name")
     return quoted(key[:-1] if key in ("from_", "for_", "is_") else key, where)

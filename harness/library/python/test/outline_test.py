@@ -101,7 +101,7 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_no_area(self):
-        with self.assertRaisesRegex(ValueError, "no area"):
+        with self.assertRaisesRegex(ValueError, "does not enclose an area"):
             bw.outline([[0, 0], [1, 1], [1, 0], [0, 1]], **MATERIAL)
 
     @unittest.skipIf(INSTALLED, "sectionproperties is installed")
