@@ -125,7 +125,7 @@ static status ritz(solver *s, fault *f)
         for (int i = 0; i < k; i++)
             s->A[j * k + i] = s->H[i * s->room + j];
     if (LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', k, s->A, k, s->re, s->im, NULL, 1, s->z, k) != 0)
-        return fault_set(f, STATUS_NOT_CONVERGED, "an eigenvalue problem of %d unknowns fails", k);
+        return fault_set(f, STATUS_NOT_CONVERGED, "an eigenvalue problem of %d unknowns failed", k);
     sort(s);
     s->found = 0;
     while (s->found < k && size_of(s, s->found) > 16 * k * DBL_EPSILON * size_of(s, 0))
@@ -199,7 +199,7 @@ static status iterate(solver *s, int vectors, fault *f)
             return worst <= bearable_residual || s->count == s->p->n
                        ? STATUS_OK
                        : fault_set(f, STATUS_NOT_CONVERGED,
-                                   "eigenvalues without symmetry: residual %.1e with %d vectors",
+                                   "unsymmetric eigenvalue problem: residual %.1e with %d vectors",
                                    worst, s->count);
         best = fmin(best, worst);
     }
@@ -236,7 +236,7 @@ static status find(solver *s, fault *f)
         vectors = MORE + s->p->wanted;
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "eigenvalues without symmetry: the start number %d still finds others",
+                     "unsymmetric eigenvalue problem: start vector %d still finds new eigenvalues",
                      MAX_STARTS);
 }
 

@@ -131,7 +131,7 @@ static status try_step(continuation *p, path_goal goal, double station, int last
     if (t->doubt == NULL && !hidden)
         TRY(continuation_critical(p, goal, &jump, f));
     if (hidden)
-        t->doubt = "stability changes within it and back";
+        t->doubt = "stability changes and changes back within it";
     if (jump)
         t->doubt = "the pivots of its tangent stiffness change without a critical point";
     return STATUS_OK;
@@ -275,8 +275,8 @@ static status walk_to(continuation *p, double station, double *size, fault *f)
 {
     while (p->here.control != station) {
         if (p->o->points >= MOST_POINTS)
-            return fault_set(f, STATUS_NOT_CONVERGED, "%d points of the path and none at %g m",
-                             MOST_POINTS, station);
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "the path has %d points, none of them at %g m", MOST_POINTS, station);
         const double length = p->by->constant_steps ? p->by->step : *size;
         TRY(reach(p, next_goal(p, station, length), station, size, f));
     }

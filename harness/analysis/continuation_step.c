@@ -162,7 +162,7 @@ static status point_of(continuation *p, const double along[], path_point *out,
 {
     const double length = sqrt(continuation_step_dot(p, p->response, p->response));
     if (!(length > 0) || !isfinite(length))
-        return fault_set(f, STATUS_SINGULAR, "the loads move nothing");
+        return fault_set(f, STATUS_SINGULAR, "the loads cause no displacement");
     const double sign = along != NULL && continuation_step_dot(p, along, p->response) < 0 ? -1 : 1;
     for (int k = 0; k < p->n.all; k++)
         out->tangent[k] = sign * p->response[k] / length;
@@ -255,13 +255,12 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
         quantity_no_value(r, o->status, o->reason);
     else if (p->undecided) {
         char reason[FAULT_TEXT];
-        snprintf(reason, sizeof reason,
-                 "undecided: between load factors %.6g and %.6g an eigenvalue of the tangent is "
-                 "too close to zero "
-                 "to decide whether it changes sign; use smaller steps, or a load that "
-                 "differs a "
-                 "little",
-                 p->undecided_from, p->undecided_to);
+        snprintf(
+            reason, sizeof reason,
+            "undecided: between load factors %.6g and %.6g an eigenvalue of the tangent is "
+            "too close to zero "
+            "to decide whether it changes sign; use smaller steps, or a slightly different load",
+            p->undecided_from, p->undecided_to);
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason);
     } else
         quantity_no_value(r, o->status, "no such point on the path");

@@ -18,8 +18,8 @@ static void extract_spectrum_modal(const analysis_context *, const scene_quantit
                                    const analysis_outcome *, quantity_result *);
 
 static const char *const no_frequency =
-    "the mesh has no mode of this kind that is distinguishable from round-off; coordinates with no "
-    "or hardly any mass have no mode";
+    "the mesh has no mode of this kind that is distinguishable from round-off; coordinates with "
+    "little or no mass have no mode";
 
 /* Has a node its own angle about this component? */
 static int is_turned(const scene *s, int node, int component, fault *f)

@@ -15,8 +15,9 @@ static double known(const analysis_context *c, double value, double error, const
     r->rounding = error;
     if (error <= EIGEN_LARGEST_ERROR)
         return value;
-    snprintf(why, sizeof why, "%s of %d unknowns is lost in round-off (error %.1e): refine less",
-             what, model_sizes(c->model).free, error);
+    snprintf(why, sizeof why,
+             "%s of %d unknowns is lost in round-off (error %.1e): use fewer elements", what,
+             model_sizes(c->model).free, error);
     quantity_no_value(r, STATUS_NOT_CONVERGED, why);
     return NAN;
 }
@@ -181,8 +182,8 @@ static void path_ends(const analysis_context *c, const scene_quantity *q, const 
     const int of_frequencies = c->scene->analysis[q->analysis].kind == SCENE_HARMONIC;
     char text[FAULT_TEXT];
     if (o->status == STATUS_OK && of_frequencies && q->reduction == SCENE_AT) {
-        snprintf(text, sizeof text, "%.10g Hz is none of the frequencies of %s; add it to them",
-                 q->at, scene_called(c->scene, SCENE_ANALYSES, q->analysis).text);
+        snprintf(text, sizeof text, "%.10g Hz is not among the frequencies of %s; add it", q->at,
+                 scene_called(c->scene, SCENE_ANALYSES, q->analysis).text);
         quantity_no_value(r, STATUS_NOT_CONVERGED, text);
     } else if (o->status != STATUS_OK)
         quantity_no_value(r, o->status, o->reason);
@@ -276,7 +277,7 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
         quantity_no_value(r, STATUS_NO_VALUE,
                           q->reduction >= SCENE_CROSSING && q->reduction <= SCENE_PER_SECOND
                               ? "the motion does not cross the level so often in that time"
-                              : "no part of the motion lies in that time");
+                              : "no part of the motion lies in that time window");
     } else {
         r->value = quantity_scaled(q, found->value);
         r->x = quantity_abscissa(q, found->time);
@@ -291,7 +292,7 @@ static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quan
     if (!peak->known)
         return;
     snprintf(why, sizeof why,
-             "unbounded at %.6g Hz, where nothing damps it; give damping, or take: curve",
+             "unbounded at %.6g Hz, where nothing damps it; add damping, or write take: curve",
              peak->hertz);
     if (peak->unbounded) {
         quantity_no_value(r, STATUS_NO_VALUE, why);

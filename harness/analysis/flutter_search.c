@@ -182,7 +182,7 @@ static status confirm(search *s, fault *f)
     TRY(look_closely(s, s->next.path, 1, &again, f));
     return again.kind != FLUTTER_NONE
                ? STATUS_OK
-               : is_lost(s, "what grows is lost in round-off of the tangent", f);
+               : is_lost(s, "growing motions are lost in round-off of the tangent", f);
 }
 
 /* From the kept state, which is that of `last`, to the first unstable station s->next. */
@@ -320,10 +320,10 @@ static status run(search *s, flutter_point *out, fault *f)
     kinematics_state_copy(n->c->model, n->state, s->kept);
     TRY(look(s, 0, &s->last, f));
     if (s->last.kind != FLUTTER_NONE)
-        return fault_set(f, STATUS_REFUSED,
-                         "the state at path 0 is not stable: %s; critical loads are those of one "
-                         "that is",
-                         flutter_name(&s->of, s->last.kind));
+        return fault_set(
+            f, STATUS_REFUSED,
+            "the state at path 0 is not stable: %s; critical loads require a stable one",
+            flutter_name(&s->of, s->last.kind));
     TRY(walk(s, f));
     return close_in(s, out, f);
 }

@@ -45,7 +45,7 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
     const outcome_path *path = outcome_path_of(o);
     if (path->stations == 0 || path->reached < path->stations)
         return fault_set(f, o->status != STATUS_OK ? o->status : STATUS_REFUSED,
-                         "the state to start from was not reached: %.150s", o->reason);
+                         "the base state was not reached: %.150s", o->reason);
     v->state = path->state[path->reached - 1];
     const double at = kinematics_state_path(v->state);
     const step_stability stands =
@@ -53,7 +53,7 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
     if (stands == STEP_UNSTABLE || stands == STEP_GROWS)
         return fault_set(f, STATUS_REFUSED,
                          "the state at path %g is unstable: nothing vibrates steadily about it; "
-                         "end the path before",
+                         "end the path before it",
                          at);
     model_linearisation lin = {.path = at, .K = &v->K, .residual = v->room};
     return linearise_state(&c->eq, &c->run->memory, v->state, &lin, f);
@@ -75,13 +75,13 @@ static status matrices(vibration *v, int whole, fault *f)
     if (follows == SCENE_NONE) {
         if (linear_initial(c->model) > 0)
             return fault_set(f, STATUS_REFUSED,
-                             "members have strains by themselves, whose stresses the undeformed "
-                             "state has not; name a static analysis with about");
+                             "members have initial strains, whose stresses the undeformed state "
+                             "lacks; name a static analysis with 'about'");
         TRY(linear_system_of(v, NULL, f));
     } else if (c->scene->analysis[follows].kind == SCENE_LINEAR) {
         const analysis_outcome *o = &c->outcomes[follows];
         if (o->status != STATUS_OK)
-            return fault_set(f, o->status, "the analysis that it is about: %.150s", o->reason);
+            return fault_set(f, o->status, "its base analysis: %.150s", o->reason);
         TRY(linear_system_of(v, outcome_displacements(o, c->eq.loading.acting), f));
     } else {
         TRY(tangent_of(v, &c->outcomes[follows], f));
@@ -277,8 +277,8 @@ static status input_of(const vibration *v, const scene_response *r, double w, do
         }
     return moves ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
-                             "%s is held or driven against the force: it moves nothing; name "
-                             "another component, or a motion with drive",
+                             "%s is held or driven against the force, which therefore moves "
+                             "nothing; name another component, or a motion with 'drive'",
                              scene_called(model_scene(m), SCENE_NODES, r->forced).text);
 }
 
@@ -409,15 +409,16 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
                  model_vertex(v->c->model, i / 6)->coordinate[i % 6] == *out;
     if (driver == SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
-                         "the reaction of %s is that of a motion, and none drives the component "
-                         "alone; give the node itself a motion with value: [0, 0] in place of hold",
+                         "a reaction of %s requires a motion that drives this component alone, and "
+                         "there is none; replace 'hold' at the node by a motion with value: [0, 0]",
                          scene_called(s, SCENE_NODES, r->node).text);
     return nodes == 1
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED,
-                           "motion %s drives more than the component whose reaction is asked for; "
-                           "give each a motion of its own, or one node that carries the others",
-                           s->driver[driver].name);
+               : fault_set(
+                     f, STATUS_REFUSED,
+                     "motion %s drives more than the component whose reaction is requested; give "
+                     "each component its own motion, or attach the nodes to one driven node",
+                     s->driver[driver].name);
 }
 
 /* o[all] += row c of D at w. */
@@ -775,7 +776,7 @@ static void note_growth(analysis_context *c, const unsymmetric_result *r, outcom
         out->growth = fmax(out->growth, r->growth[i]);
     if (out->growth > 0 && c->result->reason[0] == '\0')
         snprintf(c->result->reason, sizeof c->result->reason,
-                 "unstable: a damped mode grows with %.4g 1/s", out->growth);
+                 "unstable: a damped mode grows at %.4g 1/s", out->growth);
 }
 
 static status find_modes(vibration *v, unsymmetric_result *r, fault *f)
@@ -794,8 +795,8 @@ static status find_modes(vibration *v, unsymmetric_result *r, fault *f)
     const status factored = factor_numeric(v->factor, &v->K, &why);
     if (factored == STATUS_SINGULAR)
         return fault_set(f, STATUS_REFUSED,
-                         "damped modes need a stiffness against every motion, and one has none: "
-                         "hold the structure, or support it by a soft spring");
+                         "damped modes require stiffness against every motion, but one motion has "
+                         "none: hold the structure, or support it by a soft spring");
     if (factored != STATUS_OK)
         return fault_set(f, factored, "%s", why.text);
     const unsymmetric_problem p = {.K = &v->K,

@@ -102,12 +102,11 @@ static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
         return fault_set(f, outcome, "%s", why.text);
     if (factor_count(m->factor).negative_pivots == 0)
         return STATUS_OK;
-    return fault_set(
-        f, STATUS_REFUSED,
-        factor_count(m->factor).negative_pivots < 0
-            ? "modes without damping need a symmetric stiffness, and loads that follow the "
-              "structure make it unsymmetric; remove 'solution' and 'ratios'"
-            : "the state is unstable: nothing vibrates steadily about it");
+    return fault_set(f, STATUS_REFUSED,
+                     factor_count(m->factor).negative_pivots < 0
+                         ? "undamped modes require a symmetric stiffness, but follower loads make "
+                           "it unsymmetric; remove 'solution' and 'ratios'"
+                         : "the state is unstable: nothing vibrates steadily about it");
 }
 
 static status free_blocks(vibration *v, harmonic_modes *m, fault *f)
@@ -139,8 +138,8 @@ static status all_modes(vibration *v, harmonic_modes *m, fault *f)
     const size_t n = (size_t)m->n;
     if (m->n > MOST_DENSE)
         return fault_set(f, STATUS_REFUSED,
-                         "all modes of %d coordinates are too many (at most %d): give modes, such "
-                         "as 50",
+                         "all modes of %d coordinates are too many (at most %d): give a number of "
+                         "modes, such as modes: 50",
                          m->n, MOST_DENSE);
     double *K = calloc(n * n + 1, sizeof *K), *x = calloc(n * n + 1, sizeof *x),
            *mu = calloc(n + 1, sizeof *mu);

@@ -36,7 +36,7 @@ static status followed_state(const analysis_context *c, int analysis, const mode
     const outcome_path *path = outcome_path_of(followed);
     if (path->stations == 0 || path->reached < path->stations)
         return fault_set(f, followed->status != STATUS_OK ? followed->status : STATUS_REFUSED,
-                         "the state to start from was not reached: %.150s", followed->reason);
+                         "the base state was not reached: %.150s", followed->reason);
     *state = path->state[path->reached - 1];
     return STATUS_OK;
 }
@@ -49,8 +49,8 @@ static status start(analysis_context *c, int analysis, const char *what, newton_
     TRY(newton_alloc(c, 0, n, f));
     if (c->options->newton == NEWTON_DENSE)
         return fault_set(f, STATUS_REFUSED,
-                         "%s about a loaded state need the condensed tangent, which newton=dense "
-                         "does not make: give newton=mixed",
+                         "%s about a loaded state require the condensed tangent, which "
+                         "newton=dense does not form: give newton=mixed",
                          what);
     TRY(followed_state(c, analysis, &state, f));
     kinematics_state_copy(c->model, state, n->state);
@@ -84,8 +84,8 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
         out->growth = r.growth[mode];
         if (c->result->reason[0] == '\0')
             snprintf(c->result->reason, sizeof c->result->reason,
-                     "unstable at path %g: %s, grows with %.4g 1/s",
-                     kinematics_state_path(n->state), flutter_name(&of, kind), r.growth[mode]);
+                     "unstable at path %g: %s, grows at %.4g 1/s", kinematics_state_path(n->state),
+                     flutter_name(&of, kind), r.growth[mode]);
     }
     if (outcome == STATUS_OK)
         flutter_take(&r, &out->positive);
@@ -509,13 +509,13 @@ static double thrust_of_elements(const newton_run *n)
 static status judge_massless(const newton_run *n, const flutter_point *first, fault *f)
 {
     const double most = first->massless ? thrust_of_elements(n) : 0;
-    return most < 1
-               ? STATUS_OK
-               : fault_set(f, STATUS_NOT_CONVERGED,
-                           "the divergence near path %.6g is one of the mesh, whose elements "
-                           "bear %.3g times their own Euler load there: use more elements, or "
-                           "give a section a density, without which flutter is not searched for",
-                           first->path, most);
+    return most < 1 ? STATUS_OK
+                    : fault_set(f, STATUS_NOT_CONVERGED,
+                                "the divergence near path %.6g is an artefact of the mesh, whose "
+                                "elements carry %.3g times their own Euler load there: use more "
+                                "elements, or give a section a density, because flutter is only "
+                                "searched for in structures with mass",
+                                first->path, most);
 }
 
 /* For loads without a potential: the first critical load and its kind. */
@@ -542,7 +542,7 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
     outcome_side *out = &found->positive;
     *out = (outcome_side){.count = 1, .value = value, .mode = first.mode, .error = error};
     snprintf(out->reason, sizeof out->reason,
-             "of loads without a potential the first critical load alone is searched for");
+             "for loads without a potential, only the first critical load is searched for");
     if (first.frequency > 0)
         snprintf(how, sizeof how, " at %.6g Hz", first.frequency / (2 * PI));
     snprintf(found->meaning, sizeof found->meaning, "%s%s%s", first.what, how,
@@ -579,7 +579,8 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
     loaded_search s = {.unstable = INFINITY, .estimate = INFINITY};
     outcome_side *back = &o->left.spectrum.negative;
     snprintf(back->reason, sizeof back->reason,
-             "about a state loads are followed along its path only; let them act the other way");
+             "about a loaded state, loads are followed in the direction of its path only; reverse "
+             "the loads");
     const status result = run(c, analysis, &s, &o->left.spectrum, f);
     if (result == STATUS_NOT_CONVERGED && !isfinite(s.estimate)) {
         const fault why = *f;

@@ -165,7 +165,7 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
     if (x == NULL)
         return fault_set(
             f, STATUS_REFUSED,
-            "frequencies of a loaded structure follow a linear analysis that has been solved");
+            "frequencies of a loaded structure require a linear analysis that has been solved");
     memcpy(about->of.load_x, x, (size_t)(size.free + size.driven) * sizeof *x);
     return add_stresses(c, 1, s, about, f);
 }

@@ -247,7 +247,7 @@ static void note_instability(analysis_context *c, const rotation_modes *modes, d
     for (int i = 0; i < modes->count; i++)
         if (grows(modes, i) && c->result->reason[0] == '\0')
             snprintf(c->result->reason, sizeof c->result->reason,
-                     "unstable at path %g: %s, %s, grows with %.4g 1/s", path,
+                     "unstable at path %g: %s, %s, grows at %.4g 1/s", path,
                      modes_family_name(modes->shape[i].family),
                      modes->frequency[i] > 0 ? "flutter" : "divergence", modes->growth[i]);
 }

@@ -459,7 +459,7 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
     p->stays = 1;
     p->product = calloc((size_t)size.free + 1, sizeof *p->product);
     if (p->product == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for loads that stay");
+        return fault_set(f, STATUS_FAULT, "out of memory for constant loads");
     TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->staying, f));
     TRY(linear_system_solve(c, s, 0, p->staying.load_x, f));
     TRY(quadratic_forms_load(&c->eq, &p->staying, 0, 1, f));
@@ -473,12 +473,12 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
     const status factored = context_factor(c, s->factor, &s->K, f);
     if (factored == STATUS_SINGULAR ||
         (factored == STATUS_OK && factor_count(s->factor).negative_pivots > 0))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s, which stay, are critical without the "
-                         "scaled loads; make them smaller",
-                         linear_initial(c->model) == 0 ? "the loads at path 0"
-                         : !loads_begin(&c->eq)        ? "the strains of members"
-                                                : "the loads at path 0 and strains of members");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s, which are constant, are critical without the scaled loads; reduce them",
+            linear_initial(c->model) == 0 ? "the loads at path 0"
+            : !loads_begin(&c->eq)        ? "the strains of members"
+                                          : "the loads at path 0 and strains of members");
     return factored;
 }
 
@@ -486,7 +486,8 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
 static status prestress(analysis_context *c, linear_system *s, prestresses *p, fault *f)
 {
     if (!s->K.symmetric)
-        return fault_set(f, STATUS_REFUSED, "linear buckling needs a symmetric stiffness matrix");
+        return fault_set(f, STATUS_REFUSED,
+                         "linear buckling requires a symmetric stiffness matrix");
     TRY(along_path_proportional(c->scene, c->eq.loading.acting, f));
     TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->growing, f));
     TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));

@@ -46,9 +46,9 @@ static int answer(const command_line *l, void *request)
     if (r->of.scene_path != NULL && case_input_find(&r->of) == NULL)
         return r->of.refusal;
     if (r->error != NULL || r->solver.keep_all)
-        return message_fail(STATUS_REFUSED, "--error and --all-dofs are of --against");
+        return message_fail(STATUS_REFUSED, "--error and --all-dofs require --against");
     if (!is_named(r) && (r->of.set.count > 0 || r->meshes.count > 0))
-        return message_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
+        return message_fail(STATUS_REFUSED, "--set and -n require a case; name it");
     const status outcome = measure(r, &b, &f);
     bench_free(&b);
     return message_exit(outcome, &f);
@@ -64,7 +64,7 @@ static void before(char **arguments)
 #define IN(at) .member = offsetof(bench_options, at)
 static const verb_option own[] = {
     {"output", 'o', "FILE",
-     "into that file of results in HDF5, next to the results of other experiments", IN(output),
+     "write to this results file (HDF5), next to the results of other experiments", IN(output),
      .traits = OPTION_OUTPUT},
     {"dense", 0, NULL, "also times the published algorithm (newton=dense) on every mesh",
      IN(dense)},
@@ -93,7 +93,7 @@ const verb verb_bench = {
     "repetitions in five alternating rounds on one processor, separately for set-up and solution, "
     "with the error. Times whose rounds overlap are undecided. With --against FORMULATION: both at "
     "equal error, in alternation until noise permits a result. Each uses the smallest number of "
-    "elements from which on the error of every quantity (-k: of those selected) is within the "
+    "elements from which the error of every quantity (-k: of those selected) is within the "
     "tolerance; with -n: these meshes. With --against PROGRAM: the same cell of another build.",
     "beamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
     "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"

@@ -111,8 +111,8 @@ static void tell_needs(const char *path, const case_type *type)
             snprintf(omit, sizeof omit, "omit: [%s]", words);
         if (s.shear_theory != SCENE_SHEAR_HARINGX && features_sheared(&s))
             snprintf(theory, sizeof theory, "shear_theory: %s", scene_shear_word(s.shear_theory));
-        fprintf(stderr, "beamwork: %s: needs is read as earlier versions did; %s %s%s%s\n", path,
-                omit[0] != '\0' || theory[0] != '\0' ? "in its place write" : "remove it", omit,
+        fprintf(stderr, "beamwork: %s: 'needs' is read as in earlier versions; %s %s%s%s\n", path,
+                omit[0] != '\0' || theory[0] != '\0' ? "instead write" : "remove it", omit,
                 omit[0] != '\0' && theory[0] != '\0' ? " and " : "", theory);
     }
     scene_free(&s);
@@ -178,7 +178,7 @@ void case_input_tell_units(const scene_file *file, const double parameter[])
         fprintf(stderr, "beamwork: warning: %s; %s\n", words,
                 given ? "numbers are in the 'units' of the scene: with mm, N, MPa densities are in "
                         "t/mm^3, as 7.85e-9"
-                      : "numbers are in m, N, Pa and kg, else the scene says units: mm, N, MPa");
+                      : "numbers are in m, N, Pa and kg, unless the scene gives units: mm, N, MPa");
     scene_free(&s);
 }
 
@@ -186,7 +186,7 @@ static const case_type *named_case(const case_options *r)
 {
     fault f;
     if (r->name == NULL) {
-        message_fail(STATUS_REFUSED, "which case? 'beamwork list cases' shows them");
+        message_fail(STATUS_REFUSED, "give a case; 'beamwork list cases' shows them");
         return NULL;
     }
     const case_type *type = case_find(r->name, &f);
@@ -279,14 +279,14 @@ void case_input_tell_analysis(const case_options *r, const scene *s)
         return;
     const scene_analysis *a = &s->analysis[0];
     if (a->kind == SCENE_LINEAR) {
-        fprintf(stderr, "beamwork: the scene has no analysis; a linear one is run, as for "
+        fprintf(stderr, "beamwork: the scene has no analysis; a linear one is run, as with "
                         "analyses: {run: {linear: {}}}\n");
         return;
     }
     const scene_path *path = scene_path_of(a);
     fprintf(stderr,
-            "beamwork: the scene has no analysis; a static one runs to the end of its motions, as "
-            "for analyses: {run: {static: {stations: [%g]}}}\n",
+            "beamwork: the scene has no analysis; a static one is run to the end of its motions, "
+            "as with analyses: {run: {static: {stations: [%g]}}}\n",
             path->value[path->stations - 1]);
 }
 

@@ -334,7 +334,7 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
     const int is_program = strchr(r->against, '/') != NULL;
     if (is_program && access(r->against, X_OK) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "no program %.200s; give the path of another build's beamwork",
+                         "program %.200s does not exist; give the path of another build's beamwork",
                          r->against);
     if (is_program && (r->error != NULL || r->select != NULL))
         return fault_set(f, STATUS_REFUSED,
@@ -346,8 +346,7 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
     if (r->meshes.count == 0 && !is_program)
         return against_error(r, type, f);
     if (r->error != NULL || r->select != NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "--error and -k find the meshes by themselves: remove -n");
+        return fault_set(f, STATUS_REFUSED, "--error and -k determine the meshes: remove -n");
     return against_meshes(r, type, is_program, f);
 }
 
@@ -357,12 +356,12 @@ int contest_run(bench_options *r)
     if (r->of.line->arguments + (r->of.scene_path != NULL) != 1 || r->chosen.formulations > 1 ||
         r->meshes.count > 2)
         return message_fail(STATUS_REFUSED, "--against compares two: give one CASE or --scene, one "
-                                            "-f, and one -n or two (A's and B's) or none");
+                                            "-f, and no -n, one, or two (for A and for B)");
     if (r->output != NULL)
         return message_fail(STATUS_REFUSED,
-                            "--against writes no file; remove -o, or give --format json");
+                            "--against does not write a file; remove -o, or give --format json");
     if (r->format[0] == 'c')
-        return message_fail(STATUS_REFUSED, "--against is written as text or json");
+        return message_fail(STATUS_REFUSED, "--against supports --format text and json");
     const case_type *type = case_input_find(&r->of);
     return type != NULL ? message_exit(against_other(r, type, &f), &f) : r->of.refusal;
 }

@@ -94,7 +94,7 @@ static status lap_elsewhere(contestant *c, double *seconds, fault *f)
     waitpid(child, &how, 0);
     if (WIFEXITED(how) && WEXITSTATUS(how) == EXIT_AS_EXPECTED)
         return outcome;
-    return fault_set(f, STATUS_FAULT, "%s does not solve that cell", c->program);
+    return fault_set(f, STATUS_FAULT, "%s does not solve this cell", c->program);
 }
 
 static status lap(void *what, double *seconds, fault *f)

@@ -34,7 +34,7 @@ static status read_mapped(const command_line *l, const import_request *r, import
     const status outcome = import_map_read(r->map, l->argument, l->arguments, set, &m, f);
     TRY(print_mistakes(r, &m, f));
     if (m.count > 0)
-        fault_set(f, outcome, "nothing was imported: mistakes in %.200s", r->map);
+        fault_set(f, outcome, "nothing was imported: errors in %.200s", r->map);
     return outcome;
 }
 
@@ -51,7 +51,7 @@ static status read_files(const command_line *l, const import_request *r, import_
             continue;
         outcome = one;
         if (m.count > 0)
-            fault_set(f, one, "nothing was imported: mistakes in %.200s", l->argument[i]);
+            fault_set(f, one, "nothing was imported: errors in %.200s", l->argument[i]);
         else
             *f = here;
     }

@@ -156,7 +156,7 @@ static void show_cases(const element_type *t)
             show_alike(all, count, i, "runs, without ");
     for (int i = 0; i < count; i++)
         if (!all[i].runs)
-            show_alike(all, count, i, "not run, for want of ");
+            show_alike(all, count, i, "not run, because it lacks ");
 }
 
 static void list_formulation(const formulation *chosen, const rule *rules, int count)
@@ -201,7 +201,7 @@ static void list_formulations(void)
 
 static void list_features(void)
 {
-    printf("physics that a case can need and a formulation can offer\n");
+    printf("physics that a case can require and a formulation can support\n");
     for (unsigned bit = 1; bit < FEATURE_END; bit <<= 1)
         paragraph_write(stdout, printf("  %-*s", NAMES - 2, feature_name(bit)), NAMES,
                         feature_summary(bit));
@@ -363,7 +363,7 @@ static const verb_group shared[] = {SHARED(scene, of),
 const verb verb_list = {
     "list",
     "[cases|formulations|CASE|FORMULATION]",
-    "cases and formulations; of one: parameters, quantities, orders, findings",
+    "cases and formulations, with parameters, quantities, orders, known deviations",
     "Lists all cases and formulations; for a case its parameters, quantities and the formulations "
     "that support it; for a formulation its theory, orders, options, features, limitations, known "
     "deviations and the cases that it supports.",

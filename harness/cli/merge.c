@@ -139,11 +139,11 @@ static const verb_group shared[] = {SHARED(output, output),
 const verb verb_merge = {
     "merge",
     "FOLDER...",
-    "merges the batches of shards of verify or sweep to one run",
+    "merges the batches of shards of verify or sweep into one run",
     "Merges the batches that shards of verify or sweep wrote with --into, and writes the same "
     "output as a single run. Use the verb, options and files of the shards. Exit status: that of "
     "the verb; 2 if batches belong to another request, build or input, or two of them differ; 5 if "
-    "batches are missing, which are listed: without --partial nothing is written, with it the "
+    "batches are missing, which are listed: without --partial nothing is written, and with it the "
     "existing part, in files named .partial",
     "beamwork merge parts -o results.h5\n"
     "beamwork merge first/parts second/parts -o results.h5 --junit junit.xml",

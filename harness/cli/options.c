@@ -237,9 +237,10 @@ status errors_parse(const char *text, int most, double level[], int *count, faul
     do {
         at = *count < most ? parse_one(at, &level[*count]) : NULL;
         if (at == NULL)
-            return fault_set(f, STATUS_REFUSED,
-                             "--error '%.60s': give at most %d between 0 and 100 %%, such as 1%%",
-                             text, most);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "--error '%.60s': give at most %d values between 0 and 100 %%, such as 1%%", text,
+                most);
         ++*count;
     } while (*at++ == ',');
     return STATUS_OK;
@@ -251,7 +252,7 @@ status option_error(const verb_option *o, void *member, const char *value, fault
     return end != NULL && *end == '\0'
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "--%s '%.60s': give one between 0 and 100 %%, such as 1%%", o->name,
+                           "--%s '%.60s': give a value between 0 and 100 %%, such as 1%%", o->name,
                            value);
 }
 
@@ -295,7 +296,7 @@ static const verb_option output_option[] = {
     {0}};
 static const verb_option cli_options_results[] = {
     {"output", 'o', "FILE",
-     "write there instead of to standard output; NAME.h5: into that file of results, next to the "
+     "write there instead of to standard output; NAME.h5: to this results file, next to the "
      "results of other experiments",
      .traits = OPTION_OUTPUT},
     {0}};
@@ -394,8 +395,8 @@ static status find_scenes(const char *folder, glob_t *found, fault *f)
     const int failed = glob(pattern, 0, NULL, found);
     free(pattern);
     if (failed == GLOB_NOMATCH)
-        return fault_set(f, STATUS_REFUSED, "%.200s: no *.yaml in that folder; give a scene file",
-                         folder);
+        return fault_set(f, STATUS_REFUSED,
+                         "%.200s: the folder contains no *.yaml; give a scene file", folder);
     return failed == 0 ? STATUS_OK
                        : fault_set(f, STATUS_FAULT, "%.200s: the folder cannot be read", folder);
 }

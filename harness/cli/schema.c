@@ -8,10 +8,11 @@
 #include "harness/terminal/terminal.h"
 
 const char *const results_about[] = {
-    "HDF5; the last line of the file, behind it, holds its length and checksum. Attributes of the "
+    "HDF5, followed by a last line with its length and checksum. Attributes of the "
     "root: schema, schema_version, program_version, commit, compiler, flags, libraries, processor, "
     "clock (UTC), threads, unfinished_cells (of an interrupted run). Below /cases/CASE "
-    "(attributes: summary, source) stands a table for each kind of record; attributes of a table: "
+    "(attributes: summary, source) there is a table for each kind of record; attributes of a "
+    "table: "
     "units and summaries of its columns, in their order.",
     "JSON and CSV use the same names. Fields marked * exist there only; in HDF5 the group or "
     "attribute gives them. Missing numbers are NaN (JSON: null). [unit]: see the column 'unit'.",

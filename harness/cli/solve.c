@@ -176,7 +176,8 @@ static status range_of(const solve_request *r, const case_type *type, follow_req
     out->to = value[out->parameter];
     return fabs(out->to - out->from) > 0
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED, "--follow '%.60s': both ends are the same; give two",
+               : fault_set(f, STATUS_REFUSED,
+                           "--follow '%.60s': both ends are the same; give two different ones",
                            r->follow);
 }
 
@@ -357,7 +358,7 @@ static int answer(const command_line *l, void *request)
     if (r->follow != NULL)
         return message_exit(follow_modes(r, type, &f), &f);
     if (r->shapes > 0 && r->output == NULL)
-        return message_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
+        return message_fail(STATUS_REFUSED, "--shapes requires a file; give -o FILE");
     solve_work w = {.from = {.ends = 0}};
     const status ready = prepare(r, type, &w, &f);
     const int code = ready == STATUS_OK ? solve_and_write(r, &w) : message_fail(ready, f.text);
@@ -415,7 +416,8 @@ const verb verb_solve = {
     "Solves one case with one formulation and one mesh and shows every quantity with its error. "
     "Without -n the mesh is refined until no value changes by more than 0.1 % (--error) from the "
     "previous mesh: first the meshes of the case, then doubling, up to 1024 elements or 2 s of "
-    "counted work. If values still change, the status is not_converged. Values are printed to the "
+    "counted work. If values still change then, the status is not_converged. Values are printed to "
+    "the "
     "second digit of their last change between meshes, which is not a bound of their error. "
     "Without -f up to five formulations are tried that support the physics of the case and have no "
     "known defect there, the cheapest next mesh first; the first that converges is used, with -n "

@@ -54,11 +54,11 @@ static status read_design(const sweep_options *r, ranges_request *q, fault *f)
     const int seeded = given_value(r->of.line, "seed") != NULL;
     q->seed = seeded ? (unsigned long)r->seed : 1;
     if (kind == DESIGN_GRID && r->points > 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "--points belongs to --design sobol, halton or random; a grid has those "
-                         "of --vary");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--points requires --design sobol, halton or random; a grid has the points of --vary");
     if (kind != DESIGN_RANDOM && seeded)
-        return fault_set(f, STATUS_REFUSED, "--seed belongs to --design random");
+        return fault_set(f, STATUS_REFUSED, "--seed requires --design random");
     return STATUS_OK;
 }
 
@@ -70,8 +70,8 @@ static status check_set(const sweep_options *r, const parameter_ranges *s, fault
             const char *name = s->axis[k].of->name;
             if (strncmp(r->of.set.text[i], name, strlen(name)) == 0 &&
                 r->of.set.text[i][strlen(name)] == '=')
-                return fault_set(f, STATUS_REFUSED, "%s is set and varies; give --set or --vary",
-                                 name);
+                return fault_set(f, STATUS_REFUSED,
+                                 "%s is both set and varied; give --set or --vary", name);
         }
     return STATUS_OK;
 }
@@ -148,7 +148,7 @@ static status hold_batches(const char *folder, fault *f)
         if (flock(held, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             close(held);
             return fault_set(f, STATUS_REFUSED,
-                             "%.200s: another 'beamwork sweep' works there; wait until it ends, or "
+                             "%.200s: another 'beamwork sweep' is using it; wait until it ends, or "
                              "give -o another name",
                              folder);
         }
@@ -245,7 +245,7 @@ static int tell(const sweep_options *r, const sweeping *s)
         return EXIT_AS_EXPECTED;
     fprintf(stderr, "beamwork: %d of %d batches are missing; ", s->lost, s->ranges.batches);
     if (r->output != NULL)
-        fprintf(stderr, "the others are in %s: give the same command again\n", s->batches);
+        fprintf(stderr, "the others are in %s: run the same command again\n", s->batches);
     else
         fprintf(stderr, "with -o FILE the others would be kept\n");
     return EXIT_INTERRUPTED;
@@ -282,7 +282,7 @@ static const verb_option own[] = {
      IN(design)},
     {"points", 0, "N", "number of points of a design that is not a grid", IN(points), .least = 1,
      .most = 1000000000},
-    {"seed", 0, "S", "of --design random (default 1)", IN(seed), .least = 0, .most = INT_MAX},
+    {"seed", 0, "S", "seed of --design random (default 1)", IN(seed), .least = 0, .most = INT_MAX},
     {"compute-references", 0, NULL,
      "compute a reference value where none is stored: about half a second for each point (for a "
      "scene 4 s)",
@@ -311,7 +311,7 @@ const verb verb_sweep = {
     "and shows where formulations are within an error (--error, default 1 %): the share of points "
     "for each mesh, the smallest number of elements over the parameters, and the worst points. "
     "--vary NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these "
-    "values, or words of a choice. Several options make a grid; the last one changes first. "
+    "values, or words of a choice. Several options make a grid; the last one varies fastest. "
     "--design sobol, halton or random --points N: N points in the box of --vary NAME=A..B (or "
     "A..B:log). Errors refer to a reference value stored for the point, with --compute-references "
     "to one computed there, otherwise to the limit of the meshes of all formulations with the same "
@@ -342,12 +342,13 @@ status spread_asked(const shard_options *r, int *asked, fault *f)
     const int writes = given_next(r->line, OPTION_OUTPUT, &first) != NULL;
     *asked = r->into != NULL || r->shard != NULL || r->from.count > 0;
     if (r->from.count > 0 && (r->into != NULL || r->shard != NULL))
-        return fault_set(f, STATUS_REFUSED, "--from takes batches, --into computes them: give one");
+        return fault_set(f, STATUS_REFUSED,
+                         "--from reads batches, --into computes them: give one of the two");
     if (r->shard != NULL && r->into == NULL)
-        return fault_set(f, STATUS_REFUSED, "--shard %.40s: into which folder? Give --into FOLDER",
+        return fault_set(f, STATUS_REFUSED, "--shard %.40s requires a folder; give --into FOLDER",
                          r->shard);
     if (r->partial && r->from.count == 0)
-        return fault_set(f, STATUS_REFUSED, "--partial is of --from, and of 'beamwork merge'");
+        return fault_set(f, STATUS_REFUSED, "--partial requires --from, or 'beamwork merge'");
     if (r->into == NULL || !writes)
         return r->shard != NULL ? shard_parse(r->shard, &index, &count, f) : STATUS_OK;
     words_quoted(r->into, folder, sizeof folder);
@@ -413,7 +414,7 @@ static status take(const shard_options *r, const shard_work *w, const stock *s, 
     stock_missing(s, w, missing, sizeof missing);
     if (s->there < s->batches) {
         fprintf(stderr, "beamwork: incomplete: %s%s\n", missing,
-                r->partial ? "" : "; compute them, or look at the rest with --partial");
+                r->partial ? "" : "; compute them, or use the rest with --partial");
         out->code = EXIT_INTERRUPTED;
         out->ended = !r->partial;
         if (out->ended)

@@ -13,7 +13,7 @@ VERB_TYPES(VERB_DECLARED)
 
 static const verb look = {.name = "look", .place = VERB_LOOK};
 static const verb compute = {.name = "compute", .place = VERB_COMPUTE};
-static const verb judge = {.name = "judge and compare", .place = VERB_JUDGE};
+static const verb judge = {.name = "evaluate and compare", .place = VERB_JUDGE};
 static const verb exchange = {.name = "exchange", .place = VERB_EXCHANGE};
 #define VERB_OF(name) &verb_##name,
 /* verbs.h has a word for each verb of the files in cli/, in any order. */
@@ -42,7 +42,7 @@ static const char *name_at(const void *context, int i)
 }
 
 static const manual_row examples[] = {
-    {"beamwork list", "what there is"},
+    {"beamwork list", "look up"},
     {"beamwork solve elastica", "one answer, with its error"},
     {"beamwork converge c_column -k buckling_load", "formulations side by side"},
     {"beamwork explain \"wrong limit\"", "what a word means"},
@@ -52,7 +52,7 @@ static const manual_row statuses[] = {
     {"0", "as expected"},
     {"1", "a verdict differs (solve: not converged or singular)"},
     {"2", "refused input"},
-    {"3", "nothing was judged"},
+    {"3", "no verdict was assigned"},
     {"4", "file, disk or memory"},
     {"5",
      "incomplete: interrupted (the verdicts so far are in *.partial.*), or parts are missing; the "

@@ -38,8 +38,7 @@ static void show(const verify_request *r, const sweep *s, const judgement *j, co
     const screen look = screen_of(stdout);
     char sentence[SENTENCE_OF_RUN];
     if (r->exit_zero)
-        fputs("exploring: the exit status is 0 whatever the verdicts are (--exit-zero)\n\n",
-              stdout);
+        fputs("exploration: the exit status is 0 for any verdicts (--exit-zero)\n\n", stdout);
     table_breaches(stdout, look, j);
     if (!r->shards.quiet && shows_limits(r, o)) {
         table_verdicts(stdout, s, j);
@@ -77,7 +76,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     if (e->ended)
         return e->code;
     if (s->unfinished > 0) {
-        fprintf(stderr, "beamwork: %s: %d cells were not done; the verdicts so far are ",
+        fprintf(stderr, "beamwork: %s: %d cells were not run; the verdicts so far are ",
                 r->shards.partial ? "incomplete" : "interrupted", s->unfinished);
         if (file != NULL && output_partial(file->value, partial, NULL) == STATUS_OK)
             fprintf(stderr, "in %s\n", partial);
@@ -100,8 +99,8 @@ static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
     TRY(import_store_read(path, must_pass, s, &left, f));
     if (left.series == left.all && must_pass)
         return fault_set(f, STATUS_REFUSED,
-                         "--imported-must-pass: nothing of %.150s was run: it is of %s; select "
-                         "that with -k, or give its --scene",
+                         "--imported-must-pass: nothing of %.150s was run: it belongs to %s; "
+                         "select that with -k, or give its --scene",
                          path, left.first);
     if (left.series == left.all)
         fprintf(stderr,
@@ -170,7 +169,7 @@ static status run_and_judge(const verify_request *r, const scenes *own,
         TRY(verification_run(request, whole, &reader, &v->truths, &v->sweep, &v->judgement, f));
     if (r->imported_must_pass && !imported_was_judged(&v->sweep, &v->judgement))
         return fault_set(f, STATUS_REFUSED,
-                         "--imported-must-pass: no imported value was judged: none of its "
+                         "--imported-must-pass: no imported value has a verdict: none of its "
                          "quantities has a reference value and is selected (-k), or its model is "
                          "not 'beam'");
     if (r->former != NULL && v->sweep.unfinished == 0)

@@ -300,7 +300,7 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
     for (int i = 0; i < spec->walls; i++) {
         if (axis_of(spec, i) < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "wall %d is oblique: only walls along y and z of the section are "
+                             "wall %d is oblique: only walls along y and z of the section can be "
                              "written as solids",
                              i);
         strips[i] = strip_of(spec, i);
@@ -334,13 +334,13 @@ static status face_of(const section_spec *spec, const section *constants, face *
     memset(out, 0, sizeof *out);
     if (is_overridden(spec))
         return fault_set(f, STATUS_REFUSED,
-                         "a solid has the constants of its sizes; remove 'given'");
+                         "the constants of a solid follow from its sizes; remove 'given'");
     if (spec->kind == SECTION_WALLS)
         return fill_walls(spec, constants->centroid, out, f);
     if (spec->kind != SECTION_RECTANGLE)
-        return fault_set(f, STATUS_REFUSED,
-                         "only rectangles and straight walls are written as solids; give it one "
-                         "of them");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "only rectangles and straight walls can be written as solids; give it one of them");
     fill_rectangle(spec, out);
     return STATUS_OK;
 }

@@ -19,10 +19,10 @@ static status check_section(const scene *s, int member, fault *f)
 {
     const section_spec *profile = &s->section[s->member[member].section];
     if (scene_member_tapers(&s->member[member]))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: a section that changes along it is not written as solid; give it one section",
-            scene_called(s, SCENE_MEMBERS, member).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: its section changes along it, which cannot be written as solids; "
+                         "give it one section",
+                         scene_called(s, SCENE_MEMBERS, member).text);
     brick mesh;
     fault why = {""};
     if (brick_init(&mesh, s, member, 1, 1, 1, &why) != STATUS_OK)
@@ -50,34 +50,33 @@ static status check_member(const scene *s, int member, fault *f)
     const scene_member *m = &s->member[member];
     const int end[2] = {m->p, m->q};
     if (!is_zero(m->curvature) || !is_zero(m->strain) || m->bow[0] != 0 || m->bow[1] != 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: curved or strained before it is loaded, which is not written as solid",
-            scene_called(s, SCENE_MEMBERS, member).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: it is curved or strained before it is loaded, which cannot be "
+                         "written as solids; remove that",
+                         scene_called(s, SCENE_MEMBERS, member).text);
     for (int i = 0; i < 2; i++)
         if (ends_at_node(s, end[i]) > 1)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: corners of members are not written as solids; make it a rigid "
+                             "%s: corners of members cannot be written as solids; make it a rigid "
                              "body with a node for each end (part_of)",
                              scene_called(s, SCENE_NODES, end[i]).text);
     if (m->release[0].count + m->release[1].count > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: released ends are not written as solids; join it, and let a node "
-                         "with a rotation of its own turn",
+                         "%s: released ends cannot be written as solids; remove the release, and "
+                         "let a node with its own rotation turn",
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (scene_is_founded(m))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: foundations are not written beside solids; take it out",
+                         "%s: foundations cannot be written with solids; remove it",
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (scene_is_beside(m, 0) || scene_is_beside(m, 1))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: ends eccentric to their nodes are not written as solids; give the place of "
-            "the end a node of its own (part_of)",
-            scene_called(s, SCENE_MEMBERS, member).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: ends eccentric to their nodes cannot be written as solids; put a "
+                         "node at the end (part_of)",
+                         scene_called(s, SCENE_MEMBERS, member).text);
     if (m->warp_p != SCENE_WARP_FIXED || m->warp_q != SCENE_WARP_FIXED)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: its ends warp, and rigid faces do not; say warping: fixed",
+                         "%s: its ends can warp, but rigid faces cannot; write warping: fixed",
                          scene_called(s, SCENE_MEMBERS, member).text);
     return check_section(s, member, f);
 }
@@ -100,7 +99,7 @@ static status check_node(const scene *s, int node, fault *f)
     double R[9];
     if (scene_node_axes(n, R))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: supports in axes of their own are not written as solids; hold it "
+                         "%s: supports in rotated axes cannot be written with solids; hold it "
                          "along the axes of the scene",
                          scene_called(s, SCENE_NODES, node).text);
     for (int i = 0; i < 3; i++)
@@ -110,38 +109,41 @@ static status check_node(const scene *s, int node, fault *f)
         return STATUS_OK;
     if (n->rotation != SCENE_ROTATION_SPATIAL)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: several turns in sequence and forks are not written as solids",
+                         "%s: sequences of rotations and forks cannot be written with solids; hold "
+                         "the rotations, or use a rotation vector",
                          scene_called(s, SCENE_NODES, node).text);
     if (!large || held >= 2 || (held == 0 && driven == 0))
         return STATUS_OK;
-    return fault_set(
-        f, STATUS_REFUSED,
-        "%s: of its rotations hold none, two or all; rigid faces turn by a rotation vector",
-        scene_called(s, SCENE_NODES, node).text);
+    return fault_set(f, STATUS_REFUSED,
+                     "%s: hold none, two or all of its rotations, because rigid faces rotate by a "
+                     "rotation vector",
+                     scene_called(s, SCENE_NODES, node).text);
 }
 
 static status check_load(const scene *s, int load, fault *f)
 {
     const scene_load *l = &s->load[load];
     if (l->kind != SCENE_FORCE && l->kind != SCENE_MOMENT)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: on members and weight are not written for solids; put it on nodes",
-                         scene_called(s, SCENE_LOADS, load).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: loads on members and weight cannot be written with solids; put it on nodes",
+            scene_called(s, SCENE_LOADS, load).text);
     if (l->follower || l->axes != SCENE_AXES_FIXED || !is_zero(l->at))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: only dead loads at nodes, in fixed axes, are written for solids",
-                         scene_called(s, SCENE_LOADS, load).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: only dead loads at nodes, in fixed axes, can be written with solids; change it",
+            scene_called(s, SCENE_LOADS, load).text);
     if (!rigid_moves(s, l->where))
         return fault_set(
-            f, STATUS_REFUSED, "%s: no solid ends at its %s; put it on the body that moves",
+            f, STATUS_REFUSED, "%s: no solid ends at its %s; put it on the moving body",
             scene_called(s, SCENE_LOADS, load).text, scene_called(s, SCENE_NODES, l->where).text);
     if (l->kind == SCENE_MOMENT && carried_static(s) != SCENE_NONE &&
         rigid_single_axis(&s->node[l->where]) == SCENE_NONE &&
         held_rotations(&s->node[l->where]) < 2)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: a moment on a node that turns about any axis is another one for a rotation vector",
-            scene_called(s, SCENE_LOADS, load).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a moment on a node that can rotate about any axis differs from that "
+                         "of a rotation vector; hold two of its rotations",
+                         scene_called(s, SCENE_LOADS, load).text);
     return STATUS_OK;
 }
 
@@ -150,17 +152,18 @@ static status check_analysis(const scene *s, int analysis, fault *f)
     const scene_analysis *a = &s->analysis[analysis];
     if (a->kind != SCENE_LINEAR && a->kind != SCENE_STATIC && a->kind != SCENE_COMPLIANCE)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: linear, static and compliance are written for solids, %s not; leave "
-                         "it and its quantities out",
+                         "%s: linear, static and compliance analyses can be written with solids, "
+                         "but %s cannot; remove it and its quantities",
                          scene_called(s, SCENE_ANALYSES, analysis).text,
                          scene_analysis_name(a->kind));
     if (a->kind == SCENE_STATIC && (analysis != carried_static(s) || scene_rotates(a)))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: one static path in axes at rest is written for solids",
+                         "%s: only one static path, in axes at rest, can be written with solids; "
+                         "remove this one",
                          scene_called(s, SCENE_ANALYSES, analysis).text);
     if (a->kind == SCENE_COMPLIANCE && !rigid_moves(s, scene_compliance_of(a)->node))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: no solid ends at its node; ask for the body that moves",
+                         "%s: no solid ends at its node; request the moving body",
                          scene_called(s, SCENE_ANALYSES, analysis).text);
     return STATUS_OK;
 }
@@ -170,13 +173,13 @@ status carried_check(const scene *s, fault *f)
     if (s->members == 0)
         return fault_set(f, STATUS_REFUSED, "a scene without members has no solid");
     if (s->springs > 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "springs are not written with solids; remove "
-                         "them, or make the spring a member");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "springs cannot be written with solids; remove them, or replace them by members");
     if (s->constraints > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: constraints are not written with solids; make the nodes one body by "
-                         "part_of, or remove it",
+                         "%s: constraints cannot be written with solids; make the nodes one body "
+                         "by part_of, or remove it",
                          scene_called(s, SCENE_CONSTRAINTS, 0).text);
     if (s->imperfections > 0)
         return fault_set(f, STATUS_REFUSED,
@@ -210,13 +213,14 @@ static status check_component(const scene *s, const scene_quantity *q, fault *f)
     const scene_component *c = scene_component_of(q);
     const scene_node *n = &s->node[c->node];
     if (!rigid_moves(s, c->node))
-        return refuse(q, "no solid ends at its node; ask for the body that moves", f);
+        return refuse(q, "no solid ends at its node; request the moving body", f);
     if (q->what.kind != SCENE_REACTION || c->component < SCENE_RX ||
         rigid_single_axis(n) == c->component - SCENE_RX)
         return STATUS_OK;
     for (int i = 0; i < 3; i++)
         if (n->angle[i] != SCENE_HELD)
-            return refuse(q, "a moment on a node that turns is not printed for solids", f);
+            return refuse(
+                q, "a moment on a rotating node is not printed for solids; remove the quantity", f);
     return STATUS_OK;
 }
 
@@ -231,17 +235,17 @@ static status check_last(const scene *s, const scene_quantity *q, fault *f)
     if (q->reduction == SCENE_CURVE ||
         (q->reduction == SCENE_AT && q->at != path->value[path->stations - 1]))
         return refuse(q,
-                      "of a loaded state, only that of the last station is written; end the "
-                      "path there",
+                      "about a loaded state, only the value at the last station can be written; "
+                      "end the path there",
                       f);
     for (const scene_quantity *other = s->quantity; other < q; other++)
         if ((other->what.kind == SCENE_COMPLIANCE_ENTRY ||
              other->what.kind == SCENE_STIFFNESS_ENTRY) &&
             s->analysis[other->analysis].follows != SCENE_NONE)
-            return refuse(q,
-                          "a deck has one stiffness of a loaded state; ask for the others in "
-                          "scenes of their own",
-                          f);
+            return refuse(
+                q,
+                "a deck has one stiffness of a loaded state; request the others in separate scenes",
+                f);
     return STATUS_OK;
 }
 
@@ -252,7 +256,9 @@ static status check_entry(const scene *s, const scene_quantity *q, fault *f)
     const scene_entry *e = scene_entry_of(q);
     if (s->analysis[q->analysis].follows != SCENE_NONE &&
         (e->row >= SCENE_RX || e->column >= SCENE_RX))
-        return refuse(q, "rotations about a loaded state are not written for solids", f);
+        return refuse(
+            q, "rotations about a loaded state cannot be written with solids; remove the quantity",
+            f);
     return check_last(s, q, f);
 }
 
@@ -260,16 +266,17 @@ static status check_quantity(const scene *s, const scene_quantity *q, fault *f)
 {
     if (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN)
         return refuse(q,
-                      "the largest and least of a path are not written for solids; ask at a "
-                      "value of it",
+                      "the maximum and minimum of a path cannot be written with solids; request a "
+                      "value at a station",
                       f);
     if (q->envelope != SCENE_ENVELOPE_NONE)
-        return refuse(q,
-                      "an envelope is not written for solids; ask for each combination that may "
-                      "govern",
-                      f);
+        return refuse(
+            q,
+            "an envelope cannot be written with solids; request each combination that may govern",
+            f);
     if (scene_abscissa_of(s, q) != SCENE_NONE)
-        return refuse(q, "a curve over another quantity is not written for solids; remove x", f);
+        return refuse(q, "a curve over another quantity cannot be written with solids; remove x",
+                      f);
     switch (q->what.kind) {
     case SCENE_COORDINATE:
     case SCENE_REACTION:
@@ -278,14 +285,15 @@ static status check_quantity(const scene *s, const scene_quantity *q, fault *f)
     case SCENE_STIFFNESS_ENTRY:
         return check_entry(s, q, f);
     default:
-        return refuse(q, "of its kind nothing is printed for solids", f);
+        return refuse(q, "quantities of this kind are not printed for solids; remove it", f);
     }
 }
 
 status carried_asked_check(const scene *s, fault *f)
 {
     if (s->quantities == 0)
-        return fault_set(f, STATUS_REFUSED, "a scene without quantities asks nothing of a solid");
+        return fault_set(f, STATUS_REFUSED,
+                         "the scene has no quantities to request from solids; add one");
     for (int i = 0; i < s->quantities; i++)
         TRY(check_quantity(s, &s->quantity[i], f));
     return STATUS_OK;

@@ -126,10 +126,11 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
 {
     unit_measure a, b;
     if (!read_unit(from, &a))
-        return fault_set(f, STATUS_REFUSED,
-                         "unit '%.40s' is unknown; write a product as N, kN, N/mm, N mm, mm/N, "
-                         "rad/(N m), MPa, J, kg m/s, Hz, deg, %%, 1",
-                         from);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "unit '%.40s' is unknown; write a product of units such as N, kN, N/mm, N mm, mm/N, "
+            "rad/(N m), MPa, J, kg m/s, Hz, deg, %%, 1",
+            from);
     if (!read_unit(to, &b) || memcmp(a.power, b.power, sizeof a.power) != 0)
         return fault_set(f, STATUS_REFUSED, "unit '%.40s' cannot be converted to '%.40s'", from,
                          to);

@@ -28,10 +28,9 @@ status deck_check(const deck_request *r, fault *f)
         return fault_set(f, STATUS_REFUSED, "%d elements along a member: give 1 to %d with -n",
                          r->elements, DECK_MOST_ELEMENTS);
     if (r->scene->plane != SCENE_SPACE)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "scene %.60s is held in a plane, which solids are not: take plane: %s away",
-            r->scene->name, scene_plane_name(r->scene));
+        return fault_set(f, STATUS_REFUSED,
+                         "scene %.60s is held in a plane, but solids are not: remove plane: %s",
+                         r->scene->name, scene_plane_name(r->scene));
     TRY(carried_check(r->scene, f));
     return carried_asked_check(r->scene, f);
 }

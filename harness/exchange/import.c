@@ -138,7 +138,7 @@ static void name_series(import_block *b, const import_header *h, int line)
 {
     imported *to = b->found;
     if (h->program[0] == '\0')
-        mistakes_add(b->m, line, 1, "which program? Write '# program: NAME, ELEMENT'");
+        mistakes_add(b->m, line, 1, "the program is not named; write '# program: NAME, ELEMENT'");
     else if (strlen(h->program) >= FORMULATION_KEY || strchr(h->program, '/') != NULL)
         mistakes_add(b->m, h->program_line, 1, "program: at most %d bytes without '/'",
                      FORMULATION_KEY - 1);
@@ -171,7 +171,7 @@ import_block import_block_open(import_set *set, const import_header *h, const ch
     }
     name_series(&b, h, line);
     if (h->of[0] == '\0')
-        mistakes_add(m, line, 2, "which case? Write '# case: NAME; PARAMETER=VALUE'");
+        mistakes_add(m, line, 2, "the case is not named; write '# case: NAME; PARAMETER=VALUE'");
     else
         b.point = find_point(&b, h->of, line);
     check_convention(&b, h);

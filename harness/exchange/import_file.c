@@ -52,7 +52,8 @@ static const char *const header_names[] = {"beamwork-import", "program",    "ver
 static void take_text(char to[IMPORT_TEXT], int *line, const file_reader *r, const char *value)
 {
     if (strlen(value) >= IMPORT_TEXT)
-        mistakes_add(r->m, r->line, 1, "a line of at most %d bytes", IMPORT_TEXT - 1);
+        mistakes_add(r->m, r->line, 1, "the text is too long; use at most %d bytes",
+                     IMPORT_TEXT - 1);
     snprintf(to, IMPORT_TEXT, "%s", value);
     *line = r->line;
 }
@@ -84,10 +85,10 @@ static void take_header(file_reader *r, const char *key, const char *value)
     else if (strcmp(key, "convention") == 0)
         take_text(h->convention, &h->convention_line, r, value);
     else if (!axes_parse(value, &h->axes))
-        mistakes_add(
-            r->m, r->line, 1,
-            "axes '%.60s' are not a signed permutation; write theirs = beamwork's, as x=x y=-z z=y",
-            value);
+        mistakes_add(r->m, r->line, 1,
+                     "axes '%.60s' are not a signed permutation; write theirs = beamwork's, such "
+                     "as x=x y=-z z=y",
+                     value);
 }
 
 /* "# key: value # remark"; other lines that begin with # are comments. */
@@ -190,7 +191,7 @@ static void take_fields(const file_reader *r, const char *const at[COLUMNS], imp
                           .value = number_of(r, at[VALUE], VALUE),
                           .uncertainty = number_of(r, at[UNCERTAINTY], UNCERTAINTY)};
     if (strlen(at[UNIT]) >= sizeof row->unit || strlen(at[QUANTITY]) >= sizeof row->quantity)
-        mistakes_add(r->m, r->line, 1, "a quantity or a unit with too many letters");
+        mistakes_add(r->m, r->line, 1, "the name of a quantity or unit is too long");
     snprintf(row->unit, sizeof row->unit, "%s", at[UNIT]);
     snprintf(row->quantity, sizeof row->quantity, "%s", at[QUANTITY]);
 }
@@ -200,14 +201,14 @@ static void read_row(file_reader *r, char *const field[], int count)
     const char *at[COLUMNS] = {0};
     imported_row row;
     if (count > r->fields) {
-        mistakes_add(r->m, r->line, 1, "%d fields under %d columns", count, r->fields);
+        mistakes_add(r->m, r->line, 1, "the row has %d fields for %d columns", count, r->fields);
         return;
     }
     for (int i = 0; i < count; i++)
         if (r->place[i] >= 0)
             at[r->place[i]] = field[i];
     if (at[QUANTITY] == NULL || at[UNIT] == NULL) {
-        mistakes_add(r->m, r->line, 1, "%d fields under %d columns", count, r->fields);
+        mistakes_add(r->m, r->line, 1, "the row has %d fields for %d columns", count, r->fields);
         return;
     }
     take_fields(r, at, &row);
@@ -227,11 +228,11 @@ static void read_fields(file_reader *r, char *line)
     }
     const int count = line_split(line, field, FIELDS);
     if (count > FIELDS)
-        mistakes_add(r->m, r->line, 1, "more than %d fields", FIELDS);
+        mistakes_add(r->m, r->line, 1, "the line has more than %d fields", FIELDS);
     else if (!r->placed || strcmp(field[0], names[QUANTITY]) == 0)
         read_columns(r, field, count);
     else if (++r->rows > IMPORT_ROWS)
-        mistakes_add(r->m, r->line, 1, "more than %d rows", IMPORT_ROWS);
+        mistakes_add(r->m, r->line, 1, "the file has more than %d rows", IMPORT_ROWS);
     else
         read_row(r, field, count);
 }
@@ -242,7 +243,7 @@ static status read_line(file_reader *r, char *line, fault *f)
     if (line[0] == '\0')
         return STATUS_OK;
     if (!line_is_text(line)) {
-        mistakes_add(r->m, r->line, 1, "not a line of UTF-8 text without control characters");
+        mistakes_add(r->m, r->line, 1, "the line is not UTF-8 text without control characters");
     } else if (line[0] == '#') {
         TRY(close_block(r, f));
         read_header(r, line);

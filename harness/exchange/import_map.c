@@ -209,8 +209,9 @@ static import_header header_of(const map_reader *r)
     h.model_line = line_of(r, "model");
     h.convention_line = line_of(r, "convention");
     if (line_of(r, "axes") > 0 && !axes_parse(map_keys_text(r->m, r->root, "axes", ""), &h.axes))
-        document_mistake(r->m, document_find(r->root, "axes"), 0,
-                         "axes: a signed permutation, theirs = beamwork's, as x=x y=-z z=y");
+        document_mistake(
+            r->m, document_find(r->root, "axes"), 0,
+            "axes: give a signed permutation, theirs = beamwork's, such as x=x y=-z z=y");
     return h;
 }
 

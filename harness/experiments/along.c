@@ -14,7 +14,7 @@
 enum { SIX = 6, END = 1 };
 
 static const double L = 0.7, force = 3, moment = 2; /* [m, N/m, N m/m] */
-static const double rounding = 1e-8;                /* relative to what a cantilever has */
+static const double rounding = 1e-8;                /* relative to the values of a cantilever */
 
 typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
 static const char *const support_name[SUPPORTS] = {
@@ -23,7 +23,7 @@ static const char *const support_name[SUPPORTS] = {
 /* Components of its two nodes that are fixed, a bit each. */
 static const unsigned held[SUPPORTS][2] = {{63, 0}, {63, 63}, {63, 15}, {15, 7}};
 
-/* Displacement and turn of a plane, and the sign of the turn in it. */
+/* Displacement and rotation in a plane, and the sign of the rotation. */
 static const struct {
     int shift, turn, sign;
 } planes[2] = {{1, 5, 1}, {2, 4, -1}};
@@ -44,7 +44,7 @@ static void make_scene(support of, scene *s)
     section_spec spec = section_spec_rectangle(70e3, 27e3, 0.3, 0.2);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* another one: swapped ones show */
+    spec.shear_factor[1] = 0.4; /* different values, so that swapped ones are detected */
     scene_init(s, "along");
     const int profile = scene_add_section(s, &spec), from = scene_add_node(s, 0, 0, 0),
               to = scene_add_node(s, L, 0, 0);
@@ -63,7 +63,7 @@ static void ask(scene *s, int analysis, int number, scene_extract what)
     scene_add_quantity(s, name, "1", analysis, what);
 }
 
-/* The values of its quantities. */
+/* Values of its quantities. */
 static status solve(const formulation *chosen, const scene *s, double value[], fault *f)
 {
     const model_request what = {s, chosen->type, chosen->option, 1, 0, 0};
@@ -83,7 +83,7 @@ static status solve(const formulation *chosen, const scene *s, double value[], f
     return outcome;
 }
 
-/* As the displacements between nodes have it: elements/field. */
+/* Like the displacements between nodes (elements/field). */
 static double shear_of(const formulation *chosen, const section *c, int plane)
 {
     const int rigid = !(chosen->type->offers & FEATURE_SHEAR) ||
@@ -132,8 +132,8 @@ static void exact_along(support of, double soft, double load, int c, ends *out)
     out->of[0][c] = both ? -load * L / 2 : -load * L;
 }
 
-/* Bending in a plane under a force and a moment along it, by the force method: R and M hold the
- * end of a cantilever, which a hinge at its beginning turns. */
+/* Bending in a plane under a force and a moment along the beam, by the force method: R and M hold
+ * the end of a cantilever whose root may rotate in a hinge. */
 static void exact_across(support of, const softness *soft, int k, double along, double turning,
                          ends *out)
 {
@@ -217,25 +217,25 @@ static void compare(const formulation *chosen, support of, const softness *soft,
         char words[SPECIMEN_WORDS];
         claims_departs(
             one, fabs(a - b) / size_of(soft, c, reaction),
-            "loads along it: one element %s has %.9g, not %.9g, as %s%s; if 'measured' names a "
-            "stiffness, correct that first; else the strains: of r and R of node_state, and at "
-            "rest of x axes along the element",
+            "loads along it: one element %s has %.9g instead of %.9g as %s%s; if 'measured' names "
+            "a stiffness, correct that first; otherwise the strains: they use r and R of "
+            "node_state, and x axes that lie along the element at rest",
             support_name[of], a, b, reaction ? "reaction to the " : "",
             specimen_coordinate(NODE_COORDINATES * node + c, words));
     }
 }
 
-/* Loads that the element takes itself. */
+/* Loads that the element includes in its own equilibrium. */
 enum { X = ELEMENT_ALONG_COORDINATES, M = SPECIMEN_STRAINS, SETTLING = 40, FINER = 50 };
 
 typedef struct taken {
     const specimen *s;
     const node_state *x;
     double q[3 * ELEMENT_ALONG_POINTS];
-    double *inner; /* of x, from where states near it are settled */
+    double *inner; /* of x, from which neighbouring states are found */
 } taken;
 
-/* Forces with settled inner unknowns, K too where it is wanted. */
+/* Forces with converged internal unknowns, and K if it is requested. */
 static status forces_under(const taken *of, const node_state x[], double F[X], double K[X * X])
 {
     const specimen *s = of->s;
@@ -310,14 +310,15 @@ static void check_taken(const specimen *s, claims *c)
     specimen_state(s, 0.0002, 5, bent);
     specimen_carry(s, turn, bent, x);
     claim *derives =
-              claims_open(c, "under a load that it takes K is the derivative of the forces", 1e-7),
+              claims_open(c, "under a load of its own, K is the derivative of the forces", 1e-7),
           *sums = claims_open(c, "and the load is the sum of the forces", 1e-9);
     specimen_rest(s, inner);
     status outcome = forces_under(&of, x, F, K);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         outcome = stencil_first(forces_of, &of, X, a, found[a]) ? STATUS_NOT_CONVERGED : STATUS_OK;
     claims_asks(derives, outcome == STATUS_OK,
-                "along: a state under a small load is outside what it can evaluate%s", s->words);
+                "along: a state under a small load is outside the range that it can evaluate%s",
+                s->words);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         for (int b = 0; b < X; b++) { /* the symmetric part is that of the exponential chart */
             const double ua = chart_unit(a, l), ub = chart_unit(b, l),

@@ -62,8 +62,8 @@ static int write_label(FILE *to, const batch_label *b, size_t size)
     return bad ? -1 : 0;
 }
 
-/* Label, bytes and the last line as they stand in the file; the caller frees them. 0, or -1: out of
- * memory. */
+/* Label, bytes and the last line of the file; the caller frees them. Returns 0, or -1 if memory
+ * runs out. */
 static int assemble(const batch_label *b, const void *bytes, size_t size, char **out,
                     size_t *length)
 {
@@ -81,8 +81,8 @@ static int assemble(const batch_label *b, const void *bytes, size_t size, char *
     return fclose(to) != 0 || bad ? -1 : 0;
 }
 
-/* Names that were written last longer than a power cut; a folder that cannot be synchronised needs
- * no such thing. */
+/* Makes written names survive a power cut; a folder that cannot be synchronised does not need this.
+ */
 static void keep_names(const char *folder)
 {
     const int there = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -92,7 +92,7 @@ static void keep_names(const char *folder)
     }
 }
 
-/* The lock says that its writer lives; it ends with the process, whatever ends that. */
+/* The lock shows that its writer runs; it ends with the process in any case. */
 static status write_locked(const char *path, const char *bytes, size_t length, fault *f)
 {
     output file;
@@ -164,7 +164,7 @@ static status no_batch(const char *path, fault *f)
     return fault_set(f, STATUS_FAULT, "%.200s: no batch of this program, or damaged", path);
 }
 
-/* 0, or -1: it is not there or too long. */
+/* Returns 0, or -1 if it is missing or too long. */
 static int get_text(const json_t *from, const char *key, char *out, size_t size)
 {
     const char *text = json_string_value(json_object_get(from, key));
@@ -174,7 +174,7 @@ static int get_text(const json_t *from, const char *key, char *out, size_t size)
     return 0;
 }
 
-/* A whole number from 0; -1: it is not one. */
+/* A non-negative whole number; -1: it is not one. */
 static int get_index(const json_t *from, const char *key)
 {
     const json_int_t value = json_integer_value(json_object_get(from, key));
@@ -280,8 +280,8 @@ status batch_belongs(const batch_label *b, const shard_work *w, const char *path
 {
     if (strcmp(b->verb, w->verb) != 0 || strcmp(b->request, w->request) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%.120s: a batch of another request (%.20s %.100s); keep the batches of a "
-                         "request in a folder of their own",
+                         "%.120s: a batch of another request (%.20s %.100s); use a separate folder "
+                         "for each request",
                          path, b->verb, b->request);
     if (strcmp(b->build, w->build) != 0)
         return fault_set(f, STATUS_REFUSED,
@@ -289,11 +289,10 @@ status batch_belongs(const batch_label *b, const shard_work *w, const char *path
                          "that computed it, or a new folder",
                          path, b->build, w->build);
     if (strcmp(b->plan, w->plan) != 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%.120s: a batch of the same request with other reference values, scenes or "
-            "formulations behind it; use those, or a new folder",
-            path);
+        return fault_set(f, STATUS_REFUSED,
+                         "%.120s: a batch of the same request, computed with other reference "
+                         "values, scenes or formulations; use those, or a new folder",
+                         path);
     return STATUS_OK;
 }
 
@@ -311,7 +310,7 @@ static double processor_seconds(void)
     return all;
 }
 
-/* One batch, from nothing to its file. */
+/* Computes one batch and writes its file. */
 static status compute(const labour *c, int batch, double *seconds, fault *f)
 {
     const shard_work *w = c->w;

@@ -87,7 +87,7 @@ static status run(const void *asked, void *found, fault *f)
     return run_sweep(&r->cells, &b->sweep, f);
 }
 
-/* Times are taken where the verdicts are known. */
+/* Times are measured at points with verdicts. */
 static status judge(const void *asked, void *found, fault *f)
 {
     const bench_request *r = asked;
@@ -106,7 +106,7 @@ static experiment_cells cells(const void *found)
     return (experiment_cells){&b->sweep, &b->judgement, &b->made};
 }
 
-/* Errors against agreements too. */
+/* Errors against agreements are included. */
 static status write_table(FILE *to, const bench *b, fault *f)
 {
     judgement shown = {.verdicts = 0};
@@ -178,7 +178,7 @@ static void sample(const cell_request *dense, dense_reference *out)
     if (cell_run(&one, &cell, &f) == STATUS_OK)
         for (int k = 0; k < PHASE_REST; k++)
             seconds += cell.solve.phase[k];
-    if (seconds > 0) { /* a path that is continued has no dense form: nothing was sampled */
+    if (seconds > 0) { /* continued paths have no dense form: nothing was sampled */
         out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
         out->unknowns = unknowns_of(&cell);
     }
@@ -206,7 +206,8 @@ static int at_defaults(const sweep *s, const series *one)
     return strcmp(s->point[one->point].name, "default") == 0;
 }
 
-/* Beside the defaults a long cell keeps the time of its one run, and rounds are short. */
+/* At points other than the defaults, a long cell keeps the time of its single run, and rounds are
+ * short. */
 static int can_run(const sweep *s, const series *one, int mesh)
 {
     const solve_result *r = &one->cell[mesh].solve;
@@ -227,7 +228,7 @@ static int mesh_kept_whole(const sweep *s, const series *one)
     return one->meshes > 0 && one->cell[mesh].solve.status == STATUS_OK ? mesh : -1;
 }
 
-/* Both in turn: the difference of their times is what leaving out saves. */
+/* Runs both in turn: the difference of their times is the saving by elimination. */
 static void round_kept_whole(const cell_request *as_is, double floor, cell_timing *out)
 {
     cell_request whole = *as_is;
@@ -314,7 +315,7 @@ void rounds_pin(void)
     cpu_set_t only;
     CPU_ZERO(&only);
     CPU_SET(here >= 0 ? here : 0, &only);
-    sched_setaffinity(0, sizeof only, &only); /* without it the readings are only noisier */
+    sched_setaffinity(0, sizeof only, &only); /* without it the readings only have more noise */
 }
 
 void rounds_single_thread(char **arguments)
@@ -328,7 +329,7 @@ void rounds_single_thread(char **arguments)
         setenv(threads[i], "1", 1);
     }
     if (!single)
-        /* returns only where there is no /proc: then libraries decide */
+        /* returns only if there is no /proc; then libraries decide */
         execv("/proc/self/exe", arguments);
 }
 
@@ -474,6 +475,6 @@ status profiles_section(profiles_form form, double unit, section *out, fault *f)
         spec.density = 7850 * unit * unit * unit;
     TRY(section_compute(&spec, out, f));
     if (form == PROFILES_UNSYMMETRIC)
-        out->Iw = out->A * pow(0.2 / unit, 4); /* as large as what it is compared with */
+        out->Iw = out->A * pow(0.2 / unit, 4); /* as large as the value with which it is compared */
     return STATUS_OK;
 }

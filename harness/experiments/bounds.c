@@ -1,4 +1,5 @@
-/* Guard words around every output: each is filled whole, and nothing beside it is touched. */
+/* Guard words around every output: each is filled completely, and no memory outside it is changed.
+ */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -41,11 +42,11 @@ static int untouched(const double *word)
     return bits == mark;
 }
 
-/* Looks at it and frees it. must: 1: it is filled whole. */
+/* Checks it and frees it. must: 1: it must be filled completely. */
 static void look(guarded *g, int must, const specimen *s, claims *c)
 {
     claim *beside = claims_open(c, "no memory outside an output is changed", 0),
-          *filled = claims_open(c, "outputs are filled whole", 0);
+          *filled = claims_open(c, "outputs are filled completely", 0);
     for (int i = 0; i < GUARD; i++) {
         claims_asks(beside, untouched(&g->words[GUARD - 1 - i]),
                     "%s: entry %d is written, before its first%s", g->name, -i - 1 + 1, s->words);
@@ -214,7 +215,7 @@ void checks_bounds(const formulation *chosen, claims *out)
     specimens_each(chosen, out, check);
 }
 
-/* Elements keep no state: what a call gives depends on its arguments alone. */
+/* Elements keep no state: the results of a call depend on its arguments only. */
 
 enum { STATELESS_M = SPECIMEN_STRAINS, STATELESS_N = SPECIMEN_COORDINATES };
 
@@ -256,7 +257,7 @@ static int same_bits(size_t count, const double a[], const double b[])
     return 1;
 }
 
-/* The name of the first that is not the same bits, or NULL. */
+/* Returns the name of the first result that is not bit-for-bit equal, or NULL. */
 static const char *apart(const call_account *a, const call_account *b)
 {
     const struct {
@@ -281,13 +282,13 @@ static void same(const call_account *a, const call_account *b, const char *after
 {
     const char *other = apart(a, b);
     claims_asks(one, other == NULL,
-                "%s is another one after %s; keep nothing between calls, neither in static "
-                "variables nor in the data%s",
+                "%s differs after %s; store nothing between calls, neither in static variables nor "
+                "in the data%s",
                 other, after, s->words);
 }
 
-/* Makes an element of another length, in its own memory or in place of the first, which is made
- * again. Both must return what they return without previous calls. */
+/* Prepares an element of another length, in its own memory or in place of the first, which is
+ * prepared again. Both must return what they return without previous calls. */
 static void other_element(const specimen *s, const call_account *before, const node_state x[],
                           const call_account *first, claim *one)
 {
@@ -298,7 +299,7 @@ static void other_element(const specimen *s, const call_account *before, const n
     what.length = longer;
     if (specimen_make(&what, &other, &f) == STATUS_OK) {
         tell(&other, x, &between);
-        same(first, &between, "calls of another element, and not in a process of its own", s, one);
+        same(first, &between, "calls of another element, compared with a new process", s, one);
         tell(s, x, &after);
         same(before, &after, "calls of another element", s, one);
     }
@@ -325,7 +326,7 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
     const int again = s->type.prepare(&s->request, s->data, &f) == STATUS_OK;
     if (!again) {
         memcpy(s->data, kept, s->size);
-        claims_asks(one, 0, "prepare: the same element is refused when it is made again: %s%s",
+        claims_asks(one, 0, "prepare: the same element is refused when it is prepared again: %s%s",
                     f.text, s->words);
     } else {
         tell(s, x, &after);
@@ -335,7 +336,7 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
     return again;
 }
 
-/* Each output alone is what it is together with the others. */
+/* Each output alone equals the output together with the others. */
 static void alone(const specimen *s, const call_account *before, const node_state x[], claim *one)
 {
     call_account a = *before;
@@ -354,10 +355,11 @@ static void alone(const specimen *s, const call_account *before, const node_stat
         memcpy(a.C, before->C, sizeof a.C);
         a.energy = before->energy;
     }
-    same(before, &a, "asking for that output alone", s, one);
+    same(before, &a, "a call for that output alone", s, one);
 }
 
-/* The same state by two ways, with inner unknowns: straight from rest, and over another state. */
+/* The same state in two ways, with internal unknowns: directly from rest, and through another
+ * state. */
 static void two_ways(const specimen *s, const call_account *before, const node_state x[],
                      claim *one)
 {

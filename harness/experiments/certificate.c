@@ -13,9 +13,9 @@
 
 #include "harness/numerics/numerics.h"
 
-enum { MOST_CHILDREN = 64, LOOK = 100 /* [ms] between looks at the clocks */ };
+enum { MOST_CHILDREN = 64, LOOK = 100 /* [ms] between checks of the clocks */ };
 
-/* A process that is at one part; its pipe closes when it ends. */
+/* A process that runs one part; its pipe closes when it ends. */
 typedef struct tester {
     pid_t process;
     int end; /* -1: it does not run */
@@ -101,7 +101,7 @@ static status start(tester *t, certificate *of, int part, int time_limit, fault 
     return STATUS_OK;
 }
 
-/* It has ended; what did not come to an end is a claim that is broken. */
+/* Records that it has ended; if it did not finish, a requirement is violated. */
 static void bury(tester *t, int time_limit)
 {
     char words[100];
@@ -115,7 +115,7 @@ static void bury(tester *t, int time_limit)
         return;
     if (child_ended(how, t->late, time_limit, words, sizeof words))
         t->of->late = certificate_part_name(t->part);
-    claims_asks(claims_open(c, "every call comes back", 0), 0, "%s: %.250s", words,
+    claims_asks(claims_open(c, "every call returns", 0), 0, "%s: %.250s", words,
                 c->doing[0] != '\0' ? c->doing : "before the first call");
 }
 
@@ -127,7 +127,7 @@ static void stop_late(tester *t, int time_limit)
     kill(t->process, SIGKILL);
 }
 
-/* After one that did not come back in time the others are not waited for. */
+/* After one that did not return in time, the others are not waited for. */
 static void pass_over(certificate *of, int part)
 {
     char why[CLAIM_SENTENCE];
@@ -135,7 +135,7 @@ static void pass_over(certificate *of, int part)
     claims_not_made(&of->part[part].claims, certificate_part_name(part), why);
 }
 
-/* Waits until one ends, and takes what has. Returns how many ended. */
+/* Waits until one ends, and collects all that have ended. Returns their number. */
 static int attend(tester all[], int jobs, int time_limit)
 {
     struct pollfd ends[MOST_CHILDREN];
@@ -235,12 +235,12 @@ static claim_outcome outcome_of(const claims *c)
     int held = 0;
     if (claims_counted(c, CLAIM_BROKEN) > 0)
         return CLAIM_BROKEN;
-    for (int i = 0; i < c->count; i++) /* that an element is made is no answer yet */
+    for (int i = 0; i < c->count; i++) /* preparing an element does not count as an answer */
         held |= c->claim[i].outcome == CLAIM_HOLDS && strcmp(c->claim[i].name, "prepare") != 0;
     return held ? CLAIM_HOLDS : CLAIM_NOT_CLAIMED;
 }
 
-/* A line for each claim that is broken, or all of them. */
+/* Prints a line for each violated requirement, or for all. */
 static void write_claims(FILE *to, screen look, const claims *c, int verbose)
 {
     for (int i = 0; i < c->count; i++) {
@@ -253,7 +253,7 @@ static void write_claims(FILE *to, screen look, const claims *c, int verbose)
             paragraph_say(to, 8, 8, "%s: %d compared, at most %.1e (allowed %.1e)", one->name,
                           one->compared, one->worst, one->allowed);
         else if (one->outcome == CLAIM_BROKEN && isfinite(one->worst) && one->allowed > 0)
-            paragraph_say(to, 8, 8, "%s (apart by %.1e, allowed %.1e)", one->sentence, one->worst,
+            paragraph_say(to, 8, 8, "%s (difference %.1e, allowed %.1e)", one->sentence, one->worst,
                           one->allowed);
         else if (one->outcome == CLAIM_BROKEN)
             paragraph_write(to, 8, 8, one->sentence);
@@ -273,7 +273,7 @@ static void write_family(FILE *to, screen look, const certificate *c, int part, 
         paragraph_write(to, INDENT, INDENT, own->claim[0].sentence);
     else if (outcome == CLAIM_NOT_CLAIMED)
         paragraph_say(to, INDENT, INDENT, "not applicable: %s",
-                      own->count > 0 ? own->claim[own->count - 1].sentence : "nothing to look at");
+                      own->count > 0 ? own->claim[own->count - 1].sentence : "nothing to check");
     else
         paragraph_say(to, INDENT, INDENT, "%s (%d compared)", certificate_part_words(part),
                       claims_compared(own));

@@ -7,16 +7,16 @@
 
 const checks_family checks_families[CHECKS_FAMILIES] = {
     {"declared", "its declarations are consistent", checks_declared},
-    {"features", "it can do what it declares to support: alone, in subsets, as the cases need it",
+    {"features", "what it declares is supported alone, in subsets and in the cases",
      checks_features},
     {"derivatives", "J and H are the derivatives of the strains", checks_derivatives},
     {"energy", "stress, C and G derive from the energy, C and G are symmetric", checks_energy},
     {"force", "force and stiffness derive from the energy", checks_force},
     {"motion", "rigid motion, order of the nodes and units change nothing", checks_motion},
-    {"stateless", "the same call gives the same bits, independent of former calls",
+    {"stateless", "the same call gives the same bits, regardless of previous calls",
      checks_stateless},
-    {"many", "many elements at once give what each gives alone", checks_many},
-    {"bounds", "outputs are filled whole, and no memory outside them is changed", checks_bounds},
+    {"many", "many elements at once give the same results as one at a time", checks_many},
+    {"bounds", "outputs are filled completely; no memory outside them changes", checks_bounds},
     {"unsound", "NaN and Inf are reported, not swallowed", checks_unsound},
     {"mass", "mass matrix: symmetric, positive, mass and moments of the beam", checks_mass},
     {"along", "loads along one element are as exact as forces at its nodes", checks_along},
@@ -39,8 +39,9 @@ static void rigid(const specimen *s, double size, const double turn[3], claim *o
     s->type.strain(s->data, carried, &(strain_output){.e = carried_e});
     for (int i = 0; i < s->strains; i++)
         claims_departs(one, fabs(carried_e[i] - e[i]) / s->request.length,
-                       "strain: turned by (%g, %g, %g) rad and shifted as a whole, strain %d goes "
-                       "from %.6g to %.6g m; measure it in axes that rotate with the element%s",
+                       "strain: when the element is rotated by (%g, %g, %g) rad and shifted as a "
+                       "whole, strain %d changes from %.6g to %.6g m; measure it in axes that "
+                       "rotate with the element%s",
                        turn[0], turn[1], turn[2], i + 1, e[i], carried_e[i], s->words);
 }
 
@@ -65,8 +66,8 @@ static status energy_of(const specimen *s, const node_state x[], double *energy)
     return specimen_settled(s, e, inner, &(stress_output){.energy = energy});
 }
 
-/* The reversed element: turned by pi about y, its warping amplitude unchanged. A curved one would
- * be another. */
+/* The reversed element: rotated by pi about y, with unchanged warping amplitude. A curved one would
+ * be a different element. */
 static void node_order(const specimen *s, double size, claim *one)
 {
     static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
@@ -139,26 +140,28 @@ static void check(const specimen *s, claims *c)
     if (!(s->type.limits & LIMIT_ORDER_DEPENDENT) && s->made.curvature[0] == 0 &&
         s->made.form == PROFILES_RECTANGLE) {
         if (s->type.offers & FEATURE_LARGE)
-            node_order(s, 0.05, claims_open(c, "exchanging the nodes leaves the energy", 1e-9));
-        else /* terms of higher order, which it need not have, are of the size of the strains */
-            node_order(s, 1e-5, claims_open(c, "exchanging the nodes leaves the energy", 5e-5));
+            node_order(s, 0.05,
+                       claims_open(c, "exchanging the nodes does not change the energy", 1e-9));
+        else /* terms of higher order, which are optional, are of the size of the strains */
+            node_order(s, 1e-5,
+                       claims_open(c, "exchanging the nodes does not change the energy", 5e-5));
     }
     claims_doing(c, "strain and stress of a deformed element%s", s->words);
     has_energy(s, claims_open(c, "a deformed element has energy", 0));
     claims_doing(c, "prepare, strain and stress in units of mm and um%s", s->words);
-    units(s, claims_open(c, "the unit of length leaves the energy", 1e-10));
+    units(s, claims_open(c, "the unit of length does not change the energy", 1e-10));
 }
 
 void checks_motion(const formulation *chosen, claims *out)
 {
     specimens_each(chosen, out, check);
     if (chosen->type->limits & LIMIT_ORDER_DEPENDENT)
-        claims_not_made(out, "exchanging the nodes leaves the energy",
+        claims_not_made(out, "exchanging the nodes does not change the energy",
                         "declares LIMIT_ORDER_DEPENDENT");
 }
 
-/* States with NaN or Inf, as in an iteration that diverges: they are reported by a status or by
- * values that are NaN, and never passed over. */
+/* States with NaN or Inf, as in a diverging iteration: they are reported by a status or by NaN
+ * values, and never ignored. */
 
 enum { UNSOUND_M = SPECIMEN_STRAINS };
 
@@ -170,7 +173,7 @@ static int all_finite(int n, const double a[])
     return 1;
 }
 
-/* 1: nothing says that the state is not one. */
+/* 1: nothing shows that the state is invalid. */
 static int swallowed(const specimen *s, const node_state x[])
 {
     double e[UNSOUND_M], sigma[UNSOUND_M], inner[SPECIMEN_INNER], energy = 0;
@@ -194,15 +197,15 @@ static void spoil(const specimen *s, double by, claim *one)
                 x[k].r[i] = x[k].u[i] = by;
             for (int j = 0; j < 9 && i == 3; j++)
                 x[k].R[j] = by;
-            claims_asks(
-                one, !swallowed(s, x),
-                "strain, stress: a %s of node %d that is %g gives strains and stresses that look "
-                "sound; let it through, or return a status%s",
-                what[i == 3], k + 1, by, s->words);
+            claims_asks(one, !swallowed(s, x),
+                        "strain, stress: a %s of node %d that is %g gives finite strains and "
+                        "stresses; pass it on, or return a status%s",
+                        what[i == 3], k + 1, by, s->words);
         }
 }
 
-/* Strains that are no numbers have no stress, where there is a stiffness against them. */
+/* Strains that are NaN or Inf must not have a finite stress if there is a stiffness against them.
+ */
 static void spoil_strains(const specimen *s, double by, claim *one)
 {
     const double none[UNSOUND_M] = {0};
@@ -220,13 +223,13 @@ static void spoil_strains(const specimen *s, double by, claim *one)
             s->type.stress(s->data, e, inner, &(stress_output){.energy = &energy, .sigma = sigma});
         claims_asks(one,
                     outcome != STATUS_OK || !isfinite(energy) || !all_finite(s->strains, sigma),
-                    "stress: strain %d that is %g has an energy and stresses that look sound; let "
-                    "it through, or return a status%s",
+                    "stress: strain %d that is %g gives a finite energy and finite stresses; pass "
+                    "it on, or return a status%s",
                     i + 1, by, s->words);
     }
 }
 
-/* All calls come back, whatever the state: far beyond what can be evaluated too. */
+/* All calls return for any state, including states far outside the valid range. */
 static void far_away(const specimen *s, double size, claim *one)
 {
     double e[UNSOUND_M], J[UNSOUND_M * SPECIMEN_COORDINATES], sigma[UNSOUND_M],
@@ -252,7 +255,7 @@ static void unsound_check(const specimen *s, claims *c)
         const double size = far[k];
         claims_doing(c, "strain and stress of a state %g lengths and radians away%s", size,
                      s->words);
-        far_away(s, size, claims_open(c, "far states come back", 0));
+        far_away(s, size, claims_open(c, "calls with far states return", 0));
     }
 }
 

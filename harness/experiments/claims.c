@@ -96,8 +96,8 @@ static void theories(const element_type *t, claim *one)
     claims_asks(one, flexible == (t->shear_theories != 0),
                 flexible ? "shear_theories: the type supports shear but declares no theory; set "
                            "SHEAR_ENGESSER, SHEAR_HARINGX or SHEAR_OWN"
-                         : "shear_theories: it has a theory of shear and does not support "
-                           "FEATURE_SHEAR; set one or remove the other");
+                         : "shear_theories: a theory of shear is declared without FEATURE_SHEAR; "
+                           "support the latter, or remove the theory");
     claims_asks(
         one,
         ((t->offers & FEATURE_ENGESSER) != 0) == ((t->shear_theories & SHEAR_ENGESSER) != 0) &&
@@ -109,7 +109,8 @@ static void theories(const element_type *t, claim *one)
                 "set it alone");
     claims_asks(one, own == (t->own_theory != NULL),
                 own ? "own_theory: describe SHEAR_OWN and its source in one line"
-                    : "own_theory: it is given, and shear_theories has no SHEAR_OWN");
+                    : "own_theory: it is given, but shear_theories has no SHEAR_OWN; remove it, or "
+                      "set SHEAR_OWN");
 }
 
 static void words(const element_type *t, claim *one)
@@ -121,9 +122,11 @@ static void words(const element_type *t, claim *one)
                 "summary: give one line");
     claims_asks(one, t->source != NULL && t->source[0] != '\0',
                 "source: name the paper and its equations");
-    claims_asks(one, (t->lacks != 0) == (t->lacks_by != NULL),
-                t->lacks != 0 ? "lacks_by: name the equations that omit it"
-                              : "lacks_by: it is given, and nothing is in lacks");
+    claims_asks(
+        one, (t->lacks != 0) == (t->lacks_by != NULL),
+        t->lacks != 0
+            ? "lacks_by: name the equations that omit it"
+            : "lacks_by: it is given, but 'lacks' is empty; remove it, or declare what is lacking");
     claims_asks(one, !(t->lacks & LACKS_SHEAR_Y) || t->offers & FEATURE_SHEAR,
                 "lacks: LACKS_SHEAR_Y is for types that support shear; remove it");
     claims_asks(one, !(t->offers & FEATURE_ROTARY_INERTIA) || t->offers & FEATURE_MASS,
@@ -155,15 +158,15 @@ static void sizes(const formulation *chosen, claim *one)
                 inner);
     claims_asks(one, inner == 0 || memory > 0,
                 "memory: the type has %d internal unknowns, but no memory for update", inner);
-    claims_asks(one, inner >= 0 && memory >= 0, "inner, memory: %d and %d are negative", inner,
-                memory);
+    claims_asks(one, inner >= 0 && memory >= 0, "inner, memory: %d and %d; neither may be negative",
+                inner, memory);
 }
 
 static void options(const element_type *t, claim *one)
 {
     const int count = parameter_count(t->options);
-    claims_asks(one, count <= ELEMENT_MAX_OPTIONS, "options: %d of them; at most %d have room",
-                count, ELEMENT_MAX_OPTIONS);
+    claims_asks(one, count <= ELEMENT_MAX_OPTIONS,
+                "options: there are %d, but at most %d are allowed", count, ELEMENT_MAX_OPTIONS);
     for (int i = 0; i < count; i++) {
         const parameter_type *o = parameter_at(t->options, i);
         const int choices = parameter_choices(o);
@@ -186,7 +189,7 @@ void checks_declared(const formulation *chosen, claims *out)
     options(chosen->type, claims_open(out, "options", 0));
 }
 
-/* An I of depth 0.1 m and flanges of 0.06 m. */
+/* An I-section with a depth of 0.1 m and flanges of 0.06 m. */
 static section_spec i_profile(void)
 {
     static const double h = 0.05, b = 0.03;
@@ -201,7 +204,7 @@ static section_spec spec_of(const beam_request *r)
     section_spec spec = section_spec_rectangle(210e9, 81e9, r->width, r->thickness);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* another one: swapped ones show */
+    spec.shear_factor[1] = 0.4; /* different values, so that swapped ones are detected */
     if (r->profile)
         spec = i_profile();
     spec.density = 7800;
@@ -214,7 +217,7 @@ status beam_section(const beam_request *r, section *out)
     return section_compute(&spec, out, NULL);
 }
 
-/* The place at s of the length. */
+/* The position at the fraction s of the length. */
 static void place(const beam_request *r, double s, double at[3])
 {
     const double radius = 2 / PI;

@@ -36,7 +36,7 @@ static double largest(int n, const double a[])
     return out;
 }
 
-/* One entry by what it is and what differences give, both times the unit of the coordinate. */
+/* One entry: its value and that of differences, both times the unit of the coordinate. */
 static void compare_J(const specimen *s, int strain, int c, double given, double found, double size,
                       claim *one)
 {
@@ -87,7 +87,7 @@ static void compare_H(const specimen *s, int strain, const double H[], const dou
             claims_departs(
                 one, claims_share(fabs(given - found), size),
                 "H: the second derivative of strain %d in coordinates %d and %d (%s, %s) "
-                "is %.6g, differences of J give %.6g: apart by %.1e of its size%s",
+                "is %.6g, differences of J give %.6g: a relative difference of %.1e%s",
                 strain + 1, a + 1, b + 1, specimen_coordinate(a, first),
                 specimen_coordinate(b, other), H[a * n + b], found / (ua * ub),
                 claims_share(fabs(given - found), size), s->words);
@@ -153,12 +153,13 @@ void checks_derivatives(const formulation *chosen, claims *out)
         claims_not_made(out, claim_H, "not checked before J is correct");
 }
 
-/* Many elements at once give what each gives alone: of two kinds, mixed, each in another state. */
+/* Many elements at once give the same results as each alone: two kinds, mixed, each in a different
+ * state. */
 
 enum { MANY_M = SPECIMEN_STRAINS, MANY_N = SPECIMEN_COORDINATES, MANY = 5 };
 
 static const double longer = 1.7 * 0.2385; /* [m] */
-static const char *const claim_name = "many at once give what each gives alone";
+static const char *const claim_name = "many at once give the same results as one by one";
 
 /* Answers of one element; values that would be differences are not requested. */
 typedef struct many_answers {
@@ -214,13 +215,13 @@ static stress_output many_stress_of(const many_batch *b, many_answers *a)
     return out;
 }
 
-/* One difference of two numbers of an element, over their size. */
+/* The difference of two numbers of an element, relative to their size. */
 static void differ(const many_batch *b, int k, const char *what, const char *entry, double alone,
                    double together, double size, claim *one)
 {
     claims_departs(one, fabs(together - alone) / (size > 0 ? size : 1),
-                   "many at once gives other %s than one by one: element %d of %d, %s: %.9g "
-                   "instead of %.9g; each element has values of its own%s",
+                   "many at once: the %s differ from those one by one: element %d of %d, %s: %.9g "
+                   "instead of %.9g; each element has its own values%s",
                    what, k + 1, MANY, entry, together, alone, b->of[k]->words);
 }
 

@@ -44,12 +44,13 @@ static status check_box(const design *d, fault *f)
                 "--vary %s: '/%d' is for a grid; remove it; --points gives the number of points",
                 d->axis[i].of->name, d->axis[i].count - 1);
     if (d->kind != DESIGN_RANDOM && d->axes > most)
-        return fault_set(f, STATUS_REFUSED, "--design %s has at most %d parameters; take random",
+        return fault_set(f, STATUS_REFUSED,
+                         "--design %s supports at most %d parameters; use random",
                          design_name(d->kind), most);
     return STATUS_OK;
 }
 
-/* One more point of the sequence, each share 0 <= share < 1. */
+/* The next point of the sequence, with 0 <= share < 1. */
 static void next(const design *d, const design_mark *m, double share[])
 {
     if (m->quasi != NULL)
@@ -194,7 +195,7 @@ double axis_value(const sweep_axis *a, int i)
     const int parts = a->count - 1;
     if (a->kind == AXIS_LOG)
         return i == 0 ? a->from : a->from * pow(a->to / a->from, (double)i / parts);
-    const double step = (a->to - a->from) / parts; /* as cases/format/expression.c has it */
+    const double step = (a->to - a->from) / parts; /* as in cases/format/expression.c */
     return a->from + i * step;
 }
 
@@ -213,7 +214,7 @@ void axis_text(const sweep_axis *a, double value, char *text, int size)
     assignment_value_text(a->of, value, text, size);
 }
 
-/* The parameter may have this value; else the words of --set. */
+/* Checks whether the parameter may have this value, with the messages of --set. */
 static status check(const case_type *type, const sweep_axis *a, double value, fault *f)
 {
     const assignment_list list = parameters_list(type);
@@ -301,11 +302,11 @@ static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
                          a->from, a->to);
     TRY(check(type, a, a->from, f));
     TRY(check(type, a, a->to, f));
-    /* of what may only be 0 or 1, for one */
+    /* for example of a parameter that may only be 0 or 1 */
     return check(type, a, a->count > 2 || a->count == 0 ? axis_at(a, 0.5) : a->to, f);
 }
 
-/* Behind the name: "A..B/N:log". */
+/* After the name: "A..B/N:log". */
 static status read_range(const case_type *type, const char *text, const char *dots, sweep_axis *a,
                          fault *f)
 {

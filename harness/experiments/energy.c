@@ -99,7 +99,8 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
     }
 }
 
-/* Without strains: no energy, no stress; what bends a curved element straight is not examined. */
+/* Without strains there is no energy and no stress; straightened curved elements are not examined.
+ */
 static void check_rest(const specimen *s, claims *c)
 {
     const double none[ENERGY_M] = {0};
@@ -111,7 +112,8 @@ static void check_rest(const specimen *s, claims *c)
         return;
     const double scale = size_of(s, C, 0, 0) * s->request.length * s->request.length;
     claims_departs(one, fabs(energy) / scale,
-                   "stress: the undeformed element has an energy of %.3g J; count it from there%s",
+                   "stress: the undeformed element has an energy of %.3g J; measure the energy "
+                   "from that state%s",
                    energy, s->words);
     for (int i = 0; i < s->strains; i++)
         claims_departs(one, fabs(sigma[i]) / (size_of(s, C, i, i) * s->request.length),
@@ -170,13 +172,13 @@ static void check(const specimen *s, claims *c)
         s, e, inner,
         &(stress_output){.energy = &energy, .sigma = sigma, .C = C, .residual = &residual});
     claims_asks(claims_open(c, "moderate strains have a stress", 0), outcome == STATUS_OK,
-                "stress: strains of some hundredths of the length end with status '%s'%s",
+                "stress: strains of a few hundredths of the length end with status '%s'%s",
                 status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
-    claims_departs(claims_open(c, "its own equations are solved", 1e-9), fabs(residual),
-                   "update: after %d corrections the residual of its own unknowns is %.1e; check "
-                   "memory and update%s",
+    claims_departs(claims_open(c, "its internal equations are solved", 1e-9), fabs(residual),
+                   "update: after %d corrections the residual of its internal unknowns is %.1e; "
+                   "check memory and update%s",
                    30, residual, s->words);
     check_gradient(&at, sigma, C, c);
     check_stiffness(&at, C, c);
@@ -196,7 +198,7 @@ void checks_energy(const formulation *chosen, claims *out)
         claims_not_made(out, "G is symmetric", "has no geometric stiffness inside the element");
 }
 
-/* Inertia in a frame that turns: centrifugal force and stiffness derive from the potential, the
+/* Inertia in a rotating frame: centrifugal force and stiffness derive from the potential, the
  * gyroscopic matrix is skew, the frame's own motion has the centrifugal energy. */
 
 enum { N = SPECIMEN_COORDINATES };
@@ -359,8 +361,8 @@ static double twisted_energy(const specimen *s, double angle)
     return V;
 }
 
-/* Fibres that warping moves along the beam turn at another distance from the axis: -1/2 int rho
- * (omega a)^2 |Omega x e_x|^2 dV. */
+/* Fibres that warping moves along the beam rotate at a different distance from the axis: -1/2 int
+ * rho (omega a)^2 |Omega x e_x|^2 dV. */
 static void warping(const specimen *s, claim *one)
 {
     const double angle = 0.005, *w = turning.omega;
@@ -391,7 +393,7 @@ static void rotating_check(const specimen *s, claims *c)
         warping(s, claims_open(c, "centrifugal energy of warping", 2e-4));
 }
 
-/* The same without rotary inertia and without warping: other terms are left. */
+/* The same without rotary inertia and without warping, where other terms remain. */
 static void check_all(const specimen *s, claims *c)
 {
     static const unsigned without[] = {FEATURE_ROTARY_INERTIA, FEATURE_WARPING,

@@ -140,7 +140,7 @@ static status store_found(const experiment_type *e, const void *found, const cha
     return store_write(path, e->name, c.sweep, c.judged, c.made, f);
 }
 
-/* The files first: the table may have no reader. */
+/* Writes the files first, because the table may have no reader. */
 static status leave(const experiment_type *e, const experiment_output *to, const void *found,
                     fault *f)
 {
@@ -228,14 +228,14 @@ static const schema_field key_of_formulation[] = {{"formulation", "", FIELD_TEXT
                                                    .get = get_formulation, .key = KEY},
                                                   {0}};
 static const schema_field key_of_family[] = {
-    {"family", "", FIELD_TEXT, "of checks, or of what is measured", .get = get_family, .key = KEY},
+    {"family", "", FIELD_TEXT, "group of checks or measurements", .get = get_family, .key = KEY},
     {0}};
 static const schema_field fields_of_certificate[] = {
-    {"summary", "", FIELD_TEXT, "of the formulation", .get = get_summary},
-    {"source", "", FIELD_TEXT, "of the formulation", .get = get_source},
+    {"summary", "", FIELD_TEXT, "summary of the formulation", .get = get_summary},
+    {"source", "", FIELD_TEXT, "source of the formulation", .get = get_source},
     {"leaves", "", FIELD_TEXT, "functions provided by adapters", .get = get_leaves},
-    {"kept", "", FIELD_FLAG, "no claim is broken", .get = get_kept},
-    {"compared", "1", FIELD_INT, "numbers, and questions of yes and no", .get = get_compared},
+    {"kept", "", FIELD_FLAG, "no requirement is violated", .get = get_kept},
+    {"compared", "1", FIELD_INT, "numbers compared and yes/no checks", .get = get_compared},
     {0}};
 static const record_type record_certificate = {"certificate",
                                                "formulations",
@@ -243,9 +243,9 @@ static const record_type record_certificate = {"certificate",
                                                {key_of_formulation, fields_of_certificate}};
 
 static const schema_field fields_of_part[] = {
-    {"what", "", FIELD_TEXT, "what holds, in a line", .get = get_what}, {0}};
+    {"what", "", FIELD_TEXT, "summary of what is satisfied", .get = get_what}, {0}};
 static const record_type record_part = {
-    "part", "parts", "a family of checks, or of what is measured", {key_of_family, fields_of_part}};
+    "part", "parts", "a group of checks or measurements", {key_of_family, fields_of_part}};
 
 static const char *word_of_claim(int outcome)
 {
@@ -254,31 +254,32 @@ static const char *word_of_claim(int outcome)
 }
 
 static const schema_field fields_of_claim[] = {
-    {"claim", "", FIELD_TEXT, "name of it", AT(claim, name), .key = KEY},
-    {"outcome", "", FIELD_ENUM, "of it", AT(claim, outcome), .word = word_of_claim,
+    {"claim", "", FIELD_TEXT, "name of the requirement", AT(claim, name), .key = KEY},
+    {"outcome", "", FIELD_ENUM, "outcome of the check", AT(claim, outcome), .word = word_of_claim,
      .words = CLAIM_OUTCOMES},
-    {"compared", "1", FIELD_INT, "numbers, or questions of yes and no", AT(claim, compared)},
-    {"worst", "1", FIELD_DOUBLE, "largest departure; infinite: a question's no", AT(claim, worst)},
-    {"allowed", "1", FIELD_DOUBLE, "departure", AT(claim, allowed)},
-    {"sentence", "", FIELD_TEXT, "of the worst departure that is not allowed", AT(claim, sentence)},
+    {"compared", "1", FIELD_INT, "numbers compared, or yes/no checks", AT(claim, compared)},
+    {"worst", "1", FIELD_DOUBLE, "largest deviation; infinite: a failed yes/no check",
+     AT(claim, worst)},
+    {"allowed", "1", FIELD_DOUBLE, "allowed deviation", AT(claim, allowed)},
+    {"sentence", "", FIELD_TEXT, "description of the worst violation", AT(claim, sentence)},
     {0}};
 static const record_type record_claim = {
     "claim",
     "claims",
-    "a claim of the interface, and how far a formulation departs from it",
+    "a requirement of the interface, and the deviation of a formulation from it",
     {key_of_formulation, key_of_family, fields_of_claim}};
 
 static const schema_field key_of_measure[] = {
-    {"name", "", FIELD_TEXT, "of what is measured", AT(element_measure, name), .key = KEY}, {0}};
+    {"name", "", FIELD_TEXT, "name of the measurement", AT(element_measure, name), .key = KEY},
+    {0}};
 static const schema_field fields_of_measure[] = {
-    {"order", "1", FIELD_DOUBLE, "of the errors", AT(element_measure, order)},
-    {"least", "1", FIELD_INT, "order that the formulation declares; 0: not asked for",
+    {"order", "1", FIELD_DOUBLE, "order of the errors", AT(element_measure, order)},
+    {"least", "1", FIELD_INT, "least order that the formulation declares; 0: none is required",
      AT(element_measure, least)},
-    {"highest", "1", FIELD_INT, "order that it declares", AT(element_measure, highest)},
-    {"locks", "", FIELD_FLAG, "the errors grow where it becomes thin", AT(element_measure, locks)},
-    {"wrong_limit", "", FIELD_FLAG,
-     "the error of a linear state is that of one element with every "
-     "mesh",
+    {"highest", "1", FIELD_INT, "highest order that it declares", AT(element_measure, highest)},
+    {"locks", "", FIELD_FLAG, "the errors grow as the structure becomes thin",
+     AT(element_measure, locks)},
+    {"wrong_limit", "", FIELD_FLAG, "a linear state has the same error on every mesh",
      AT(element_measure, astray)},
     {"words", "", FIELD_TEXT, "reason for a missing value, or a description of it",
      AT(element_measure, words)},

@@ -9,7 +9,7 @@
 /* Reads the known deviations from the packed reference values at `path`. */
 static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f);
 
-enum { enough_elements = 16 }; /* from here on the neighbours are coarser meshes, else finer ones */
+enum { enough_elements = 16 }; /* from here the neighbours are coarser meshes, otherwise finer */
 
 /* A series of neighbouring meshes for the cell of an outcome, once. */
 static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
@@ -32,7 +32,7 @@ static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
     return STATUS_OK;
 }
 
-/* A number that may be coarse. */
+/* A number that may be under-resolved. */
 static int is_open(const extreme_outcome *o)
 {
     return o->kind == OUTCOME_WRONG && isfinite(o->error);
@@ -122,7 +122,7 @@ static status read_rows(table_columns *r, extreme_sweep *out)
         return columns_broken(r, "outcome");
     out->finding = calloc((size_t)r->rows + 1, sizeof *out->finding);
     if (out->finding == NULL)
-        return fault_set(r->f, STATUS_FAULT, "out of memory for findings");
+        return fault_set(r->f, STATUS_FAULT, "out of memory for known deviations");
     out->findings = r->rows;
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++)
         TRY(columns_read(r, &field[i], out->finding, sizeof *out->finding));
@@ -172,7 +172,7 @@ static void count_cell(outcome_kind worst, extreme_count *c)
     c->faults += worst == OUTCOME_FAULT;
 }
 
-/* Outcomes of one cell follow each other; a cell is as bad as its worst one. */
+/* Outcomes of one cell are consecutive; a cell is as bad as its worst outcome. */
 static void count_cells(extreme_sweep *s)
 {
     outcome_kind worst = OUTCOME_SKIP;

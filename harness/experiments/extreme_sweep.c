@@ -186,7 +186,7 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
     if (one->missing[0] != '\0')
         set_kind(o, OUTCOME_SKIP, one->missing);
     else if (other)
-        set_kind(o, OUTCOME_SKIP, "the exact value is of another theory of shear");
+        set_kind(o, OUTCOME_SKIP, "the exact value belongs to another theory of shear");
     else if (p->status != STATUS_OK)
         set_failure(o, p->status, p->reason);
     else if (r == NULL)
@@ -275,7 +275,7 @@ static void cell_text(const extreme_outcome *o, char *text, size_t size)
     }
 }
 
-/* Columns of a cell of an extreme with that many values. */
+/* Width of a cell for an extreme with this number of values. */
 static int width_of_cells(const extreme *e)
 {
     const int width = (PARAGRAPH_WIDTH - INDENT - NAME_WIDTH - CONDITION_WIDTH) / e->values;

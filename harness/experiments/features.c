@@ -1,5 +1,5 @@
-/* Checks that a type can do what it declares to support: each feature alone, in subsets, and as the
- * cases need them. */
+/* Checks that a type supports what it declares: each feature alone, in subsets, and as the cases
+ * need them. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ static void effects_check(const formulation *chosen, claims *c);
 
 typedef enum feature_outcome { FINITE, REFUSED, BAD, FEATURE_OUTCOMES } feature_outcome;
 
-/* C of a moved element is all numbers. */
+/* Checks that C of a displaced element is finite. */
 static int finite_stiffness(const specimen *s, unsigned seed)
 {
     double inner[SPECIMEN_INNER], e[SPECIMEN_STRAINS], C[SPECIMEN_STRAINS * SPECIMEN_STRAINS];
@@ -31,7 +31,7 @@ static int finite_stiffness(const specimen *s, unsigned seed)
     return 1;
 }
 
-/* Evaluates an element with exactly these features, and the reason where it refuses them. */
+/* Evaluates an element with exactly these features, and returns the reason if it rejects them. */
 static feature_outcome evaluated(const formulation *chosen, unsigned features, fault *why)
 {
     const specimen_request what = {
@@ -59,8 +59,8 @@ static void accepted(const formulation *chosen, unsigned features, const char *w
                 why.text[0] != '\0' ? "it is refused: " : "the stiffness is not finite", why.text);
 }
 
-/* A type cannot refuse: nothing, each feature that it offers with what that one presupposes,
- * everything that it offers for straight elements. */
+/* A type must not reject: no features, each supported feature with its prerequisites, all supported
+ * features for straight elements. */
 static void single_features(const formulation *chosen, claims *c)
 {
     static const struct {
@@ -80,7 +80,7 @@ static void single_features(const formulation *chosen, claims *c)
     }
 }
 
-/* Nor what the cases that it runs on ask for. */
+/* Nor the features required by the cases on which it runs. */
 static void features_of_cases(const formulation *chosen, claims *c)
 {
     int runs = 0;
@@ -102,7 +102,7 @@ static void features_of_cases(const formulation *chosen, claims *c)
                     "features, limits: the formulation supports none of the built-in cases");
 }
 
-/* Other subsets may be refused by name, where one feature presupposes another: at most half. */
+/* Other subsets may be rejected by name if one feature presupposes another: at most half. */
 static void feature_subsets(const formulation *chosen, claims *c)
 {
     enum { OPTIONAL = 7 };
@@ -193,7 +193,7 @@ static int makes(const formulation *chosen, unsigned features, profiles_form for
     return specimen_make(&what, out, &f) == STATUS_OK;
 }
 
-/* 1: something changes, 0: nothing does, -1: one of the two is refused. */
+/* 1: something changes, 0: nothing does, -1: one of the two is rejected. */
 static int changes(const formulation *chosen, unsigned features, unsigned bit, profiles_form form)
 {
     pair p;
@@ -214,7 +214,7 @@ static int changes(const formulation *chosen, unsigned features, unsigned bit, p
     return found;
 }
 
-/* The same of the warping amplitudes of its nodes. */
+/* The same for the warping amplitudes of its nodes. */
 static int warps(const formulation *chosen, unsigned features, profiles_form form)
 {
     specimen s;
@@ -253,9 +253,8 @@ static void effects_check(const formulation *chosen, claims *c)
 {
     /* Without FEATURE_ECCENTRIC: the shear centre is a constant of the section, and elements take
      * it from there. Without FEATURE_TRAPEZE: it is one of the terms of second order, and a
-     * formulation that leaves them all out to show what they are worth (beamw_first) is requested
-     * what the whole one is requested. What belongs to the structure, mass or shape is examined
-     * elsewhere. */
+     * formulation that omits all of them to show their effect (beamw_first) gets the same requests
+     * as the complete one. Features of the structure, mass or shape are examined elsewhere. */
     static const unsigned sections[] = {FEATURE_WARPING, FEATURE_SHEAR, FEATURE_WAGNER_MOMENTS,
                                         FEATURE_WAGNER_TORQUE};
     const unsigned all = specimen_features(chosen->type, 0);
@@ -284,7 +283,7 @@ static void effects_check(const formulation *chosen, claims *c)
     }
 }
 
-/* The mass matrix: symmetric, positive, of the mass and the moments of the beam, and it turns with
+/* The mass matrix is symmetric and positive, has the mass and moments of the beam, and rotates with
  * the element. */
 
 enum { MASS_N = SPECIMEN_COORDINATES };
@@ -365,7 +364,7 @@ static void total(const specimen *s, const node_state x[], const double M[], cla
     }
 }
 
-/* The matrix of an element that is turned as a whole is the turned one. */
+/* The matrix of an element that is rotated as a whole is the rotated matrix. */
 static void carried(const specimen *s, const node_state x[], const double M[], claim *one)
 {
     static const double turn[3] = {0.71, -1.93, 1.37};
@@ -388,15 +387,15 @@ static void carried(const specimen *s, const node_state x[], const double M[], c
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             claims_departs(one, fabs(back[i * n + j] - M[i * n + j]) / size_of(M, n, i, j),
-                           "inertia: M entry %d, %d (%s, %s) of an element turned as a whole is, "
-                           "turned back, %.6g, not %.6g%s",
+                           "inertia: M entry %d, %d (%s, %s) of an element rotated as a whole is, "
+                           "rotated back, %.6g instead of %.6g%s",
                            i + 1, j + 1, specimen_coordinate(i, first),
                            specimen_coordinate(j, second), back[i * n + j], M[i * n + j], s->words);
 }
 
-/* Inertia of a straight element that rotates about its first node: rho l (Ip, Iy, Iz) compared with
- * that of masses on the line: the difference that FEATURE_ROTARY_INERTIA makes, and about the axis
- * all of it. */
+/* Inertia of a straight element that rotates about its first node: rho l (Ip, Iy, Iz) minus that of
+ * masses on the line is the effect of FEATURE_ROTARY_INERTIA; about the axis it is the whole
+ * inertia. */
 static void moments(const specimen *s, claim *one)
 {
     static const double none[3] = {0, 0, 0};
@@ -429,7 +428,7 @@ static void moments(const specimen *s, claim *one)
             if (axis == 0)
                 claims_departs(one, fabs(thin / moment - 1),
                                "inertia: without rotary inertia the twist has %.6g kg m^2, not rho "
-                               "l Ip = %.6g kg m^2: it has inertia always%s",
+                               "l Ip = %.6g kg m^2: the twist always has inertia%s",
                                thin, moment, s->words);
         }
     }
@@ -450,7 +449,7 @@ static void check(const specimen *s, claims *c)
     symmetric(s, M, claims_open(c, "M is symmetric", 1e-13));
     positive(s, M, claims_open(c, "M is positive", 0));
     total(s, x, M, claims_open(c, "the mass is that of the beam", 1e-12));
-    carried(s, x, M, claims_open(c, "M turns with the element", 1e-11));
+    carried(s, x, M, claims_open(c, "M rotates with the element", 1e-11));
     moments(s, claims_open(c, "moments of inertia are those of the beam", 1e-9));
 }
 

@@ -1,4 +1,4 @@
-/* Inertia in time: what a motion takes derives from the kinetic energy T = 1/2 x' . M x' by
+/* Inertia in time: the forces taken by a motion derive from the kinetic energy T = 1/2 x' . M x' by
  * Lagrange's equations,
  *   taken = d(M x')/dt + p x w - dT/dx,  p x w at the rotations of each node,
  * where p = M x' there and w is its angular velocity, x' and derivatives spatial. */
@@ -32,7 +32,7 @@ static int momenta_at(const void *context, int i, double si, int j, double sj, d
     return (int)outcome;
 }
 
-/* By differences: what a motion takes without accelerations. */
+/* Forces taken by a motion without accelerations, by differences. */
 static void by_differences(const moving_place *m, const double M[], double h[])
 {
     const specimen *s = m->at.s;
@@ -67,7 +67,7 @@ static void compare(const specimen *s, const double found[], const double right[
     for (int i = 0; i < s->coordinates; i++)
         claims_departs(
             one, claims_share(fabs(found[i] - right[i]) * chart_unit(i, s->request.length), size),
-            "inertia: taken in coordinate %d (%s) is %.6g, %s give %.6g%s", i + 1,
+            "inertia: the force taken in coordinate %d (%s) is %.6g, but by %s it is %.6g%s", i + 1,
             specimen_coordinate(i, where), found[i], what, right[i], s->words);
 }
 
@@ -91,7 +91,7 @@ static void check_rates(const specimen *s, const node_state x[], const double ra
             const double found = (taken[1][i] - taken[0][i]) / (2 * step);
             claims_departs(
                 one, fabs(C[n * i + j] - found) * chart_unit(i, s->request.length) * step / size,
-                "inertia: C entry %d, %d (%s, %s) is %.6g, differences of what is taken "
+                "inertia: C entry %d, %d (%s, %s) is %.6g, but differences of the forces taken "
                 "give %.6g%s",
                 i + 1, j + 1, specimen_coordinate(i, first), specimen_coordinate(j, other),
                 C[n * i + j], found, s->words);
@@ -99,7 +99,7 @@ static void check_rates(const specimen *s, const node_state x[], const double ra
     }
 }
 
-/* An element that is turned as a whole, with its rates, takes the turned forces. */
+/* An element that is rotated as a whole, with its rates, takes the rotated forces. */
 static void check_turned(const specimen *s, const node_state x[], const inertia_output *out,
                          double size, claim *one)
 {
@@ -121,7 +121,7 @@ static void check_turned(const specimen *s, const node_state x[], const inertia_
         }
     s->type.inertia(s->data, turned, NULL,
                     &(inertia_output){.rate = rate, .acceleration = acceleration, .taken = taken});
-    compare(s, taken, right, size, "the same element turned as a whole", one);
+    compare(s, taken, right, size, "the same element rotated as a whole", one);
 }
 
 static void check_one(const specimen *s, claims *c)
@@ -148,20 +148,22 @@ static void check_one(const specimen *s, claims *c)
     by_differences(&place, M, right);
     const double size = size_of(s, right);
     compare(s, h, right, size, "differences of the kinetic energy",
-            claims_open(c, "what is taken derives from the energy", 1e-8));
-    check_rates(s, x, rate, C, size, claims_open(c, "C is the derivative by the rates", 1e-11));
+            claims_open(c, "forces taken derive from the energy", 1e-8));
+    check_rates(s, x, rate, C, size,
+                claims_open(c, "C is the derivative with respect to the rates", 1e-11));
     dense_mul_vec(n, n, M, acceleration, right);
     for (int i = 0; i < n; i++)
         right[i] += h[i];
     out = (inertia_output){.rate = rate, .acceleration = acceleration, .taken = taken};
     s->type.inertia(s->data, x, NULL, &out);
-    compare(s, taken, right, size_of(s, right), "M times accelerations and what is taken without",
+    compare(s, taken, right, size_of(s, right),
+            "M times the accelerations plus the forces without them",
             claims_open(c, "accelerations take M", 1e-12));
     check_turned(s, x, &out, size_of(s, right),
-                 claims_open(c, "what is taken turns with the element", 1e-11));
+                 claims_open(c, "forces taken rotate with the element", 1e-11));
 }
 
-/* Also without rotary inertia, where the twist alone has a moment of it. */
+/* Also without rotary inertia, where only the twist has a moment of inertia. */
 static void check(const specimen *s, claims *c)
 {
     specimen_request what = s->made;
@@ -179,7 +181,7 @@ static void check(const specimen *s, claims *c)
 void checks_in_time(const formulation *chosen, claims *out)
 {
     if (!element_spreads(chosen->type, chosen->option)) {
-        claims_not_made(out, "what is taken derives from the energy",
+        claims_not_made(out, "forces taken derive from the energy",
                         "in time its mass is lumped at its nodes");
         return;
     }

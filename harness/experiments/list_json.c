@@ -183,7 +183,7 @@ status list_json_formulation(FILE *to, const formulation *chosen, const rule *ru
     return json_finish(root, to, f);
 }
 
-/* All names that may be asked about, one after the other. */
+/* All valid names, one after the other. */
 static const char *name_at(const void *context, int i)
 {
     static const char *const words[] = {"cases", "formulations"};

@@ -13,7 +13,8 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
     {"orders", "orders of convergence, and errors with 1 to 32 elements", measured_orders},
 };
 
-/* Errors over thickness by length, 1 to 1e-6: what locks grows where it becomes thin. */
+/* Errors over thickness by length, 1 to 1e-6: with locking, they grow as the element becomes thin.
+ */
 
 enum { THICKNESSES = 7, ELEMENTS = 8 };
 
@@ -30,7 +31,7 @@ static double exact_of(const beam_request *r, const section *c)
     return 1 / (3 * EI) + shear;
 }
 
-/* Thin, the error is that of the thick one, or much more. */
+/* Checks whether the error of the thin structure is much larger than that of the thick one. */
 static void conclude(element_measure *one)
 {
     const double thick = fabs(one->error[0]), thin = fabs(one->error[one->points - 1]);
@@ -121,7 +122,7 @@ static const state states[] = {
     {"torsion, warping held", 0, 0, 1, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It, E Iw?"},
 };
 
-/* Exact value that the load gives in its component. */
+/* Exact value of the load's component. */
 static double states_exact_of(const state *s, const section *c, double load)
 {
     const double EIz = c->young * c->Iz, EIy = c->young * c->Iy, GI = c->shear_modulus * c->It;
@@ -139,7 +140,7 @@ static double states_exact_of(const state *s, const section *c, double load)
     return s->direction == 0 ? load / GI : s->direction == 1 ? -load / (2 * EIy) : load / (2 * EIz);
 }
 
-/* An error that more elements leave as it is comes from the section, not from the mesh. */
+/* An error that does not change with more elements comes from the section, not from the mesh. */
 static void states_conclude(const state *s, element_measure *one)
 {
     const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
@@ -184,7 +185,7 @@ static void measure_state(const formulation *chosen, const state *s, measures *o
         states_conclude(s, one);
 }
 
-/* Where all linear ones are apart by the same power of a thousand: units. */
+/* If all linear ones differ by the same power of a thousand, units are wrong. */
 static void compare_units(measures *out)
 {
     double times = NAN;
@@ -205,7 +206,7 @@ static void compare_units(measures *out)
              fmax(times, 1 / times), times > 1 ? "soft" : "stiff");
 }
 
-/* A wrong limit is a broken claim: of each state, or of all of them together. */
+/* A wrong limit is a violated requirement: of each state, or of all of them together. */
 static void hold_limits(claims *c, const measures *m)
 {
     if (m->words[0] != '\0') {
@@ -231,11 +232,11 @@ void measured_states(const formulation *chosen, claims *c, measures *out)
     hold_limits(c, out);
 }
 
-/* Order of convergence in the number of elements, beside the one that is declared. */
+/* Observed and declared order of convergence in the number of elements. */
 
 enum { MESHES = 6, MESHES_Z = 4 /* along z, to see the same order */ };
 static const double noise =
-    1e-8; /* errors below it show no order: the column is not infinitely thin */
+    1e-8; /* smaller errors show no order, because the column is not infinitely thin */
 
 typedef struct orders_question {
     const char *name;
@@ -256,7 +257,7 @@ static const orders_question questions[] = {
     {"buckling: column along z", BEAM_BUCKLING, ELEMENT_BUCKLING, FEATURE_GEOMETRIC, 2},
 };
 
-/* The elastica under a force across it whose end turns by `angle`: (P L^2/EI, deflection/L). */
+/* The elastica under a transverse force whose end rotates by `angle`: (P L^2/EI, deflection/L). */
 static void elastica(double angle, double *load, double *deflection)
 {
     const double k = sqrt((1 + sin(angle)) / 2), phi = asin(1 / (k * sqrt(2)));
@@ -269,7 +270,7 @@ static void elastica(double angle, double *load, double *deflection)
             root;
 }
 
-/* The load that is set, and the exact value that it gives. */
+/* The applied load, and its exact result. */
 static double orders_exact_of(const orders_question *q, const section *c, beam_request *r)
 {
     const double EI = c->young * (q->plane == 1 ? c->Iz : c->Iy), lambda = 1.8751040687119611;
@@ -301,7 +302,7 @@ static int telling(const element_measure *one)
     return last;
 }
 
-/* The least order is a claim. */
+/* The least order is a requirement. */
 static void hold_against_declared(const orders_question *q, int last, const element_measure *one,
                                   claims *c)
 {

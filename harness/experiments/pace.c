@@ -54,8 +54,8 @@ static double balance_at(const track *t, int i, scene_balance what)
     return t->record[i].at.balance[what];
 }
 
-/* The first step that ends where nothing acts; where loads end, accelerations and what has no mass
- * are found anew, so that the end of the step before is not yet one of them. */
+/* The first step that ends after all loads have ended. At the end of loads, accelerations and
+ * coordinates without mass are computed again, so the end of the previous step does not count. */
 static int first_alone(const track *t, double from)
 {
     int i = 0;
@@ -64,7 +64,7 @@ static int first_alone(const track *t, double from)
     return i;
 }
 
-/* Against the first step: the run may have stopped before the last one. */
+/* Relative to the first step, because the run may have stopped before the last one. */
 static void take_energy(const track *t, int first, pace_run *r)
 {
     const double before = balance_at(t, first, SCENE_ENERGY);
@@ -103,7 +103,7 @@ static double momentum_drift(const track *t, int first)
     return largest;
 }
 
-/* Energy that no work explains, relative to the largest. */
+/* Energy not explained by work, relative to the largest energy. */
 static double unexplained(const track *t)
 {
     double most = 0, size = 0;
@@ -144,7 +144,7 @@ void pace_drift(const pace *p, pace_run *r)
 
 const double pace_order_slack = 0.3;
 
-/* Multiples of the reference's uncertainty and of rounding below which errors are not known. */
+/* Multiples of the uncertainty of the reference and of rounding below which errors are unknown. */
 static const double floor_of_reference = 10, floor_of_rounding = 1e-11;
 
 const char *pace_order_name(pace_order_kind kind)
@@ -172,7 +172,7 @@ void pace_order_fill(pace *p)
                               : NAN;
 }
 
-/* Two orders say it; where they are far apart, they may be on their way to anything. */
+/* Two orders decide; if they differ much, the order is not yet known. */
 static pace_order_kind judge(const pace_ladder *l)
 {
     const double least = l->method->order - pace_order_slack;
@@ -221,7 +221,7 @@ int pace_order_is_stopped(const pace_group *g)
 
 const double pace_levels[PACE_LEVELS] = {1e-2, 1e-4, 1e-6};
 
-/* Both of one integrator, by steps or by tolerances. */
+/* Do both belong to one integrator, by steps or by tolerances? */
 static int is_coarser(const pace_run *a, const pace_run *b)
 {
     return a->group == b->group && strcmp(a->method.name, b->method.name) == 0 &&
@@ -287,7 +287,7 @@ static void print_reference(FILE *to, const pace *p, const pace_group *g)
                  "part",
                  g->order, PACE_REFERENCE_ORDER);
     paragraph_say(to, 0, 2,
-                  "errors of time: against radau at %g on the same mesh (%d steps), whose error is "
+                  "time errors: against radau at %g on the same mesh (%d steps), whose error is "
                   "at most %.1e, by radau at %g and %g%s",
                   pace_reference[0], pace_cell_of(p, g->reference)->solve.steps, g->uncertainty,
                   pace_reference[1], pace_reference[2], stopped);
@@ -333,7 +333,7 @@ static void print_run(FILE *to, const pace_run *r)
     fputc('\n', to);
 }
 
-/* Why runs ended too early: each reason once. */
+/* Prints the reasons why runs ended too early, each once. */
 static void print_reasons(FILE *to, const pace *p, const pace_group *g)
 {
     const char *last = "";
@@ -360,7 +360,8 @@ static void print_orders(FILE *to, const pace *p, const pace_group *g)
     }
 }
 
-/* Integrators by which the error of a quantity does not fall with the step; returns how many. */
+/* Prints the integrators whose error of a quantity does not fall with the step; returns their
+ * number. */
 static int write_standing(FILE *text, const pace *p, const pace_group *g, int quantity)
 {
     int count = 0;
@@ -392,7 +393,7 @@ static void print_standing(FILE *to, const pace *p, const pace_group *g)
     }
 }
 
-/* The three integrators that reach an error at the lowest cost. */
+/* Prints the three integrators that reach an error at the lowest cost. */
 static void print_level(FILE *to, const pace *p, int group, double level)
 {
     const char *name[PACE_METHODS_MOST];

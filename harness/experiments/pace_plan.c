@@ -15,7 +15,7 @@ enum {
     STATIONS_OF_ERROR = 20,
     USUAL_STEPS = 4,
     USUAL_TOLERANCES = 3,
-    PARTS = 100 /* of a tolerance, from one to the next */
+    PARTS = 100 /* ratio of consecutive tolerances */
 };
 static const double usual_tolerance = 1e-4, same = 1e-9 /* of a step */;
 
@@ -49,7 +49,7 @@ status pace_plan_usual(pace_plan_request *r, fault *f)
     return outcome;
 }
 
-/* Instants that all steps of all runs meet, as far as they divide the first. */
+/* Instants at which steps of all runs end, as far as these divide the first. */
 static status stations_of(double spacing, double end, scene_path *out, fault *f)
 {
     const int before = (int)ceil(end / spacing * (1 - same)) - 1;
@@ -64,7 +64,7 @@ static status stations_of(double spacing, double end, scene_path *out, fault *f)
     return STATUS_OK;
 }
 
-/* The point that was added last becomes that motion. */
+/* Turns the point that was added last into that motion. */
 static status set_motion(pace *p, const pace_group *g, const pace_run *r, double spacing, fault *f)
 {
     sweep_point *at = &p->sweep.point[p->sweep.points - 1];
@@ -78,14 +78,14 @@ static status set_motion(pace *p, const pace_group *g, const pace_run *r, double
     return stations_of(spacing, g->end, &how->path, f);
 }
 
-/* So many that all steps meet them, as far as the spacing divides the time. */
+/* A number at which steps of all runs end, as far as the spacing divides the time. */
 static int frames_of(const pace_group *g, double spacing)
 {
     const int parts = (int)ceil(g->end / spacing * (1 - same));
     return 1 + parts * (parts < SHAPES_FEW ? SHAPES_FEW : 1);
 }
 
-/* A series of one mesh, of a point of its own. */
+/* A series of one mesh at a separate point. */
 static status add_motion(pace *p, const pace_group *g, const pace_plan_request *q, pace_run *r,
                          double spacing, fault *f)
 {
@@ -102,8 +102,8 @@ static status add_motion(pace *p, const pace_group *g, const pace_plan_request *
     return STATUS_OK;
 }
 
-/* Between stations: errors are examined where all steps end, which is where a whole number of the
- * coarsest ones divides the time. */
+/* Between stations, errors are examined where all steps end, which requires a whole number of the
+ * coarsest steps. */
 static double spacing_of(const pace_group *g, const pace_plan_request *q)
 {
     const double coarsest = q->steps.count > 0 ? q->steps.value[0] : g->step,
@@ -134,8 +134,8 @@ static status add_run(pace *p, const pace_plan_request *q, const pace_run *what,
     return STATUS_OK;
 }
 
-/* Where energies are read, a step of its own leads to every station: the reference is not one that
- * is read between steps. */
+/* If energies are read, a separate step leads to every station, because the reference must not be
+ * interpolated between steps. */
 static void read_exactly(scene *s, int analysis)
 {
     scene_set_curve(scene_add_quantity(s, "energy at all stations", "J", analysis,
@@ -179,7 +179,7 @@ static status add_runs(pace *p, const pace_plan_request *q, fault *f)
     return STATUS_OK;
 }
 
-/* The structure is examined once, for its motion. */
+/* The structure is built once, for its motion. */
 static status look(pace_group *g, const pace_plan_request *q, fault *f)
 {
     scene s;
@@ -242,7 +242,7 @@ static status refuse(const char *name, fault *f)
     return fault_set(f, STATUS_REFUSED, "--integrator '%.31s': give one of " PACE_METHODS, name);
 }
 
-/* "KEY=NUMBER" of a scheme; *value is its usual one where nothing is said. */
+/* "KEY=NUMBER" of a scheme; *value is the default if it is not given. */
 static int read_value(const char *text, const char *key, double most, double *value)
 {
     const size_t length = key != NULL ? strlen(key) : 0;
@@ -314,13 +314,14 @@ static status list_refuse(const char *option, const char *text, fault *f)
                      option, text, PACE_LIST_MOST);
 }
 
-/* Where a number ends; NULL: there is none that is positive. */
+/* Returns the end of a positive number; NULL: there is none. */
 static const char *positive(const char *at, double *out)
 {
     const char *end;
     if (!number_read(at, &end, out) || *out <= 0)
         return NULL;
-    return *end == '.' && end[-1] == '.' ? end - 1 : end; /* 1..2: the first point is no decimal */
+    return *end == '.' && end[-1] == '.' ? end - 1
+                                         : end; /* 1..2: the first point is not a decimal point */
 }
 
 static status read_range(const char *option, const char *text, double from, double to, double ratio,
@@ -413,7 +414,7 @@ static double apart(const double a[3], const double b[3])
     return sqrt(square);
 }
 
-/* Between two unit quaternions, whatever their signs; of small angles exact, too. */
+/* Angle between two unit quaternions of any sign; exact for small angles, too. */
 static double angle(const double a[4], const double b[4])
 {
     double less = 0, more = 0;
@@ -424,7 +425,7 @@ static double angle(const double a[4], const double b[4])
     return 4 * atan2(sqrt(fmin(less, more)), sqrt(fmax(less, more)));
 }
 
-/* Largest distance of two nodes at rest. */
+/* Largest distance between two nodes at rest. */
 static double size_of(const shapes *s)
 {
     double size = 0;

@@ -171,7 +171,7 @@ static const schema_field fields_of_ladder[] = {
 static const record_type record_pace_ladder = {
     "order", "orders", "an integrator with successively halved steps", {KEYS, fields_of_ladder}};
 
-/* An error, and who comes within it. */
+/* An error, and the integrators that reach it. */
 typedef struct record_reached {
     double error;
     const char *integrator;
@@ -375,7 +375,7 @@ static status plan_axis(const motion_request *r, motions *m, const pace_plan_req
     return STATUS_OK;
 }
 
-/* All values of the parameter that varies; without one the point itself. */
+/* All values of the varying parameter; without one, the point itself. */
 static status plan_points(const motion_request *r, motions *m, pace_plan_request *q, fault *f)
 {
     sweep_axis a;

@@ -75,7 +75,7 @@ static void reach_one(const pace *p, pace_verdict *v)
             say(v, r[i].fate != PACE_UNJUDGED ? pace_fate_name(r[i].fate) : "unjudged");
 }
 
-/* Numbers that differ by little, as many of them. */
+/* Checks that two lists have the same length and nearly equal numbers. */
 static int is_near(const char *a, const char *b)
 {
     while (*a != '\0' && *b != '\0') {
@@ -86,7 +86,7 @@ static int is_near(const char *a, const char *b)
     return *a == *b;
 }
 
-/* Does it agree with the table? */
+/* Does the verdict agree with the table? */
 static int pace_verdict_is_expected(const pace_verdict *v)
 {
     return v->kind == PACE_TOLERANCE ? v->found[0] != '\0' && is_near(v->found, v->expected)
@@ -118,7 +118,7 @@ enum { JUDGED, CASE, PARAMETERS, FORMULATION, ELEMENTS, INTEGRATOR, STEPS, EXPEC
 static const char *const judged_names[PACE_JUDGED] = {"order", "energy", "momentum", "tolerance",
                                                       "fate"};
 
-/* A row, and the runs that it plans. */
+/* A row, and its planned runs. */
 typedef struct planned {
     pace_plan_request request;
     double parameter[CASE_MAX_PARAMETERS];
@@ -132,8 +132,8 @@ static status read_kind(const char *word, pace_verdict *v, fault *f)
         i++;
     if (i == PACE_JUDGED)
         return fault_set(f, STATUS_REFUSED,
-                         "'%.40s' is judged by nothing; give order, energy, momentum, tolerance or "
-                         "fate",
+                         "'%.40s' is not a property with a verdict; give order, energy, momentum, "
+                         "tolerance or fate",
                          word);
     v->kind = (pace_judged)i;
     return STATUS_OK;
@@ -181,7 +181,7 @@ static status read_row(const own_table_row *row, pace_verdict *v, planned *out, 
     return STATUS_OK;
 }
 
-/* Rows of the same motions, but for the integrator, follow each other and share their reference. */
+/* Rows that differ only in the integrator are consecutive and share their reference. */
 static int is_same(const pace_verdict *a, const pace_verdict *b)
 {
     return (a->kind == PACE_FATE) == (b->kind == PACE_FATE) &&
@@ -271,7 +271,7 @@ static double distance_of_check(const pace *p, const pace_group *g, int check)
                          g->analysis);
 }
 
-/* By how its error falls with the number of its steps, between its checks. */
+/* Order by which its error falls with the number of steps, between its checks. */
 static double order_of_reference(const pace *p, const pace_group *g, double near, double far)
 {
     const double steps = (double)pace_cell_of(p, g->reference + 1)->solve.steps /
@@ -279,14 +279,14 @@ static double order_of_reference(const pace *p, const pace_group *g, double near
     return steps > 1 && near > 0 ? log(far / near) / log(steps) : NAN;
 }
 
-/* The reference, and what it may be off: errors of its checks fall by a ratio from one to the next,
- * and so does its own, three times as much for safety; where they do not fall, the distance of the
- * nearer one. */
+/* The reference and its uncertainty: errors of its checks fall by a ratio from one to the next, and
+ * the same ratio gives that of the reference, times three for safety; if they do not fall, it is
+ * the distance of the nearer check. */
 static void judge_reference(const pace *p, pace_group *g)
 {
     static const double safety = 3;
     if (g->reference < 0) {
-        snprintf(g->reason, sizeof g->reason, "none was asked for");
+        snprintf(g->reason, sizeof g->reason, "none was requested");
         return;
     }
     const cell_result *reference = pace_cell_of(p, g->reference);
@@ -318,7 +318,7 @@ static status errors_of(const pace *p, const pace_group *g, pace_run *r, fault *
     return STATUS_OK;
 }
 
-/* [s] of the last step that was kept. */
+/* [s] end of the last accepted step. */
 static double last_instant(const solve_result *r)
 {
     return r->steps > 0 ? r->step[r->steps - 1].path : 0;

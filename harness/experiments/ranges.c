@@ -16,7 +16,7 @@ static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, co
 static const double batch_cost = 0.5; /* [s] */
 enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
 
-/* No parameter twice, in the axes or beside them. */
+/* Rejects parameters that are given twice, as axes or otherwise. */
 static status add_axis(parameter_ranges *r, const char *text, fault *f)
 {
     if (r->design.axes == CASE_MAX_PARAMETERS)
@@ -37,9 +37,10 @@ static status read_axes(parameter_ranges *r, fault *f)
     char shown[ASSIGNMENT_SHOWN];
     assignment_shown(&list, shown);
     if (r->request.varies == 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "what varies? give --vary NAME=A..B/N; 'beamwork list %.170s' shows names",
-                         shown);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "no parameter varies; give --vary NAME=A..B/N; 'beamwork list %.170s' shows names",
+            shown);
     for (int i = 0; i < r->request.varies; i++)
         TRY(add_axis(r, r->request.vary[i], f));
     const int axes = r->design.axes;
@@ -58,8 +59,7 @@ static status cut(parameter_ranges *r, fault *f)
     const long batches = (r->design.points + r->points_in_batch - 1) / r->points_in_batch;
     if (batches > MOST_BATCHES)
         return fault_set(f, STATUS_REFUSED,
-                         "%ld points of about %.2g s each are too many for a "
-                         "sweep; give fewer",
+                         "%ld points of about %.2g s each are too many for a sweep; request fewer",
                          r->design.points, r->point_cost);
     r->batches = (int)batches;
     return STATUS_OK;
@@ -96,7 +96,7 @@ static int ranges_batch(const parameter_ranges *r, int batch, long *first)
     return (int)(left < r->points_in_batch ? left : r->points_in_batch);
 }
 
-/* A batch that is being made. */
+/* A batch under construction. */
 typedef struct making {
     const parameter_ranges *of;
     const sweep *s;
@@ -186,7 +186,7 @@ static void fill_cells(const making *m, int at, int which)
     }
 }
 
-/* Errors of one formulation against its reference, and the least mesh. */
+/* Errors of one formulation against its reference, and the coarsest sufficient mesh. */
 static void fill_errors(const making *m, int at, int which, int q, int quantity,
                         const point_reference *against)
 {
@@ -208,8 +208,7 @@ static int is_known(const point_reference *r)
     return r->kind != ROWS_NONE && r->kind != ROWS_DISPUTED;
 }
 
-/* One quantity at one point: what stands as its reference is that of the first formulation that has
- * one. */
+/* One quantity at one point; its reference is that of the first formulation that has one. */
 static void fill_quantity(const making *m, int at, int q, const known_truths *k)
 {
     const sweep_point *p = &m->s->point[at];
@@ -278,7 +277,7 @@ static void add_numbers(digest *to, const double value[], size_t count)
         digest_add_number(to, value[i]);
 }
 
-/* All but the times. */
+/* Everything except the times. */
 static void add_content(digest *to, const rows *w)
 {
     const size_t points = (size_t)w->points, known = points * (size_t)w->shape.quantities,
@@ -301,7 +300,7 @@ static status run(void *context, int batch, FILE *to, digest *content, fault *f)
     rows w;
     status outcome = ranges_solve(own->of, batch, &w, f);
     if (outcome == STATUS_OK && rows_write(to, &w) != 0)
-        outcome = fault_set(f, STATUS_FAULT, "batch %d cannot be handed on", batch + 1);
+        outcome = fault_set(f, STATUS_FAULT, "batch %d cannot be passed on", batch + 1);
     if (outcome == STATUS_OK)
         add_content(content, &w);
     rows_free(&w);

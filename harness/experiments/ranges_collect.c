@@ -40,7 +40,7 @@ static int is_ours(const char *name)
            (sscanf(name, "point_%ld.yaml%n", &index, &end) == 1 && end > 0 && name[end] == '\0');
 }
 
-/* Files of an earlier sweep, all of the folder; 0: there are others. */
+/* Does the folder contain only files of an earlier sweep? 0: there are others. */
 static int is_former(const char *folder)
 {
     DIR *at = opendir(folder);
@@ -131,13 +131,13 @@ status ranges_collect_remove(const stock *s, const char *folder, fault *f)
 enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };
 static const double piece_bytes = 256 * 1024, cache_bytes = 4 << 20;
 
-/* A column of the file: its place in rows, its dimensions beside the points. */
+/* A column of the file: its position in rows, its dimensions in addition to the points. */
 typedef struct file_column {
     const char *name, *unit;
     hid_t type;
     int ranks, size[MOST_RANKS - 1];
     const void *first; /* of these rows; of points: NULL */
-    int missing;       /* whole numbers: what stands where nothing was computed */
+    int missing;       /* whole numbers: the value where nothing was computed */
 } file_column;
 
 static int columns_of(const parameter_ranges *r, const rows *w,
@@ -212,7 +212,7 @@ static hid_t make_column(ranges_file *file, const file_column *c)
     return set;
 }
 
-/* Names by number, a line each. */
+/* Names in the order of their numbers, one per line. */
 static void put_names(record_file *r, hid_t set, const char *name, const char *(*of)(int),
                       int count)
 {
@@ -356,7 +356,7 @@ static void write_text(FILE *to, const void *text)
     fputs(text, to);
 }
 
-/* The scene of a point as a text, which the caller frees; "" where no file can say it. */
+/* The scene of a point as a text, which the caller frees; "" if scene files cannot express it. */
 static status text_of(const parameter_ranges *r, long index, char **text, fault *f)
 {
     double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
@@ -375,7 +375,7 @@ static status text_of(const parameter_ranges *r, long index, char **text, fault 
     return *text != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a scene");
 }
 
-/* Its name, where an earlier one of the list is the same point. */
+/* Its name; the same if an earlier entry of the list is the same point. */
 static const char *name_known(const tally *t, int which, int k, long index)
 {
     for (int i = 0; i <= which; i++)

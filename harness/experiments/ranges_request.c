@@ -156,7 +156,7 @@ void ranges_points_text(const parameter_ranges *r, const double at[], char *text
 
 enum { LAST_KNOWN = 2 /* kind of reference */ };
 
-/* Formulations that this reference is not for, at how many points. */
+/* Formulations to which this reference does not apply, and the number of such points. */
 static void say_unmeasured(const tally *t, int q, char *text, size_t size)
 {
     enum { NAMED = 3 };
@@ -189,8 +189,8 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
         {kind[ROWS_DERIVED], "a reference value computed there"},
         {kind[ROWS_LIMIT], alone ? "the limit from the same meshes, which shows convergence only"
                                  : "the limit of the meshes of all formulations of one theory"},
-        {kind[ROWS_NONE],
-         "nothing: no limit is known to half of the error (finer -n, or --compute-references)"},
+        {kind[ROWS_NONE], "nothing: no limit has an uncertainty below half of the error (use finer "
+                          "-n, or --compute-references)"},
         {kind[ROWS_DISPUTED], "nothing: limits of formulations disagree"}};
     size_t used = 0;
     int parts = 0;
@@ -208,7 +208,7 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
     say_unmeasured(t, q, text + used, RANGES_TABLE_LINE - used);
 }
 
-/* Quantities that are measured by the same stand together. */
+/* Groups quantities with the same kind of reference. */
 static void write_reference(FILE *to, const tally *t, int q, char told[])
 {
     char text[RANGES_TABLE_LINE], other[RANGES_TABLE_LINE];
@@ -227,7 +227,7 @@ static void write_reference(FILE *to, const tally *t, int q, char told[])
     paragraph_end(&words, begun, 6);
 }
 
-/* Why the first one has none. */
+/* Reason why the first one has none. */
 static void write_without_scene(FILE *to, const tally *t)
 {
     const parameter_ranges *r = t->of;
@@ -256,8 +256,8 @@ void ranges_table_known(FILE *to, const tally *t)
         write_without_scene(to, t);
 }
 
-/* Errors against reference values beside such against limits: only the first show what a theory
- * leaves out.
+/* Errors against reference values next to errors against limits: only the former show what a theory
+ * omits.
  */
 static int is_mixed(const tally *t, int which, int q)
 {
@@ -282,7 +282,7 @@ static void write_place(FILE *to, const tally_place *p, int mixed)
     fprintf(to, "%*s", RANGES_TABLE_COLUMN, text);
 }
 
-/* Value of an axis, short. */
+/* Value of an axis, in few digits. */
 static void edge_text(const tally *t, int index, int place, char *text, int size)
 {
     const sweep_axis *a = &t->of->axis[index];
@@ -292,7 +292,7 @@ static void edge_text(const tally *t, int index, int place, char *text, int size
         snprintf(text, (size_t)size, "%.3g", tally_edge(t, index, place));
 }
 
-/* The values of the first axis, after what is in their lines. */
+/* The values of the first axis, sorted by the contents of their lines. */
 static void write_columns(FILE *to, const tally *t)
 {
     char edge[ASSIGNMENT_VALUE];
@@ -312,7 +312,7 @@ static void write_fields(FILE *to, const tally *t, const char *label, int which,
     fputc('\n', to);
 }
 
-/* Over two axes a map for each formulation, over one a line. */
+/* Prints a map for each formulation over two axes, or a line over one. */
 static void write_maps_of(FILE *to, const tally *t, int q)
 {
     const parameter_ranges *r = t->of;
@@ -353,7 +353,7 @@ static int has_other(const tally *t)
     return others > 0;
 }
 
-/* Is a field without a reference? parts: has it points with and points without? */
+/* Does a field lack a reference? parts: does it have points with and without one? */
 static int has_unknown(const tally *t, int parts)
 {
     const parameter_ranges *r = t->of;
@@ -365,7 +365,7 @@ static int has_unknown(const tally *t, int parts)
     return unknown;
 }
 
-/* Are there fields of several values? */
+/* Are there fields with several values? */
 static int is_coarse(const tally *t)
 {
     const int shown[] = {t->columns, t->lines};
@@ -385,16 +385,16 @@ void ranges_table_map(FILE *to, const tally *t, int every)
     fprintf(to, "\n");
     paragraph_say(
         to, fprintf(to, "least n "), 2,
-        "from which on every mesh is within %g %%; -: not even with n = %d%s%s%s%s%s",
+        "from which every mesh is within %g %%; -: not even with n = %d%s%s%s%s%s",
         100 * r->request.tolerance, r->mesh[r->meshes - 1],
         has_other(t) ? "; o: another model" : "",
         has_unknown(t, 0) ? "; ?: without a reference" : "",
-        has_unknown(t, 1) ? "; a number with ?: some of its points are without" : "",
+        has_unknown(t, 1) ? "; a number with ?: some of its points have no reference" : "",
         has_mixed(t) ? "; *: against a reference value, elsewhere against limits of meshes, which "
-                       "do not show what a theory leaves out"
+                       "do not show what a theory omits"
                      : "",
         is_coarse(t)
-            ? "; a field contains what all its points need; column and line give its lower ends"
+            ? "; a field shows what all its points need; column and row give its lower bounds"
             : "");
     for (int q = 0; q < r->quantities && every && r->quantities > 1; q++)
         write_maps_of(to, t, q);

@@ -51,7 +51,7 @@ void ranges_table_head(FILE *to, const parameter_ranges *r)
         paragraph_say(to, fprintf(to, "  omitted: "), 4, "%s", r->left_out);
 }
 
-/* 99.96 % are not all. */
+/* Does not print 100 % for 99.96 %. */
 static void write_share(FILE *to, long part, long all)
 {
     if (part == all)
@@ -92,13 +92,13 @@ static void write_line(FILE *to, const tally *t, int which, int q)
         const int cell = which * r->meshes + mesh;
         const double cost = t->cost[cell] / (double)(t->ran[cell] > 0 ? t->ran[cell] : 1);
         fprintf(to, "   n = %-6d", s->everywhere);
-        if (isfinite(cost)) /* work by differences, or of another process, has none */
+        if (isfinite(cost)) /* work by differences, or in another process, has none */
             fprintf(to, " %.2g ms", 1e3 * cost);
     }
     fprintf(to, s->asked < t->points ? ", %ld points\n" : "\n", s->asked);
 }
 
-/* One quantity: a line for each formulation. */
+/* Prints one quantity, a line for each formulation. */
 static void write_shares(FILE *to, const tally *t, int q)
 {
     const parameter_ranges *r = t->of;
@@ -114,7 +114,7 @@ static void write_shares(FILE *to, const tally *t, int q)
         write_line(to, t, i, q);
 }
 
-/* Elements with which a formulation is within everywhere, in a word. */
+/* Prints the number of elements with which a formulation is within the error everywhere. */
 static void write_least(FILE *to, const tally *t, int which, int q, int width)
 {
     const tally_series *s = tally_of(t, which, q);
@@ -130,7 +130,7 @@ static void write_least(FILE *to, const tally *t, int which, int q, int width)
         fprintf(to, "%*d", width, s->everywhere);
 }
 
-/* Formulations beside each other, some at a time. */
+/* Formulations side by side, a few at a time. */
 static void write_leasts(FILE *to, const tally *t)
 {
     enum { BESIDE = 3, WIDTH = 24 };
@@ -150,18 +150,17 @@ static void write_leasts(FILE *to, const tally *t)
     }
 }
 
-/* How points count whose quantities are not all measured. */
+/* Explains how points count if some of their quantities have no reference. */
 static void write_open(FILE *to, const tally *t)
 {
     int open = 0;
     for (int i = 0; i < t->of->formulations; i++)
         open |= tally_of(t, i, t->of->quantities)->open > 0;
     if (open)
-        paragraph_say(
-            to, 0, 2,
-            "a point where a quantity of a formulation has a value and nothing to be "
-            "measured by counts for all its quantities only where another one is off; n?: of "
-            "the points that are measured");
+        paragraph_say(to, 0, 2,
+                      "a point where a quantity of a formulation has a value but no reference "
+                      "counts, for all quantities together, only if another quantity is outside "
+                      "the error; n?: for the points that have a reference");
 }
 
 static void write_all_shares(FILE *to, const tally *t, int every)
@@ -177,7 +176,7 @@ static void write_all_shares(FILE *to, const tally *t, int every)
     }
 }
 
-/* Prints the physics that formulations omit, where that makes another model. */
+/* Prints the physics that formulations omit if that makes another model. */
 static void write_others(FILE *to, const tally *t)
 {
     for (int i = 0; i < t->of->formulations; i++) {
@@ -237,7 +236,7 @@ static void write_worst(FILE *to, const parameter_ranges *r, int which, const ta
             where, w->scene[0] != '\0' ? "  " : "", w->scene);
 }
 
-/* How to see one of them: that of the first formulation. */
+/* Prints how to examine one of them: that of the first formulation. */
 static void write_command(FILE *to, const parameter_ranges *r, int which, const tally_worst *w,
                           const char *folder, fault *f)
 {
@@ -245,7 +244,7 @@ static void write_command(FILE *to, const parameter_ranges *r, int which, const 
     paragraph words;
     if (design_points(&r->design, w->point, 1, at, f) != STATUS_OK)
         return;
-    const int begun = fprintf(to, "to look at the first: ");
+    const int begun = fprintf(to, "to examine the first: ");
     FILE *out = paragraph_begin(&words, to);
     fprintf(out, "beamwork converge ");
     char path[PATH_MAX];
@@ -274,7 +273,7 @@ void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault
     const parameter_ranges *r = t->of;
     int shown = -1;
     if (t->points < r->design.points)
-        fprintf(to, "%ld of %ld points are there\n", t->points, r->design.points);
+        fprintf(to, "%ld of %ld points are complete\n", t->points, r->design.points);
     ranges_table_known(to, t);
     write_all_shares(to, t, every);
     write_others(to, t);

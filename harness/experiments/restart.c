@@ -43,16 +43,16 @@ static status check_chosen(const restart *r, const solution_request *of, fault *
     if (strcmp(r->formulation, of->formulation.key) != 0 || r->elements != of->elements)
         return fault_set(
             f, STATUS_REFUSED,
-            "--restart is of -f %s -n %d and not of -f %s -n %d: a motion continues with "
+            "--restart was written with -f %s -n %d, not with -f %s -n %d: a motion continues with "
             "the formulation and the elements that it began with",
             r->formulation, r->elements, of->formulation.key, of->elements);
     if (r->keep_all != of->keep_all)
-        return fault_set(f, STATUS_REFUSED, "--restart is of a run %s --all-dofs: %s",
+        return fault_set(f, STATUS_REFUSED, "--restart was written by a run %s --all-dofs: %s",
                          r->keep_all ? "with" : "without", r->keep_all ? "give it" : "remove it");
     return STATUS_OK;
 }
 
-/* Instants that are passed are no stations any more. */
+/* Past instants are no longer stations. */
 static status drop_stations(const outcome_end *e, scene *s, fault *f)
 {
     const double same_instant = 1e-9;
@@ -89,8 +89,8 @@ status restart_begin(const restart *r, solution_request *of, scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* The file of a restart: `scene` and `formulation` as text, `run` (elements, keep_all, ends), of
- * each end its `numbers` and, in `value_K`, what the motion was. */
+/* The file of a restart: `scene` and `formulation` as text, `run` (elements, keep_all, ends), for
+ * each end its `numbers` and, in `value_K`, the settings of the motion. */
 
 static const char kind[] = "beamwork-motion-end-4";
 enum { RUN = 3, NUMBERS = 21, FIRST_COUNT = 11, COUNTS = 5, MOST_ENDS = 1000 };
@@ -197,8 +197,8 @@ typedef struct source {
     const char *path;
 } source;
 
-/* All of a data set of rank 1, with a zero after; NULL: it is not there, or not so. count: their
- * number; less than 0 on entry: any number. */
+/* Contents of a data set of rank 1, followed by a zero; NULL: it does not exist, or differs. count:
+ * the number of values; negative on entry: any number. */
 static void *take(const source *from, const char *name, hid_t type, size_t size, long *count)
 {
     const hid_t set =
@@ -235,8 +235,7 @@ static double *take_values(const source *from, const char *name, long count)
 static status damaged(const source *from, fault *f)
 {
     return fault_set(f, STATUS_FAULT,
-                     "%.200s: not a file of --save-state of this version; write it again",
-                     from->path);
+                     "%.200s: not a --save-state file of this version; write it again", from->path);
 }
 
 static int whole(double x, double most)
@@ -307,7 +306,7 @@ status restart_read(const char *path, restart *out, fault *f)
     return outcome;
 }
 
-/* No motion has another station than this one. */
+/* Is this the only station of all motions? */
 static void equal_stations(scene *plain, double *zero)
 {
     for (int i = 0; i < plain->analyses; i++)
@@ -348,7 +347,7 @@ static int line_of(const char **text)
     return (int)strcspn(*text, "\n");
 }
 
-/* Length of the common text before a difference, and of the text that is reported of each line. */
+/* Length of the common text before a difference, and of the reported text of each line. */
 enum { BEFORE = 30, TOLD = 70 };
 static int told(int length)
 {
@@ -366,7 +365,7 @@ static status differ(const char *former, const char *now, fault *f)
                 same++;
             same = same > BEFORE ? same - BEFORE : 0;
             return fault_set(f, STATUS_REFUSED,
-                             "--restart is of another scene: there '%.*s', here '%.*s'",
+                             "--restart belongs to another scene: there '%.*s', here '%.*s'",
                              told(n - same), a + same, told(k - same), b + same);
         }
         former = a + n + (a[n] == '\n');

@@ -22,8 +22,7 @@ status shard_parse(const char *text, int *index, int *count, fault *f)
         --*index;
         return STATUS_OK;
     }
-    return fault_set(f, STATUS_REFUSED,
-                     "--shard '%.40s': give K/N, the number of the shard and of how many (1/4)",
+    return fault_set(f, STATUS_REFUSED, "--shard '%.40s': give K/N, shard K of N, such as 1/4",
                      text);
 }
 
@@ -65,7 +64,7 @@ static status hire(crew *c, int self, fault *f)
     return STATUS_OK;
 }
 
-/* It has ended, or is ended. Returns how (of waitpid). */
+/* Waits for its end, or ends it. Returns the status of waitpid. */
 static int dismiss(crew *c, int self)
 {
     close(c->hand[self].from);
@@ -84,7 +83,7 @@ static void tell_lost(const crew *c, int batch, int how)
                 WIFSIGNALED(how) ? words : "ended before it was done");
 }
 
-/* Deletes the half-written files of a batch; -1: of none. */
+/* Deletes the partly written files of a batch; -1: none. */
 static void clean(const crew *c, int batch, int gone)
 {
     char stem[BATCH_STEM], name[BATCH_NAME];
@@ -95,7 +94,7 @@ static void clean(const crew *c, int batch, int gone)
     batch_clean(c->todo.request->into, name, gone);
 }
 
-/* One process that has something to say, or has ended. */
+/* Handles one process that has written something, or has ended. */
 static status attend(crew *c, int self, fault *f)
 {
     labour_notice said;
@@ -147,7 +146,7 @@ static status work_off(crew *c, int asked, fault *f)
     return STATUS_OK;
 }
 
-/* Ends them whatever they do; what they left half-written is taken away. */
+/* Ends all processes; partly written files are deleted. */
 static void end_all(crew *c)
 {
     for (int i = 0; i < c->jobs; i++)

@@ -91,10 +91,10 @@ static status tell_change(const solution_request *r, const solution_choice *why,
     if (!why->short_of || out->status != STATUS_OK)
         return out->status;
     out->status = STATUS_NOT_CONVERGED;
-    snprintf(
-        out->reason, sizeof out->reason,
-        "with the mesh: %.200s, and %.3g %% was requested; -n %d computes it, or raise --error",
-        why->elements, 100 * asked, 2 * r->elements);
+    snprintf(out->reason, sizeof out->reason,
+             "values still change with the mesh: %.200s, and %.3g %% was requested; use -n %d, or "
+             "raise --error",
+             why->elements, 100 * asked, 2 * r->elements);
     return fault_set(f, STATUS_NOT_CONVERGED, "%s", out->reason);
 }
 
@@ -106,7 +106,7 @@ status solution_run(const solution_request *r, const solution_choice *why, sweep
     request.solve.systems = r->systems;
     request.solve.reduce = r->reduce;
     request.solve.keep_ends = r->keep_ends;
-    /* what is drawn, written or gone on from is requested */
+    /* analyses that are drawn, written or continued are requested */
     request.solve.all_analyses = r->shapes > 0 || r->systems || r->keep_ends;
     request.solve.looks = 1;
     request.solve.restarts = r->restarts;
@@ -198,7 +198,7 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
     return found.doubt <= tolerance / 2 ? found : of_limits(s, series_index, quantity, tolerance);
 }
 
-/* Rows of the request that hold at the point: few of many, which every quantity looks through. */
+/* Rows of the request that apply at the point: a few of many, which every quantity searches. */
 static status borrow(const truths *all, const sweep_point *p, known_truths *out, fault *f)
 {
     out->borrowed = 1;
@@ -222,7 +222,7 @@ static status find_stored(const parameter_ranges *r, const sweep_point *p, known
         return STATUS_OK;
     if (scene_truths_add(q->file, p->parameter, &out->stored, &why) == STATUS_OK)
         return STATUS_OK;
-    truths_free(&out->stored); /* expressions that have no value here */
+    truths_free(&out->stored); /* expressions without a value here */
     out->stored = (truths){0};
     return STATUS_OK;
 }
@@ -287,7 +287,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     fault why;
     parameters_source_text(p->type, p->parameter, text, sizeof text);
     if (case_omits_nothing(p->type, p->parameter))
-        return STATUS_OK; /* derived is what the source has */
+        return STATUS_OK; /* the derived values belong to the model of the source */
     const status outcome =
         r->request.file != NULL
             ? ask_scene(r->request.derive, p, &value, &count, &why)
@@ -304,7 +304,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     return added;
 }
 
-/* Has every quantity that is requested one of the same model? */
+/* Does every requested quantity have a reference value of the same model? */
 static int all_stored(const parameter_ranges *r, const sweep_point *p, const truths *t)
 {
     for (int i = 0; i < r->quantities; i++)
@@ -361,7 +361,7 @@ static status judge(const void *asked, void *found, fault *f)
     return judgement_make(&c->sweep, &c->truths, 0, &c->judgement, f);
 }
 
-/* How many of the formulations run. */
+/* Returns the number of formulations that run. */
 static int running(const sweep *s)
 {
     int count = 0;

@@ -162,7 +162,7 @@ const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS])
     return words;
 }
 
-/* The words of what is not usual about it. */
+/* Describes its special properties. */
 static void describe(const specimen_request *what, const formulation *chosen, specimen *s)
 {
     static const char *const section_words[] = {"", ", unsymmetric section",
@@ -174,16 +174,16 @@ static void describe(const specimen_request *what, const formulation *chosen, sp
              curved ? ", initially curved" : "");
 }
 
-/* One way of making it. */
+/* One variant of it. */
 typedef struct way {
     const formulation *chosen;
     specimen_request made;
     int usual; /* 1: it must be possible */
 } way;
 
-static const char failure[] = "its functions give answers";
+static const char failure[] = "its functions return results";
 
-/* Where the formulation's own code fails, that is the one cause of all that would depart. */
+/* If the code of the formulation fails, this is the single cause of all deviations. */
 static int gives_answers(const specimen *s, claims *c)
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -257,7 +257,7 @@ static void all_forms(const formulation *chosen, claims *c, specimens_check *che
     }
 }
 
-/* Each choice of an option, the others as they are. */
+/* Each choice of an option, with the others unchanged. */
 static void other_choices(const formulation *chosen, int option, claims *c, specimens_check *check)
 {
     const assignment_list list = formulation_options(chosen->type);
@@ -289,7 +289,7 @@ enum { N = SPECIMEN_COORDINATES };
 
 static const char *const claim_F = "F is the gradient of the energy",
                          *const claim_K = "K is the derivative of F",
-                         *const claim_same = "a rigid motion leaves the energy",
+                         *const claim_same = "a rigid motion does not change the energy",
                          *const claim_rest = "the undeformed element has no load";
 
 static status call(const specimen *s, const node_state x[], force_output *out)
@@ -313,7 +313,7 @@ static int force_at(const void *context, int i, double si, int j, double sj, dou
     return (int)call(at->s, x, &(force_output){.F = values});
 }
 
-/* Forces times units of their coordinates: works [J]; size: the largest. */
+/* Forces times the units of their coordinates [J]; size: the largest. */
 static double works(const specimen *s, const double F[], double out[])
 {
     double largest = 0;
@@ -376,8 +376,8 @@ static void check_carried(const specimen *s, const node_state x[], double energy
         specimen_carry(s, turn[k], x, carried);
         call(s, carried, &(force_output){.energy = &other});
         claims_departs(one, claims_share(fabs(other - energy), fabs(energy)),
-                       "force: a rigid turn by (%g, %g, %g) rad takes the energy from %.6g J to "
-                       "%.6g J; measure strains in axes that rotate with the element%s",
+                       "force: a rigid rotation by (%g, %g, %g) rad changes the energy from %.6g J "
+                       "to %.6g J; measure strains in axes that rotate with the element%s",
                        turn[k][0], turn[k][1], turn[k][2], energy, other, s->words);
     }
 }
@@ -415,7 +415,7 @@ static void check(const specimen *s, claims *c)
              &(force_output){
                  .energy = &energy, .F = leaves & LEAVES_FORCE ? NULL : F, .K = leaves ? NULL : K});
     claims_asks(claims_open(c, "moderate strains have a force", 0), outcome == STATUS_OK,
-                "force: a state moved by some hundredths ends with status '%s'%s",
+                "force: a state moved by a few hundredths ends with status '%s'%s",
                 status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;

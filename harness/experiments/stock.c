@@ -39,7 +39,7 @@ static status add_kind(stock *s, const machine *of, fault *f)
     return STATUS_OK;
 }
 
-/* There are two files of one batch: the other one's label is read again. */
+/* If there are two files of one batch, the label of the other one is read again. */
 static status hold_against(stock *s, const batch_label *label, const char *path, fault *f)
 {
     char other[PATH_MAX];
@@ -70,7 +70,7 @@ static status add(stock *s, const batch_label *label, const char *path, int fold
     return add_kind(s, &label->node, f);
 }
 
-/* It is called as batches of this work are. */
+/* Its name is that of a batch of this work. */
 static status look_inside(stock *s, const shard_work *w, const char *path, int batch, int folder,
                           FILE *tell, fault *f)
 {
@@ -93,7 +93,7 @@ static status look_inside(stock *s, const shard_work *w, const char *path, int b
     return outcome;
 }
 
-/* Whose is it? Never that of this work. */
+/* Reports to which work it belongs: never to this one. */
 static status refuse_other(const shard_work *w, const char *path, fault *f)
 {
     batch_label label;
@@ -163,7 +163,7 @@ void stock_free(stock *s)
     *s = (stock){.batches = 0};
 }
 
-/* The ranges of missing batches; a long list ends in dots. */
+/* The ranges of missing batches; a long list ends with dots. */
 static void write_ranges(FILE *to, const stock *s)
 {
     enum { MOST = 20 };
@@ -185,7 +185,7 @@ static void write_ranges(FILE *to, const stock *s)
     }
 }
 
-/* Whose they are, when all shards are of one number. */
+/* The shards to which they belong, if all plans have the same number of shards. */
 static void write_shards(FILE *to, const stock *s, const shard_work *w)
 {
     int *shard = malloc(((size_t)s->batches + 1) * sizeof *shard);
@@ -346,7 +346,9 @@ static status take(const shard_work *w, const stock *s, int batch, fault *f)
     batch_label_free(&label);
     status outcome = w->take(w->context, batch, from, f);
     if (outcome == STATUS_OK && ftell(from) != end)
-        outcome = fault_set(f, STATUS_FAULT, "%.200s: has other bytes than the batch takes", path);
+        outcome =
+            fault_set(f, STATUS_FAULT,
+                      "%.200s: its length differs from that of its contents; remove it", path);
     fclose(from);
     return outcome;
 }
@@ -359,7 +361,7 @@ status merge_take(const shard_work *w, const stock *s, fault *f)
     return STATUS_OK;
 }
 
-/* A function without arguments that returns a text, of a library that may be another one. */
+/* A function without arguments that returns a text, if the library has it. */
 static const char *answer_of(const char *name)
 {
     char *(*function)(void);
@@ -370,7 +372,7 @@ static const char *answer_of(const char *name)
     return function();
 }
 
-/* OpenBLAS names itself; of another library the name of its file. */
+/* OpenBLAS names itself; for another library the name of its file. */
 static void name_blas(char *out, size_t size)
 {
     const char *config = answer_of("openblas_get_config"),

@@ -13,9 +13,10 @@ enum { LOOKED_AT = 9 };
 typedef struct survey_wanted {
     const char *select;
     select_words words;
-    char formulation[RANGES_FORMULATIONS]; /* 1: it holds for one of its quantities */
+    char formulation[RANGES_FORMULATIONS]; /* 1: the selection holds for one of its quantities */
     char runs[RANGES_FORMULATIONS];
-    const char *missing[RANGES_FORMULATIONS]; /* what keeps it from the first point it fails at */
+    const char
+        *missing[RANGES_FORMULATIONS]; /* reason why it does not run at its first failing point */
 } survey_wanted;
 
 static status add_point(const parameter_ranges *r, long index, sweep *s, fault *f)
@@ -109,10 +110,10 @@ static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f
     if (kept > 0 && r->quantities > 0)
         return STATUS_OK;
     return w->select != NULL
-               ? fault_set(f, STATUS_REFUSED, "-k '%.100s' holds for no quantity of %.60s",
-                           w->select, r->request.type->name)
+               ? fault_set(f, STATUS_REFUSED, "-k '%.100s' selects no quantity of %.60s", w->select,
+                           r->request.type->name)
                : fault_set(f, STATUS_REFUSED,
-                           "%.60s has no quantity of one value that a formulation can show",
+                           "%.60s has no single-valued quantity that a formulation can show",
                            r->request.type->name);
 }
 
@@ -137,7 +138,8 @@ static status judge(parameter_ranges *r, const sweep *s, fault *f)
             TRY(look_at(r, s, i, &w, f));
         }
     if (known < 0)
-        return fault_set(f, STATUS_REFUSED, "no scene can be built at the points looked at: %.200s",
+        return fault_set(f, STATUS_REFUSED,
+                         "no scene can be built at the points that were tried: %.200s",
                          s->point[0].reason);
     TRY(check_words(&w, &s->point[known], f));
     scene_omission_words(features_omitted(&s->point[known].scene), r->omitted);
@@ -146,7 +148,7 @@ static status judge(parameter_ranges *r, const sweep *s, fault *f)
     return keep_running(r, &w, f);
 }
 
-/* All that there are, until it is seen which run. */
+/* All formulations, before it is known which run. */
 static void take_formulations(parameter_ranges *r)
 {
     const ranges_request *q = &r->request;
@@ -158,7 +160,7 @@ static void take_formulations(parameter_ranges *r)
             formulation_default(formulations_at(i), &r->formulation[r->formulations++]);
 }
 
-/* [s] of a point beside its cells: its scene; a reference value that is derived, of a case, of a
+/* [s] for a point in addition to its cells: its scene; deriving a reference value for a case, for a
  * scene */
 static const double scene_cost = 5e-5, derive_cost = 0.5, derive_scene_cost = 4;
 
@@ -195,7 +197,7 @@ status survey(parameter_ranges *r, fault *f)
     return outcome;
 }
 
-/* Decimal fractions as a table of truths has them. */
+/* Decimal fractions as in tables of reference values. */
 static double to_15_digits(double value)
 {
     char text[32];
@@ -230,7 +232,7 @@ static scene_edit edit_of(const extreme *e, double x)
     return (scene_edit){SCENE_EDIT_NONE, 0};
 }
 
-/* Words of the selection are met whether it holds or not. */
+/* Records the words of the selection that occur, whether it holds or not. */
 static int is_selected(const extreme_request *request, const extreme *e, const formulation *chosen,
                        select_words *words)
 {

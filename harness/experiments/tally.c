@@ -77,7 +77,7 @@ double tally_edge(const tally *t, int axis_index, int place)
     return axis_at(a, (double)place / places);
 }
 
-/* In which place of the map a value is. */
+/* Returns the position of a value in the map. */
 static int place_of(const tally *t, int axis_index, double value)
 {
     const int places = axis_index == 0 ? t->columns : t->lines;
@@ -102,15 +102,15 @@ static int place_of(const tally *t, int axis_index, double value)
 
 /* One formulation and quantity at one point. */
 typedef struct seen {
-    int asked;  /* 0: nothing to measure by */
-    int proven; /* 1: by a reference value */
-    int open;   /* 1: there is a value all the same */
-    int other;  /* 1: it is one of another model */
+    int asked;  /* 0: no reference */
+    int proven; /* 1: the reference is a reference value */
+    int open;   /* 1: there is nevertheless a value */
+    int other;  /* 1: the value belongs to another model */
     int least;  /* 0: never */
     char within[SERIES_MAX_MESHES];
 } seen;
 
-/* A value without an error has nothing to be measured by: of another theory, for one. */
+/* A value without an error has no reference, for example because it belongs to another theory. */
 static seen look_at(const tally *t, const rows *w, int here, int which, int quantity)
 {
     const int kind = w->kind[rows_quantity(w, here, quantity)];
@@ -170,7 +170,7 @@ static void join(const tally *t, seen *all, const seen *one)
         all->least = one->least;
 }
 
-/* Closes the counts: points that are open may be within the tolerance or not. */
+/* Completes the counts: undecided points may be within the tolerance or not. */
 static void close_counts(seen *all)
 {
     if (!all->open)

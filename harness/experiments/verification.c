@@ -26,7 +26,7 @@ static const case_type *case_of(const sweep *s, int series_index)
     return s->point[s->series[series_index].point].type;
 }
 
-/* Hands over the case of a series, if none of it comes after. */
+/* Passes on the case of a series if this is its last one. */
 static void hand_over(verification *v, const sweep *s, int series_index)
 {
     const case_type *type = case_of(s, series_index);
@@ -38,7 +38,7 @@ static void hand_over(verification *v, const sweep *s, int series_index)
     v->reader->judged(v->reader->context, type);
 }
 
-/* Judges the series up to that one, all of whose points are done. */
+/* Evaluates the series up to that one, whose points are all complete. */
 static status judge_to(verification *v, const sweep *s, int end, fault *f)
 {
     int of = -1;
@@ -96,8 +96,8 @@ static status add_breach(const certificate *c, judgement *out, fault *f)
     return memory_append(&out->breach, &out->breaches, &one, sizeof one, "broken contracts", f);
 }
 
-/* They are fixed against the interface before anything is run: what they give is worth nothing if
- * they break it. */
+/* Checks them against the interface before anything is run, because their results are meaningless
+ * if they violate it. */
 static status hold_contracts(const sweep *s, int jobs, int time_limit, judgement *out, fault *f)
 {
     formulation own[MOST_OWN];
@@ -184,7 +184,7 @@ void verification_files_case(void *files, const case_type *type)
         json_part_add(&to->part, to->sweep, to->judged);
 }
 
-/* Where a file goes: of an interrupted run, under a name that says so. */
+/* Returns the destination of a file; for an interrupted run its name says so. */
 static status name_place(const verification_files *files, const char *path, char out[PATH_MAX],
                          fault *f)
 {
@@ -245,7 +245,7 @@ static status write_texts(verification_files *to, const overview *o, const envir
     return to->propose != NULL ? write_proposal(to, f) : STATUS_OK;
 }
 
-/* The store is closed whatever comes of it. */
+/* The store is closed in any case. */
 static status write_store(verification_files *to, const environment *e, fault *f)
 {
     char where[PATH_MAX];
@@ -278,16 +278,15 @@ void verification_files_drop(verification_files *to)
     to->open = 0;
 }
 
-/* An error may be so much larger: between processors the kernels of LAPACK move errors near
- * rounding of some series by up to 1.2 %. */
+/* Allowed increase of an error: between processors, the kernels of LAPACK change errors of some
+ * series near rounding by up to 1.2 %. */
 static const double LARGER = 0.02;
 
-/* A limit may move by so much of itself where no truth judges it as closely: a hundredth of a
- * thousandth, so that a fault of a thousandth shows wherever it changes a limit by a hundredth of
- * itself. */
+/* Allowed relative change of a limit if no reference value checks it as closely: 1e-5, so that a
+ * fault of 1e-3 is detected wherever it changes a limit by a hundredth of itself. */
 static const double MOVED = 1e-5;
 
-/* The run as it will be stored, read back: both sides are known by the same means. */
+/* The run as it will be stored, read back, so that both sides are treated in the same way. */
 static status read_back(const sweep *s, const judgement *j, stored_results *out, fault *f)
 {
     const char *folder = getenv("TMPDIR");
@@ -377,8 +376,8 @@ static const result_limit *limit_of_former(const stored_results *former, const s
     return NULL;
 }
 
-/* Does a reference value say as closely where the limit belongs? An estimate does not, nor does any
- * truth of a limit that is not known so closely, or that a finding lets be elsewhere. */
+/* Does a reference value check the limit as closely? Not if it is an estimate, if the limit has a
+ * larger uncertainty, or if a known deviation allows it to differ. */
 static int is_judged_closely(const verdict *v, double slack)
 {
     return (v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED_AS_PREDICTED ||

@@ -176,7 +176,7 @@ static status inertia_of(const handshake_reading *r, handshake *out)
     if (word == NULL || (strcmp(word, "vibration") != 0 && strcmp(word, "motion") != 0))
         return refuse(r, "inertia", "give vibration or motion, or remove it");
     if (!(out->type.offers & FEATURE_MASS))
-        return refuse(r, "inertia", "who brings it offers mass; add that to 'offers'");
+        return refuse(r, "inertia", "it requires mass; add mass to 'offers'");
     out->inertia = 1;
     out->type.spreads = strcmp(word, "motion") == 0;
     if (out->type.spreads && out->constants.nodes != 2)

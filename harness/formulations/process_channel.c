@@ -317,11 +317,11 @@ static status first_line(channel *c, char line[], fault *f)
         if (what != CHILD_DONE)
             return breach(c, what, " before its first line", f);
         if (count == HANDSHAKE_MOST && memchr(line, '\n', count) == NULL)
-            return channel_break(c, "its process began with no line of JSON", f);
+            return channel_break(c, "its process did not begin with a line of JSON", f);
     }
     char *end = memchr(line, '\n', count);
     if (end != line + count - 1 && line[0] == '{')
-        return breach(c, CHILD_SPOKE, " behind its first line", f);
+        return breach(c, CHILD_SPOKE, " after its first line", f);
     *end = '\0';
     on_one_line(line);
     return STATUS_OK;

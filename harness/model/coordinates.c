@@ -254,7 +254,7 @@ static status note_left_out(model *m, const coordinates_tally *of, fault *f)
     if (of->held > 0)
         TRY(coordinates_note_left_out(m, f, "%d fixed degrees of freedom", of->held));
     if (of->tied > 0)
-        TRY(coordinates_note_left_out(m, f, "%d coordinates that constraints give", of->tied));
+        TRY(coordinates_note_left_out(m, f, "%d coordinates determined by constraints", of->tied));
     if (m->scene->plane != SCENE_SPACE)
         TRY(coordinates_note_left_out(m, f, "%d coordinates held in the plane %s", of->across,
                                       scene_plane_name(m->scene)));

@@ -308,7 +308,8 @@ static status add_element(model *m, const member_arc *along, int member, int num
             y[i] = triad[0][3 * i + 1] + triad[last][3 * i + 1];
         }
         if (rotation_triad(between, y, triad[0]) != 0)
-            return fault_set(f, STATUS_REFUSED, "%s: its elements turn too far; use more of them",
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: its elements rotate too far; use more elements",
                              scene_called(m->scene, SCENE_MEMBERS, member).text);
         for (int i = 1; i <= last && i < ELEMENT_MAX_NODES; i++)
             memcpy(triad[i], triad[0], sizeof triad[0]);

@@ -126,24 +126,22 @@ static status note_means(model *m, fault *f)
     double axis[3];
     for (int i = 0; i < s->nodes; i++)
         if (scene_idle_turn(s, i, axis) != 0)
-            TRY(coordinates_note_left_out(m, f,
-                                          "what %s turns by itself, as all its members release: "
-                                          "nothing depends on it",
-                                          scene_called(s, SCENE_NODES, i).text));
+            TRY(coordinates_note_left_out(
+                m, f,
+                "the free rotation of %s, which all its members release: nothing depends on it",
+                scene_called(s, SCENE_NODES, i).text));
     for (int i = 0; i < s->sections; i++)
         if (m->section[i].asymmetry > 0)
-            TRY(coordinates_note_left_out(m, f,
-                                          "what the matrices of %s are unsymmetric by, %.1e of "
-                                          "their diagonal: the mean is taken",
-                                          scene_called(s, SCENE_SECTIONS, i).text,
-                                          m->section[i].asymmetry));
+            TRY(coordinates_note_left_out(
+                m, f,
+                "the asymmetry of the matrices of %s, %.1e of their diagonal: the mean is used",
+                scene_called(s, SCENE_SECTIONS, i).text, m->section[i].asymmetry));
     for (int i = 0; i < s->springs; i++)
         if (s->spring[i].asymmetry > 0)
-            TRY(coordinates_note_left_out(m, f,
-                                          "what the stiffness of %s is unsymmetric by, %.1e of "
-                                          "its diagonal: the mean is taken",
-                                          scene_called(s, SCENE_SPRINGS, i).text,
-                                          s->spring[i].asymmetry));
+            TRY(coordinates_note_left_out(
+                m, f,
+                "the asymmetry of the stiffness of %s, %.1e of its diagonal: the mean is used",
+                scene_called(s, SCENE_SPRINGS, i).text, s->spring[i].asymmetry));
     return note_dashpots(m, f);
 }
 

@@ -76,7 +76,7 @@ status member_arc_between(const scene *s, int member, const double chord[3], con
     const double ey[3] = {0, 1, 0};
     chord_of(out->k, out->length, c);
     if (rotation_triad(c, ey, local) != 0)
-        return fault_set(f, STATUS_REFUSED, "%s: its arc turns into its own y axis",
+        return fault_set(f, STATUS_REFUSED, "%s: its arc becomes parallel to its own y axis",
                          scene_called(s, SCENE_MEMBERS, member).text);
     for (int i = 0; i < 3; i++) /* R = B local^T */
         for (int j = 0; j < 3; j++)

@@ -271,9 +271,9 @@ static status recover_moved(const equations *eq, const internal_state *s, int i,
     if (jump != SCENE_NONE)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: %s begins, ends or acts inside an element of it, where resultants "
-            "have a kink: it is within %g of its length of an end, or of another such "
-            "place; put it there, or put a node of the scene at one of them",
+            "%s: %s begins, ends or acts inside one of its elements, where resultants have a kink: "
+            "it is within %g of the length from an end or from another such position; move it "
+            "there, or put a node of the scene at one of them",
             scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text,
             scene_called(model_scene(m), SCENE_LOADS, jump).text, DIVISION_LEAST);
     loads.acts = distributed_acts(&loads.loads);
@@ -315,8 +315,8 @@ status internal_moved(const equations *eq, const internal_state *s, int member, 
     memcpy(out + 3, moved.turn, sizeof moved.turn);
     if (s->x == NULL && vec3_norm(moved.turn) > most)
         return fault_set(f, STATUS_NO_VALUE,
-                         "%s has turned by %.3g rad there, and its rotation vector is read up to "
-                         "%g rad; ask for the rotation of a node",
+                         "%s has rotated by %.3g rad there, but its rotation vector can be read up "
+                         "to %g rad only; request the rotation of a node",
                          scene_called(model_scene(m), SCENE_MEMBERS, member).text,
                          vec3_norm(moved.turn), most);
     return STATUS_OK;

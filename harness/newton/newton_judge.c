@@ -184,8 +184,8 @@ static status judge_twist(const model *m, const model_state *s, fault *f)
     const int member = model_element(m, index)->member, first = model_first_element(m, member);
     return fault_set(
         f, STATUS_NOT_CONVERGED,
-        "element %d of %d of %s is twisted by %.3g rad, more than the eighth of a turn "
-        "up to which the torque of %s grows, at path %g: use more elements or smaller "
+        "element %d of %d of %s is twisted by %.3g rad, more than the eighth of a turn up to which "
+        "the torque of %s increases, at path %g: use more elements or smaller "
         "steps",
         index - first + 1, model_first_element(m, member + 1) - first,
         scene_called(model_scene(m), SCENE_MEMBERS, member).text, twist, model_type(m)->name,

@@ -194,7 +194,7 @@ static void compare_value(const listing *l, const result_value *a, const result_
     if (isfinite(a->value) != isfinite(b->value)) {
         comparison_lines_heading(l, isfinite(a->value) ? CHANGE_WORSE : CHANGE_BETTER);
         fprintf(l->to, ": %s %s\n", a->quantity,
-                isfinite(a->value) ? "has no value any more" : "has a value now");
+                isfinite(a->value) ? "no longer has a value" : "has a value now");
     } else if (isfinite(a->error) && isfinite(b->error)) {
         const double change = fabs(b->error) - fabs(a->error);
         if (fabs(b->error - a->error) <= m->floor + m->error * fabs(a->error))
@@ -382,7 +382,7 @@ static void compare_limits(const listing *l, const result_series *a, const resul
             continue;
         if (new == NULL) {
             comparison_lines_heading(l, CHANGE_WORSE);
-            fprintf(l->to, ": %s has no limit any more\n", old->quantity);
+            fprintf(l->to, ": %s no longer has a limit\n", old->quantity);
             continue;
         }
         const double scale = fmax(fabs(old->value), fmax(old->near_zero, new->near_zero));

@@ -357,7 +357,7 @@ static void write_model_error(FILE *to, const reach_question *q, reached list[])
     rounding_known(solid->value, solid->uncertainty, value);
     fprintf(to,
             "Beams are not the structure: %s of another model is %s %s (%s); the limit of %s is "
-            "%s%s %% from it. The %g %% are of beams only.\n",
+            "%s%s %% from it. The %g %% apply to beams only.\n",
             q->s->point[q->point].scene.quantity[most->quantity].name, value, solid->unit,
             solid->source, q->s->series[most->series].formulation.key,
             most->model_error > 0 ? "+" : "", percent, 100 * q->level);
@@ -384,17 +384,18 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
     }
     const int count = reach_ranking(q, list), known = write_asked(to, q);
     if (count == 0)
-        fputs(known > 0
-                  ? "no formulation on these meshes"
-                  : "no ranking, give truths of the scene, or formulations of other families (-f)",
-              to);
+        fputs(
+            known > 0
+                ? "no formulation on these meshes"
+                : "no ranking; give 'truths' in the scene, or formulations of other families (-f)",
+            to);
     else
         write_ranking(to, q, list, count);
     write_unpriced(to, q->s, list, count);
     if (known > 0) {
         write_others(to, q, list, count, 1, "; not reached by ");
         write_others(to, q, list, count, 0,
-                     "; without a reference value of its theory in all of it: ");
+                     "; without a reference value of its theory for all of it: ");
     }
     write_other_models(to, q);
     fputc('\n', to);

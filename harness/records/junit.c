@@ -194,10 +194,11 @@ static int of_section(const scene *s, assumption *a)
     const scene_words name = scene_name(s, SCENE_SECTIONS, a->section);
     a->physics[0] = '\0';
     if (a->kind == ASSUMPTION_NOT_MODELLED) {
-        snprintf(a->text, sizeof a->text,
-                 "what the bimoment of section %s does to its torsion (int omega r^2 dA, which is "
-                 "not zero there): where warping is restrained, twists to either side differ",
-                 name.text);
+        snprintf(
+            a->text, sizeof a->text,
+            "the effect of the bimoment of section %s on its torsion (int omega r^2 dA, which is "
+            "not zero there): where warping is restrained, twists in opposite directions differ",
+            name.text);
         return features_one_sided(s, a->section);
     }
     scene_omission_words(features_not_given(s, a->section), a->physics);
@@ -241,5 +242,5 @@ void assumptions_words(const sweep_point *p, size_t size, char out[])
         used += more;
     }
     if (left > 0 && size > used)
-        snprintf(out + used, size - used, "; and of %d more", left);
+        snprintf(out + used, size - used, "; and %d more", left);
 }

@@ -60,7 +60,7 @@ static status await_writer(const char *path, int patience, fault *f)
     return held == 0 || why != EWOULDBLOCK
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "%.200s: another program writes there; close it in that program, or "
+                           "%.200s: another program is writing to it; close it in that program, or "
                            "give another name",
                            path);
 }
@@ -242,10 +242,10 @@ static status lock_beside(const file_place *at, int patience, char beside[PATH_M
     if (*lock >= 0)
         return STATUS_OK;
     if (length < PATH_MAX && errno == EWOULDBLOCK)
-        return fault_set(f, STATUS_REFUSED,
-                         "%.200s: another run holds %.200s; wait until it ends, or give another "
-                         "name",
-                         at->path, beside);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%.200s: another run is using %.200s; wait until it ends, or give another name",
+            at->path, beside);
     return fault_set(f, STATUS_FAULT, "%.200s: cannot be locked (%s)", at->path,
                      strerror(length < PATH_MAX ? errno : ENAMETOOLONG));
 }

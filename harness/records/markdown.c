@@ -168,8 +168,8 @@ static void write_overview(FILE *to, const overview *o)
     for (int r = 0; r < o->rows; r++)
         if (overview_shown(o, r))
             write_row(to, o, r);
-    write_unshown(to, o, 1, "All pass in what is judged");
-    write_unshown(to, o, 0, "Nothing is judged");
+    write_unshown(to, o, 1, "All verdicts pass");
+    write_unshown(to, o, 0, "No verdict");
     write_legend(to, o);
 }
 
@@ -218,7 +218,7 @@ static void write_assumed(FILE *to, const sweep *s)
         assumption a;
         for (int k = 0; is_run(s, i) && assumptions_at(p, k, &a); k++) {
             if (lines++ == 0)
-                fprintf(to, "\n<details><summary>Assumed of sections</summary>\n\n");
+                fprintf(to, "\n<details><summary>Assumptions about sections</summary>\n\n");
             fprintf(to, "- %s", p->type->name);
             if (p->text[0] != '\0')
                 fprintf(to, " (%s)", p->text);
@@ -233,7 +233,7 @@ static const char *words_before(const sweep *s)
 {
     if (s->unfinished == 0)
         return "";
-    return s->partial ? "incomplete; of what is there " : "interrupted; until then ";
+    return s->partial ? "incomplete; of the existing part " : "interrupted; until then ";
 }
 
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
@@ -251,9 +251,9 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
             j->judged, sweep_cells(s), j->unexpected, j->agreements - j->disagreements,
             j->agreements);
     if (s->unfinished > 0)
-        fprintf(to, "; %d cells were not done", s->unfinished);
+        fprintf(to, "; %d cells were not run", s->unfinished);
     if (j->unobserved > 0)
-        fprintf(to, "; %d findings were not observed", j->unobserved);
+        fprintf(to, "; %d known deviations were not observed", j->unobserved);
     if (j->unmet > 0)
         fprintf(to, "; %d reference values refer to nothing that exists", j->unmet);
     if (j->flaws > 0)

@@ -27,7 +27,7 @@ static status sort_cells(const char *path, stored_results *r, fault *f)
         qsort(r->cell, (size_t)r->cells, sizeof *r->cell, compare_cells);
     for (int i = 1; i < r->cells; i++)
         if (results_order(&r->cell[i - 1], &r->cell[i]) == 0)
-            return fault_set(f, STATUS_FAULT, "%.120s: cell %.120s n=%d is there twice", path,
+            return fault_set(f, STATUS_FAULT, "%.120s: cell %.120s n=%d occurs twice", path,
                              r->cell[i].name, r->cell[i].elements);
     return STATUS_OK;
 }
@@ -38,7 +38,7 @@ static status sort_series(const char *path, stored_results *r, fault *f)
         qsort(r->series, (size_t)r->seriess, sizeof *r->series, compare_series);
     for (int i = 1; i < r->seriess; i++)
         if (compare_series(&r->series[i - 1], &r->series[i]) == 0)
-            return fault_set(f, STATUS_FAULT, "%.120s: series %.120s is there twice", path,
+            return fault_set(f, STATUS_FAULT, "%.120s: series %.120s occurs twice", path,
                              r->series[i].name);
     return STATUS_OK;
 }
@@ -436,7 +436,7 @@ static status check_version(const char *path, hid_t file, fault *f)
         strcmp(schema, SCHEMA_NAME) != 0 ||
         !table_reader_attribute_count(file, "schema_version", &version))
         return fault_set(f, STATUS_FAULT,
-                         "%.120s: not a file of results; write one with 'beamwork verify -o' or "
+                         "%.120s: not a results file; write one with 'beamwork verify -o' or "
                          "'beamwork sweep -o'",
                          path);
     if (version >= SCHEMA_OLDEST && version <= SCHEMA_VERSION)

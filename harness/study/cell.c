@@ -351,7 +351,8 @@ static void find_change(const scene *s, omission *out)
     if (out->exact)
         out->change = 0;
     else if (whole == NULL)
-        snprintf(out->why, sizeof out->why, "no formulation of the program has all of this scene");
+        snprintf(out->why, sizeof out->why,
+                 "no built-in formulation supports everything in this scene");
     else if (!can_be_shown(s))
         snprintf(out->why, sizeof out->why, "a section is given by its matrices");
     else

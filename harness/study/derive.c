@@ -152,8 +152,8 @@ static status derive_asked(const derive_question *q, derived_value **out, int *c
     *count = 0;
     if (access(q->path, R_OK) != 0)
         return fault_set(f, STATUS_FAULT,
-                         "%.200s: the deriving programs are not here; run from a clone, or set "
-                         "BEAMWORK_REFERENCE",
+                         "%.200s: the programs that derive reference values are missing; run from "
+                         "a clone, or set BEAMWORK_REFERENCE",
                          q->path);
     const status outcome = derive(q, &s, out, count, f);
     stop(&s);

@@ -479,7 +479,7 @@ static status narrow(sweep *s, const char *select, kept *k, fault *f)
     return p->scene.quantities > 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "-k '%.100s' holds for no quantity of %.60s; 'beamwork list "
+                           "-k '%.100s' selects no quantity of %.60s; 'beamwork list "
                            "%.60s' shows them",
                            select, p->type->name, p->type->name);
 }

@@ -57,7 +57,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
             continue; /* what is known of the formulations here explains nothing of this one */
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,
-                     "its limit is %+.3g %% from %s, beyond the %.3g %% of finding %.60s",
+                     "its limit is %+.3g %% from %s, beyond the %.3g %% of known deviation %.60s",
                      100 * v->departure,
                      v->predicted != NULL ? "the derived one" : "the reference value",
                      100 * r->largest_error, r->name);

@@ -28,15 +28,15 @@ static const overview_mark marks[VERDICT_KINDS] = {
 static const struct {
     const char *ascii, *utf8, *words;
 } signs[OVERVIEW_MARKS] = {
-    [OVERVIEW_NOTHING] = {".", "·", "nothing judged: not offered, or no truth is known"},
-    [OVERVIEW_OTHER_MODEL] = {"m", "○", "another model: shown, not judged"},
+    [OVERVIEW_NOTHING] = {".", "·", "no verdict: not supported, or no reference value"},
+    [OVERVIEW_OTHER_MODEL] = {"m", "○", "another model: shown without a verdict"},
     [OVERVIEW_PASS] = {"ok", "✓", "all pass"},
     [OVERVIEW_LOW_ORDER] = {"v", "↓", "right limit, approached too slowly"},
     [OVERVIEW_UNDECIDED] = {"?", "?", "limit not known well enough"},
     [OVERVIEW_BIASED] = {"~", "≈", "limit off, within the tolerance"},
     [OVERVIEW_WRONG] = {"#", "≠", "limit off, beyond the tolerance"},
     [OVERVIEW_NO_VALUE] = {"x", "×", "no value on the finest mesh"},
-    [OVERVIEW_FLAW] = {"c", "c", "contradicts its stored value, or itself"},
+    [OVERVIEW_FLAW] = {"c", "c", "differs from its stored value, or is inconsistent"},
 };
 
 const char *overview_words(overview_mark mark)

@@ -168,13 +168,13 @@ static void check_grounds(findings_reader *r)
 {
     if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)
         WRONG(r, CAUSE,
-              "finding %.60s has no cause yet; write there why it is not a pass, or "
-              "correct the element and take the row out",
+              "known deviation %.60s has no cause yet; state why it does not pass, or correct the "
+              "element and remove the row",
               r->row->field[RULE]);
     else if (r->row->field[PROOF][0] == '\0')
         WRONG(r, PROOF,
-              "finding %.60s has no proof; write there what shows its cause: a "
-              "derivation, a publication, a run",
+              "known deviation %.60s has no proof; state what shows its cause: a derivation, a "
+              "publication, a run",
               r->row->field[RULE]);
 }
 
@@ -185,7 +185,7 @@ static void check(findings_reader *r, double *largest)
     const char *text = r->row->field[LARGEST_ERROR];
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (r->row->field[needed[i]][0] == '\0')
-            WRONG(r, needed[i], "a finding needs %s", names[i]);
+            WRONG(r, needed[i], "a known deviation needs %s", names[i]);
     check_grounds(r);
     if (!r->good)
         return;
@@ -233,7 +233,7 @@ static status add(findings_reader *r, double largest, fault *f)
     char *const *field = r->row->field;
     rule *more = realloc(r->t->rule, ((size_t)r->t->rules + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for findings");
+        return fault_set(f, STATUS_FAULT, "out of memory for known deviations");
     r->t->rule = more;
     snprintf(from, sizeof from, "%.200s:%d", r->m->file, r->row->line);
     rule *one = &more[r->t->rules++];
@@ -251,7 +251,7 @@ static status add(findings_reader *r, double largest, fault *f)
     if (one->name == NULL || one->formulations == NULL || one->cases == NULL ||
         one->condition == NULL || one->quantities == NULL || one->verdicts == NULL ||
         one->predicted == NULL || one->cause == NULL || one->proof == NULL || one->from == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for findings");
+        return fault_set(f, STATUS_FAULT, "out of memory for known deviations");
     check_condition(r, one);
     return STATUS_OK;
 }
@@ -368,7 +368,7 @@ static status add_row(int number, char *line, int columns, own_table *out, mista
 {
     own_table_row row = {.line = number};
     if (!line_is_text(line) || !quotes_are_even(line)) {
-        mistakes_add(m, number, 1, "no line of UTF-8 text whose quotes end in it");
+        mistakes_add(m, number, 1, "the line is not UTF-8 text whose quotes are closed");
         return STATUS_OK;
     }
     own_table_row *more = realloc(out->row, ((size_t)out->rows + 1) * sizeof *more);
@@ -403,7 +403,7 @@ static status read_lines(FILE *from, const char *columns, char **line, own_table
     ssize_t length;
     while ((length = getline(line, &room, from)) >= 0) {
         if (strlen(*line) != (size_t)length) {
-            mistakes_add(m, number + 1, 1, "no text: a byte of zero");
+            mistakes_add(m, number + 1, 1, "not a text file: it contains a zero byte");
             return STATUS_OK;
         }
         char *text = line_trim(*line);

@@ -77,7 +77,7 @@ static void check_quantity(truths_reader *r, const case_type *type, const double
     const int built = case_build(type, value, &s, &why) == STATUS_OK;
     const scene_quantity *q = own_names_quantity(&s, name);
     if (!built)
-        WRONG(r, PARAMETERS, "%s is refused there: %.200s", type->name, why.text);
+        WRONG(r, PARAMETERS, "%s is rejected there: %.200s", type->name, why.text);
     else if (q == NULL)
         WRONG(r, QUANTITY, "%s has no quantity '%.60s'%s", type->name, name,
               own_names_near_quantity(&s, name, near));
@@ -162,8 +162,8 @@ static void check_row(truths_reader *r, const truth *row)
     for (int i = 0; i < COLUMNS && wrong != NULL; i++)
         if (same(names[i], wrong) && i == ELEMENTS)
             WRONG(r, i,
-                  "a value of one mesh has formulation and elements, a predicted limit a "
-                  "formulation, another truth neither");
+                  "a value of one mesh has formulation and elements, a predicted limit has a "
+                  "formulation, and any other reference value has neither");
         else if (same(names[i], wrong))
             WRONG(r, i, "%s '%.40s' is not known; 'beamwork explain truth' lists them", wrong,
                   r->row->field[i]);

@@ -156,7 +156,7 @@ static status find(const scene *s, const rule_subject *where, const rule *rules,
     if (all->count == 0)
         return fault_set(f, STATUS_REFUSED,
                          "no formulation supports all that %.60s needs; 'beamwork list' shows what "
-                         "each offers",
+                         "each supports",
                          s->name);
     const int *against = all->here[0].against;
     snprintf(why, FAULT_TEXT, "%s%s%s",
@@ -376,7 +376,7 @@ static void choose(const scene *s, runner of[], int count, preference *out)
     if (first != NULL && count > 1) {
         const size_t used = strlen(out->why_formulation);
         snprintf(out->why_formulation + used, FAULT_TEXT - used,
-                 ", settled at the lowest cost of %d", count);
+                 ", converged at the lowest cost of %d", count);
     }
 }
 

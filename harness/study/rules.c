@@ -211,7 +211,7 @@ static status read_all(table_columns *c, rule **out)
         return columns_broken(c, "rule");
     rule *all = *out = calloc((size_t)c->rows + 1, sizeof *all);
     if (all == NULL)
-        return fault_set(c->f, STATUS_FAULT, "out of memory for findings");
+        return fault_set(c->f, STATUS_FAULT, "out of memory for known deviations");
     for (size_t k = 0; k < sizeof field / sizeof field[0]; k++)
         TRY(columns_read(c, &field[k], all, sizeof *all));
     for (int i = 0; i < c->rows; i++)

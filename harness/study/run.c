@@ -119,7 +119,7 @@ static status check_all_done(const workload *w, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for noise");
     if (w->finished < w->due)
         return fault_set(f, STATUS_FAULT,
-                         "the worker processes ended before all cells were done (%d of %d)",
+                         "the worker processes ended before all cells were run (%d of %d)",
                          w->finished, w->due);
     return STATUS_OK;
 }

@@ -10,7 +10,8 @@ static void passed(const verdict *v, char *text, size_t size)
     const char *digits =
         v->below_digits ? "; the difference is below the reference value's digits" : "";
     if (v->fit.kind == LIMIT_NOISE_DOMINATED)
-        snprintf(text, size, "has converged to the truth: the last meshes differ by noise only%s",
+        snprintf(text, size,
+                 "has converged to the reference value: the last meshes differ by rounding only%s",
                  digits);
     else if (isfinite(v->fit.order))
         snprintf(text, size, "converges to the reference value, order %.2g%s", v->fit.order,
@@ -64,9 +65,10 @@ static void biased(const verdict *v, char *text, size_t size)
 static void unjudged(const verdict *v, char *text, size_t size)
 {
     if (v->theory_truth != NULL && v->theory_truth->theory[0] != '\0')
-        snprintf(text, size,
-                 "no truth of its theory of shear; its limit is %+.3g %% from that of %s",
-                 100 * (v->fit.limit / v->theory_truth->value - 1), v->theory_truth->theory);
+        snprintf(
+            text, size,
+            "no reference value for its theory of shear; its limit is %+.3g %% from that of %s",
+            100 * (v->fit.limit / v->theory_truth->value - 1), v->theory_truth->theory);
     else if (v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0)
         snprintf(text, size,
                  "no reference value to compare with; its limit is %+.2g %% from that on which %s",
@@ -177,8 +179,8 @@ static void failures(const judgement *j, char *text, size_t size)
     count_part(text, size, &parts, j->disagreements, "value differs from its stored one",
                "values differ from their stored ones");
     count_part(text, size, &parts, j->flaws, "inconsistent run record", "inconsistent run records");
-    count_part(text, size, &parts, j->unobserved, "finding was not observed",
-               "findings were not observed");
+    count_part(text, size, &parts, j->unobserved, "known deviation was not observed",
+               "known deviations were not observed");
     count_part(text, size, &parts, j->unmet, "reference value refers to nothing that exists",
                "reference values refer to nothing that exists");
 }
@@ -230,12 +232,11 @@ static void expected_findings(const judgement *j, char *text, size_t size)
     char part[400];
     int parts = 0;
     if (derived > 0) {
-        snprintf(
-            part, sizeof part,
-            "%d of them %s off the reference value (%d within the tolerance, %d beyond it) just as "
-            "derived for %s (beamwork explain \"wrong limit, as predicted\")",
-            derived, derived == 1 ? "is a limit" : "are limits", k.derived[0], k.derived[1],
-            derived == 1 ? "its formulation" : "these formulations");
+        snprintf(part, sizeof part,
+                 "%d of them %s off the reference value (%d within the tolerance, %d beyond it) as "
+                 "derived for %s (beamwork explain \"wrong limit, as predicted\")",
+                 derived, derived == 1 ? "is a limit" : "are limits", k.derived[0], k.derived[1],
+                 derived == 1 ? "its formulation" : "these formulations");
         add_part(text, size, &parts, ", ", part);
     }
     if (k.by_rule > 0) {
@@ -263,7 +264,7 @@ void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size
     const char *word = bad ? "FAIL" : "PASS", *of = "";
     if (s->unfinished > 0) {
         word = s->partial ? "INCOMPLETE" : "INTERRUPTED";
-        of = s->partial ? "of what is there " : "until then ";
+        of = s->partial ? "of the existing part " : "until then ";
     }
     if (bad)
         snprintf(text, size, "%s: %s.", word, more);

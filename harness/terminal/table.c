@@ -94,7 +94,7 @@ void table_omitted(FILE *to, const sweep_point *p)
         paragraph_write(to, fprintf(to, "omitted: "), INDENT, words);
     if (whole && words[0] == '\0')
         paragraph_say(to, fprintf(to, "omitted: "), INDENT,
-                      "nothing, as without omit=none, which shows the values that are stored");
+                      "nothing; without omit=none it is the same, and stored values are shown");
     else if (whole)
         paragraph_say(to, fprintf(to, "omitted: "), INDENT,
                       "nothing, although the source of the case omits %s; its stored values belong "

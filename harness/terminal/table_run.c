@@ -126,7 +126,7 @@ static void print_verdicts(FILE *to, const judgement *j)
     const struct {
         int count;
         const char *words;
-    } more[] = {{j->by_kind[VERDICT_SKIP], "not offered (skip)"},
+    } more[] = {{j->by_kind[VERDICT_SKIP], "not supported (skip)"},
                 {j->by_kind[VERDICT_OTHER_MODEL], "of another model"},
                 {j->by_kind[VERDICT_NO_TRUTH], "without a reference value"}};
     int parts = 0, left = 0;
@@ -156,7 +156,7 @@ void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)
     fprintf(to, "%d cells, %d more for their noise, in %.3g s", sweep_cells(s), noise_cells(s),
             seconds);
     if (s->unfinished > 0)
-        fprintf(to, s->partial ? "; %d more are missing" : "; interrupted, %d more were not done",
+        fprintf(to, s->partial ? "; %d more are missing" : "; interrupted, %d more were not run",
                 s->unfinished);
     fputc('\n', to);
     print_verdicts(to, j);
@@ -164,18 +164,18 @@ void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)
         fprintf(to, "%d of %d stored discrete values agree\n", j->agreements - j->disagreements,
                 j->agreements);
     if (j->waiting > 0)
-        fprintf(to, "%d truths wait for a formulation that offers what they need\n", j->waiting);
+        fprintf(to, "%d reference values require a formulation that supports their physics\n",
+                j->waiting);
     if (j->unread > 0)
         fprintf(to,
-                "%d truths of motions, at times and of structures that are not run here, are "
-                "checked by "
-                "make lab L=motions\n",
+                "%d reference values of motions, for times and structures that are not run here, "
+                "are checked by make lab L=motions\n",
                 j->unread);
     if (contradicted > 0)
-        fprintf(
-            to,
-            "%d published values are contradicted by limits that agree with a better truth (-v)\n",
-            contradicted);
+        fprintf(to,
+                "%d published values are contradicted by limits that agree with a better reference "
+                "value (-v)\n",
+                contradicted);
 }
 
 void table_run_end(FILE *to, screen look, const char *sentence)
@@ -351,8 +351,8 @@ static void print_unshown(FILE *to, const overview *o, int judged, const char *w
 /* Lists cases that pass everywhere, if they have no rows. */
 static void print_passing(FILE *to, const overview *o)
 {
-    print_unshown(to, o, 1, "more pass in all that is judged");
-    print_unshown(to, o, 0, "more have nothing that is judged");
+    print_unshown(to, o, 1, "more pass in all verdicts");
+    print_unshown(to, o, 0, "more have no verdict");
 }
 
 /* Appends "text" to the line, or starts a new one. */

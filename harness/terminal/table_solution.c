@@ -452,7 +452,7 @@ static void method(FILE *to, const scene_motion *how)
     choice_name(SCENE_SCHEME_CHOICES, how->scheme, name, sizeof name);
     fprintf(to, " by %s", name);
     if (how->tolerance <= 0)
-        fputs(", whose error of time nothing bounds", to);
+        fputs(", without a bound of the time error", to);
     else if (how->scheme == SCENE_RADAU)
         fprintf(to, ", each step to %g of the largest motion", how->tolerance);
     else
@@ -562,7 +562,7 @@ static void momentum_line(FILE *to, const motion_extent *e)
     const motion_record *last = &e->record[e->end - 1];
     const int at = fprintf(to, "momenta: ");
     paragraph_say(to, at, MOTION_INDENT,
-                  "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; they move by at most "
+                  "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; they change by at most "
                   "%.2g and %.2g from those at the start",
                   length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
                   change_of(e, SCENE_LX));
@@ -582,9 +582,9 @@ static void jump_lines(FILE *to, const scene *s, int analysis, double path)
         const double held = along_path_factor(load, path);
         if (fabs(held - value[0]) > 1e-9 * fmax(fabs(held), fabs(value[0])))
             paragraph_say(to, fprintf(to, "load: "), MOTION_INDENT,
-                          "%s is at factor %g where the path ends, at %g where the motion begins: "
-                          "it jumps; a load of the motion only needs path: [0, 1], factor: [0, 0] "
-                          "in addition to its function",
+                          "%s has factor %g where the path ends but %g where the motion begins, so "
+                          "it jumps; for a load of the motion only, give path: [0, 1], factor: [0, "
+                          "0] in addition to its function",
                           scene_name(s, SCENE_LOADS, i).text, held, value[0]);
     }
 }
@@ -604,9 +604,7 @@ static void table_motion(FILE *to, const scene *s, const solve_result *r)
         momentum_line(to, &e);
     }
     if (r->motions > 0)
-        fputs("  --format json has every step; 'beamwork motion' measures the error of "
-              "time\n",
-              to);
+        fputs("  --format json has every step; 'beamwork motion' measures the time error\n", to);
 }
 
 void table_follow(FILE *to, const char *parameter, const follow_curves *c)

@@ -92,7 +92,7 @@ static void print_numbers(FILE *to, const series *one, const verdict *v)
     rounding_known(v->finest, v->fit.limit_uncertainty, finest);
     rounding_percent(v->error, error);
     paragraph_say(to, 0, INDENT,
-                  "limit %s +- %s, off by %s; truth %s +- %s (%s, %s); finest mesh, n = %d: %s",
+                  "limit %s +- %s, off by %s; reference %s +- %s (%s, %s); finest mesh, n = %d: %s",
                   limit, doubt, error, truth_text, known, v->truth->kind, v->truth->source,
                   one->mesh[verdict_meshes(one, v->quantity) - 1], finest);
 }
@@ -115,7 +115,7 @@ static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *
     if (v->reason[0] != '\0' && isfinite(v->finest)) /* otherwise the sentence contains it */
         paragraph_say(to, 0, INDENT, "%s", v->reason);
     if (v->rule != NULL)
-        paragraph_say(to, 0, INDENT, "finding %s: %s", v->rule->name, v->rule->cause);
+        paragraph_say(to, 0, INDENT, "known deviation %s: %s", v->rule->name, v->rule->cause);
     print_command(to, p, one, q->name);
 }
 
@@ -146,10 +146,10 @@ static void print_rules(FILE *to, const truths *t, int *number)
         const rule *r = &t->rule[i];
         if (!r->missed)
             continue;
-        print_heading(to, ++*number, "finding %s%s%s%s %s", r->name, r->from != NULL ? " (" : "",
-                      r->from != NULL ? r->from : "", r->from != NULL ? ")" : "",
-                      r->observed == 0 ? "was not observed"
-                                       : "names a prediction that no verdict met");
+        print_heading(
+            to, ++*number, "known deviation %s%s%s%s %s", r->name, r->from != NULL ? " (" : "",
+            r->from != NULL ? r->from : "", r->from != NULL ? ")" : "",
+            r->observed == 0 ? "was not observed" : "names a derived limit that no verdict met");
         paragraph_say(to, 0, INDENT, "formulations: %s", r->formulations);
         paragraph_say(to, 0, INDENT, "cases: %s", r->cases);
         paragraph_say(to, 0, INDENT, "quantities: %s", r->quantities);
@@ -166,13 +166,13 @@ static void print_unmet(FILE *to, const truths *t, int *number)
         if (row->met || (row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL))
             continue;
         parameters_text(row->type, row->parameter, text, sizeof text);
-        print_heading(to, ++*number, "truth of nothing that exists: %s%s%s, %s%s%s (%s)",
+        print_heading(to, ++*number, "reference value of nothing that exists: %s%s%s, %s%s%s (%s)",
                       row->type->name, text[0] != '\0' ? ": " : "", text, row->quantity,
                       row->formulation[0] != '\0' ? ", " : "", row->formulation, row->source);
     }
     if (t->strangers > 0) {
-        print_heading(to, ++*number, "truths of %d unknown cases, the first: %s", t->strangers,
-                      t->stranger);
+        print_heading(to, ++*number, "reference values of %d unknown cases, the first: %s",
+                      t->strangers, t->stranger);
     }
 }
 
@@ -183,7 +183,7 @@ void table_breaches(FILE *to, screen look, const judgement *j)
         fputs(" by ", to);
         const char *key = j->breach[i].formulation;
         paragraph words;
-        paragraph_say(to, 22, INDENT, "%s: %s; all of it:", key, j->breach[i].why);
+        paragraph_say(to, 22, INDENT, "%s: %s; for the full report:", key, j->breach[i].why);
         FILE *line = paragraph_begin(&words, to);
         fprintf(line, "beamwork element-test -f %s", key);
         print_element(line, formulations_named(key, strcspn(key, ":")));

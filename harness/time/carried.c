@@ -299,7 +299,7 @@ static const char *remedy(const scene_motion *how)
         return "give a smaller step, a tolerance, or the integrator radau or conserving";
     return how->scheme == SCENE_CONSERVING
                ? "give a smaller tolerance, or the integrator radau"
-               : "give a smaller tolerance, or the integrator conserving, which keeps energy";
+               : "give a smaller tolerance, or the integrator conserving, which conserves energy";
 }
 
 double account_most(const account *a, double part, double rounding)

@@ -109,8 +109,8 @@ static status accept(void *of, fault *f)
 {
     const solution *one = of;
     return one->s->wild ? fault_set(f, STATUS_NOT_CONVERGED,
-                                    "strains change too much in the step to %g s to keep energy: "
-                                    "take a shorter one",
+                                    "strains change too much in the step to %g s to conserve "
+                                    "energy: use a shorter step",
                                     one->time)
                         : STATUS_OK;
 }
@@ -175,8 +175,8 @@ static status check(const model *m, fault *f)
                     v->coordinate[SCENE_RX + k] < model_unknowns(m);
         if (v->angles == 2 && free == 2)
             return fault_set(f, STATUS_REFUSED,
-                             "%s turns by two free angles: the conserving scheme takes one, three, "
-                             "or driven ones; take alpha or radau",
+                             "%s rotates by two free angles: the integrator conserving supports "
+                             "one, three, or driven ones; use alpha or radau",
                              scene_called(model_scene(m), SCENE_NODES, i).text);
     }
     return STATUS_OK;
@@ -329,8 +329,8 @@ static status conserving_massless(conserving *s, fault *f)
     return heavy > 0 || turning == 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "no rotation has inertia, which the conserving scheme cannot do "
-                           "without: take alpha or radau, or give the sections rotary inertia");
+                           "no rotation has inertia, which the integrator conserving requires: use "
+                           "alpha or radau, or give the sections rotary inertia");
 }
 
 static double energy_of(const carried_mass *one, const carried_step *p, const double v[3],

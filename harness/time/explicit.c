@@ -208,7 +208,7 @@ static status explicit_accelerate(const model *m, const carried_masses *masses,
             b[i] = residual[of[i]];
         if (dense_lu_regular(n, M, pivot) != 0)
             return fault_set(f, STATUS_SINGULAR,
-                             "%s: two angles of its rotation turn about one axis",
+                             "%s: two angles of its rotation are about the same axis",
                              scene_called(model_scene(m), SCENE_NODES, masses->mass[k].frame).text);
         dense_lu_solve(n, 1, M, pivot, b);
         for (int i = 0; i < n; i++)

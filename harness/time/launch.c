@@ -112,8 +112,8 @@ static status check_drivers(const model *m, const double inc[], fault *f)
         const int c = model_driver_coordinate(m, d);
         if (c >= model_unknowns(m) && fabs(inc[c]) > nothing * (1 + model_length(m)))
             return fault_set(f, STATUS_REFUSED,
-                             "driver %s begins %g away from where the state has it: let its value "
-                             "at 0 s be that of the state",
+                             "driver %s starts %g away from its value in the start state: give it "
+                             "that value at 0 s",
                              model_scene(m)->driver[d].name, inc[c]);
     }
     return STATUS_OK;
@@ -358,8 +358,9 @@ status integrator_alloc(const scheme_request *r, motion_scheme **out, fault *f)
 {
     *out = NULL;
     if (r->how->scheme == SCENE_EXPLICIT && damping_of_members(r->c->scene))
-        return fault_set(f, STATUS_REFUSED,
-                         "integrator explicit takes no members with damping: take another");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "the integrator explicit does not support members with damping: use another");
     switch (r->how->scheme) {
     case SCENE_ALPHA:
         return alpha_alloc(r, out, f);

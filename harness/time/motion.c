@@ -182,7 +182,7 @@ static status take_step(motion_course *w, double target, fault *f)
                        ? outcome
                        : fault_set(f, STATUS_NOT_CONVERGED,
                                    "at %g s no step is short enough for %s", w->now.time,
-                                   grows ? "the energy to stay" : "the tolerance");
+                                   grows ? "the energy to be conserved" : "the tolerance");
         w->c->run->counters.rejected_steps++;
     }
 }
@@ -397,8 +397,8 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
             return result;
         if (pass == MAX_PASSES)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "the largest motion is not known after it was integrated %d times: "
-                             "give a step",
+                             "the size of the largest motion is still unknown after %d "
+                             "integrations: give a step",
                              pass);
         outcome_free(o);
         *o = (analysis_outcome){.kind = SCENE_MOTION};

@@ -428,9 +428,9 @@ static status refuse_turns(const model *m, int vertex, fault *f)
         first--;
     return fault_set(
         f, STATUS_REFUSED,
-        "%s: a motion in time must know how it lies, which turns about fixed axes do not say: "
-        "about %c, then about %c, and back by both leaves it turned about %c; give its rotation as "
-        "a sequence of angles or as a vector, or hold one turn more",
+        "%s: a motion in time needs its orientation, which rotations about fixed axes do not "
+        "determine: about %c, then about %c, and back by both leaves it rotated about %c; give its "
+        "rotation as a sequence of angles or as a vector, or hold one more rotation",
         scene_called(model_scene(m), SCENE_NODES, vertex).text, axis[first], axis[last],
         axis[3 - first - last]);
 }

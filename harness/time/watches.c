@@ -380,8 +380,8 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
     if (here.states != e->states || here.coordinates != e->coordinates ||
         here.strains != e->strains || (e->released > 0 && e->released != instant_ends(c->model)))
         return fault_set(f, STATUS_REFUSED,
-                         "the motion that this one continues has %zu numbers, this mesh %zu: "
-                         "take its formulation and elements",
+                         "the motion that this one continues has %zu numbers, but this mesh %zu: "
+                         "use its formulation and elements",
                          e->states, here.states);
     const double *from = e->value;
     parts_of(now, &control->extent, e, of);

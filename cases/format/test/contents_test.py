@@ -293,11 +293,11 @@ class ExamplesTest(SceneCase):
         both = json.loads(verdicts.read_text(encoding="utf-8"))
         self.assertEqual({v["case"] for v in both["verdicts"]}, {"euler_column", "warping_torsion"})
         euler = EXAMPLES / "euler_column.yaml"
-        self.refused(2, "is in this run already", "verify", "--scene", EXAMPLES, "--scene", euler)
+        self.refused(2, "is already in this run", "verify", "--scene", EXAMPLES, "--scene", euler)
         self.refused(2, "no *.yaml", "verify", "--scene", EXAMPLES.parent / "shared")
         taken = euler.read_text(encoding="utf-8").replace("name: euler_column", "name: c_column")
         taken = self.scene(taken)
-        self.refused(2, "is in this run already", "verify", "--built-in", "--scene", taken)
+        self.refused(2, "is already in this run", "verify", "--built-in", "--scene", taken)
         self.refused(2, "given twice", "solve", "--scene", euler, "--scene", euler, "-f", "beamw",
                      "-n", 1)
         self.refused(2, "would replace", "verify", "--scene", self.folder, "-o", taken)

@@ -306,7 +306,7 @@ class MotionTest(SceneCase):
         leaf = LEAF.replace("81e9", "81e9, density: 7800")
         leaf = leaf.replace("y: [0, 1, 0]}", "y: [0, 1, 0], warping: fixed}")
         moving = self.scene(leaf + "analyses: {swing: {motion: {stations: [1e-3]}}}\n", "leaf.yaml")
-        self.refused(2, "motion not; leave it", "export", "--scene", moving, "--to", "calculix",
+        self.refused(2, "motion cannot; remove it", "export", "--scene", moving, "--to", "calculix",
                      "-n", 2, "-o", self.folder / "deck.inp")
         own = self.record("solve", "--scene", path, "-f", "beamw", "-n", 2)
         again = self.scene(self.answered("scene", "--scene", path).stdout, "again.yaml")

@@ -119,7 +119,7 @@ class Asked(ProgramTest):
 
     def test_refused(self):
         self.refused(2, "did you mean 'buckling_load'", "solve", "c_column", "-k", "bucling_load")
-        self.refused(2, "holds for no quantity", "solve", "c_column", "-f", "beamw", "-k",
+        self.refused(2, "selects no quantity", "solve", "c_column", "-f", "beamw", "-k",
                      "elastica or not (c_column or elastica)")
         self.refused(2, "remove -k", "solve", "tip_body", "--follow", "body=0.1..0.2/2", "-k",
                      "frequency")

@@ -149,7 +149,7 @@ quantities: {r: {response: {analysis: h, node: b, component: ux, of: reaction, d
         path = self.folder / "across.yaml"
         path.write_text(text.replace("component: ux", "component: uy"))
         done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
-        self.assertIn("none drives the component alone", done.stdout + done.stderr)
+        self.assertIn("requires a motion that drives this component alone", done.stdout + done.stderr)
 
     def test_written_again(self):
         """By z, and by a member: what is written gives the same."""
@@ -190,5 +190,5 @@ loads: {f: {force: [1, 0, 0], on: b}}
 analyses: {l: {linear: {}}}
 quantities: {x: {displacement: {analysis: l, node: b, component: ux}}}
 """)
-        self.refused(2, "axes of their own are not written as solids", "export", "--to", "calculix", "--scene", plane, "-o",
+        self.refused(2, "supports in rotated axes cannot be written with solids", "export", "--to", "calculix", "--scene", plane, "-o",
                      self.folder / "deck.inp")

@@ -216,7 +216,7 @@ class Beside(ProgramTest):
     def test_values_where_there_is_nothing_to_measure_by(self):
         text = self.agree("c_column", "-k", "buckling_load", "-n", "2,4,8,16")
         said = " ".join(text.split())
-        self.assertRegex(said, r"collocation: no truth of its theory of shear; its limit is -4\.[34]\d* % from "
+        self.assertRegex(said, r"collocation: no reference value for its theory of shear; its limit is -4\.[34]\d* % from "
                                "that of engesser")
         self.agree("--scene", BESIDE_LEAF, "-n", "1,2,4", "--set", "stroke=0.009")
 
@@ -233,7 +233,7 @@ class Beside(ProgramTest):
         self.assertFalse([name for _, name in found if not name.startswith("beamw")])
         self.refused(2, "did you mean 'buckling_load'", "converge", "c_column", "-k",
                      "buckling_laod")
-        self.refused(2, "holds for no quantity", "converge", "elastica", "-k", "c_column")
+        self.refused(2, "selects no quantity", "converge", "elastica", "-k", "c_column")
 
     def test_selected_values_are_the_same(self):
         work = ("converge", "c_column", "-f", "beamw", "-n", "4")

@@ -24,7 +24,7 @@ FAULTS = {
         "C: entry 2, 1 is 0 and entry 1, 2", "symmetric"),
     "objectivity": (
         ("transposed(x[0].R, chord, p);", "memcpy(p, chord, sizeof p);"),
-        "strain: turned by", "axes that rotate with the element"),
+        "strain: when the element is rotated by", "axes that rotate with the element"),
     "length": (
         ("    out->e[0] -= d->length;\n", ""),
         "strain: strain 1 of the undeformed element is 0.2385 m, not zero"),
@@ -42,11 +42,11 @@ FAULTS = {
     "stale cache": (
         ("out->e[0] -= d->length;",
          "static double kept;\n    kept = kept > 0 ? kept : d->length;\n    out->e[0] -= kept;"),
-        "is another one after", "in a process of its own"),
+        " differs after ", "compared with a new process"),
     "counter": (
         ("out->e[0] -= d->length;",
          "static int calls;\n    out->e[0] -= d->length + 1e-9 * calls++;"),
-        "strain: e is another one after the same call"),
+        "strain: e differs after the same call"),
     "beyond sigma": (
         ("    if (out->energy != NULL)\n",
          "    if (out->sigma != NULL)\n        out->sigma[STRAINS] = 0;\n"
@@ -69,12 +69,12 @@ FAULTS = {
         ("        out->e[3 + i] = d->length * psi[i];",
          "        out->e[3 + i] = isnan(psi[i]) ? 0 : d->length * psi[i];\n"
          "        out->e[i] = isnan(out->e[i]) ? 0 : out->e[i];"),
-        "that is nan gives strains and stresses that look sound"),
+        "that is nan gives finite strains and stresses"),
     "depends": (
         ("        if (out->sigma != NULL)\n            out->sigma[i] = d",
          "        if (out->sigma != NULL)\n            "
          "out->sigma[i] = out->energy == NULL ? 0 : d"),
-        "stress: sigma is another one after asking for that output alone"),
+        "stress: sigma differs after a call for that output alone"),
     "energy at rest": (
         ("double energy = 0;", "double energy = 1;"),
         "stress: the undeformed element has an energy of 1 J"),
@@ -107,7 +107,7 @@ FAULTS = {
     "loop": (
         (ENTRY, "    while (isinf(x[0].r[0]) && x[0].R[0] > 0)\n        (void)(volatile int){1};\n"
          + ENTRY),
-        "time limit: no result after 2 s: strain and stress of a state that is inf"),
+        "time limit: no result within 2 s: strain and stress of a state that is inf"),
     "bending stiffness": (
         ("c->young * c->Iz / l3}", "1.01 * c->young * c->Iz / l3}"),
         "order: its errors do not fall: 0.0099, 0.0099, 0.0099", "the limit is wrong"),
@@ -117,7 +117,7 @@ FAULTS = {
     "status": (
         ("    return STATUS_OK;\n}\n\nstatic int strains",
          "    return energy > 1 ? STATUS_SINGULAR : STATUS_OK;\n}\n\nstatic int strains"),
-        "stress: strains of some hundredths of the length end with status 'singular'"),
+        "stress: strains of a few hundredths of the length end with status 'singular'"),
 }
 
 # The same of the example that gives forces and stiffness.
@@ -136,7 +136,7 @@ FORCE_FAULTS = {
         "K: the derivative of the force in coordinate", "differences of F give"),
     "objectivity": (
         ("add(3, 3, 3, 0, E, x[k].R, S[k]);", "memcpy(S[k], x[k].R, sizeof S[k]);"),
-        "force: a rigid turn by", "axes that rotate with the element"),
+        "force: a rigid rotation by", "axes that rotate with the element"),
     "beyond K": (
         ("memset(out->K, 0, NODES * NODES * sizeof *K);",
          "memset(out->K, 0, (NODES * NODES + 1) * sizeof *K);"),
@@ -251,7 +251,7 @@ class Planted(Tested):
         made = self.compiled("timoshenko.c", (ENTRY, "    for (volatile int i = 1; i;)\n"
                                               "        ;\n" + ENTRY))
         out = self.answered("element-test", "--element", made, "--time-limit", "1", "-j", "1", code=1).stdout
-        self.assertEqual(out.count("time limit: no result after 1 s"), 1)
+        self.assertEqual(out.count("time limit: no result within 1 s"), 1)
         self.assertIn("not checked: 'features' hit the time limit", out)
 
 

@@ -130,7 +130,7 @@ class Planted(PluginTest):
 
     def test_energy_that_turning_changes(self):
         self.broken("ancf.c", ("(size - 1) * (size - 1)", "(first[0] - 1) * (first[0] - 1)"),
-                    "a rigid turn", "measure strains in axes that rotate with the element")
+                    "a rigid rotation", "measure strains in axes that rotate with the element")
 
     def test_energy_of_one_end(self):
         self.broken("ancf.c", ("carried(x[1].R, t, dt, y[1])", "carried(x[0].R, t, dt, y[1])"),

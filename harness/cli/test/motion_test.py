@@ -420,7 +420,7 @@ class RestartTest(SceneCase):
                 (2, "no motion in time", ("solve", "elastica", "--restart", ends)),
                 (2, "no motion in time", ("solve", "elastica", "--save-state", self.folder / "none.h5")),
                 (4, "cut short", ("solve", "--scene", path, "--restart", cut)),
-                (4, "not a file of --save-state", ("solve", "--scene", path, "--restart", TRUTHS)),
+                (4, "not a --save-state file", ("solve", "--scene", path, "--restart", TRUTHS)),
                 (4, "cannot be read", ("solve", "--scene", path, "--restart", self.folder / "none.h5"))):
             with self.subTest(words=words):
                 self.refused(code, words, *options)

@@ -381,7 +381,7 @@ class Screen(ProgramTest):
         for quiet in ((), ("-q",)):
             text = self.answered(*SMALL, *quiet).stdout
             self.assertRegex(" ".join(text.split()), r"PASS: every verdict is as expected; 6 of them are "
-                             r"limits off the reference value \(4 within the tolerance, 2 beyond it\) just as "
+                             r"limits off the reference value \(4 within the tolerance, 2 beyond it\) as "
                              r'derived for these formulations \(beamwork explain "wrong limit, as '
                              r'predicted"\)\.')
         self.assertEqual(text.count("PASS"), 1)

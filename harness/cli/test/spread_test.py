@@ -130,7 +130,7 @@ class Verify(SpreadTest):
         self.assertEqual(done.stdout, "")
         done = self.merged("--partial", code=5)
         self.assertIn("cells were not done", done.stderr)
-        self.assertRegex(" ".join(done.stdout.split()), "INCOMPLETE: of what is there every")
+        self.assertRegex(" ".join(done.stdout.split()), "INCOMPLETE: of the existing part every")
         self.assertFalse((self.folder / "merged.h5").exists())
         self.assertGreater(int(self.hash_of(self.folder / "merged.partial.h5")[1]), 1000)
 
@@ -256,7 +256,7 @@ class Others(SpreadTest):
                 (["--into FOLDER"], ["--shard", "1/2"]),
                 (["beamwork merge"], ["--into", parts, "-o", self.folder / "r.h5"]),
                 (["give one"], ["--into", parts, "--from", parts]),
-                (["--partial is of"], ["--partial"])):
+                (["--partial requires"], ["--partial"])):
             self.refused(2, words, "verify", "-k", "elastica", *arguments)
         for verb in ("bench", "converge", "stress"):
             self.refused(2, ["--into"], verb, "--into", parts)

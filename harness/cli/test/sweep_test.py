@@ -239,7 +239,7 @@ class Going(ProgramTest):
             process.send_signal(signal.SIGINT)
             told = process.communicate()[1]
         self.assertEqual(process.returncode, 5, told)
-        self.assertIn("give the same command again", told)
+        self.assertIn("run the same command again", told)
         self.assertFalse(path.exists())
         kept = list(self.folder.glob("s.batches/*.batch"))
         self.assertGreater(len(kept), 0)
@@ -262,7 +262,7 @@ class Going(ProgramTest):
         self.assertIn("incomplete", done.stderr)
         self.assertEqual({p.name for p in self.folder.iterdir()}, {"a", "b"})
         done = self.answered("merge", into[0], "-o", self.folder / "m.h5", "--partial", code=5)
-        self.assertRegex(done.stdout, r"\d+ of 1200 points are there")
+        self.assertRegex(done.stdout, r"\d+ of 1200 points are complete")
         self.answered("merge", *into, "-o", self.folder / "m.h5")
         self.answered(*words, "-o", self.folder / "whole.h5")
         with group_of(self.folder / "m.h5") as one, group_of(
@@ -307,7 +307,7 @@ class Going(ProgramTest):
         words = ("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1", "-o", self.folder / "e.h5")
         held = os.open(batches, os.O_RDONLY)
         fcntl.flock(held, fcntl.LOCK_EX)
-        self.refused(2, "another 'beamwork sweep' works there", *words, silent=False)
+        self.refused(2, "another 'beamwork sweep' is using it", *words, silent=False)
         os.close(held)
         self.answered(*words)
         self.assertFalse(batches.exists())
@@ -315,16 +315,16 @@ class Going(ProgramTest):
     def test_refusals(self):
         """Culprit and remedy, before anything runs."""
         for words, says in (
-                (("elastica",), "what varies?"),
+                (("elastica",), "no parameter varies"),
                 (("elastica", "--vary", "lod=1..2/3"), "did you mean 'load'"),
                 (("elastica", "--vary", "load=1..2"), "give the number of parts"),
                 (("elastica", "--vary", "load=1..5000/3"), "outside its range"),
-                (("elastica", "--vary", "load=1..2/3", "--set", "load=3"), "set and varies"),
+                (("elastica", "--vary", "load=1..2/3", "--set", "load=3"), "both set and varied"),
                 (("elastica", "--vary", "load=1..2/3", "--vary", "load=3,4"), "given twice"),
                 (("elastica", "--vary", "load=1..2/3", "-k", "w_ovr"), "did you mean 'w_over_L'"),
                 (("elastica", "--vary", "load=1..2/3", "--design", "sobl"), "give one of grid|"),
-                (("elastica", "--vary", "load=1..2/3", "--points", "3"), "--points belongs"),
-                (("elastica", "--vary", "load=1..2/3", "--seed", "3"), "--seed belongs"),
+                (("elastica", "--vary", "load=1..2/3", "--points", "3"), "--points requires"),
+                (("elastica", "--vary", "load=1..2/3", "--seed", "3"), "--seed requires"),
                 (("elastica", "--vary", "load=1..2", "--design", "halton"), "--points N"),
                 (("elastica", "--vary", "load=1..2/3", "--error", "2"), "error"),
                 (("elastica", "--vary", "load=1..2/3", "--format", "json"), "text, csv"),

@@ -167,10 +167,10 @@ class Experiments(ProgramTest):
         """By another run, or by a program that writes there: noticed before the work."""
         with open(f"{self.path}.lock", "w", encoding="ascii") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
-            self.refused(2, "another run holds", *ASKED["sweep"], "-o", self.path)
+            self.refused(2, "another run is using", *ASKED["sweep"], "-o", self.path)
         with open(self.path, "rb") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
-            self.refused(2, "another program writes there", *VERIFY, "-o", self.path)
+            self.refused(2, "another program is writing to it", *VERIFY, "-o", self.path)
         (self.folder / "results.h5.lock").unlink(missing_ok=True)
         (self.folder / "results.h5.lock").mkdir()
         self.refused(4, "cannot be locked", *ASKED["stress"], "-o", self.path)

@@ -181,7 +181,7 @@ class Expected(ProgramTest):
 
     def test_mistakes_of_the_table(self):
         good = "order,pendulum,,collocation,2,alpha,0.01,pass,because".split(",")
-        for column, word, words in ((0, "speed", "'speed' is judged by nothing"),
+        for column, word, words in ((0, "speed", "'speed' is not a property with a verdict"),
                                     (1, "pendulums", "pendulum"), (2, "mass=1", "mass"),
                                     (3, "colocation", "collocation"), (4, "two", "whole number"),
                                     (5, "euler", "--integrator 'euler'"),

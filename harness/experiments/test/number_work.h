@@ -57,7 +57,7 @@ static inline status numbers_take(void *context, int batch, FILE *from, fault *f
     for (int i = 0; i < numbers_in(batch); i++) {
         double value = NAN;
         if (fread(&value, sizeof value, 1, from) != 1)
-            return fault_set(f, STATUS_FAULT, "a batch ends too soon");
+            return fault_set(f, STATUS_FAULT, "a batch is incomplete");
         n->sum = 0.9 * n->sum + value;
     }
     n->taken++;

@@ -260,7 +260,7 @@ static void derivatives(void)
     PLANT(stress, softer, "energy", "C: the derivative of sigma 1 in strain 1", "differences");
     PLANT(stress, unsymmetric, "energy", "C: entry 2, 1", "symmetric");
     PLANT(stress, stressed_at_rest, "energy", "stress: sigma 1 of the undeformed element", "N");
-    PLANT(stress, gives_up, "energy", "stress: strains of some hundredths", "'singular'");
+    PLANT(stress, gives_up, "energy", "stress: strains of a few hundredths", "'singular'");
     PLANT(geometric, lopsided, "energy", "geometric: G entry 1, 2", "symmetric");
     PLANT(geometric, constant_geometric, "energy", "geometric: G entry 2, 2", "sum");
 }
@@ -276,11 +276,11 @@ static void the_rest(void)
           "do not declare it");
     PLANT(prepare, no_shear, "features", "offers shear, but nothing changes", "do not declare it");
     PLANT(strain, no_amplitudes, "features", "offers warping", "nothing depends on the warping");
-    PLANT(strain_many, one_strain, "many", "many at once gives other strains", "of 5");
-    PLANT(stress_many, one_energy, "many", "many at once gives other energies", "of 5");
-    PLANT(strain, deaf_to_places, "unsound", "a position of node 1 that is", "look sound");
-    PLANT(strain, deaf_to_turns, "unsound", "a rotation of node 2 that is", "look sound");
-    PLANT(stress, deaf_to_strains, "unsound", "stress: strain 4 that is", "look sound");
+    PLANT(strain_many, one_strain, "many", "many at once: the strains differ", "of 5");
+    PLANT(stress_many, one_energy, "many", "many at once: the energies differ", "of 5");
+    PLANT(strain, deaf_to_places, "unsound", "a position of node 1 that is", "gives finite");
+    PLANT(strain, deaf_to_turns, "unsound", "a rotation of node 2 that is", "gives finite");
+    PLANT(stress, deaf_to_strains, "unsound", "stress: strain 4 that is", "gives a finite");
     PLANT(memory, one_order_less, "declared", "inner, memory", "negative");
     PLANT(strain, turn_of_root, "along", "one element held at its first node",
           "as reaction to the rotation about z of node 1");
@@ -346,7 +346,7 @@ static void planted_inertia_tests(void)
     PLANT(inertia, heavier, "mass", "inertia: the mass along x", "rho A l");
     PLANT(inertia, unsymmetric_mass, "mass", "inertia: M entry 9, 2", "other way round");
     PLANT(inertia, negative_mass, "mass", "not positive", "rotation about x of node 2");
-    PLANT(inertia, fixed_mass, "mass", "turned as a whole", "turned back");
+    PLANT(inertia, fixed_mass, "mass", "rotated as a whole", "rotated back");
     PLANT(inertia, fixed_mass, "mass", "moment of inertia of the sections about x", "rho l I");
     PLANT(inertia, half_potential, "rotating", "the potential is", "kinetic energy");
     PLANT(inertia, wrong_force, "rotating", "centrifugal force in coordinate 9",
@@ -357,11 +357,11 @@ static void planted_inertia_tests(void)
     PLANT(inertia, not_skew, "rotating", "G entry 2, 2", "skew");
     PLANT(inertia, half_coriolis, "rotating", "G times the frame's own motion", "centrifugal");
     PLANT(inertia, no_frame, "rotating", "status 'singular'", "rotating frame");
-    PLANT(inertia, half_convective, "in_time", "inertia: taken in coordinate",
+    PLANT(inertia, half_convective, "in_time", "inertia: the force taken in coordinate",
           "differences of the kinetic energy");
-    PLANT(inertia, wrong_rates, "in_time", "C entry 5, 4", "differences of what is taken");
-    PLANT(inertia, fixed_taken, "in_time", "inertia: taken in coordinate 2",
-          "the same element turned as a whole");
+    PLANT(inertia, wrong_rates, "in_time", "C entry 5, 4", "differences of the forces taken");
+    PLANT(inertia, fixed_taken, "in_time", "inertia: the force taken in coordinate 2",
+          "the same element rotated as a whole");
     PLANT(inertia, beyond_taken, "bounds", "inertia: taken: it has 14 entries", "entry 15");
     PLANT(inertia, beyond_M, "bounds", "inertia: M: it has 196 entries", "entry 197");
 }

@@ -156,8 +156,8 @@ class InPython(ProgramTest):
                              (f"{back}[:1]", ("strain returned (1, 6)", due)),
                              ("return None", ("strain returned None",)),
                              ("return 'long'", ("strain returned numbers of type <U4",)),
-                             ("return [[1], [1, 2]]", ("strain: an array is due",)),
-                             (f"{back} + 0j", ("complex128", "real numbers of real states"))):
+                             ("return [[1], [1, 2]]", ("strain: an array is expected",)),
+                             (f"{back} + 0j", ("complex128", "real numbers are expected for real states"))):
             done = self.told(back, after, "timoshenko_py: ", *words)
             self.assertNotIn(".py:", done.stderr)
         self.told("strains=6", "strains=5", "prepare returned (6, 6), strains=5 wants (5, 5)",
@@ -230,7 +230,7 @@ class InPython(ProgramTest):
             "    if kind.length > 0.4:\n        longer.add(id(kind))\n"
             "    if kind.length > 0.4 and len(longer) > 1:\n        raise ValueError('too long')\n"
             "    chord = (")
-        self.assertIn("refused when it is made again: formulation timoshenko_py: ValueError: too "
+        self.assertIn("refused when it is prepared again: formulation timoshenko_py: ValueError: too "
                       "long (mine.py:", out)
         self.assertNotIn("crashed", out)
 
@@ -437,5 +437,5 @@ class ManyAtOnce(ProgramTest):
                                 env=environment(PYTHONPATH=str(CONTRACT_EXAMPLES))).stdout
             said = broken(json.loads(out))
             self.assertEqual(len(said), code, said)
-            self.assertTrue(all("many at once gives other strains than one by one: element" in s
+            self.assertTrue(all("many at once: the strains differ from those one by one: element" in s
                                 and "strain 3: " in s for s in said), said)

@@ -65,7 +65,7 @@ class Compare(ProgramTest):
             self.assertIn("0 worse, 0 better, 0 changed, 0 gone, 0 new", done.stdout)
 
     def test_lost_value(self):
-        """What has no value any more is worse, what has one now is better; the same of a quantity
+        """What no longer has a value is worse, what has one now is better; the same of a quantity
         that is there or not."""
 
         def lose(file):
@@ -76,7 +76,7 @@ class Compare(ProgramTest):
             change_rows(file, "quantities", nothing)
 
         done = self.compared(lose)
-        self.assertRegex(done.stdout, r"(?m)^worse .* has no value any more$")
+        self.assertRegex(done.stdout, r"(?m)^worse .* no longer has a value$")
         done = run("compare", self.new, self.old)
         self.assertRegex(done.stdout, r"(?m)^better .* has a value now$")
 
@@ -196,7 +196,7 @@ class Compare(ProgramTest):
             self.trouble(str(cut), cut, self.old)
         cut.write_text(self.table.read_text(encoding="utf-8")[:-10], encoding="utf-8")
         self.trouble("damaged or cut short", cut, self.old)
-        self.trouble("not a file of results", self.old, TRUTHS)
+        self.trouble("not a results file", self.old, TRUTHS)
         self.trouble("missing.h5", "missing.h5", self.old)
         self.trouble("nothing was compared", "-k", "elastica", self.old, self.old, silent=False)
         self.trouble("threshold", "--threshold", "work=-1", self.old, self.old)

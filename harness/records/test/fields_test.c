@@ -418,8 +418,8 @@ static void not_every_quantity(void)
     b.s.seriess = 1;
     b.t.rows--;
     line_expect(&b, 0.01,
-                "for 1 % in no quantity (without a reference: load, sway, tilt): no ranking, give "
-                "truths of the scene, or formulations of other families (-f)\n");
+                "for 1 % in no quantity (without a reference: load, sway, tilt): no ranking; give "
+                "'truths' in the scene, or formulations of other families (-f)\n");
     b.t.rows++;
     finish(&b);
 }
@@ -439,7 +439,7 @@ static void other_models(void)
         &b, 0.01,
         "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red\n"
         "Beams are not the structure: load of another model is 3.1 N (of the test); the limit of "
-        "red is -3.2 % from it. The 1 % are of beams only.\n");
+        "red is -3.2 % from it. The 1 % apply to beams only.\n");
     line_expect(&b, 1e-9,
                 "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
                 "(load: 0.0098 %)\n");
@@ -449,7 +449,7 @@ static void other_models(void)
         "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
         "cost coefficients of its own: grey, red, blue, green\n"
         "Beams are not the structure: load of another model is 3.1 N (of the test); the limit of "
-        "grey is +6.5 % from it. The 20 % are of beams only.\n");
+        "grey is +6.5 % from it. The 20 % apply to beams only.\n");
     finish(&b);
 }
 

@@ -541,7 +541,7 @@ class Places(Matrices):
         def small():
             resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
 
-        self.refused(4, ["cannot be written", "nothing was left"],
+        self.refused(4, ["cannot be written", "no file was left"],
                      *self.WORK,
                      self.folder / "new",
                      preexec_fn=small,

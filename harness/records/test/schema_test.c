@@ -245,9 +245,9 @@ static void long_lists(void)
     }
     j = (judgement){.verdicts = JUDGED, .verdict = v, .judged = JUDGED};
     text = written(&s, &j);
-    holds(text, "\nAll pass in what is judged: case_0, case_1, ");
+    holds(text, "\nAll verdicts pass: case_0, case_1, ");
     holds(text, ", case_39.\n");
-    holds(text, "\nNothing is judged: case_40, case_41, ");
+    holds(text, "\nNo verdict: case_40, case_41, ");
     holds(text, ", case_59.\n");
     free(text);
 }
@@ -291,7 +291,7 @@ static void markdown_tests(void)
     j.unobserved = 3;
     text = written(&s, &j);
     holds(text, "## beamwork: fail");
-    holds(text, "3 findings were not observed");
+    holds(text, "3 known deviations were not observed");
     free(text);
 
     j.unobserved = 0;

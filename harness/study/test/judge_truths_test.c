@@ -51,7 +51,9 @@ static void theories(void)
     b.row[0].theory = words[ENGESSER];
     bench_expect(&b, VERDICT_NO_TRUTH, 3, "a reference value of another theory does not judge");
     gsl_test_rel(b.j.verdict[0].model_error, 1e-3, 1e-6, "the models differ");
-    bench_says(&b, "no truth of its theory of shear; its limit is +0.1 % from that of engesser");
+    bench_says(
+        &b,
+        "no reference value for its theory of shear; its limit is +0.1 % from that of engesser");
     bench_add_row(&b, 3.003)->theory = words[HARINGX];
     bench_expect(&b, VERDICT_PASS, 0, "one of its own does");
     haringx.shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX;
@@ -366,7 +368,7 @@ static void orders(void)
     bench_expect(&b, VERDICT_PASS, 0, "an order within what finite meshes show");
     bench_fill(&b, 3, 1e-14, 1);
     bench_expect(&b, VERDICT_PASS, 0, "at the round-off floor no order is asked for");
-    bench_says(&b, "has converged to the truth: the last meshes differ by noise only");
+    bench_says(&b, "has converged to the reference value: the last meshes differ by rounding only");
     bench_free(&b);
 }
 

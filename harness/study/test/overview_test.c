@@ -126,11 +126,11 @@ static void sentences(void)
         r.verdict[i].rule = &known;
     says(&r, "PASS: every verdict is as expected; 3 of them are limits off the reference value (1 "
              "within the "
-             "tolerance, 2 beyond it) just as derived for these formulations (beamwork explain "
+             "tolerance, 2 beyond it) as derived for these formulations (beamwork explain "
              "\"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
     r.s.unfinished = 7;
     says(&r, "INTERRUPTED: until then every verdict is as expected; 3 of them are limits off the "
-             "reference value (1 within the tolerance, 2 beyond it) just as derived for these "
+             "reference value (1 within the tolerance, 2 beyond it) as derived for these "
              "formulations "
              "(beamwork "
              "explain \"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
@@ -141,10 +141,11 @@ static void sentences(void)
     r.j.flaws = 1;
     r.j.unobserved = 2;
     r.j.unmet = 1;
-    says(&r, "FAIL: 1 verdict differs from the expected one, 2 values differ from their stored "
-             "ones, 1 inconsistent run record, 2 findings were not observed, 1 reference value "
-             "refers to "
-             "nothing that exists.");
+    says(&r,
+         "FAIL: 1 verdict differs from the expected one, 2 values differ from their stored "
+         "ones, 1 inconsistent run record, 2 known deviations were not observed, 1 reference value "
+         "refers to "
+         "nothing that exists.");
     r.j.judged = 0;
     says(&r, "");
 }
@@ -161,7 +162,7 @@ static void single_ones(void)
         r.verdict[i].rule = &known;
     says(&r, "PASS: every verdict is as expected; 1 of them is a limit off the reference value (0 "
              "within the "
-             "tolerance, 1 beyond it) just as derived for its formulation (beamwork explain "
+             "tolerance, 1 beyond it) as derived for its formulation (beamwork explain "
              "\"wrong limit, as predicted\"), 1 more is explained by a known deviation.");
     make(&r);
     add(&r, 0, VERDICT_PASS, 1, 3);

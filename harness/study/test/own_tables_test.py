@@ -100,7 +100,7 @@ class Findings(Own):
         self.assertNotEqual(text, needed.read_text(encoding="utf-8"))
         small = self.folder / "small.csv"
         small.write_text(text, encoding="utf-8")
-        self.assertIn("of finding", self.verified("wrong", "--deviations", small, code=1).stdout)
+        self.assertIn("of known deviation", self.verified("wrong", "--deviations", small, code=1).stdout)
 
     def test_a_rule_nobody_shows(self):
         """Told where all that it speaks of was run, with its place in the file."""
@@ -110,7 +110,7 @@ class Findings(Own):
         path = self.write("f.csv", RULES, rule)
         self.answered(*run, "--deviations", path, "-k", "dip")  # of a part: it may lie outside
         out = self.answered(*run, "--deviations", path, code=1).stdout
-        self.assertIn(f"finding old ({path}:2) was not observed", " ".join(out.split()))
+        self.assertIn(f"known deviation old ({path}:2) was not observed", " ".join(out.split()))
         for change in (("collocation", "collocation beamw"), ("leaf", "leaf elastica")):
             other = self.write("o.csv", RULES, rule.replace(*change))  # others may show it
             self.answered(*run, "--deviations", other)
@@ -125,7 +125,7 @@ class Findings(Own):
             with self.subTest(select=select):
                 out = self.verified("right", "--deviations", path, what=("-k", select),
                                     code=code).stdout
-                self.assertEqual("finding old (" in " ".join(out.split()), code == 1)
+                self.assertEqual("known deviation old (" in " ".join(out.split()), code == 1)
 
     def test_several(self):
         files = [self.write("empty.csv", RULES), self.explained(self.proposed("wrong"))]

@@ -132,8 +132,8 @@ static void passing(void)
             (overview_cell){c == 2 ? OVERVIEW_OTHER_MODEL : OVERVIEW_NOTHING, 0, 1};
     char *text = shown(&b, plain);
     gsl_test(strstr(text, "\ncase_7 ") == NULL || strstr(text, "\ncase_9 ") == NULL, "rows");
-    gsl_test(count(text, "61 more pass in all that is judged: case_0, case_1,") != 1, "the others");
-    gsl_test(count(text, "\n1 more have nothing that is judged: case_11\n") != 1, "not judged");
+    gsl_test(count(text, "61 more pass in all verdicts: case_0, case_1,") != 1, "the others");
+    gsl_test(count(text, "\n1 more have no verdict: case_11\n") != 1, "not judged");
     gsl_test(count(text, "ok") != 6 + 1, "%d marks, and the words of one", count(text, "ok"));
     int lines = 0;
     for (const char *c = text; *c != '\0'; c++)
@@ -152,7 +152,7 @@ static void legend(void)
     make(&b, 2, 2, "beam");
     b.cell[1].mark = OVERVIEW_NOTHING;
     char *text = shown(&b, plain);
-    gsl_test(strstr(text, "ok all pass") == NULL || strstr(text, ". nothing judged") == NULL,
+    gsl_test(strstr(text, "ok all pass") == NULL || strstr(text, ". no verdict") == NULL,
              "what is used is told");
     gsl_test(strstr(text, "limit off") != NULL || strstr(text, "!") != NULL, "and no more");
     free(text);
@@ -278,7 +278,7 @@ static void unexpected_tests(void)
     holds(&b,
           "\n 1. made_up (length=2;width=3), element:order=3, load [N]\n"
           "    wrong limit, expected pass\n    converges to a wrong limit: +10 %\n"
-          "    limit 3.300 +- 0.012, off by +10.0000 %; truth 3.0000000000 +- 1.0e-9 (exact, "
+          "    limit 3.300 +- 0.012, off by +10.0000 %; reference 3.0000000000 +- 1.0e-9 (exact, "
           "book, page 3);\n    finest mesh, n = 4: 3.310\n"
           "    beamwork converge made_up --set length=2 --set width=3 -f element:order=3 -n 2,4 "
           "-k load\n");
@@ -295,14 +295,14 @@ static void unexpected_tests(void)
 
     b.j.unobserved = 1;
     b.known[0].missed = 1;
-    holds(&b, "\n 4. finding rule was not observed\n    formulations: element\n"
+    holds(&b, "\n 4. known deviation rule was not observed\n    formulations: element\n"
               "    cases: made_up other_case\n    quantities: load\n    cause: cccc");
 
     b.j.unmet = 1;
-    holds(&b, "\n 5. truth of nothing that exists: made_up, load (book, page 3)\n");
+    holds(&b, "\n 5. reference value of nothing that exists: made_up, load (book, page 3)\n");
     b.t.strangers = 2;
     strcpy(b.t.stranger, "gone");
-    holds(&b, "\n 6. truths of 2 unknown cases, the first: gone\n");
+    holds(&b, "\n 6. reference values of 2 unknown cases, the first: gone\n");
 }
 
 /* Where a path is stable, in words: runs of steps, of several analyses. */
