@@ -180,7 +180,7 @@ class InPython(ProgramTest):
                             (f"return w[:, None], s, {right}", "for energy, returned (N, 1)"),
                             (f"return w, s[:1], {right}", "for sigma, returned (1, 6)"),
                             ("return w, s, kind.C", "for C, returned (6, 6)"),
-                            ("return w", "stress must return three: energy, sigma, C")):
+                            ("return w", "stress must return three values: energy, sigma, C")):
             done = self.stress(back)
             self.assertEqual(done.returncode, 1, done)
             self.assertIn(words, done.stderr)
