@@ -122,7 +122,7 @@ typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES }
 /* Matrices of small motions about the current state of Newton's method; K is factored. */
 typedef struct flutter_system {
     sparse M, C;
-    int damped;   /* 1: C is the damping of members; 0: motions without damping */
+    int damped;   /* 1: C is the damping of members and dashpots; 0: motions without damping */
     int massless; /* 1: the structure has no mass, and M is the isotropic metric, which keeps double
                      values real; only divergence is meaningful */
 } flutter_system;
@@ -134,12 +134,12 @@ status flutter_motions(const newton_run *, flutter_system *, int wanted, int est
                        unsymmetric_result *, fault *);
 /* Moves frequencies, modes and errors to an outcome; values without digits become NaN. */
 void flutter_take(unsymmetric_result *from, outcome_side *to);
-/* Damping of the motions: "", "undamped" if members have damping and damped is 0, or "with the
- * members' damping". */
+/* Damping of the motions: "", or if anything damps: "with damping", or "undamped" if damped is 0.
+ */
 const char *flutter_damping(const scene *, int damped);
 /* Kind of the fastest growing motion, number *mode. */
 flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int *mode);
-/* "flutter, undamped", "divergence", "flutter, growth with the members' damping" */
+/* "flutter, undamped", "divergence", "flutter, growth with damping" */
 const char *flutter_name(const flutter_system *, flutter_kind);
 
 /* The path parameter at which stability is first lost, from path 0. The state is on the path. *mode

@@ -248,6 +248,8 @@ static void extract_spectrum_modal(const analysis_context *c, const scene_quanti
     if (q->what.kind == SCENE_GROWTH) {
         r->value = quantity_scaled(q, outcome_spectrum_of(o)->growth);
         take_meaning(outcome_spectrum_of(o), r);
+        if (r->status == STATUS_OK && outcome_spectrum_of(o)->growth_meaning != NULL)
+            snprintf(r->meaning, sizeof r->meaning, "%s", outcome_spectrum_of(o)->growth_meaning);
         return;
     }
     double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);

@@ -70,7 +70,7 @@ void flutter_take(unsymmetric_result *from, outcome_side *to)
 
 const char *flutter_damping(const scene *s, int damped)
 {
-    return !damping_acts(s) ? "" : damped ? "with the members' damping" : "undamped";
+    return !damping_acts(s) ? "" : damped ? "with damping" : "undamped";
 }
 
 flutter_kind flutter_of(const flutter_system *s, const unsymmetric_result *r, int *mode)
@@ -96,7 +96,7 @@ const char *flutter_name(const flutter_system *s, flutter_kind kind)
         return kind == FLUTTER_NONE ? "no divergence" : "divergence";
     if (kind == FLUTTER_DIVERGES)
         return "divergence";
-    return s->damped ? "flutter, growth with the members' damping" : "flutter, undamped";
+    return s->damped ? "flutter, growth with damping" : "flutter, undamped";
 }
 
 enum { MOTIONS = 8 };                  /* number of smallest motions examined */

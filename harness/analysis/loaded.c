@@ -65,12 +65,13 @@ static int asks_for_growth(const analysis_context *c, int analysis)
     return 0;
 }
 
-/* Without a symmetric, definite tangent: motions that may grow. */
+/* Without a symmetric, definite tangent: motions that may grow. Damping counts for growth, not for
+ * frequencies. */
 static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_run *n,
                                       outcome_spectrum *out, fault *f)
 {
     flutter_system of;
-    unsymmetric_result r = {0};
+    unsymmetric_result r = {0}, undamped = {0};
     int mode = 0;
     status outcome = flutter_system_alloc(n, &of, f);
     if (outcome == STATUS_OK && of.massless)
@@ -78,7 +79,11 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
             fault_set(f, STATUS_REFUSED, "the structure has no mass, so it has no frequencies");
     if (outcome == STATUS_OK)
         outcome = flutter_motions(n, &of, modal_wanted(c, analysis), 1, &r, f);
-    snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->scene, of.damped));
+    if (outcome == STATUS_OK && of.damped)
+        outcome = flutter_motions(n, &(flutter_system){.M = of.M}, modal_wanted(c, analysis), 1,
+                                  &undamped, f);
+    snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->scene, 0));
+    out->growth_meaning = flutter_damping(c->scene, of.damped);
     const flutter_kind kind = outcome == STATUS_OK ? flutter_of(&of, &r, &mode) : FLUTTER_NONE;
     if (kind != FLUTTER_NONE) {
         out->growth = r.growth[mode];
@@ -88,8 +93,9 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
                      flutter_name(&of, kind), r.growth[mode]);
     }
     if (outcome == STATUS_OK)
-        flutter_take(&r, &out->positive);
+        flutter_take(of.damped ? &undamped : &r, &out->positive);
     flutter_system_free(&of);
+    unsymmetric_free(&undamped);
     unsymmetric_free(&r);
     return outcome;
 }

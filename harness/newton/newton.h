@@ -216,7 +216,8 @@ typedef struct outcome_spectrum {
     outcome_side positive, negative; /* frequencies are in `positive` */
     char meaning[OUTCOME_MEANING];   /* with or without the damping of members, or the kind of
                                         instability; "": no damping, and loads have a potential */
-    double growth;    /* [1/s] largest growth rate about a state without potential; 0: stable */
+    double growth; /* [1/s] largest growth rate about a state without potential; 0: stable */
+    const char *growth_meaning; /* as `meaning`, of the growth rate; NULL: `meaning` */
     double *strained; /* [free + driven] displacements due to initial strains alone, about which
                          modes without loads are computed; NULL: none */
 } outcome_spectrum;
