@@ -4,30 +4,90 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Golden sections between two frequencies: the largest of sign * value, where there is one only. */
-static status refine_between(vibration *v, harmonic_value *respond, int quantity, double sign,
-                             double low, double high, outcome_peak *best, fault *f)
+enum { MOST_REMOVED = 8 };
+/* Where sign * value is to be large. removed: natural frequencies without damping that the input or
+ * the output does not move: the response passes through them, but the equations are singular. */
+typedef struct extreme_search {
+    vibration *v;
+    harmonic_value *respond;
+    int quantity, removed;
+    double sign, size, hertz[MOST_REMOVED]; /* size: of the response */
+} extreme_search;
+
+static const double aside = 1e-6; /* of a natural frequency */
+
+static status value_at(extreme_search *s, double hertz, outcome_peak *out, fault *f)
 {
-    const double part = 0.6180339887498949, narrow = 1e-10, settled = 1e-3;
+    for (int i = 0; i < s->removed; i++) {
+        const double off = (hertz / s->hertz[i] - 1) / aside;
+        outcome_peak above;
+        if (fabs(off) >= 1)
+            continue;
+        TRY(s->respond(s->v, s->quantity, s->sign, s->hertz[i] * (1 - aside), out, f));
+        TRY(s->respond(s->v, s->quantity, s->sign, s->hertz[i] * (1 + aside), &above, f));
+        out->value += (above.value - out->value) * (1 + off) / 2;
+        out->bound = fmax(out->bound, above.bound);
+        out->hertz = hertz;
+        return STATUS_OK;
+    }
+    return s->respond(s->v, s->quantity, s->sign, hertz, out, f);
+}
+
+/* Golden sections between two frequencies: the largest of sign * value, where there is one only. */
+static status refine_between(extreme_search *s, double low, double high, outcome_peak *best,
+                             fault *f)
+{
+    const double part = 0.6180339887498949, narrow = 1e-10, settled = 1e-3, nothing = 1e-6,
+                 sign = s->sign;
     outcome_peak a, b;
-    TRY(respond(v, quantity, sign, high - part * (high - low), &a, f));
-    TRY(respond(v, quantity, sign, low + part * (high - low), &b, f));
+    TRY(value_at(s, high - part * (high - low), &a, f));
+    TRY(value_at(s, low + part * (high - low), &b, f));
     while (high - low > narrow * high && isfinite(a.value) && isfinite(b.value)) {
         if (sign * a.value >= sign * b.value) {
             high = b.hertz;
             b = a;
-            TRY(respond(v, quantity, sign, high - part * (high - low), &a, f));
+            TRY(value_at(s, high - part * (high - low), &a, f));
         } else {
             low = a.hertz;
             a = b;
-            TRY(respond(v, quantity, sign, low + part * (high - low), &b, f));
+            TRY(value_at(s, low + part * (high - low), &b, f));
         }
     }
     *best = sign * a.value >= sign * b.value ? a : b;
     best->known = 1;
+    const double larger = fmax(fabs(a.value), fabs(b.value));
     best->unbounded = !isfinite(best->value) ||
-                      fabs(a.value - b.value) > settled * fmax(fabs(a.value), fabs(b.value));
+                      (fabs(a.value - b.value) > settled * larger && larger > nothing * s->size);
     return STATUS_OK;
+}
+
+/* Does the response grow as its inverse distance from the frequency? */
+static status is_pole(extreme_search *s, double hertz, int *pole, fault *f)
+{
+    static const double distance[] = {1e-4, 1e-5, 1e-6}, round_off = 1e-6;
+    double middle = 0, apart[3];
+    for (int i = 0; i < 3; i++) {
+        outcome_peak a, b;
+        TRY(value_at(s, hertz * (1 - distance[i]), &a, f));
+        TRY(value_at(s, hertz * (1 + distance[i]), &b, f));
+        middle = i == 0 ? (a.value + b.value) / 2 : middle;
+        apart[i] = fabs(a.value - middle) + fabs(b.value - middle);
+    }
+    *pole = !(apart[2] <= fmax(3 * apart[1], round_off * fmax(s->size, fabs(middle))));
+    return STATUS_OK;
+}
+
+/* Without the singular frequencies at which nothing is excited or read. */
+static status find_between(extreme_search *s, double low, double high, outcome_peak *best, fault *f)
+{
+    for (int pole = 0;;) {
+        TRY(refine_between(s, low, high, best, f));
+        if (best->unbounded)
+            TRY(is_pole(s, best->hertz, &pole, f));
+        if (!best->unbounded || pole || s->removed == MOST_REMOVED)
+            return STATUS_OK;
+        s->hertz[s->removed++] = best->hertz;
+    }
 }
 
 /* Frequencies at which extremes are looked for: those of the analysis, some on both sides of each
@@ -121,8 +181,9 @@ static status refine(vibration *v, harmonic_value *respond, int quantity, sample
         outcome_peak one;
         if (sign * value[i] < sign * value[before] || sign * value[i] < sign * value[after])
             continue;
-        TRY(refine_between(v, respond, quantity, sign, at->hertz[before], at->hertz[after], &one,
-                           f));
+        extreme_search by = {
+            .v = v, .respond = respond, .quantity = quantity, .sign = sign, .size = size};
+        TRY(find_between(&by, at->hertz[before], at->hertz[after], &one, f));
         one.unbounded |= size > 0 && fabs(one.value) > boundless * size;
         if (sign * one.value <= most)
             continue;

@@ -4,6 +4,8 @@ import json
 import math
 import unittest
 
+import numpy
+
 from harness.tools.kit.program import ProgramTest, run
 
 # A cantilever that only bends, with a dashpot at its tip.
@@ -365,6 +367,45 @@ quantities:
         path.write_text((self.OSCILLATOR % ("[1, 2, 5]", 0, "")).replace(", damping: {ratio: 0}", ""), encoding="utf-8")
         self.assertRegex(" ".join(run("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout.split()),
                          r"most - unbounded at 3\.1831 Hz, where nothing damps it; add damping")
+
+    PAIR = """beamwork: 1
+sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 1e9, shear_modulus: 4e8}}
+nodes:
+  left: {at: [0, 0, 0], mass: 1, hold: [uy, uz, rx, ry, rz]}
+  middle: {at: [1, 0, 0], hold: [uy, uz, rx, ry, rz]}
+  right: {at: [2, 0, 0], mass: 1, hold: [uy, uz, rx, ry, rz]}
+  g: {at: [2, 3, 0], hold: all}
+  h: {at: [2, 4, 0], mass: 1, inertia: [1, 1, 1, 0, 0, 0]}
+members: {side: {from: g, to: h, section: s, y: [1, 0, 0]}}
+springs:
+  ground_$n: {for: {n: [left, right]}, to: $n, stiffness: [100/3, 0, 0, 0, 0, 0]}
+  joint_$n: {for: {n: [left, right]}, from: $n, to: middle, stiffness: [700/3, 0, 0, 0, 0, 0]}
+  damper: {to: middle, damping: [2, 0, 0, 0, 0, 0]}
+analyses: {steady: {harmonic: {frequencies: [0.5, 3, 9]%s}}}
+quantities:
+"""
+
+    def test_what_is_not_excited(self):
+        """Undamped modes of another part, and one against which a force in the middle has no arm: never unbounded."""
+        w = 2*math.pi*numpy.linspace(0.5, 9, 850001)
+        k, own = 700/3, 800/3 - w*w
+        exact = {"middle": own/(own*(2j*w + 2*k) - 2*k*k), "left": k/(own*(2j*w + 2*k) - 2*k*k)}
+        part = {"amplitude": abs, "real": numpy.real, "imaginary": numpy.imag}
+        asked = [(node, p, take) for node in exact for p in part for take in ("max", "min")]
+        line = "  %s_%s_%s: {response: {analysis: steady, node: %s, component: ux, force: middle, along: ux, part: %s, take: %s}}\n"
+        path = self.folder/"scene.yaml"
+        for more in ("", ", solution: modal"):
+            path.write_text(self.PAIR % more + "".join(line % (*one, *one) for one in asked), encoding="utf-8")
+            found = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)["quantities"]
+            for (node, p, take), row in zip(asked, found):
+                expected = getattr(numpy, take)(part[p](exact[node]))
+                self.assertEqual(row["status"], "ok", (row["quantity"], row["reason"]))
+                self.assertLess(abs(row["value"] - expected), 1e-7*abs(exact[node]).max(), (row, expected))
+            for node, hertz in (("left", r"2\.59899"), ("h", r"\d\.\d+")):
+                path.write_text(self.PAIR % more + (line % (node, "amplitude", "max", node, "amplitude", "max"))
+                                .replace("force: middle", "force: " + node), encoding="utf-8")
+                said = " ".join(run("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout.split())
+                self.assertRegex(said, "unbounded at %s Hz, where nothing damps it" % hertz)
 
 
 class HarmonicTest(ProgramTest):
