@@ -199,9 +199,10 @@ static int place_of(const fields *f, const scene_load *what)
     }
     if (what->kind <= SCENE_MOMENT && member && !node) {
         document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
-                         "'%.40s' is a member; add 'where', a fraction of its length from 0 to 1, "
-                         "or name a node",
-                         on);
+                         "'%.40s' is a member; %s name a node", on,
+                         fields_have(f, "tension")
+                             ? "a tension acts between two nodes;"
+                             : "add 'where', a fraction of its length from 0 to 1, or");
         return SCENE_NONE;
     }
     return fields_entry(f, "on", scene_load_along(what) ? SCENE_MEMBERS : SCENE_NODES);
@@ -412,7 +413,12 @@ void builder_imperfections(builder *b)
         builder_call(b, SCENE_IMPERFECTIONS, index, i);
         if (index < 0)
             continue;
-        fields_read(&f, entry_imperfection, &b->scene->imperfection[index]);
+        scene_imperfection *p = &b->scene->imperfection[index];
+        fields_read(&f, entry_imperfection, p);
+        if (fields_have(&f, "direction") && p->direction[0] == 0 && p->direction[1] == 0 &&
+            p->direction[2] == 0)
+            document_mistake(b->mistakes, document_find(f.map, "direction"), 0,
+                             "direction = [0, 0, 0]; give a direction, or remove it");
         for (int k = 0; shifts != NULL && k < shifts->count; k++) {
             double shift[3] = {0};
             const int node = fields_entry_of(&f, shifts->key[k], SCENE_NODES);

@@ -43,8 +43,8 @@ static void read_unit(const fields *f, scene_quantity *q)
     units_translate(&f->b->units, usual_unit(f->b->scene, q), sizeof own, own);
     if (q->transform == SCENE_PSD)
         make_density(own);
-    /* a factor may give any unit */
-    if (unit != NULL && !fields_have(f, "factor")) {
+    /* a factor may give any unit; an envelope has that of its quantities: take_envelopes */
+    if (unit != NULL && !fields_have(f, "factor") && q->what.kind != SCENE_ENVELOPE_OF) {
         if (!f->b->units.given)
             units_check(unit, f->b->mistakes);
         /* a load factor may have the unit of its load */
@@ -114,6 +114,10 @@ static void take_envelopes(builder *b)
         const int first = q->overs > 0 && q->over[0] < s->quantities ? q->over[0] : SCENE_NONE;
         q->analysis = first >= 0 ? s->quantity[first].analysis : 0;
         const fields f = fields_of(b, &b->list[SCENE_QUANTITIES].entry[i]);
+        if (fields_have(&f, "when"))
+            document_mistake(b->mistakes, document_find(f.map, "when"), 0,
+                             "when: this key is for quantities of motions; write it in those of "
+                             "the envelope, or remove it");
         if (!fields_have(&f, "unit") && first >= 0)
             memcpy(q->unit, s->quantity[first].unit, sizeof q->unit);
         else if (first >= 0 && !fields_have(&f, "factor") &&

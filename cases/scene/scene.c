@@ -398,16 +398,29 @@ static double axial_stiffness(const scene *s, const scene_member *m)
 /* Strains are measured from the length as drawn: N = EA (L - Lo)/L instead of EA (L - Lo)/Lo. */
 static const double most_misfit = 0.01;
 
+/* Do shifts move the nodes in every analysis? Nothing then has the lengths as drawn. */
+static int is_moved(const scene *s)
+{
+    int moved = 0;
+    for (int i = 0; i < s->imperfections; i++) {
+        if (s->imperfection[i].analysis != SCENE_NONE)
+            return 0;
+        moved |= s->imperfection[i].nodes > 0;
+    }
+    return moved;
+}
+
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f)
 {
     const scene_member *m = &s->member[member];
     *out = m->unstressed_length != 0 ? (m->unstressed_length - length) / length : 0;
-    if (!(fabs(*out) <= most_misfit))
+    if (!(fabs(*out) <= most_misfit) && !is_moved(s))
         return fault_set(f, STATUS_REFUSED,
                          "%s: unstressed_length = %g m differs by more than 1 %% from the length "
-                         "as drawn, %g m, to which strains refer; give one within 1 %%, or draw "
+                         "as drawn%s, %g m, to which strains refer; give one within 1 %%, or draw "
                          "the member unstressed and move its end",
-                         scene_called(s, SCENE_MEMBERS, member).text, m->unstressed_length, length);
+                         scene_called(s, SCENE_MEMBERS, member).text, m->unstressed_length,
+                         s->imperfections > 0 ? " and shifted" : "", length);
     if (m->pretension == 0)
         return STATUS_OK;
     const double EA = axial_stiffness(s, m);

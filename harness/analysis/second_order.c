@@ -55,12 +55,13 @@ status second_order_list(const scene *of, system_matrices *s, fault *f)
     for (int i = 0; i < of->quantities; i++) {
         const scene_extract *what = &of->quantity[i].what;
         scene_response as = what->of.response;
-        if (what->kind == SCENE_COORDINATE)
-            as = (scene_response){.node = what->of.component.node,
-                                  .component = what->of.component.component,
+        if (what->kind == SCENE_COORDINATE) {
+            const scene_component *c = scene_component_of(&of->quantity[i]);
+            as = (scene_response){.node = c->node,
+                                  .component = c->component,
                                   .from = SCENE_NONE,
                                   .driver = SCENE_NONE};
-        else if (what->kind != SCENE_RESPONSE)
+        } else if (what->kind != SCENE_RESPONSE)
             continue;
         add_output(s, i, &as);
         if (what->kind == SCENE_RESPONSE)

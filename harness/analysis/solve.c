@@ -134,7 +134,7 @@ static void keep_states(analysis_context *c)
         spoil(r, collect_systems(c, &r->systems, &f), &f);
 }
 
-/* Value of the quantity that governs, which it names. */
+/* Reported value of the quantity that governs, which it names. */
 static void put_envelope(const scene *s, solve_result *r, int quantity)
 {
     const scene_quantity *q = &s->quantity[quantity];
@@ -149,13 +149,14 @@ static void put_envelope(const scene *s, solve_result *r, int quantity)
             quantity_no_value(to, one->status, why);
             return;
         }
-        const double size = q->what.of.envelope == SCENE_ENVELOPE_MIN       ? -one->value
-                            : q->what.of.envelope == SCENE_ENVELOPE_LARGEST ? fabs(one->value)
-                                                                            : one->value;
+        const double value = quantity_scaled(q, one->value),
+                     size = q->what.of.envelope == SCENE_ENVELOPE_MIN       ? -value
+                            : q->what.of.envelope == SCENE_ENVELOPE_LARGEST ? fabs(value)
+                                                                            : value;
         if (!(size > most))
             continue;
         most = size;
-        to->value = quantity_scaled(q, q->what.of.envelope == SCENE_ENVELOPE_MIN ? -size : size);
+        to->value = q->what.of.envelope == SCENE_ENVELOPE_MIN ? value : size;
         to->rounding = one->rounding;
         snprintf(to->meaning, sizeof to->meaning, "%s%s%.60s", name,
                  one->meaning[0] != '\0' ? ", " : "", one->meaning);

@@ -55,16 +55,15 @@ static status divide(scene_path *path, double begin, double end, int parts, int 
 static status read_densely(scene *s, int analysis, fault *f)
 {
     scene_analysis *a = &s->analysis[analysis];
-    if (a->kind == SCENE_STATIC && a->of.walk.path.stations == 1)
-        return divide(&a->of.walk.path, 0, a->of.walk.path.value[0], STATES, 0, f);
-    if (a->kind != SCENE_MOTION || a->of.motion.path.stations > INSTANTS ||
-        takes_stations(s, analysis))
+    scene_path *path = (scene_path *)scene_path_of(a);
+    if (a->kind == SCENE_STATIC && path->stations == 1)
+        return divide(path, 0, path->value[0], STATES, 0, f);
+    if (a->kind != SCENE_MOTION || path->stations > INSTANTS || takes_stations(s, analysis))
         return STATUS_OK;
     const int later = a->follows != SCENE_NONE && s->analysis[a->follows].kind == SCENE_MOTION;
-    const scene_path *before = later ? scene_path_of(&s->analysis[a->follows]) : NULL,
-                     path = a->of.motion.path;
-    return divide(&a->of.motion.path, later ? before->value[before->stations - 1] : 0,
-                  path.value[path.stations - 1], INSTANTS, later, f);
+    const scene_path *before = later ? scene_path_of(&s->analysis[a->follows]) : NULL;
+    return divide(path, later ? before->value[before->stations - 1] : 0,
+                  path->value[path->stations - 1], INSTANTS, later, f);
 }
 
 /* Adds the phase of an amplitude, as in a Bode diagram, unless the scene has it. */

@@ -97,6 +97,8 @@ static status fill(const model *m, const double x[], model_imperfect *p, fault *
         centreline_increments(m, x, increment);
         add_shifts(s, p->lines.node);
         add_shifts(s, p->own.node);
+        for (int i = 0; i < s->imperfections; i++)
+            p->own.imperfection[i].nodes = 0; /* they are in its nodes */
         for (int i = 0; i < s->members; i++)
             fill_member(m, i, increment, vertex, p);
         move_nodes(increment, p);
@@ -123,13 +125,15 @@ status model_imperfect_alloc(const model *m, const double x[], model_imperfect *
     p->own.node = copy_of(s->node, (size_t)s->nodes * sizeof *s->node);
     p->own.member = copy_of(s->member, (size_t)s->members * sizeof *s->member);
     p->own.load = copy_of(s->load, (size_t)s->loads * sizeof *s->load);
+    p->own.imperfection =
+        copy_of(s->imperfection, (size_t)s->imperfections * sizeof *s->imperfection);
     p->first = calloc((size_t)s->members + 1, sizeof *p->first);
     p->place = malloc(points * sizeof *p->place);
     p->shift = malloc(points * sizeof *p->shift);
     p->turn = malloc(points * sizeof *p->turn);
     if (p->lines.node == NULL || p->own.node == NULL || p->own.member == NULL ||
-        p->own.load == NULL || p->first == NULL || p->place == NULL || p->shift == NULL ||
-        p->turn == NULL)
+        p->own.load == NULL || p->own.imperfection == NULL || p->first == NULL ||
+        p->place == NULL || p->shift == NULL || p->turn == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for imperfections");
     return fill(m, x, p, f);
 }
@@ -142,6 +146,7 @@ void model_imperfect_free(model_imperfect *p)
     free(p->lines.node);
     free(p->own.member);
     free(p->own.load);
+    free(p->own.imperfection);
     free(p->first);
     free(p->place);
     free(p->shift);

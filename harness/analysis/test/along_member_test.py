@@ -237,6 +237,14 @@ class DividedMember(ProgramTest):
         self.assertEqual(done.returncode, 2)
         self.assertIn("add 'where', or remove it", done.stderr)
 
+    def test_a_tension_on_a_member(self):
+        path = self.folder / "scene.yaml"
+        path.write_text(WHOLE.replace("{force: [0, 1, 0], on: beam, where: 0.3}", "{tension: 5, on: beam, towards: a}") +
+                        internal("M", "beam", 0.4, "Mz"), encoding="utf-8")
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("'beam' is a member; a tension acts between two nodes; name a node", done.stderr)
+
 
 # What only the mesh makes is no answer: a stiffness that is indefinite at rest, a critical load
 # that grows with the square of the number of elements.

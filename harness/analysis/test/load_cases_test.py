@@ -260,9 +260,13 @@ quantities:
   M_all: {internal: {analysis: all, member: column, end: from, resultant: Mz, envelope: min}}
   M: {envelope_of: {quantities: [M_with, M_against, M_all], select: largest}}
   high: {envelope_of: {quantities: [M_with, M_against], select: max}, factor: -1}
+  deep: {envelope_of: {quantities: [M_against, M_with], select: min}, factor: -1, unit: MOMENT}
+  size: {envelope_of: {quantities: [back, M_with], select: largest}, factor: -2, unit: MOMENT}
+  both: {envelope_of: {quantities: [back, M_with], select: min}, unit: MOMENT}
+  back: {internal: {analysis: with, member: column, end: from, resultant: Mz}, factor: -1.5, unit: MOMENT}
 """
-    METRES = {"UNITS": "", "DIAMETER": 0.05, "WALL": 3e-3, "YOUNG": 210e9, "SHEAR": 81e9, "RHO": 7850, "LENGTH": 3}
-    MILLIMETRES = {"UNITS": "units: mm, N, MPa", "DIAMETER": 50, "WALL": 3, "YOUNG": 210e3, "SHEAR": 81e3,
+    METRES = {"UNITS": "", "MOMENT": "N m", "DIAMETER": 0.05, "WALL": 3e-3, "YOUNG": 210e9, "SHEAR": 81e9, "RHO": 7850, "LENGTH": 3}
+    MILLIMETRES = {"UNITS": "units: mm, N, MPa", "MOMENT": "N mm", "DIAMETER": 50, "WALL": 3, "YOUNG": 210e3, "SHEAR": 81e3,
                    "RHO": 7.85e-9, "LENGTH": 3000}
 
     def text(self, numbers):
@@ -279,8 +283,14 @@ quantities:
             self.assertEqual(v["low"], 2 * v[least])
             self.assertTrue(got["low"]["meaning"].startswith(least))
             self.assertEqual(v["M"], max(abs(v[n]) for n in ("M_with", "M_against", "M_all")))
-            self.assertEqual(v["high"], -max(v["M_with"], v["M_against"]))
-            self.assertEqual(got["high"]["meaning"], "M_with")
+            self.assertLess(v["M_against"] * v["M_with"], 0)
+            for name, of, select, factor in (("high", ("M_with", "M_against"), max, -1),
+                                             ("deep", ("M_with", "M_against"), min, -1),
+                                             ("size", ("M_with", "back"), lambda x: max(x, key=abs), -2),
+                                             ("both", ("M_with", "back"), min, 1)):
+                value = select([factor * v[n] for n in of])
+                self.assertEqual(v[name], abs(value) if name == "size" else value, (formulation, name))
+                self.assertEqual(got[name]["meaning"], of[[factor * v[n] for n in of].index(value)])
             self.assertLess(v["M_against"], v["M_all"] - 10, "the thrust magnifies the moment")
 
     def test_units_and_written(self):
@@ -295,6 +305,8 @@ quantities:
     def test_refused(self):
         for old, new, words in (("[M_with, M_against], select", "[M_with, none], select", "no quantity 'none'"),
                                 ("[M_with, M_against], select", "[], select", "give a list of their names"),
+                                ("max}, factor: -1}", "max}, when: {from: 0.1}}", "when: this key is for quantities of motions"),
+                                ("select: min}, unit: N m}", "select: min}, unit: N}", "unit 'N': its quantities are in N m"),
                                 ("[M_with, M_against], select", "[M_with, M], select", "M is an envelope"),
                                 ("end: from, resultant: Mz}}\n  M_against", "end: from, resultant: N}}\n  M_against",
                                  "M_with is in N and M_against in N m; name quantities in one unit"),

@@ -214,6 +214,25 @@ omit: [shear]
             (self.folder / "survey.csv").write_text(bad + "\n", encoding="utf-8")
             self.refused(2, words, "solve", "--scene", self.scene(filed), "-n", 1)
 
+    def test_shifted_lengths(self):
+        """Strains refer to the shifted length: 0.979 m of 0.98 m, drawn as 1 m."""
+        def bar(at, length, shift):
+            return f"""beamwork: 1
+sections: {{bar: {{rectangle: {{width: 20e-3, thickness: 10e-3}}, young: 200e9, shear_modulus: 77e9}}}}
+nodes: {{g: {{at: [0, 0, 0], hold: all}}, a: {{at: [{at}, 0, 0], hold: all}}}}
+members: {{m: {{from: g, to: a, section: bar, y: [0, 1, 0], unstressed_length: {length}}}}}
+imperfections: {{s: {{shifts: {{a: [{shift}, 0, 0]}}}}}}
+analyses: {{li: {{linear: {{}}}}}}
+quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}}}}}}
+"""
+        for formulation in FORMULATIONS:
+            N = self.solve(bar(1, 0.979, -0.02), formulation, 2)["N"]
+            self.assertAlmostEqual(N / (200e9 * 2e-4 * 0.001 / 0.98), 1, delta=1e-9, msg=formulation)
+        done = run("solve", "--scene", self.scene(bar(1, 0.999, -0.02)), "-f", "collocation", "-n", 1)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("differs by more than 1 % from the length as drawn and shifted, 0.98 m",
+                      " ".join((done.stdout + done.stderr).split()))
+
     def test_modes_refused(self):
         """No mode, equal modes, a direction that says nothing, decks."""
         for shape, words in (("mode_of: shape, amplitude: 1e-3", "is one of 2 with the same value; give its direction"),
@@ -236,6 +255,9 @@ omit: [shear]
                      self.scene(column("[0, 1e-3]") + "plane: xy\n" + pushed(0.5)))
         self.refused(2, "amplitude", "scene", "--scene",
                      self.scene(column("[1e-3]") + pushed(0.5)))
+        self.refused(2, "direction = [0, 0, 0]; give a direction, or remove it", "scene", "--scene",
+                     self.scene(self.FRAME.replace("NODE", "").replace("MORE", "").replace("LEFT", "knee").replace("RIGHT", "top")
+                                .replace("1e-4}}", "1e-4, direction: [0, 0, 0]}}")))
 
     def test_usual_meshes_show_it(self):
         written = self.answered("scene", "--scene",
