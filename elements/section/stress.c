@@ -100,6 +100,45 @@ static void wall_points(const wall_flow *of, int k, double x, stress_points *out
     }
 }
 
+/* Fibre where the outer surfaces of two walls meet; there is no shear stress there. */
+static void add_corner(const wall_flow *of, int at, stress_points *out)
+{
+    const section_spec *s = of->spec;
+    stress_point p = {.y = of->lines.y[at], .z = of->lines.z[at]};
+    double away[2][2];
+    for (int i = 0; i < 2; i++) {
+        const int far = s->wall[i].from == at ? s->wall[i].to : s->wall[i].from;
+        const double y = of->lines.y[far] - p.y, z = of->lines.z[far] - p.z;
+        away[i][0] = y / hypot(y, z);
+        away[i][1] = z / hypot(y, z);
+    }
+    const double sine = fabs(away[0][0] * away[1][1] - away[0][1] * away[1][0]),
+                 thickness[2] = {s->wall[0].thickness, s->wall[1].thickness};
+    for (int i = 0; i < 2; i++) {
+        p.y -= thickness[1 - i] / (2 * sine) * away[i][0];
+        p.z -= thickness[1 - i] / (2 * sine) * away[i][1];
+    }
+    out->point[out->count++] = p;
+}
+
+/* The shear centre of an angle is where its walls meet, with fillets too: given with an area, it
+ * locates the centroid of the given constants, from which their stresses are. */
+static void complete_angle(const wall_flow *of, stress_points *out)
+{
+    const section_spec *s = of->spec;
+    if (s->walls != 2 || s->points != 3 || isnan(s->given.A) || isnan(s->given.ys) ||
+        isnan(s->given.zs))
+        return;
+    const int first = s->wall[0].from,
+              at = first == s->wall[1].from || first == s->wall[1].to ? first : s->wall[0].to;
+    if (s->thickness_terms)
+        add_corner(of, at, out);
+    for (int k = 0; k < out->count; k++) {
+        out->point[k].y += of->constants->ys - of->lines.y[at];
+        out->point[k].z += of->constants->zs - of->lines.z[at];
+    }
+}
+
 static status walls_of(const section_spec *s, const section *c, stress_points *out, fault *f)
 {
     wall_flow of = {.spec = s, .constants = c};
@@ -116,6 +155,7 @@ static status walls_of(const section_spec *s, const section *c, stress_points *o
             if (value[i][near] * value[i][far] < 0)
                 wall_points(&of, k, value[i][far] / (value[i][far] - value[i][near]), out);
     }
+    complete_angle(&of, out);
     return STATUS_OK;
 }
 

@@ -245,6 +245,35 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["uz"] / (flexibility * Iz), 1, delta=2e-3)
         self.assertAlmostEqual(got["uy"] / (-flexibility * Iyz), 1, delta=4e-3)
 
+    def test_stresses_of_an_angle(self):
+        """At the heel and the sharp toes of outlines with fillets, whose constants are integrated
+        here: -M (Iy y - Iyz z)/(Iy Iz - Iyz^2) about axes along the legs."""
+        def spandrel(sign, y, z, sy, sz, r, n=4000):
+            strips = [(r / n * h, (i + 0.5) * r / n, h) for i in range(n)
+                      for h in [r - math.sqrt(r * r - (r - (i + 0.5) * r / n)**2)]]
+            return [(sign * a, y + sy * x, z + sz * h / 2, sign * a * h * h / 12) for a, x, h in strips]
+
+        for name, h, b, t, root in (("L100x10", 0.1, 0.1, 0.01, 0.012), ("L100x75x8", 0.1, 0.075, 0.008, 0.01)):
+            parts = spandrel(1, t, t, 1, 1, root) + spandrel(-1, b, t, -1, -1, root / 2) + spandrel(
+                -1, t, h, -1, -1, root / 2)
+            A = b * t + (h - t) * t + sum(p[0] for p in parts)
+            y, z = (((b - t) * t * (b + t) / 2 + h * t * t / 2 + sum(p[0] * p[1] for p in parts)) / A,
+                    ((h - t) * t * (h + t) / 2 + b * t * t / 2 + sum(p[0] * p[2] for p in parts)) / A)
+            Iy = (b * t**3 + t * (h**3 - t**3)) / 3 + sum(p[0] * p[2]**2 + p[3] for p in parts) - A * z * z
+            Iz = (t * b**3 + (h - t) * t**3) / 3 + sum(p[0] * p[1]**2 for p in parts) - A * y * y
+            Iyz = (b * b * t * t + t * t * (h * h - t * t)) / 4 + sum(p[0] * p[1] * p[2] for p in parts) - A * y * z
+            points = ((0, 0), (b, 0), (b, t), (0, h), (t, h))
+            stress = [-100 * (Iy * (p - y) - Iyz * (q - z)) / (Iy * Iz - Iyz**2) for p, q in points]
+            got = {}
+            for sign in (1, -1):
+                text = scene({"l": f"profile: {name}"}, loads={"p": "[0, 0, 0]"}).replace(
+                    "{force: [0, 0, 0], on: b}", f"{{moment: [0, 0, {100 * sign}], on: b}}")
+                text = re.sub(r"measure: \w+", "measure: normal_max", text)
+                got[sign] = values(self.record("solve", "--scene", self.scene(text), "-n", 1, "-f", "collocation"))["s"]
+            for sign in got:
+                self.assertAlmostEqual(got[sign] / max(sign * s for s in stress), 1, delta=1e-5, msg=(name, sign))
+            self.assertEqual(max(stress), stress[0])
+
     def test_beam(self):
         """Deflection and stress of a cantilever by the printed constants: P L^3/(3 E Iy), P L/Wel,
         with Wel = 194.3 cm^3; all formulations that have it."""
