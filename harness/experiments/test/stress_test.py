@@ -112,7 +112,7 @@ class Stress(ProgramTest):
         found = {(o["extreme"], o["x"], o["quantity"]): o for o in record["outcomes"]}
         for x, outcome in ((0.9, "value"), (3, "not converged")):
             self.assertEqual(found["turn_alpha", x, "R_xx"]["outcome"], outcome)
-        self.assertIn("turns by 3 rad", found["turn_alpha", 3, "energy"]["reason"])
+        self.assertIn("rotates by 3 rad", found["turn_alpha", 3, "energy"]["reason"])
         self.assertLess(abs(found["long_steps_radau", 100, "tip"]["error"]), 5e-3)
 
     def test_a_missing_truth_is_a_fault(self):
