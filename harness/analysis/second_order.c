@@ -2,6 +2,7 @@
  * loads. */
 #include "harness/analysis/analysis_impl.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -271,15 +272,23 @@ static status keep_second_order(const second_order *m, linear_model *out, fault 
     return triplets_of_rows(m->outputs, m->inputs, m->D, &out->D, f);
 }
 
+/* reduced: that of the whole model exists. */
 static status keep_state_space(const analysis_context *c, const system_matrices *of,
-                               const second_order *m, linear_model *out, fault *f)
+                               const second_order *m, int reduced, linear_model *out, fault *f)
 {
     state_space s = {0};
     fault why = {""};
     status outcome = state_space_of(m, &s, &why);
-    if (outcome != STATUS_OK && s.improper >= 0)
+    if (outcome != STATUS_OK && s.improper >= 0 && reduced)
+        fault_set(f, outcome,
+                  "--reduce %.60s: quantity %s has no state space with the modes of coordinates "
+                  "without mass; give fewer modes",
+                  c->options->reduce, c->scene->quantity[of->output[s.improper].quantity].name);
+    else if (outcome != STATUS_OK && s.improper >= 0)
         fault_set(f, outcome, "state space: quantity %s: %s; remove it, or add a mass",
                   c->scene->quantity[of->output[s.improper].quantity].name, why.text);
+    else if (outcome != STATUS_OK && reduced)
+        fault_set(f, outcome, "--reduce %.60s: %s; give fewer modes", c->options->reduce, why.text);
     else if (outcome != STATUS_OK)
         fault_set(f, outcome, "state space: %s", why.text);
     if (outcome == STATUS_OK)
@@ -295,37 +304,57 @@ static status keep_state_space(const analysis_context *c, const system_matrices 
     return outcome;
 }
 
+/* The node named from `at` to the next comma, which is not named before. */
+static status read_node(const scene *s, const char *text, const char *list, const char *at,
+                        int *node, fault *f)
+{
+    const size_t length = strcspn(at, ",");
+    if (length == 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "--reduce %.60s: an interface node has no name; name it, as in "
+                         "10:base,tip, or remove the colon or comma before it",
+                         text);
+    *node = SCENE_NONE;
+    for (int i = 0; i < s->nodes; i++) {
+        const scene_words name = scene_name(s, SCENE_NODES, i);
+        if (strlen(name.text) == length && strncmp(name.text, at, length) == 0)
+            *node = i;
+    }
+    if (*node == SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED,
+                         "--reduce %.60s: there is no node %.*s; name nodes of the scene", text,
+                         (int)length, at);
+    for (const char *one = list; one < at; one += strcspn(one, ",") + 1)
+        if (strcspn(one, ",") == length && strncmp(one, at, length) == 0)
+            return fault_set(f, STATUS_REFUSED,
+                             "--reduce %.60s: node %.*s is there twice; name it once", text,
+                             (int)length, at);
+    return STATUS_OK;
+}
+
 /* "MODES:NODE,NODE": *modes, and 1 for the coordinates of these nodes. */
 static status read_interface(const vibration *v, const char *text, int *modes, char edge[],
                              fault *f)
 {
-    int index[KINEMATICS_MOST], used = 0;
+    int index[KINEMATICS_MOST], node = SCENE_NONE;
     double T[6 * KINEMATICS_MOST];
-    const scene *s = v->c->scene;
-    const char *from = text;
-    if (sscanf(text, "%d%n", modes, &used) != 1 || *modes < 0 ||
-        (text[used] != '\0' && text[used] != ':'))
+    char *at;
+    const long many = strtol(text, &at, 10);
+    const char *const list = at + 1;
+    *modes = many < INT_MAX ? (int)many : INT_MAX;
+    if (at == text || many < 0 || (*at != '\0' && *at != ':'))
         return fault_set(f, STATUS_REFUSED,
                          "--reduce %.60s: write the number of modes, or it and the interface "
                          "nodes, as in 10:base,tip",
                          text);
-    for (from += used; *from == ':' || *from == ',';) {
-        const size_t length = strcspn(++from, ",");
-        int node = -1;
-        for (int i = 0; i < s->nodes; i++) {
-            const scene_words name = scene_name(s, SCENE_NODES, i);
-            if (strlen(name.text) == length && strncmp(name.text, from, length) == 0)
-                node = i;
-        }
-        if (node < 0)
-            return fault_set(f, STATUS_REFUSED, "--reduce: there is no node %.*s", (int)length,
-                             from);
+    while (*at != '\0') {
+        TRY(read_node(v->c->scene, text, list, ++at, &node, f));
         const int count =
             kinematics_node_jacobian(v->c->model, v->state, node, KINEMATICS_MOST, index, T);
         for (int k = 0; k < count; k++)
             if (index[k] < v->free)
                 edge[index[k]] = 1;
-        from += length;
+        at += strcspn(at, ",");
     }
     return STATUS_OK;
 }
@@ -394,7 +423,7 @@ static status keep_reduced(const vibration *v, const system_matrices *s, const s
     if (outcome == STATUS_OK) {
         outcome = second_order_reduce(whole, edge, modes, &small, &T, &why);
         if (outcome != STATUS_OK)
-            fault_set(f, outcome, "--reduce: %s", why.text);
+            fault_set(f, outcome, "--reduce %.60s: %s", v->c->options->reduce, why.text);
     }
     if (outcome == STATUS_OK)
         outcome =
@@ -402,7 +431,7 @@ static status keep_reduced(const vibration *v, const system_matrices *s, const s
     if (outcome == STATUS_OK)
         outcome = keep_second_order(&small, &out->of, f);
     if (outcome == STATUS_OK)
-        outcome = keep_state_space(v->c, s, &small, &out->of, f);
+        outcome = keep_state_space(v->c, s, &small, 1, &out->of, f);
     if (outcome == STATUS_OK)
         outcome = compare_frequencies(whole, &small, modes, out, f);
     if (outcome == STATUS_OK && v->analysis != SCENE_NONE &&
@@ -440,7 +469,7 @@ status second_order_keep(const vibration *v, const sparse *G, const system_matri
     if (outcome == STATUS_OK)
         outcome = keep_second_order(&m, out, f);
     if (outcome == STATUS_OK)
-        outcome = keep_state_space(v->c, s, &m, out, f);
+        outcome = keep_state_space(v->c, s, &m, 0, out, f);
     if (outcome == STATUS_OK && v->c->options->reduce != NULL)
         outcome = keep_reduced(v, s, &m, &to->reduced, f);
     second_order_free(&m);

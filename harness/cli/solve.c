@@ -134,15 +134,32 @@ static void tell_reduced(const scene *s, const system_matrices *all, const state
     fprintf(stderr, "\n");
 }
 
+/* Feedback is in no matrix: its loads are inputs. Returns 1 if there is any. */
+static int tell_loops(const scene *s)
+{
+    int found = 0;
+    for (int i = 0; i < s->loads; i++) {
+        if (s->load[i].feedback.node == SCENE_NONE)
+            continue;
+        found = 1;
+        fprintf(stderr,
+                "beamwork: matrices: the loop of %s (feedback) is open: the load is an input, its "
+                "gains are in no matrix\n",
+                scene_called(s, SCENE_LOADS, i).text);
+    }
+    return found;
+}
+
 /* Writes the matrices of all states, if requested. */
 static status write_matrices(const solve_request *r, const sweep *s, fault *f)
 {
     const cell_result *cell = &s->series[0].cell[0];
-    char title[200];
+    char title[256];
     if (r->matrices == NULL || cell->solve.systems.label == NULL) /* why is reported */
         return STATUS_OK;
-    snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
-             r->chosen.formulation[0].key, r->meshes.elements[0]);
+    snprintf(title, sizeof title, "%s, %s, %d elements per member%s", s->point[0].scene.name,
+             r->chosen.formulation[0].key, r->meshes.elements[0],
+             tell_loops(&s->point[0].scene) ? ", loops of feedback open" : "");
     TRY(system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f));
     for (int i = 0; i < cell->solve.systems.states; i++) {
         tell_apart(&s->point[0].scene, &cell->solve.systems.state[i]);

@@ -2,6 +2,7 @@
  * interface fixed (R. R. Craig, M. C. C. Bampton, AIAA Journal 6 (1968) 1313); without an interface
  * modes and the static shapes of forces. Shapes and modes are those of the symmetric part of K. */
 #include <complex.h>
+#include <float.h>
 #include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
@@ -53,6 +54,19 @@ static status decompose(reduction *b, fault *f)
     return info == 0 ? STATUS_OK
                      : fault_set(f, STATUS_NOT_CONVERGED,
                                  "the modes of a reduced model did not converge");
+}
+
+/* Not more than have mass, apart from round-off: there are fewer than coordinates. */
+static status check_modes(const reduction *b, int modes, fault *f)
+{
+    const int n = b->inner;
+    int most = 0;
+    while (most < n && b->mu[n - 1 - most] > n * DBL_EPSILON * b->mu[n - 1])
+        most++;
+    return modes <= most
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED, "more modes than the %d with mass%s; give at most %d",
+                           most, b->edge > 0 ? " while the interface is fixed" : "", most);
 }
 
 /* out[n] = -K^-1 of the inner part of force[inner], with `sign`. */
@@ -182,6 +196,7 @@ static status reduce(reduction *b, int modes, second_order *out, double **T, dou
     const second_order *m = b->m;
     const size_t n = (size_t)m->n, motions = (size_t)m->motions, N = n + motions;
     TRY(decompose(b, f));
+    TRY(check_modes(b, modes, f));
     build(b, modes, *room);
     const size_t R = (size_t)b->columns + motions, u = (size_t)m->inputs, y = (size_t)m->outputs;
     double *more = realloc(*room, (2 * N * R + 3 * y * N + 2 * n + 1) * sizeof **room);

@@ -428,9 +428,49 @@ class StateSpace(Matrices):
         (self.folder/"scene.yaml").write_text(scene, encoding="utf-8")
         work = ("solve", "--scene", self.folder/"scene.yaml", "-f", "beamw", "-n", 2, "--matrices", self.folder/"new")
         self.refused(2, "add it", *work, "--reduce", "4")
-        for text, words in (("4:nix", "no node nix"), ("few", "write the number of modes"), ("4;tip", "write the number")):
+        for text, words in (("4:nix", "no node nix; name nodes"), ("few", "write the number of modes"), ("4;tip", "write the number"),
+                            ("4:", "has no name; name it"), ("4:tip,,mid", "has no name; name it"),
+                            ("4:tip,mid,tip", "node tip is there twice; name it once"),
+                            ("5000", "with mass; give at most"), ("9"*30, "give at most"),
+                            ("100:tip", "with mass while the interface is fixed; give at most")):
             self.refused(1, words, *work, "--state-space", "--reduce", text, silent=False)
             self.assertFalse((self.folder/"new").exists())
+
+    def test_modes_without_mass(self):
+        """A point mass beside its node has three modes with mass, whatever the quantity."""
+        (self.folder/"scene.yaml").write_text("""beamwork: 1
+sections: {bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8}}
+nodes: {root: {at: [0, 0, 0], hold: all}, mid: {at: [1, 0, 0]}, tip: {at: [2, 0, 0], mass: 2, centre: [0.1, 0.2, 0.3]}}
+members: {bar: {from: root, to: mid, section: bar, y: [0, 1, 0]}, two: {from: mid, to: tip, section: bar, y: [0, 1, 0]}}
+analyses: {ha: {harmonic: {frequencies: [1, 2], damping: {stiffness: 1e-3}}}}
+quantities: {r: {response: {analysis: ha, node: mid, component: uy, force: tip, along: ux}}}
+""", encoding="utf-8")
+        for nodes, words in (("", "more modes than the 3 with mass; give at most 3"),
+                             (":mid", "more modes than the 3 with mass while the interface is fixed; give at most 3")):
+            for modes in (3, 4, 5000):
+                work = ("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 1, "--matrices",
+                        self.folder/f"m{nodes[1:]}{modes}", "--state-space", "--reduce", f"{modes}{nodes}")
+                if modes == 3:
+                    self.assertIn("first 3 natural frequencies", self.answered(*work).stderr)
+                else:
+                    self.refused(1, [f"--reduce {modes}{nodes}: {words}"], *work, silent=False)
+
+    def test_feedback(self):
+        """Its loop is open, and a line and the files say so."""
+        scene = BAR + """  motor: {force: [1, 0, 0], on: tip, feedback: {node: tip, component: uz, proportional: 3}}
+analyses: {run: {motion: {stations: 0..1e-3, step: 1e-3}}}
+quantities: {uz: {displacement: {analysis: run, node: tip, component: uz}, unit: m}}
+omit: [shear, trapeze, wagner_moments, wagner_torque]
+"""
+        for loop, text in ((0, scene.replace(", feedback: {node: tip, component: uz, proportional: 3}", "")), (1, scene)):
+            (self.folder/"scene.yaml").write_text(text, encoding="utf-8")
+            folder = self.folder/f"loop_{loop}"
+            said = self.answered("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 1, "--matrices", folder,
+                                 "--state-space").stderr
+            self.assertEqual("the loop of load motor (feedback) is open: the load is an input" in said, loop == 1, said)
+            for name in ("K.mtx", "state_space/A.mtx"):
+                held = (folder/"undeformed"/name).read_text(encoding="utf-8")
+                self.assertEqual("loops of feedback open" in held, loop == 1, name)
 
     def test_inside(self):
         """The mass inside elements has no state space: how far off that is, is said."""
