@@ -231,7 +231,7 @@ static status fill_model(const vibration *v, const sparse *G, const system_matri
     for (int u = 0; u < s->inputs; u++) {
         m->motion_of[u] = s->input[u].driver != SCENE_NONE ? motion++ : -1;
         if (m->motion_of[u] >= 0) {
-            const size_t row = (size_t)(m->n + m->motion_of[u]);
+            const size_t row = (size_t)m->n + (size_t)m->motion_of[u];
             m->M[row * (size_t)size + row] = 1;
             m->B[row * (size_t)m->inputs + (size_t)u] = 1;
             continue;
