@@ -325,7 +325,7 @@ class MotionTest(SceneCase):
                            ("path: [0, 1], factor: [0, 0], time: 100*t", False)):
             path = self.block(time, follows)
             text = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1).stdout
-            self.assertEqual("at factor 1 where the path ends, at 0" in re.sub(r"\s+", " ", text),
+            self.assertEqual("push has factor 1 where the path ends but 0" in re.sub(r"\s+", " ", text),
                              told, text)
 
     def test_what_ends_too_early(self):
