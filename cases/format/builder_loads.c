@@ -263,8 +263,11 @@ void builder_loads(builder *b)
 static void turn_stiffness(const placement *placed, double K[36])
 {
     double turned[36];
+    int symmetric = 1;
     if (placed == NULL || !placed->turned)
         return;
+    for (int i = 0; i < 36; i++)
+        symmetric &= K[i] == K[i / 6 + 6 * (i % 6)];
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < 36; i += 3)
             placement_turn(placed, &K[i]);
@@ -273,9 +276,8 @@ static void turn_stiffness(const placement *placed, double K[36])
                 turned[6 * i + j] = K[6 * j + i];
         memcpy(K, turned, sizeof turned);
     }
-    for (int i = 0; i < 6; i++)
-        for (int j = 0; j < 6; j++)
-            K[6 * i + j] = (turned[6 * i + j] + turned[6 * j + i]) / 2;
+    for (int i = 0; i < 36 && symmetric; i++) /* without rounding */
+        K[i] = (turned[i] + turned[i / 6 + 6 * (i % 6)]) / 2;
 }
 
 /* Reads six numbers, or a matrix, of a spring; returns 0 if the key is missing. */

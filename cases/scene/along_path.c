@@ -254,6 +254,24 @@ static int has_dashpot(const scene *s, int analysis, char *who, int size)
     return 0;
 }
 
+static int has_unsymmetric_dashpot(const scene *s, int analysis, char *who, int size)
+{
+    (void)analysis;
+    for (int i = 0; i < s->springs; i++)
+        if (scene_spring_gyrates(&s->spring[i]))
+            return called(s, SCENE_SPRINGS, i, who, size);
+    return 0;
+}
+
+/* Damped modes have no row of their own: they use it. */
+static int has_unsymmetric_spring(const scene *s, int analysis, char *who, int size)
+{
+    for (int i = 0; i < s->springs && !s->analysis[analysis].damped; i++)
+        if (scene_spring_circulates(&s->spring[i]))
+            return called(s, SCENE_SPRINGS, i, who, size);
+    return 0;
+}
+
 static int has_spring(const scene *s, int analysis, char *who, int size)
 {
     (void)analysis;
@@ -369,6 +387,9 @@ static int has_spin(const scene *s, int analysis, char *who, int size)
 static const char *const
     no_potential = "has no potential: the tangent is not symmetric, and flutter is possible; "
                    "request it about a static path, or use a motion",
+    *const not_symmetric =
+        "has no potential: its stiffness is not symmetric; use damped modes (damped: yes), a "
+        "harmonic analysis, a static path or a motion",
     *const no_tangent = "has a different stiffness on each side, but this analysis needs a single "
                         "one at rest; request it about a static path that presses on one side",
     *const no_feedback =
@@ -417,6 +438,7 @@ const scene_input scene_inputs[] = {
     {"taper", "uuuuuuuuuuuuuuu", NULL, has_taper},
     {"section by its matrices", "uuuuuuuuuuuuuuu", NULL, has_matrices},
     {"spring", "uuuuuuuuuuuuuuu", NULL, has_spring},
+    {"unsymmetric spring", "uusxuxxuuuxuuuu", not_symmetric, has_unsymmetric_spring},
     {"offset of an end", "uuuuuuuuuuuuuuu", NULL, has_offset},
     {"foundation", "uuuuuuuuuuuuuuu", NULL, has_foundation},
     {"spring by a table", "uuuuuuuuuuuuuuu", NULL, has_table},
@@ -437,6 +459,7 @@ const scene_input scene_inputs[] = {
     {"rotating axes", "-uu-u--x-uuu--x", no_spin, has_spin},
     {"damping", "----i--i---uuuu", NULL, has_damping},
     {"dashpot", "----i--i---uuuu", NULL, has_dashpot},
+    {"unsymmetric dashpot", "----i--i---uuuu", NULL, has_unsymmetric_dashpot},
     {"elongation", "uuuuu-uu-uuu-uu", NULL, has_elongation},
     {"tension between nodes", "uuusu-su-uuu-su", NULL, has_tension},
     {"feedback", "xxxxxxxxxxxuxxx", no_feedback, has_feedback},

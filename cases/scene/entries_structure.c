@@ -160,7 +160,7 @@ const entry_field entry_spring[] = {
      .left_out = "none"},
     {"stiffness", ENTRY_NUMBERS,
      .summary = "for ux, uy, uz [N/m], rx, ry, rz [N m]: six values, or the 36 entries of a "
-                "symmetric matrix",
+                "matrix, of bearings not symmetric",
      .left_out = "none; required without damping and tables"},
     {"damping", ENTRY_NUMBERS,
      .summary = "dashpot coefficients for ux, uy, uz [N s/m], rx, ry, rz [N m s]: six values, or "

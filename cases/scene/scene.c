@@ -184,11 +184,40 @@ void scene_release_end(scene *s, int member, int end, int component)
     r->count++;
 }
 
+/* Sets A to `given`, or to its symmetric part where that differs by rounding; returns the
+ * difference, relative to the diagonal. */
+static double take_matrix(const double given[36], double A[36])
+{
+    memcpy(A, given, 36 * sizeof *A);
+    const double apart = dense_symmetrise(6, A);
+    if (apart <= SECTION_MATRICES_SYMMETRIC)
+        return apart;
+    memcpy(A, given, 36 * sizeof *A);
+    return 0;
+}
+
+static int is_symmetric(const double A[36])
+{
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < i; j++)
+            if (A[6 * i + j] != A[6 * j + i])
+                return 0;
+    return 1;
+}
+
+int scene_spring_circulates(const scene_spring *p)
+{
+    return !is_symmetric(p->stiffness);
+}
+
+int scene_spring_gyrates(const scene_spring *p)
+{
+    return !is_symmetric(p->damping);
+}
+
 void scene_damp_spring(scene *s, int spring, const double damping[36])
 {
-    scene_spring *p = &s->spring[spring];
-    memcpy(p->damping, damping, sizeof p->damping);
-    p->damping_asymmetry = dense_symmetrise(6, p->damping);
+    take_matrix(damping, s->spring[spring].damping);
 }
 
 int scene_spring_damps(const scene_spring *p)
@@ -205,8 +234,7 @@ int scene_add_spring(scene *s, int p, int q, const double stiffness[36])
     if (i >= 0) {
         s->spring[i].p = p;
         s->spring[i].q = q;
-        memcpy(s->spring[i].stiffness, stiffness, sizeof s->spring[i].stiffness);
-        s->spring[i].asymmetry = dense_symmetrise(6, s->spring[i].stiffness);
+        s->spring[i].asymmetry = take_matrix(stiffness, s->spring[i].stiffness);
     }
     return i;
 }

@@ -775,13 +775,11 @@ typedef struct scene_table {
  * than 3 rad. */
 typedef struct scene_spring {
     int p, q;             /* p: SCENE_NONE: the ground */
-    double stiffness[36]; /* K, symmetric, row-major [N/m, N, N m] */
-    double asymmetry;   /* asymmetry of the given K relative to its diagonal; the symmetric part is
-                           used */
-    double damping[36]; /* in motions: forces gain damping x rates of d; symmetric [N s/m, N s, N m
-                           s] */
-    double damping_asymmetry; /* likewise */
-    scene_table table[6];     /* of its components, in addition to K */
+    double stiffness[36]; /* K, row-major [N/m, N, N m]; not symmetric: forces K d without energy */
+    double asymmetry;     /* 0, or that of the given K relative to its diagonal where it is rounding
+                             and the symmetric part is used */
+    double damping[36];   /* in motions: forces gain damping x rates of d [N s/m, N s, N m s] */
+    scene_table table[6]; /* of its components, in addition to K */
     char name[SCENE_NAME];
 } scene_spring;
 
@@ -1010,6 +1008,9 @@ status scene_ties(const scene *, scene_tie tie[], fault *);
 /* Adds a dashpot to the spring. */
 void scene_damp_spring(scene *s, int spring, const double damping[36]);
 int scene_spring_damps(const scene_spring *);
+/* Is its stiffness, or its damping, not symmetric? */
+int scene_spring_circulates(const scene_spring *);
+int scene_spring_gyrates(const scene_spring *);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],
                      const double value[]);
 /* A driver given by a function of time, whose pieces are added later. */

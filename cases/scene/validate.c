@@ -117,17 +117,23 @@ static status check_spring(const scene *s, int i, fault *f)
             return fault_set(f, STATUS_REFUSED, "%s: its table of %s: %s",
                              scene_called(s, SCENE_SPRINGS, i).text, component[k], mistake);
     }
-    if (!(p->asymmetry <= SECTION_MATRICES_SYMMETRIC) || !is_stiffness(p->stiffness))
+    double damping[36];
+    int finite = 1;
+    for (int k = 0; k < 36; k++) {
+        finite &= isfinite(p->stiffness[k]) != 0;
+        damping[k] = p->damping[k] / 2 + p->damping[k / 6 + 6 * (k % 6)] / 2;
+    }
+    if (!finite || (!scene_spring_circulates(p) && !is_stiffness(p->stiffness)))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: its stiffness is not symmetric, or would supply energy; give six "
-                         "non-negative numbers, or a symmetric matrix without negative eigenvalues",
+                         "%s: its stiffness would supply energy; give six non-negative numbers, a "
+                         "symmetric matrix without negative eigenvalues, or the 36 entries of a "
+                         "bearing, whose cross terms differ",
                          scene_called(s, SCENE_SPRINGS, i).text);
-    if (!(p->damping_asymmetry <= SECTION_MATRICES_SYMMETRIC) || !is_stiffness(p->damping))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: its damping is not symmetric, or would supply energy to a motion; give six "
-            "non-negative numbers, or a symmetric matrix without negative eigenvalues",
-            scene_called(s, SCENE_SPRINGS, i).text);
+    if (!is_stiffness(damping))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: its damping would supply energy to a motion; give six non-negative "
+                         "numbers, or a matrix whose symmetric part has no negative eigenvalues",
+                         scene_called(s, SCENE_SPRINGS, i).text);
     return STATUS_OK;
 }
 

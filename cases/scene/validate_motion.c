@@ -229,6 +229,13 @@ static status scene_validate_motion(const scene *s, int i, fault *f)
                          "%s: the integrator conserving does not support damping of masses; use "
                          "integrator: radau, alpha or explicit, or dashpots instead",
                          scene_called(s, SCENE_ANALYSES, i).text);
+    for (int k = 0; k < s->springs && m->scheme == SCENE_CONSERVING; k++)
+        if (scene_spring_circulates(&s->spring[k]))
+            return fault_set(f, STATUS_REFUSED,
+                             "%s (conserving): %s has a stiffness that is not symmetric and puts "
+                             "energy in; use integrator: radau, alpha or explicit",
+                             scene_called(s, SCENE_ANALYSES, i).text,
+                             scene_called(s, SCENE_SPRINGS, k).text);
     TRY(check_follows(s, i, f));
     for (int d = 0; d < s->drivers; d++)
         TRY(check_driver(s, d, i, f));

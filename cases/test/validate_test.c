@@ -259,9 +259,16 @@ static void spring_of_one(scene *s)
     spring_of(s)->p = 1;
 }
 
-static void unsymmetric_spring(scene *s)
+static void unsymmetric_damping(scene *s)
 {
-    spring_of(s)->stiffness[1] = 1.1;
+    const double c[36] = {[0] = 1, [1] = 3, [6] = 1, [7] = 3};
+    scene_spring *p = spring_of(s);
+    memcpy(p->damping, c, sizeof c);
+}
+
+static void endless_spring(scene *s)
+{
+    spring_of(s)->stiffness[1] = INFINITY;
 }
 
 static void negative_spring(scene *s)
@@ -284,7 +291,8 @@ static void coupled_to_nothing(scene *s)
 static const refusal refusals[] = {
     {spring_nowhere, "spring 0: ", "to: node 9 does not exist"},
     {spring_of_one, "spring 0: ", "both its ends are node 1"},
-    {unsymmetric_spring, "spring 0: ", "is not symmetric"},
+    {unsymmetric_damping, "spring 0: ", "its damping would supply energy"},
+    {endless_spring, "spring 0: ", "its stiffness would supply energy"},
     {negative_spring, "spring 0: ", "would supply energy"},
     {indefinite_spring, "spring 0: ", "would supply energy"},
     {coupled_to_nothing, "spring 0: ", "would supply energy"},

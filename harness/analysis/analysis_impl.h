@@ -376,9 +376,12 @@ status harmonic_extremes_refine(vibration *, harmonic_value *, outcome_harmonic 
 
 status harmonic_modes_find(vibration *, fault *);
 void harmonic_modes_free(harmonic_modes *);
-/* Natural frequencies without damping [Hz], at least those below a frequency, ascending; the caller
- * frees *hertz. None where the stiffness is unsymmetric or there are too many. */
+/* Natural frequencies [Hz], at least those below a frequency, ascending; the caller frees *hertz.
+ * Without damping; where springs or dashpots are not symmetric, those of damped modes. None where
+ * loads make the stiffness unsymmetric or there are too many. */
 status harmonic_natural(vibration *, double below, int *count, double **hertz, fault *);
+/* REFUSED: springs without a potential make a mode grow. */
+status harmonic_judge_springs(vibration *, double below, fault *f);
 /* Modes with damping ratios: C + U U^T with U [count x free]. */
 int harmonic_modes_damped(const harmonic_modes *, const double **U);
 /* U^T of the displacements due to a unit displacement of the driven coordinate at rest, [count]. */

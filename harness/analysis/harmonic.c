@@ -67,7 +67,7 @@ static status matrices(vibration *v, int whole, fault *f)
     const sparse *pattern;
     TRY(follows != SCENE_NONE
             ? assemble_pattern_of_states(c->model, c->run->patterns, whole, &pattern, f)
-            : assemble_pattern(c->model, c->run->patterns, whole, &pattern, f));
+            : assemble_pattern_at_rest(c->model, c->run->patterns, 1, whole, &pattern, f));
     TRY(sparse_alloc_like(pattern, &v->K, f));
     TRY(sparse_alloc_like(pattern, &v->M, f));
     TRY(sparse_alloc_like(pattern, &v->C, f));
@@ -675,6 +675,8 @@ static status solve(vibration *v, outcome_harmonic *o, fault *f)
     TRY(make_pattern(v, f));
     TRY(check_reactions(v, f));
     TRY(find_modes_of(v, f));
+    TRY(harmonic_judge_springs(v, scene_path_of(&s->analysis[v->analysis])->value[stations - 1],
+                               f));
     if (!s->analysis[v->analysis].by_modes)
         TRY(make_matrix(v, f));
     return respond(v, o, f);

@@ -104,8 +104,8 @@ static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
                      factor_count(m->factor).negative_pivots < 0
-                         ? "undamped modes require a symmetric stiffness, but follower loads make "
-                           "it unsymmetric; remove 'solution' and 'ratios'"
+                         ? "undamped modes require a symmetric stiffness, but follower loads or "
+                           "springs make it unsymmetric; remove 'solution' and 'ratios'"
                          : "the state is unstable: nothing vibrates steadily about it");
 }
 
@@ -114,7 +114,7 @@ static status free_blocks(vibration *v, harmonic_modes *m, fault *f)
     const sparse *pattern;
     TRY(v->c->scene->analysis[v->analysis].follows != SCENE_NONE
             ? assemble_pattern_of_states(v->c->model, v->c->run->patterns, 0, &pattern, f)
-            : assemble_pattern(v->c->model, v->c->run->patterns, 0, &pattern, f));
+            : assemble_pattern_at_rest(v->c->model, v->c->run->patterns, 1, 0, &pattern, f));
     const sparse *const from[] = {&v->K, &v->M, &v->C, &v->B};
     sparse *const to[] = {&m->K, &m->M, &m->C, &m->B};
     for (int i = 0; i < 4; i++) {
@@ -260,8 +260,22 @@ static status find(vibration *v, harmonic_modes *m, int wanted, fault *f)
     return all ? all_modes(v, m, f) : first_modes(v, m, wanted, f);
 }
 
+/* Projections on modes are symmetric. */
+static status check_damping(const vibration *v, fault *f)
+{
+    const scene *s = v->c->scene;
+    for (int i = 0; i < s->springs && s->analysis[v->analysis].by_modes; i++)
+        if (scene_spring_gyrates(&s->spring[i]))
+            return fault_set(f, STATUS_REFUSED,
+                             "a solution by modes needs symmetric damping, and that of %s is "
+                             "unsymmetric; remove 'solution'",
+                             scene_called(s, SCENE_SPRINGS, i).text);
+    return STATUS_OK;
+}
+
 status harmonic_modes_find(vibration *v, fault *f)
 {
+    TRY(check_damping(v, f));
     v->modes = calloc(1, sizeof *v->modes);
     if (v->modes == NULL)
         return no_memory(f);
@@ -280,12 +294,100 @@ static status take_frequencies(const harmonic_modes *m, int *count, double **her
     return STATUS_OK;
 }
 
+/* Frequencies of damped modes. K unsymmetric, or gyroscopic damping: those without damping, if
+ * there are any, may be far from all peaks. */
+static status find_damped(vibration *v, harmonic_modes *m, double below, unsymmetric_result *r,
+                          fault *f)
+{
+    fault why = {""};
+    m->n = v->free;
+    TRY(free_blocks(v, m, f));
+    TRY(factor_alloc(&m->K, &m->factor, f));
+    v->c->run->counters.factorisations++;
+    if (factor_numeric(m->factor, &m->K, &why) != STATUS_OK)
+        return STATUS_OK;
+    for (int wanted = 16, enough = 0; !enough; wanted *= 4) {
+        const unsymmetric_problem p = {.K = &m->K,
+                                       .M = &m->M,
+                                       .C = v->damped ? &m->C : NULL,
+                                       .K_factor = m->factor,
+                                       .wanted = wanted,
+                                       .decaying = v->damped};
+        unsymmetric_free(r);
+        const status found = unsymmetric_solve(&p, r, &why);
+        v->c->run->counters.solutions += r->solutions;
+        if (found == STATUS_FAULT)
+            return fault_set(f, found, "%s", why.text);
+        enough = found != STATUS_OK || r->count < wanted ||
+                 hypot(r->growth[r->count - 1], r->frequency[r->count - 1]) > 2 * PI * below;
+    }
+    return STATUS_OK;
+}
+
+static status damped_frequencies(vibration *v, double below, int *count, double **hertz, fault *f)
+{
+    harmonic_modes *m = calloc(1, sizeof *m);
+    unsymmetric_result r = {0};
+    status outcome = m != NULL ? find_damped(v, m, below, &r, f) : no_memory(f);
+    *hertz = calloc((size_t)r.count + 1, sizeof **hertz);
+    for (int i = 0; *hertz != NULL && i < r.count; i++) {
+        int at = *count;
+        if (r.frequency[i] <= 0)
+            continue;
+        for (; at > 0 && (*hertz)[at - 1] > r.frequency[i] / (2 * PI); at--)
+            (*hertz)[at] = (*hertz)[at - 1];
+        (*hertz)[at] = r.frequency[i] / (2 * PI);
+        ++*count;
+    }
+    if (outcome == STATUS_OK && *hertz == NULL)
+        outcome = no_memory(f);
+    unsymmetric_free(&r);
+    harmonic_modes_free(m);
+    return outcome;
+}
+
+status harmonic_judge_springs(vibration *v, double below, fault *f)
+{
+    const scene *s = v->c->scene;
+    harmonic_modes *m = NULL;
+    unsymmetric_result r = {0};
+    int circulates = 0;
+    double growth = 0;
+    for (int i = 0; i < s->springs; i++)
+        circulates |= scene_spring_circulates(&s->spring[i]);
+    if (!circulates || s->analysis[v->analysis].by_modes)
+        return STATUS_OK;
+    m = calloc(1, sizeof *m);
+    const status outcome = m != NULL ? find_damped(v, m, below, &r, f) : no_memory(f);
+    for (int i = 0; i < r.count; i++)
+        if (r.growth[i] > 1e-9 * r.frequency[i])
+            growth = fmax(growth, r.growth[i]);
+    unsymmetric_free(&r);
+    harmonic_modes_free(m);
+    if (outcome != STATUS_OK || growth == 0)
+        return outcome;
+    return fault_set(f, STATUS_REFUSED,
+                     "nothing vibrates steadily, because a mode grows with %.4g 1/s: see modal: "
+                     "{damped: yes}; add damping, or make cross terms of springs smaller",
+                     growth);
+}
+
+static int is_unsymmetric(const scene *s)
+{
+    for (int i = 0; i < s->springs; i++)
+        if (scene_spring_circulates(&s->spring[i]) || scene_spring_gyrates(&s->spring[i]))
+            return 1;
+    return 0;
+}
+
 status harmonic_natural(vibration *v, double below, int *count, double **hertz, fault *f)
 {
     const double square = pow(2 * PI * below, 2);
     status outcome = STATUS_OK;
     *count = 0;
     *hertz = NULL;
+    if (is_unsymmetric(v->c->scene))
+        return damped_frequencies(v, below, count, hertz, f);
     for (int wanted = 16, enough = 0; outcome == STATUS_OK && !enough; wanted *= 4) {
         fault why = {""};
         harmonic_modes *m = calloc(1, sizeof *m);

@@ -89,7 +89,7 @@ static void apply_damped_transposed(void *context, const double in[], double out
     for (int i = 0; i < s->n; i++)
         s->x[i] = in[i] * s->scale[i];
     solve(s, 1, s->x);
-    sparse_mul(s->p->C, s->x, s->y);
+    sparse_mul_transposed(s->p->C, s->x, s->y);
     for (int i = 0; i < s->n; i++)
         out[i] = -s->y[i] / s->scale[i];
     sparse_mul(s->p->M, s->x, s->y);

@@ -476,6 +476,17 @@ void dashpots_rates(const model *m, const model_state *s, const double dx[], dou
     }
 }
 
+double spring_circulated(const model *m, int spring, const double d[6], const double change[6])
+{
+    const double *K = numbered(m, spring)->spring->stiffness;
+    double sum = 0;
+    for (int a = 0; a < SPRING_STRAINS; a++)
+        for (int b = 0; b < a; b++)
+            sum += (K[SPRING_STRAINS * a + b] - K[SPRING_STRAINS * b + a]) / 2 *
+                   (change[a] * d[b] - change[b] * d[a]);
+    return sum;
+}
+
 double dashpots_power(const model *m, const double rate[])
 {
     double sum = 0;

@@ -4,11 +4,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Are there springs that are not symmetric? damped: or dashpots. */
+static int has_unsymmetric(const model *m, int damped)
+{
+    for (int i = 0; i < m->scene->springs; i++)
+        if (scene_spring_circulates(&m->scene->spring[i]) ||
+            (damped && scene_spring_gyrates(&m->scene->spring[i])))
+            return 1;
+    return 0;
+}
+
 /* Dead moments about fixed axes (loads or reactions) and follower loads: their tangents are stored
  * as full matrices, because symmetry depends on the state. */
 int assemble_symmetric(const model *m)
 {
-    int whole = 0;
+    int whole = has_unsymmetric(m, 1);
     for (int i = 0; i < m->scene->nodes; i++)
         whole |= coordinates_held_turn(m, i) != NONE;
     for (int i = 0; i < m->scene->loads; i++)
@@ -306,6 +316,13 @@ status assemble_pattern_of_states(const model *m, assemble_patterns *all, int wi
     if (assemble_symmetric(m))
         return assemble_pattern(m, all, with_driven, out, f);
     return make(m, all, with_driven ? WHOLE_WITH_DRIVEN : WHOLE, out, f);
+}
+
+status assemble_pattern_at_rest(const model *m, assemble_patterns *all, int damped, int with_driven,
+                                const sparse **out, fault *f)
+{
+    return has_unsymmetric(m, damped) ? assemble_pattern_of_states(m, all, with_driven, out, f)
+                                      : assemble_pattern(m, all, with_driven, out, f);
 }
 
 status assemble_pattern_in_time(const model *m, assemble_patterns *all, const sparse **out,

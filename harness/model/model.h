@@ -125,7 +125,10 @@ status assemble_pattern(const model *, assemble_patterns *, int with_driven, con
  * whether such a matrix is symmetric is then decided by its numbers. */
 status assemble_pattern_of_states(const model *, assemble_patterns *, int with_driven,
                                   const sparse **out, fault *f);
-/* 0: a load or a support may make tangents unsymmetric. */
+/* Of the undeformed state, whole where springs are not symmetric, or with `damped` dashpots. */
+status assemble_pattern_at_rest(const model *, assemble_patterns *, int damped, int with_driven,
+                                const sparse **out, fault *f);
+/* 0: a load, a spring or a support may make tangents unsymmetric. */
 int assemble_symmetric(const model *);
 /* Free x free, always stored unsymmetric: for motions; rotating masses have unsymmetric tangents.
  */
@@ -502,6 +505,9 @@ double discrete_material_rounding(const model *, const model_state *, const doub
 void dashpots_deformations(const model *, const model_state *, double d[]);
 void dashpots_rates(const model *, const model_state *, const double dx[], double rate[]);
 double dashpots_power(const model *, const double rate[]);
+/* What a spring whose forces have no potential takes up, beyond its energy, while its deformations
+ * d change by `change`: change . (K - K^T)/2 d; 0 for most. */
+double spring_circulated(const model *, int spring, const double d[6], const double change[6]);
 void dashpots_add_forces(const model *, const model_state *, const double rate[], double out[]);
 void dashpots_node_force(const model *, const model_state *, const double rate[], int node,
                          double F[6]);

@@ -306,7 +306,7 @@ double linear_geometric_rounding(const equations *eq, const double load_x[], con
 static status allocate(const analysis_context *c, linear_system *out, fault *f)
 {
     const sparse *pattern;
-    TRY(assemble_pattern(c->model, c->run->patterns, 0, &pattern, f));
+    TRY(assemble_pattern_at_rest(c->model, c->run->patterns, 0, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &out->K, f));
     return factor_alloc(pattern, &out->factor, f);
 }

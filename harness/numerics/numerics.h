@@ -28,7 +28,8 @@ void sparse_zero(sparse *a);
 void sparse_copy_leading(const sparse *whole, sparse *leading);
 /* Entry (j, j); 0 where none is stored. */
 double sparse_diagonal(const sparse *a, int j);
-void sparse_mul(const sparse *a, const double x[], double y[]); /* y = A x */
+void sparse_mul(const sparse *a, const double x[], double y[]);            /* y = A x */
+void sparse_mul_transposed(const sparse *a, const double x[], double y[]); /* y = A^T x */
 /* Change of x^T A y when all terms are rounded in the same direction; A is symmetric, or skew with
  * its upper triangle stored. */
 double sparse_rounding(const sparse *a, const double x[], const double y[]);

@@ -67,6 +67,19 @@ void sparse_mul(const sparse *a, const double x[], double y[])
             y[a->row[k]] += a->value[k] * x[j];
 }
 
+void sparse_mul_transposed(const sparse *a, const double x[], double y[])
+{
+    if (a->symmetric) {
+        sparse_mul(a, x, y);
+        return;
+    }
+    for (int j = 0; j < a->n; j++) {
+        y[j] = 0;
+        for (int k = a->column[j]; k < a->column[j + 1]; k++)
+            y[j] += a->value[k] * x[a->row[k]];
+    }
+}
+
 double sparse_rounding(const sparse *a, const double x[], const double y[])
 {
     double sum = 0;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "cases/scene/scene.h"
 #include "elements/math/vec3.h"
 
 typedef struct alpha {
@@ -60,6 +61,24 @@ static void relate_strains(alpha *s, const instant *from, double h, instant *to)
     damping_follow(&s->stage.c->eq, g, to->strain, from->state);
 }
 
+/* Taken up by springs without a potential. */
+static double circulated(const model *m, const model_state *from, const model_state *to)
+{
+    double sum = 0;
+    for (int i = 0; i < model_scene(m)->springs; i++) {
+        double d[SPRING_STRAINS], change[SPRING_STRAINS],
+            J[SPRING_STRAINS * ELEMENT_MAX_COORDINATES];
+        if (!scene_spring_circulates(&model_scene(m)->spring[i]))
+            continue;
+        dashpots_strains(m, from, i, d, J);
+        dashpots_strains(m, to, i, change, J);
+        for (int k = 0; k < SPRING_STRAINS; k++)
+            change[k] -= d[k];
+        sum += spring_circulated(m, i, d, change);
+    }
+    return sum;
+}
+
 /* Strain rates at the end, and the energy dissipated with the mean rates: without inertia, rates at
  * the ends of steps oscillate about their mean. */
 static void damp(alpha *s, const instant *from, double h, instant *to)
@@ -67,10 +86,11 @@ static void damp(alpha *s, const instant *from, double h, instant *to)
     const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);
     const model *m = s->stage.c->model;
     const carried_masses *masses = s->stage.masses;
-    to->dissipated =
-        from->dissipated + h / 2 *
-                               (inertia_damping_power(m, masses, from->state, from->v) +
-                                inertia_damping_power(m, masses, to->state, to->v));
+    to->dissipated = from->dissipated +
+                     h / 2 *
+                         (inertia_damping_power(m, masses, from->state, from->v) +
+                          inertia_damping_power(m, masses, to->state, to->v)) +
+                     circulated(m, from->state, to->state);
     if (s->strains == 0)
         return;
     const double *e0 = s->stage.c->run->damping->from, *e1 = s->mean;

@@ -404,7 +404,8 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
     TRY(linearise_state(&s->of.c->eq, &s->of.c->run->memory, s->at->state, &lin, f));
     memset(s->at->a, 0, (size_t)s->free * sizeof *s->at->a);
     inertia_subtract(m, s->of.masses, s->at->state, s->at->v, s->at->a, s->residual);
-    s->power = dashpots_subtract(m, s->at->state, s->at->v, s->of.work->dashpots, s->residual);
+    s->power = dashpots_subtract(m, s->at->state, s->at->v, s->of.work->dashpots, s->residual) +
+               springs_circulating_power(m, s->at->state, s->at->v, s->of.work->dashpots);
     return explicit_accelerate(m, s->of.masses, s->at->state, s->at->v, s->residual, s->at->a, f);
 }
 

@@ -460,9 +460,33 @@ static void sum_strains(const radau *r, const instant *from, const double weight
     }
 }
 
+/* Taken up in a step by springs without a potential. */
+static double circulated(const radau *r, const instant *from)
+{
+    enum { SIX = SPRING_STRAINS };
+    const model *m = r->of.c->model;
+    double sum = 0;
+    for (int i = 0; i < model_scene(m)->springs; i++) {
+        double begin[SIX], d[STAGES][SIX], J[SIX * ELEMENT_MAX_COORDINATES];
+        if (!scene_spring_circulates(&model_scene(m)->spring[i]))
+            continue;
+        dashpots_strains(m, from->state, i, begin, J);
+        for (int j = 0; j < STAGES; j++)
+            dashpots_strains(m, r->stage[j].state, i, d[j], J);
+        for (int j = 0; j < STAGES; j++) {
+            double change[SIX] = {0};
+            for (int l = 0; l < STAGES; l++)
+                for (int k = 0; k < SIX; k++)
+                    change[k] += r->B[STAGES * j + l] * (d[l][k] - begin[k]);
+            sum += r->weights[j] * spring_circulated(m, i, d[j], change);
+        }
+    }
+    return sum;
+}
+
 double radau_dissipated(const radau *r, const instant *from, double h, double room[])
 {
-    double sum = 0;
+    double sum = circulated(r, from);
     for (int i = 0; i < STAGES; i++)
         sum +=
             h * r->weights[i] *

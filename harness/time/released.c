@@ -352,6 +352,23 @@ double dashpots_subtract(const model *m, const model_state *s, const double v[],
     return dashpots_power(m, rate);
 }
 
+double springs_circulating_power(const model *m, const model_state *s, const double v[],
+                                 double room[])
+{
+    const double *rate = NULL;
+    double sum = 0;
+    for (int i = 0; i < model_scene(m)->springs; i++) {
+        double d[SPRING_STRAINS], J[SPRING_STRAINS * ELEMENT_MAX_COORDINATES];
+        if (!scene_spring_circulates(&model_scene(m)->spring[i]))
+            continue;
+        if (rate == NULL)
+            rate = rates_of_dashpots(m, s, v, room);
+        dashpots_strains(m, s, i, d, J);
+        sum += spring_circulated(m, i, d, rate + (ptrdiff_t)SPRING_STRAINS * i);
+    }
+    return sum;
+}
+
 status dashpots_at_node(const model *m, const model_state *s, const double v[], int node,
                         double F[6], fault *f)
 {

@@ -64,6 +64,9 @@ status damping_rates(const model *, const model_state *, const double v[], doubl
 size_t dashpots_room(const model *);
 double dashpots_subtract(const model *, const model_state *, const double v[], double room[],
                          double out[]);
+/* Power taken up by springs without a potential [W]; room as above. */
+double springs_circulating_power(const model *, const model_state *, const double v[],
+                                 double room[]);
 /* Adds the force of dashpots to F[6] on the frame of a node. */
 status dashpots_at_node(const model *, const model_state *, const double v[], int node, double F[6],
                         fault *);

@@ -239,6 +239,14 @@ static void add(scene *s, const char *name)
         for (int i = 0; i < 6; i++)
             c[7 * i] = 20 * (i + 1);
         scene_damp_spring(s, scene_add_spring(s, SCENE_NONE, TIP, none), c);
+    } else if (IS("unsymmetric spring") || IS("unsymmetric dashpot")) {
+        const double none[36] = {0}, times = IS("unsymmetric spring") ? 1e4 : 20;
+        double k[36] = {[8] = -0.4 * times, [13] = 0.3 * times};
+        for (int i = 0; i < 6; i++)
+            k[7 * i] = times * (i + 1);
+        const int i = scene_add_spring(s, SCENE_NONE, TIP, times > 20 ? k : none);
+        if (times == 20)
+            scene_damp_spring(s, i, k);
     } else if (IS("feedback")) {
         const int load = scene_add_load(s, SCENE_FORCE, TIP, 0, 1, 0);
         scene_load_at(s, load)->feedback =

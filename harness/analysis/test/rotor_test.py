@@ -1,4 +1,5 @@
-"""Rotors: a heavy disc on a light shaft, and whether a state that turns is stable."""
+"""Rotors: a heavy disc on a light shaft, and whether a state that turns is stable; bearings with cross terms."""
+import cmath
 import math
 import re
 import unittest
@@ -264,6 +265,174 @@ class Rotors(ProgramTest):
             scene = scene.replace("frequency: {analysis: r, which: n}, unit: Hz",
                                   "displacement: {analysis: r, node: disc, component: uy}")
             self.assertEqual(self.stability(scene), said, part)
+
+
+def across(a, b, c, d):
+    """36 entries with a, b; c, d between uy and uz."""
+    rows = [[0]*6 for _ in range(6)]
+    rows[1][1:3], rows[2][1:3] = (a, b), (c, d)
+    return sum(rows, [])
+
+
+# A disc at the middle of a shaft without mass, on two bearings; its ends tilt freely.
+JOURNAL = """beamwork: 1
+sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
+nodes:
+  left:  {at: [0, 0, 0], hold: [ux, rx]}
+  disc:  {at: [0.5, 0, 0], mass: 10}
+  right: {at: [1, 0, 0]}
+members:
+  first:  {from: left, to: disc, section: s, y: [0, 1, 0]}
+  second: {from: disc, to: right, section: s, y: [0, 1, 0]}
+springs:
+  a: {to: left, stiffness: %(stiffness)s, damping: %(damping)s}
+  b: {to: right, stiffness: %(stiffness)s, damping: %(damping)s}
+loads: {weight: {force: [0, 0, -98.1], on: disc}}
+analyses: {%(analyses)s}
+quantities: {%(quantities)s}
+omit: [shear]
+"""
+BEARING, FILM, SHAFT_STIFFNESS = (3e5, 2e5, -4e4, 2e5), (1600, 250, 150, 1500), 48*200e9*8e-9
+RESPONSES = ", ".join(f"{part}_{o}{i}: {{response: {{analysis: A, node: disc, component: {o}, force: disc, along: {i}, "
+                      f"part: {part}, at: 9}}}}" for o in ("uy", "uz") for i in ("uy", "uz")
+                      for part in ("real", "imaginary"))
+# A disc that does not tilt on a shaft in a fluid film: 192 E I/L^3.
+DAMPED = """beamwork: 1
+sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
+nodes:
+  left:  {at: [0, 0, 0], hold: all}
+  disc:  {at: [0.5, 0, 0], mass: 10, hold: [ux, rx, ry, rz]}
+  right: {at: [1, 0, 0], hold: all}
+members:
+  first:  {from: left, to: disc, section: s, y: [0, 1, 0]}
+  second: {from: disc, to: right, section: s, y: [0, 1, 0]}
+springs: {film: {to: disc, stiffness: %(stiffness)s, damping: %(damping)s}}
+analyses: {%(analyses)s}
+quantities: {%(quantities)s}
+omit: [shear, rotary_inertia]
+"""
+
+
+def dynamic(s):
+    """[a, b, c, d] of the disc's coordinates, without those of the bearings."""
+    k = SHAFT_STIFFNESS
+    a, b, c, d = (2*x + s*2*y for x, y in zip(BEARING, FILM))
+    a, d = a + k, d + k
+    det = a*d - b*c
+    return k - k*k*d/det + 10*s*s, k*k*b/det, k*k*c/det, k - k*k*a/det + 10*s*s
+
+
+class Bearings(ProgramTest):
+    def values(self, scene, n=1, formulation="collocation", **words):
+        path = self.folder/"bearing.yaml"
+        path.write_text(scene % words)
+        done = self.record("solve", "--scene", path, "-f", formulation, "-n", n)
+        return {q["quantity"]: q["value"] for q in done["quantities"]}
+
+    def told(self, scene, **words):
+        path = self.folder/"bearing.yaml"
+        path.write_text(scene % words)
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", 1)
+        return done.returncode, " ".join((done.stdout + done.stderr).split())
+
+    def test_journal(self):
+        """Damped modes make the determinant vanish, and responses are its inverse."""
+        for formulation in ("collocation", "geometrically_exact", "beamw"):
+            got = self.values(JOURNAL, 2, formulation, stiffness=across(*BEARING), damping=across(*FILM),
+                              analyses="d: {modal: {damped: yes}}, A: {harmonic: {frequencies: [9]}}, L: {linear: {}}",
+                              quantities=RESPONSES + ", " + ", ".join(
+                                  f"{q}{i}: {{{q}: {{analysis: d, which: {i}}}}}"
+                                  for q in ("frequency", "damping_ratio") for i in (0, 1)) +
+                              ", y: {displacement: {analysis: L, node: disc, component: uy}}")
+            for i in (0, 1):
+                ratio, w = got[f"damping_ratio{i}"], 2*math.pi*got[f"frequency{i}"]
+                a, b, c, d = dynamic(w*complex(-ratio/math.sqrt(1 - ratio**2), 1))
+                self.assertLess(abs(a*d - b*c), 1e-7*SHAFT_STIFFNESS**2, (formulation, i))
+            a, b, c, d = dynamic(2j*math.pi*9)
+            for name, right in zip(("uyuy", "uyuz", "uzuy", "uzuz"), (d, -b, -c, a)):
+                found = complex(got[f"real_{name}"], got[f"imaginary_{name}"])
+                self.assertLess(abs(found/(right/(a*d - b*c)) - 1), 1e-7, (formulation, name))
+            a, b, c, d = dynamic(0)
+            self.assertLess(abs(got["y"]/(98.1*b/(a*d - b*c)) - 1), 1e-7)
+
+    def test_onset(self):
+        """Cross stiffness q and damping c: the whirl grows from q = c w on, and then nothing vibrates steadily."""
+        stiffness, damping = 192*200e9*8e-9, 40
+        onset = damping*math.sqrt(stiffness/10)
+        for part in (0.999, 1.001):
+            words = {"stiffness": across(0, part*onset, -part*onset, 0), "damping": across(damping, 0, 0, damping)}
+            got = self.values(DAMPED, analyses="d: {modal: {damped: yes}}",
+                              quantities="z: {damping_ratio: {analysis: d}}", **words)
+            self.assertEqual(got["z"] > 0, part < 1)
+            code, told = self.told(DAMPED, analyses="A: {harmonic: {frequencies: [9]}}", quantities=RESPONSES, **words)
+            self.assertEqual((code != 0, "a mode grows with" in told), (part > 1, part > 1), told)
+
+    def test_motion(self):
+        """z = y + i u from a velocity: m z'' + (c - i g) z' + (K - i q) z = 0, and what films supply."""
+        m, K, q, c, g, t = 10, 192*200e9*8e-9 + 1e5, 3e4, 300, 900, 0.03
+        half = complex(c, -g)/(2*m)
+        root = cmath.sqrt(half**2 - complex(K, -q)/m)
+        z = 1e-6*cmath.exp(-half*t)*cmath.sinh(root*t)/root
+        rate = 1e-6*cmath.exp(-half*t)*(cmath.cosh(root*t) - half*cmath.sinh(root*t)/root)
+        energy = (m*abs(rate)**2 + K*abs(z)**2)/2
+        for integrator, step, within in (("radau", 5e-4, 1e-6), ("alpha", 1e-5, 1e-4), ("explicit", 5e-4, 1e-6)):
+            got = self.values(DAMPED, stiffness=across(1e5, q, -q, 1e5), damping=across(c, g, -g, c),
+                              analyses=f"r: {{motion: {{stations: [{t}], step: {step}, integrator: {integrator}, start: "
+                              "{velocity: [0, 1e-6, 0]}}}",
+                              quantities="y: {displacement: {analysis: r, node: disc, component: uy}}, "
+                              "u: {displacement: {analysis: r, node: disc, component: uz}}, "
+                              "lost: {energy: {analysis: r, of: dissipated}}")
+            self.assertLess(abs(complex(got["y"], got["u"])/z - 1), within, integrator)
+            self.assertLess(abs(got["lost"]/(m*1e-12/2 - energy) - 1), within, integrator)
+
+    def test_part(self):
+        """A part that is turned turns the matrix with it."""
+        part = """beamwork: 1
+sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
+parts:
+  rotor:
+    places: [end]
+    nodes: {disc: {at: [0.5, 0, 0]}}
+    members: {shaft: {from: end, to: disc, section: s, y: [0, 1, 0]}}
+    springs: {film: {to: disc, stiffness: %(stiffness)s}}
+nodes: {wall: {at: [0, 0, 0], hold: all}}
+instances: {one: {part: rotor, at: [0, 0, 0], turn: {x: %(turn)s}, connect: {end: wall}}}
+loads: {push: {force: [0, 1, 0], on: one.disc}}
+analyses: {L: {linear: {}}}
+quantities:
+  y: {displacement: {analysis: L, node: one.disc, component: uy}}
+  z: {displacement: {analysis: L, node: one.disc, component: uz}}
+omit: [shear]
+"""
+        c, s = math.cos(0.5), math.sin(0.5)
+        k = ((3e4, 2e4), (-1e4, 2e4))
+        R = ((c, -s), (s, c))
+        turned = [sum(R[i][a]*k[a][b]*R[j][b] for a in (0, 1) for b in (0, 1)) for i in (0, 1) for j in (0, 1)]
+        by_part = self.values(part, stiffness=across(*k[0], *k[1]), turn=0.5)
+        in_scene = self.values(part, stiffness=across(*turned), turn=0)
+        for name in ("y", "z"):
+            self.assertLess(abs(by_part[name]/in_scene[name] - 1), 1e-9)
+
+    def test_refused(self):
+        """Analyses that need a potential name the spring, and what to use."""
+        words = {"stiffness": across(*BEARING), "damping": across(*FILM)}
+        for analyses, quantities, said in (
+                ("m: {modal: {}}", "f: {frequency: {analysis: m}}", "analysis m (modal) and spring a (unsymmetric spring): "
+                 "it has no potential"),
+                ("b: {buckling: {}}", "f: {critical_factor: {analysis: b}}", "it has no potential"),
+                ("r: {rotation: {omega: [9, 0, 0], stations: [1]}}",
+                 "f: {displacement: {analysis: r, node: disc, component: uy}}", "it has no potential"),
+                ("A: {harmonic: {frequencies: [9], solution: modal}}", RESPONSES, "remove 'solution'"),
+                ("c: {motion: {stations: [0.1], step: 1e-3, integrator: conserving}}",
+                 "f: {displacement: {analysis: c, node: disc, component: uy}}", "spring a has a stiffness that is not "
+                 "symmetric")):
+            code, told = self.told(JOURNAL, analyses=analyses, quantities=quantities, **words)
+            self.assertNotEqual(code, 0, analyses)
+            self.assertIn(said, told)
+        words["stiffness"] = [1e5]*6
+        code, told = self.told(JOURNAL, analyses="A: {harmonic: {frequencies: [9], solution: modal}}",
+                               quantities=RESPONSES, **words)
+        self.assertIn("that of spring a is unsymmetric; remove 'solution'", told)
 
 
 if __name__ == "__main__":
