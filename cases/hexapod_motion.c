@@ -52,7 +52,7 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_hexapod_motion = {
     .name = "hexapod_motion",
     .summary = "flexure hexapod of twelve spherical joints driven through its stroke",
-    .source = "after N section 4.3; sizes, masses and time are beamwork's",
+    .source = "after N section 4.3, with sizes, masses and a duration chosen here",
     .parameters = {joint_parameters, hexapod_parameters, timed, case_mass_omit},
     .build = build,
 };

@@ -61,7 +61,7 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_spherical_joint_motion = {
     .name = "spherical_joint_motion",
     .summary = "spherical flexure joint driven through its tilt in half a second",
-    .source = "after N section 4.2; masses and time are beamwork's",
+    .source = "after N section 4.2, with masses and a duration chosen here",
     .parameters = {joint_parameters, timed, case_mass_omit},
     .build = build,
 };

@@ -184,7 +184,7 @@ const extreme extremes[] = {
     {"stiff_pendulum", "EA in motion", "elongation and shear of a swinging rubber rod a million times as stiff",
      "pendulum", "time=0.25",
      {{"stiffening", 0, 1, 1}},
-     {{"tip_x", 0}, {"tip_y", 0}}, "EA and GA over those of rubber", "1", EXTREME_PARAMETERS,
+     {{"tip_x", 0}, {"tip_y", 0}}, "EA and GA relative to those of rubber", "1", EXTREME_PARAMETERS,
      8, 2, {1, 1e6}, EXTREME_EXACT, 0, 5e-3},
     {"stiff_release", "EA in motion", "axial to bending stiffness of a released cantilever",
      "release", "",

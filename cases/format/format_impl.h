@@ -39,8 +39,8 @@ const scope *scope_constants(const scope *names, const char *name, const double 
 const scope *scope_find(const scope *names, const char *name, size_t length);
 /* Known name, constant or function nearest to a misspelt one, or NULL. */
 const char *scope_nearest(const scope *names, const char *name);
-/* Can `key` be a new name: a letter, then letters, digits and _, not used by another name or a
- * function? Reports an error otherwise. */
+/* Can `key` be a new name: a letter, then letters, digits and _, at most 40 characters, not used by
+ * another name or a function? Reports an error otherwise. */
 int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 
 /* Builds a scene from a checked tree and values of its parameters. */
@@ -160,7 +160,8 @@ double fields_number(const fields *f, const char *key, double otherwise);
 int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
 /* Leaves out[count] unchanged and returns 0 if the key is missing. */
 int fields_vector(const fields *f, const char *key, int count, double out[]);
-/* A list or range: returns the count, 0 if the key is missing; *out belongs to the arena. */
+/* A list or range: returns the count; 0 if the key is missing or after an error; *out belongs to
+ * the arena. */
 int fields_values(const fields *f, const char *key, double **out);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);
 /* Index in "a|b|c" of a word, or of the word that a parameter of that name has. */
@@ -261,7 +262,7 @@ extern const entry_field keys_loop[];
 int keys_loops(const entry_field *table);
 /* Is it one of them? */
 int keys_is_loop(const char *name);
-/* Of a table whose entries have any names as keys: that of their values; NULL: it is another one.
+/* For a table whose keys are arbitrary names, the table of its values; NULL for any other table.
  */
 const entry_field *keys_any(const entry_field *table);
 

@@ -57,13 +57,13 @@ const entry_field keys_part[] = {
      .left_out = "none"},
     {"nodes", ENTRY_ENTRIES, .below = entry_node, .summary = "NAME is INSTANCE.NAME in the scene",
      .left_out = "none"},
-    {"members", ENTRY_ENTRIES, .below = entry_member, .summary = "between nodes or places",
+    {"members", ENTRY_ENTRIES, .below = entry_member, .summary = "members between nodes or ports",
      .left_out = "none"},
     {"springs", ENTRY_ENTRIES, .below = entry_spring, .summary = "in the part's axes",
      .left_out = "none"},
     {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "in the part's axes",
      .left_out = "none"},
-    {"places", ENTRY_FORMS, .summary = "[NAME, ...]: nodes of the scene that instances connect",
+    {"places", ENTRY_FORMS, .summary = "[NAME, ...]: ports that each instance connects to nodes",
      .left_out = "none"},
     {.name = NULL}};
 
@@ -148,8 +148,8 @@ const entry_field keys_root[] = {
      .summary = "plane in which all nodes, including those of the mesh, are held",
      .left_out = "none"},
     {"omit", ENTRY_FORMS, .words = PHYSICS "|all|none",
-     .summary = "omitted physics: a word, a list of words, or {WORD: yes, WORD: {NAME: VALUE}} "
-                "with the values that names take if it is omitted",
+     .summary = "omitted physics: a word, a list of words, or a map {WORD: yes, WORD: {NAME: "
+                "VALUE}}: WORD is then omitted only where parameter NAME has this VALUE",
      .left_out = "none: all physics that sections, loads and analyses require is on"},
     {"shear_theory", ENTRY_WORD, .words = "haringx|engesser|own",
      .summary = "theory of shear in stability; own: that of each formulation", .usual = "haringx"},

@@ -227,7 +227,7 @@ static int is_omitted(const fields *f, const document_node *n)
     if (n->kind == DOCUMENT_TEXT && strcmp(n->text, "yes") == 0)
         return 1;
     document_mistake(f->b->mistakes, n, 0,
-                     "give yes, or the values that names take if it is omitted: {NAME: VALUE}");
+                     "give yes, or the parameter values for which it is omitted: {NAME: VALUE}");
     return 0;
 }
 

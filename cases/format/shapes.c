@@ -288,7 +288,7 @@ static void add_rolled_i(section_spec *spec, const rolled *p, double mm)
     give(&spec->given.Iw, tf * b * b * b * middle * middle / 24);
 }
 
-/* Area, its place and its moments about its own centroid. */
+/* An area, the position of its centroid, and its second moments about the centroid. */
 typedef struct patch {
     double area, y, z, Iy, Iz, Iyz;
 } patch;

@@ -302,7 +302,8 @@ static void check_ports(const document_node *part, const unrolled *instance, con
         document_mistake(m, places, 0, "places: a list of names is expected");
     else if (p->connect != NULL && p->connect->count > connected)
         document_mistake(m, p->connect, 0,
-                         "the part has %d places, but %d are connected; connect only the former",
+                         "the part has %d ports ('places'), but %d are connected; connect only the "
+                         "ports of the part",
                          ports, p->connect->count);
 }
 

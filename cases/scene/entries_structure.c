@@ -81,8 +81,8 @@ static const entry_field release[] = {
                 "rz] a ball joint",
      .usual = "[]"},
     {"to", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
-     .summary = "likewise; with two rotations the first axis is fixed to the node, the second to "
-                "the member",
+     .summary = "released components at that end; of two rotations, the first axis moves with the "
+                "node and the second with the member",
      .usual = "[]"},
     {.name = NULL}};
 
@@ -250,13 +250,13 @@ const entry_field entry_constraint[] = {
     {"components", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
      .summary = "of 'equal', along the nodes' axes; all of rx, ry and rz, or one where the others "
                 "are held",
-     .left_out = "for 'equal' required"},
+     .left_out = "required with 'equal'"},
     {"node", ENTRY_NAME, .summary = "one whose component is 'ratio' times that of another",
      .left_out = "none, with 'equal'"},
     {"component", ENTRY_WORD, .words = ENTRY_COMPONENTS,
      .summary = "of both, along their axes; a turn where the others are held",
      .left_out = "none, with 'equal'"},
-    {"ratio", ENTRY_NUMBER, .unit = "1", .summary = "may be negative, not 0",
+    {"ratio", ENTRY_NUMBER, .unit = "1", .summary = "nonzero; may be negative",
      .left_out = "1, with 'equal'"},
     {"of", ENTRY_NAME, .summary = "the other node", .left_out = "none, with 'equal'"},
     {"diaphragm", ENTRY_FORMS,

@@ -92,8 +92,9 @@ status scene_validate_imperfections(const scene *s, fault *f)
         TRY(s->imperfection[i].analysis != SCENE_NONE ? check_mode(s, i, f)
                                                       : check_shifts(s, i, f));
     return used ? STATUS_OK
-                : fault_set(f, STATUS_REFUSED,
-                            "%s: no analysis has it: its mode is that of the perfect structure; "
-                            "add an analysis that is not about the same state",
-                            scene_called(s, SCENE_IMPERFECTIONS, 0).text);
+                : fault_set(
+                      f, STATUS_REFUSED,
+                      "%s: no analysis uses this imperfection, because those about the state of "
+                      "its mode use the perfect structure; add an analysis about another state",
+                      scene_called(s, SCENE_IMPERFECTIONS, 0).text);
 }

@@ -1048,8 +1048,8 @@ int scene_add_case(scene *s, const char *name);
 int scene_add_combination(scene *s, const char *name);
 /* A load case more in a combination. */
 void scene_add_term(scene *s, int combination, int load_case, double factor);
-/* Of an analysis, or of that whose state it is about; 0 too: all of them, one after the other
- * (scene_solves_all), or none, of the structure without loads. */
+/* Load case or combination that acts in the analysis, or in its base analysis; 0 also if all of
+ * them act one after the other (scene_solves_all), or none does: the structure without loads. */
 int scene_acting_of(const scene *s, int analysis);
 /* Is it linear, and solves every load case and combination? */
 int scene_solves_all(const scene *s, int analysis);
@@ -1519,7 +1519,7 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
         {"combination",                                                                            \
          ENTRY_NAME,                                                                               \
          .group = 3,                                                                               \
-         .summary = "of load cases, likewise",                                                     \
+         .summary = "combination of load cases, of a linear analysis that solves all",             \
          .left_out = "as given by the analysis",                                                   \
          ENTRY_IN(scene_quantity, acting.combination),                                             \
          .of = SCENE_COMBINATIONS},                                                                \

@@ -40,7 +40,7 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (m->mass == SCENE_CONSISTENT && m->scheme != SCENE_ALPHA && m->scheme != SCENE_RADAU)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the integrator %s has lumped mass only; give mass: lumped, or "
+                         "%s: the integrator %s supports only lumped mass; give mass: lumped, or "
                          "integrator: alpha or radau",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          m->scheme == SCENE_CONSERVING ? "conserving" : "explicit");

@@ -127,7 +127,7 @@ typedef void exact_lanes_loads(const exact_stages *, const exact_along *, int co
 /* For data that begin with exact_stages. */
 exact_lanes_strains exact_lanes_stages_strain_plain, exact_lanes_stages_strain_avx2;
 exact_lanes_stresses exact_lanes_stages_stress_plain, exact_lanes_stages_stress_avx2;
-/* For one kind, at most LANES_TOGETHER; as element_type.along. */
+/* As element_type.along, for at most LANES_TOGETHER elements of one kind. */
 exact_lanes_loads exact_lanes_along_plain, exact_lanes_along_avx2;
 
 #endif

@@ -35,7 +35,7 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
 /* Sections given by matrices (elements/section/section.h), dimensionless: the stiffness C of
  * (gamma, kappa), and its mixed form with gamma expressed by the force. */
 
-/* Sets C and mixed of out; EI [N m^2]: the unit. */
+/* Sets out->C and out->mixed, made dimensionless by EI [N m^2]. */
 status beam_coupled_of(const section *profile, double l0, double EI, beam_constants *out, fault *f);
 
 /* Inverse of a symmetric positive definite matrix [n x n], n <= 6. Returns 0, or the number of a

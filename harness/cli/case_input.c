@@ -29,12 +29,12 @@ static status read_either(const verb_option *o, void *member, const char *value,
 
 static const verb_option packed_truths[] = {
     {"truths", 0, "FILE",
-     "packed reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program)",
+     "file of reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program)",
      .traits = OPTION_INPUT},
     {0}};
 static const verb_option own_truths[] = {
     {"truths", 0, "FILE",
-     "packed reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program); a "
+     "file of reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program); a "
      "FILE.csv: "
      "reference values of your own in addition; may be repeated",
      .traits = OPTION_REPEATS | OPTION_INPUT, .read = read_either},

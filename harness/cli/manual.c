@@ -142,7 +142,7 @@ static void write_program_examples(FILE *to, const manual_row *row)
 void manual_write_program(FILE *to, const manual_program *p)
 {
     static const manual_row variables[] = {
-        {"BEAMWORK_TRUTHS", "packed reference values, if --truths does not name them"},
+        {"BEAMWORK_TRUTHS", "file of reference values, if --truths does not name one"},
         {NULL, NULL}};
     static const roff_reference see[] = {
         {"beamwork-results", 5}, {"beamwork-scene", 5}, {"beamwork-element", 7}};

@@ -129,7 +129,8 @@ typedef struct merge_request {
 static const verb_option own[] = {
     {"partial", 0, NULL, "continue without missing batches", IN(on)},
     {"verbose", 'v', NULL, "verify: every limit, not only the overview", IN(on)},
-    {"quiet", 'q', NULL, "print only unexpected verdicts, and the last sentence", IN(on)},
+    {"quiet", 'q', NULL, "print only unexpected verdicts and the final PASS or FAIL sentence",
+     IN(on)},
     {0}};
 static const verb_group shared[] = {SHARED(output, output),
                                     SHARED(format, format),

@@ -286,8 +286,8 @@ static const verb_option own[] = {
      IN(exit_zero), .traits = OPTION_ASIDE},
     {"verbose", 'v', NULL, "print every limit, not only the overview", IN(verbose),
      .traits = OPTION_ASIDE},
-    {"quiet", 'q', NULL, "print only unexpected verdicts, and the last sentence", IN(shards.quiet),
-     .traits = OPTION_ASIDE},
+    {"quiet", 'q', NULL, "print only unexpected verdicts and the final PASS or FAIL sentence",
+     IN(shards.quiet), .traits = OPTION_ASIDE},
     {0}};
 static const verb_group shared[] = {
     SHARED(formulations, chosen),      SHARED(select, select),     SHARED(time_limit, chosen),

@@ -373,8 +373,8 @@ static void two_ways(const specimen *s, const call_account *before, const node_s
     s->type.strain(s->data, x, &(strain_output){.e = e});
     specimen_settled(s, e, inner, &(stress_output){.energy = &energy});
     claims_departs(one, fabs(energy / before->energy - 1),
-                   "stress, update: the energy of the same strains is %.9g J, and %.9g J after "
-                   "other strains; the path must not matter%s",
+                   "stress, update: the same strains have an energy of %.9g J, but %.9g J when "
+                   "evaluated after other strains; it must not depend on the path%s",
                    before->energy, energy, s->words);
 }
 

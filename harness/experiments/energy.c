@@ -266,8 +266,8 @@ static void rotating_check_stiffness(const specimen_place *at, const double stif
                            i + 1, j + 1, specimen_coordinate(i, first),
                            specimen_coordinate(j, other), a, found / (ui * uj), s->words);
             claims_departs(symmetric, claims_share(fabs(a - b) * ui * uj, size),
-                           "inertia: N entry %d, %d is %.6g, and %.6g the other way round%s", i + 1,
-                           j + 1, a, b, s->words);
+                           "inertia: N entry %d, %d is %.6g, but its transposed entry is %.6g%s",
+                           i + 1, j + 1, a, b, s->words);
         }
 }
 
@@ -285,7 +285,7 @@ static void check_skew(const specimen *s, const double G[], claim *one)
                 claims_share(fabs(G[i * n + j] + G[j * n + i]) * chart_unit(i, s->request.length) *
                                  chart_unit(j, s->request.length),
                              size),
-                "inertia: G entry %d, %d is %.6g, and %.6g the other way round; the "
+                "inertia: G entry %d, %d is %.6g, but its transposed entry is %.6g; the "
                 "gyroscopic matrix is skew%s",
                 i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
 }
@@ -341,7 +341,8 @@ static void in_frame(const specimen *s, claims *c)
     own_motion(s, x, &out, c);
 }
 
-/* Centrifugal energy [J] of a uniformly twisted element whose amplitudes are its twist rate. */
+/* Centrifugal energy [J] of a uniformly twisted element whose warping amplitudes equal its twist
+ * rate. */
 static double twisted_energy(const specimen *s, double angle)
 {
     const double ys = s->section.ys, zs = s->section.zs;

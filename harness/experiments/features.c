@@ -303,11 +303,11 @@ static void symmetric(const specimen *s, const double A[], claim *one)
     char first[SPECIMEN_WORDS], other[SPECIMEN_WORDS];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++)
-            claims_departs(one, fabs(A[i * n + j] - A[j * n + i]) / size_of(A, n, i, j),
-                           "inertia: M entry %d, %d (%s, %s) is %.6g, and %.6g the other way "
-                           "round%s",
-                           i + 1, j + 1, specimen_coordinate(i, first),
-                           specimen_coordinate(j, other), A[i * n + j], A[j * n + i], s->words);
+            claims_departs(
+                one, fabs(A[i * n + j] - A[j * n + i]) / size_of(A, n, i, j),
+                "inertia: M entry %d, %d (%s, %s) is %.6g, but its transposed entry is %.6g%s",
+                i + 1, j + 1, specimen_coordinate(i, first), specimen_coordinate(j, other),
+                A[i * n + j], A[j * n + i], s->words);
 }
 
 /* Cholesky's factors of the matrix scaled to ones on its diagonal, and a little more. */

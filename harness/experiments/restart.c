@@ -23,10 +23,9 @@ status restart_possible(const scene *s, fault *f)
     for (int i = 0; i < s->analyses; i++)
         if (s->analysis[i].kind == SCENE_MOTION)
             return STATUS_OK;
-    return fault_set(
-        f, STATUS_REFUSED,
-        "the scene has no motion in time that --save-state could store or --restart continue "
-        "from; remove them, or add an analysis 'motion'");
+    return fault_set(f, STATUS_REFUSED,
+                     "--save-state and --restart need a motion in time, and the scene has none; "
+                     "remove these options, or add an analysis 'motion'");
 }
 
 void restart_free(restart *r)
@@ -63,11 +62,10 @@ static status drop_stations(const outcome_end *e, scene *s, fault *f)
         if (m->path.value[i] > e->time + same_instant * m->step)
             m->path.value[kept++] = m->path.value[i];
     if (kept == 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "the motion continues from %.10g s, and its last station is at %.10g s: give "
-            "it a later one",
-            e->time, last);
+        return fault_set(f, STATUS_REFUSED,
+                         "the motion continues from %.10g s, but its last station is at %.10g s: "
+                         "give it a later one",
+                         e->time, last);
     m->path.stations = kept;
     return STATUS_OK;
 }

@@ -98,9 +98,10 @@ static status refuse_other(const shard_work *w, const char *path, fault *f)
 {
     batch_label label;
     if (batch_read_label(path, &label, NULL) != STATUS_OK)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%.200s: ends in " BATCH_ENDING " and is not a batch of this program; remove it", path);
+        return fault_set(f, STATUS_REFUSED,
+                         "%.200s: its name ends in " BATCH_ENDING
+                         ", but it is not a batch of this program; remove it",
+                         path);
     status outcome = batch_belongs(&label, w, path, f);
     if (outcome == STATUS_OK)
         outcome =

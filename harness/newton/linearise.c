@@ -399,10 +399,11 @@ status linearise_held_have_potential(const equations *eq, const double sigma[], 
     for (int node = 0; node < model_scene(m)->nodes; node++) {
         const int h = coordinates_held_turn(m, node);
         if (h != NONE && linearise_held_moment(eq, kinematics_rest(m), sigma, path, node, h) != 0)
-            return fault_set(f, STATUS_REFUSED,
-                             "the moment that holds %s of %s, which turns freely about two axes "
-                             "across it, has no potential: hold one of them, or follow a path",
-                             turn[h], scene_called(model_scene(m), SCENE_NODES, node).text);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "the moment that holds %s of %s, which is free to rotate about two axes "
+                "perpendicular to it, has no potential: hold one of them, or follow a path",
+                turn[h], scene_called(model_scene(m), SCENE_NODES, node).text);
     }
     return STATUS_OK;
 }

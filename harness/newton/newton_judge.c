@@ -203,11 +203,11 @@ static status judge_elements(const model *m, const model_state *s, fault *f)
         return STATUS_OK;
     const int member = model_element(m, index)->member, first = model_first_element(m, member);
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "element %d of %d of %s is turned by %.3g rad, more than the %s turn that %s "
-                     "follows, at path %g: use more elements or smaller steps",
+                     "element %d of %d of %s is rotated by %.3g rad at path %g; %s is valid only "
+                     "below a %s turn per element: use more elements or smaller steps",
                      index - first + 1, model_first_element(m, member + 1) - first,
-                     scene_called(model_scene(m), SCENE_MEMBERS, member).text, turn,
-                     quarter ? "quarter" : "half", model_type(m)->name, s->path);
+                     scene_called(model_scene(m), SCENE_MEMBERS, member).text, turn, s->path,
+                     model_type(m)->name, quarter ? "quarter" : "half");
 }
 
 /* Is this end of a member free to rotate about both transverse axes? */
@@ -290,10 +290,10 @@ static status judge_springs(const model *m, const model_state *from, const model
         if (turns_swung(turns_of_spring(m, from, i), turn) ||
             across(model_discrete(m, model_discretes(m) - model_springs(m) + i), turn))
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "%s is turned by %.4g rad at path %g: on a full turn about a changing "
-                             "axis, or with a moment across its turn, its rotation vector has no "
-                             "direction; hold its other turns, use smaller steps, or put two in "
-                             "series",
+                             "%s is turned by %.4g rad at path %g: after a full turn about a "
+                             "changing axis, or under a moment perpendicular to its rotation, its "
+                             "rotation vector has no defined direction; hold its other rotations, "
+                             "use smaller steps, or put two springs in series",
                              model_spring_called(m, i).text, vec3_norm(turn), s->path);
     }
     return STATUS_OK;

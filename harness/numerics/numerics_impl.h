@@ -42,7 +42,7 @@ status candidates_refine(candidates *p, int count, fault *f);
 /* Threshold below which values are rounding errors of the largest value `scale`: n^(3/2) of them
  * add up in a slender structure of n unknowns. */
 double candidates_least(int n, double scale);
-/* Adds the vectors x[count x n], of any length; drops those with mu <= least. */
+/* Adds the vectors x[count x n], of any norm; drops those with mu <= least. */
 status candidates_add(candidates *p, int count, const double x[], double least, fault *f);
 /* As candidates_add for allocated vectors, which the candidates then own. */
 status candidates_take(candidates *p, int count, double *x, double least, fault *f);
@@ -55,7 +55,8 @@ void candidates_judge(candidates *p, int i, double *residual, double *error);
 /* Proof that no eigenvalue is missing among candidates. */
 
 /* Number of eigenvalues missing among the candidates, of those that lie clearly above the one of
- * rank `wanted` (counted from 1). NOT_CONVERGED when there are fewer than `wanted` candidates. */
+ * rank `wanted` (counted from 1). Requires wanted <= count. NOT_CONVERGED when the inertia counts
+ * fewer than were found, or cannot be counted. */
 status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_result *work,
                                 fault *f);
 /* Frees the memory used for counting if it is large; the next count allocates it again. */

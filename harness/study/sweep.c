@@ -241,7 +241,7 @@ static void choose_given(const sweep_request *request, chosen_cells *out)
         out->list[out->count++] = request->formulation[i];
 }
 
-/* Selects formulations with options that also get verdicts. */
+/* Adds the formulation once for each choice of those options that are judged too. */
 static void choose_options(const element_type *type, chosen_cells *out)
 {
     for (int k = 0; k < parameter_count(type->options); k++) {

@@ -97,8 +97,8 @@ static status check_field(const model *m, const model_state *s, const scene_star
                 fabs(r.w[k] - field->spin[k]) > nothing * spin)
                 return fault_set(
                     f, STATUS_REFUSED,
-                    "%s is held or driven differently from the rotating axes at the start of the "
-                    "motion; drive it so that it rotates with them from 0 s on",
+                    "%s does not rotate with the axes at the start of the motion (it is held, or "
+                    "driven otherwise); drive it so that it rotates with them from 0 s on",
                     scene_called(model_scene(m), SCENE_NODES, i).text);
     }
     return STATUS_OK;
@@ -268,10 +268,10 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
     const int spreads = model_spreads(c->model, analysis), follows = one->follows;
     const scene_scheme scheme = scene_motion_of(one)->scheme;
     if ((spreads || scene_spreads(one)) && (scheme == SCENE_CONSERVING || scheme == SCENE_EXPLICIT))
-        return fault_set(f, STATUS_REFUSED,
-                         "the integrator %s has lumped mass only; alpha and radau take mass: "
-                         "consistent",
-                         scheme == SCENE_CONSERVING ? "conserving" : "explicit");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "the integrator %s supports only lumped mass; use alpha or radau for mass: consistent",
+            scheme == SCENE_CONSERVING ? "conserving" : "explicit");
     if (!spreads && scene_spreads(one))
         return fault_set(f, STATUS_REFUSED,
                          "the mass of %s is lumped at its nodes; give mass: lumped, or another "

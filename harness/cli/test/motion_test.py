@@ -305,7 +305,7 @@ class MassTest(SceneCase):
         spin = ("spin_up", *WHERE, "--set", "time=0.5")
         usual = values(self.record("solve", *spin))
         self.assertEqual(values(self.record("solve", *spin, "--set", "mass=consistent")), usual)
-        self.refused(2, "has lumped mass only", "solve", *spin, "--set", "mass=consistent", "--set",
+        self.refused(2, "supports only lumped mass", "solve", *spin, "--set", "mass=consistent", "--set",
                      "integrator=conserving")
 
     def test_names(self):
@@ -417,8 +417,8 @@ class RestartTest(SceneCase):
                 (2, "mass: 0.31,", (*again, "--set", "mass=0.31")),
                 (2, "which is an input", (*again, "--save-state", ends)),
                 (2, "remove -k, --shapes, --matrices, --save-state and", (*again, "--follow", "mass=0.1..0.2/2")),
-                (2, "no motion in time", ("solve", "elastica", "--restart", ends)),
-                (2, "no motion in time", ("solve", "elastica", "--save-state", self.folder / "none.h5")),
+                (2, "need a motion in time", ("solve", "elastica", "--restart", ends)),
+                (2, "need a motion in time", ("solve", "elastica", "--save-state", self.folder / "none.h5")),
                 (4, "cut short", ("solve", "--scene", path, "--restart", cut)),
                 (4, "not a --save-state file", ("solve", "--scene", path, "--restart", TRUTHS)),
                 (4, "cannot be read", ("solve", "--scene", path, "--restart", self.folder / "none.h5"))):

@@ -344,7 +344,7 @@ static status no_frame(const element_data *d, const node_state x[],
 static void planted_inertia_tests(void)
 {
     PLANT(inertia, heavier, "mass", "inertia: the mass along x", "rho A l");
-    PLANT(inertia, unsymmetric_mass, "mass", "inertia: M entry 9, 2", "other way round");
+    PLANT(inertia, unsymmetric_mass, "mass", "inertia: M entry 9, 2", "its transposed entry is");
     PLANT(inertia, negative_mass, "mass", "not positive", "rotation about x of node 2");
     PLANT(inertia, fixed_mass, "mass", "rotated as a whole", "rotated back");
     PLANT(inertia, fixed_mass, "mass", "moment of inertia of the sections about x", "rho l I");
@@ -352,8 +352,8 @@ static void planted_inertia_tests(void)
     PLANT(inertia, wrong_force, "rotating", "centrifugal force in coordinate 9",
           "displacement along y of node 2");
     PLANT(inertia, wrong_softening, "rotating", "N entry 3, 3", "differences");
-    PLANT(inertia, unsymmetric_softening, "rotating", "N entry 3, 2", "other way round");
-    PLANT(inertia, unsymmetric_turns, "rotating", "N entry 6, 5", "other way round");
+    PLANT(inertia, unsymmetric_softening, "rotating", "N entry 3, 2", "its transposed entry is");
+    PLANT(inertia, unsymmetric_turns, "rotating", "N entry 6, 5", "its transposed entry is");
     PLANT(inertia, not_skew, "rotating", "G entry 2, 2", "skew");
     PLANT(inertia, half_coriolis, "rotating", "G times the frame's own motion", "centrifugal");
     PLANT(inertia, no_frame, "rotating", "status 'singular'", "rotating frame");

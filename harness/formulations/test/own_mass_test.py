@@ -104,7 +104,7 @@ class OwnMass(Speaker):
         for before, after, words in (
                 ("    return M.reshape", "    M *= 1.01\n    return M.reshape", "the mass along x"),
                 ("    return M.reshape", "    M[:, 0, 0, 1, 1] += M[:, 0, 0, 0, 0] / 9\n    return M.reshape",
-                 "the other way round"),
+                 "its transposed entry is"),
                 ("R[:, p] * about @ R[:, p].swapaxes(1, 2)", "np.diag(about)", "rotated as a whole")):
             self.assertIn(words, self.contract(self.python(before, after), code=1)[1])
 

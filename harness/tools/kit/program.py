@@ -82,7 +82,7 @@ class ProgramTest(unittest.TestCase):
         return json.loads(self.answered(*arguments, "--format", "json", **options).stdout)
 
     def refused(self, code, words, *arguments, silent=True, **options):
-        """Requires an error of one line with all the words, the given status, and no computation."""
+        """Requires a one-line error that contains all the words, the given status, and no computation."""
         done = run(*arguments, **options)
         self.assertEqual(done.returncode, code, (arguments, done))
         self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)

@@ -1,4 +1,4 @@
-"""Converts arguments of users to those of the library; invalid ones raise an error of one line."""
+"""Converts the user's arguments for the library; invalid ones raise a one-line error."""
 import json
 import operator
 import os
