@@ -1,4 +1,4 @@
-"""The answers as a table to take away: CSV, JSON, or text for a terminal.
+"""The answers as a table to download: CSV, JSON, or text for a terminal.
 
     python -m reports.answers_table RESULTS [--error 0.3%] [--format text|csv|json] [-k WORDS] [-o FILE]
 
@@ -150,7 +150,7 @@ if __name__ == "__main__":
     main()
 
 
-# The answers at the reader's own tolerance, and the tables to take away.
+# The answers at the reader's own tolerance, and the tables to download.
 
 NAVIGATION = [("answers.html", "answers")]
 

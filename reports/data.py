@@ -212,7 +212,7 @@ def read_about(path, root=of_root):
         with h5py.File(path) as file:
             if text(file.attrs.get("schema", "")) != SCHEMA:
                 raise Unreadable(
-                    f"{path}: not a file of results; 'make verify' and 'make bench' write them")
+                    f"{path}: not a results file; 'make verify' and 'make bench' write them")
             if file.attrs["schema_version"] not in VERSIONS:
                 raise Unreadable(
                     f"{path}: results of version {file.attrs['schema_version']}, the report reads {VERSIONS[0]} to {VERSIONS[-1]}; write it again with 'make verify' or 'make bench'"
@@ -275,7 +275,7 @@ def declarations_in(file):
 
 
 def read_declarations(path):
-    """The same of a file of results."""
+    """The same of a results file."""
     with h5py.File(path) as file:
         return declarations_in(file)
 

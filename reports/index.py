@@ -16,7 +16,7 @@ from reports.profiles import panel
 KINDS = (
     ("stiffness and compliance", ("compliance",)),
     ("past a limit point", ("continuation",)),
-    ("turning steadily", ("rotation",)),
+    ("rotating steadily", ("rotation",)),
     ("buckling", ("buckling",)),
     ("vibration", ("modal",)),
     ("large displacements", ("static",)),
@@ -48,7 +48,7 @@ def scenes(path):
 
 
 def grouped_by_kind(cases, path):
-    """[(kind, [data.Case])] of a file of results, in the order of KINDS."""
+    """[(kind, [data.Case])] of a results file, in the order of KINDS."""
     written, groups = scenes(path), {}
     for case in cases:
         found = kind_of(analyses_in(written.get(case.name, "")))
@@ -71,7 +71,7 @@ class AgreedRow:
     unit: str
     value: float
     errors: dict  # formulation -> of its limit
-    meshes: dict  # formulation -> elements from which on every mesh is within the level
+    meshes: dict  # formulation -> elements at and above which every mesh is within the level
 
     def within(self, level):
         return sorted(key for key, error in self.errors.items() if abs(error) <= level)
@@ -91,7 +91,7 @@ class AgreedRow:
 
 
 def first_within(series, quantity, level):
-    """Elements from which every mesh is within the level of the agreement, or None."""
+    """Elements at and above which every mesh is within the level of the agreement, or None."""
     found = None
     for mesh in reversed(series.meshes):
         if not abs(mesh.model_errors.get(quantity, math.nan)) <= level:

@@ -309,7 +309,7 @@ def orders(problems):
 
 
 def judged(problems):
-    """Returns the problems with errors of time integration."""
+    """Returns the problems with errors of the time integration."""
     return [p for p in problems if not p.reference and any(r.known for r in p.runs)]
 
 

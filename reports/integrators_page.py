@@ -1,4 +1,4 @@
-"""Integrators: which one, with which step, has the lowest cost within an error of time, and
+"""Integrators: which one, with which step, has the lowest cost within a time error, and
 whether that is verified  (of `beamwork motion`, and paces.json where there is one)"""
 import functools
 import math
@@ -182,7 +182,7 @@ def work_precision(site, case, problems):
         stiff = f", EA × {problem.stiffening:g}" if problem.stiffening != 1 else ""
         panel = chart.panel(f"{problem.formulation}, n = {problem.elements}{stiff}",
                             "cost [s]" if i + columns >= len(told) else "",
-                            "" if i % columns else "error of time")
+                            "" if i % columns else "time error")
         slope_lines(panel, [r for r in problem.runs if r.known and r.cost > 0])
         for scheme in problem.schemes():
             draw_scheme(site, panel, problem, scheme)

@@ -258,7 +258,7 @@ static int named_value(const scene_file *file, const fields *f, const document_n
     return index;
 }
 
-/* Moves `point` to the values that the reference value names; returns 1 when it was already there.
+/* Moves `point` to the values that the reference value names; returns 1 when it was that point.
  */
 static int visit_point(const scene_file *file, const fields *f, double point[])
 {

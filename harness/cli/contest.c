@@ -246,8 +246,9 @@ static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
     return compare(d, r, f);
 }
 
-/* For each error target finds the least number of elements of each formulation from which on all
- * requested quantities meet it (study/study.h), then times these two cells in alternation. Targets:
+/* For each error target finds the least number of elements of each formulation at and above which
+ * all requested quantities meet it (study/study.h), then times these two cells in alternation.
+ * Targets:
  * --error, or those of reach_level that both meet. Quantities: -k, or all with a reference value or
  * an agreement for both. REFUSED: one does not run, there is no reference value, or no target is
  * met. */

@@ -348,7 +348,7 @@ void manual_write_results(FILE *to, const verb *const *verbs)
         {"beamwork", 1}, {"beamwork-schema", 1}, {"beamwork-verify", 1}};
     char head[60];
     snprintf(head, sizeof head, "Version %d.", SCHEMA_VERSION);
-    roff_page(to, "beamwork-results", 5, "files of results that beamwork writes");
+    roff_page(to, "beamwork-results", 5, "results files that beamwork writes");
     fprintf(to, ".Sh DESCRIPTION\n");
     roff_text(to, head);
     for (int i = 0; results_about[i] != NULL; i++) {

@@ -143,7 +143,7 @@ static status hold_batches(const char *folder, fault *f)
                              ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
                              : -1;
         if (held < 0)
-            return fault_set(f, STATUS_FAULT, "%.200s: cannot be made (%s)", folder,
+            return fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s)", folder,
                              strerror(errno));
         if (flock(held, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             close(held);
@@ -168,9 +168,10 @@ static status place_batches(const sweep_options *r, sweeping *s, fault *f)
     const char *temporary = getenv("TMPDIR");
     snprintf(s->batches, sizeof s->batches, "%s/beamwork-sweep-XXXXXX",
              temporary != NULL ? temporary : "/tmp");
-    return mkdtemp(s->batches) != NULL ? STATUS_OK
-                                       : fault_set(f, STATUS_FAULT, "%.200s: cannot be made (%s)",
-                                                   s->batches, strerror(errno));
+    return mkdtemp(s->batches) != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s)", s->batches,
+                           strerror(errno));
 }
 
 /* Reads the batches of the stock, or those that --from names; does nothing if some of these are

@@ -183,7 +183,7 @@ status carried_check(const scene *s, fault *f)
                          scene_called(s, SCENE_CONSTRAINTS, 0).text);
     if (s->imperfections > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: imperfections are not written with solids; remove it",
+                         "%s: imperfections cannot be written with solids; remove it",
                          scene_called(s, SCENE_IMPERFECTIONS, 0).text);
     for (int i = 0; i < s->members; i++)
         TRY(check_member(s, i, f));

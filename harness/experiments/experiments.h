@@ -650,7 +650,7 @@ typedef struct rows {
     double *cost, *seconds; /* [points, formulations, meshes] [s]: counted work, measured time */
     int32_t *lacks;  /* [points, formulations] omitted physics, bits of model.h, of another model,
                         which is not counted; 0: model of the scene */
-    int32_t *least;  /* [points, formulations, quantities] least number of elements from which on
+    int32_t *least;  /* [points, formulations, quantities] least number of elements from which
                         every mesh is within the tolerance; 0: none */
     uint8_t *kind;   /* [points, quantities] values of rows_reference */
     uint8_t *status; /* [points, formulations, meshes] */
@@ -838,15 +838,16 @@ typedef struct tally_series {
     long open;                      /* number of points with a value but without a reference */
     long within[SERIES_MAX_MESHES]; /* of `asked`, within the tolerance, for each mesh */
     long never;     /* of `asked`, not within the tolerance on all meshes from some mesh on */
-    int everywhere; /* least number of elements from which on all others are within the tolerance */
+    int everywhere; /* least number of elements at and above which all others are within the
+                       tolerance */
 } tally_series;
 
 /* A field of the map. */
 typedef struct tally_place {
     long points, other, asked, never; /* other: number of points with another model */
     long proven; /* of `asked`: with a reference value instead of limits of meshes */
-    int least;   /* least number of elements from which on all points of the field are within the
-                    tolerance */
+    int least; /* least number of elements at and above which all points of the field are within the
+                  tolerance */
 } tally_place;
 
 typedef struct tally {

@@ -177,7 +177,7 @@ static status make_folder(const char *into, fault *f)
 {
     if (mkdir(into, 0777) == 0 || errno == EEXIST)
         return STATUS_OK;
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be made (%s); choose another place", into,
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s); choose another place", into,
                      strerror(errno));
 }
 

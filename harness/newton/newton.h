@@ -508,7 +508,8 @@ typedef struct solve_options {
     int steps_between;  /* replaces the number in the scene; 0: as in the scene */
     int condition; /* 1: estimate the condition of the tangents (on a static path: at its stations)
                     */
-    int condensed; /* number of elements from which on a member is condensed to its ends; 0: default
+    int condensed; /* number of elements at and above which a member is condensed to its ends; 0:
+                    * default
                     */
     int phases;    /* 1: read the clock between the parts of an iteration */
     int sample;    /* N > 0: only N iterations of each static path, to measure their time, without

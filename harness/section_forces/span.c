@@ -281,7 +281,7 @@ static void moved_linearly(const span_grid *g, double length, const span_fields 
     close_gap(g, end[1].displacement, u);
 }
 
-/* By the curve less the undeformed one; turns of the sections against that at p. */
+/* By the curve minus the undeformed one; rotations of the sections relative to that at p. */
 static void moved_far(const span_grid *g, double length, const span_fields *of,
                       const span_frame begin[2], const double curvature[3], const span_move end[2],
                       double u[N][3], double turn[N][3])

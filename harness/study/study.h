@@ -749,8 +749,8 @@ void interrupt_end(interrupt *);
 
 /* Result for series 0 and 1 of a sweep of one point. */
 typedef struct meeting {
-    int mesh[2]; /* index of the coarsest mesh from which on all quantities meet the error target;
-                    -1: none */
+    int mesh[2];     /* index of the coarsest mesh at and above which all quantities meet the error
+                        target;     -1: none */
     double error[2]; /* largest relative error on that mesh; NAN: none */
 } meeting;
 

@@ -36,10 +36,10 @@ rule harness 'reference/|reports/|elements/(beamw|sheet|geometrically_exact|coll
 for room in ${floors%% study *}; do
     rule "harness/$room" 'cases/format/' 'what solves reads no files'
 done
-# What an _impl.h holds is the inside of its folder; tests of that folder may look in.
+# An _impl.h is internal to its folder; tests of that folder may include it.
 hits=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]+"[^"]*_impl\.h"' elements cases harness --include='*.c' --include='*.h' 2>/dev/null |
     awk -F '[:"]' '{ home = $4; file = $1; sub("/[^/]*$", "", home); sub("/(test/)?[^/]*$", "", file) }
-        file != home { print $0 "   <- this is the inside of " home }' || true)
+        file != home { print $0 "   <- this is internal to " home }' || true)
 [ -z "$hits" ] || { echo "$hits"; bad=1; }
 # A type has a name of its own.
 hits=$(grep -rhoE '^\} [a-z_0-9]+;' elements cases harness --include='*.c' --include='*.h' --exclude-dir=test --exclude-dir=tools --exclude-dir=examples | sort | uniq -d)

@@ -54,6 +54,20 @@ WORDS = (
     (r"\bgo(es)? on\b", "continues, resumes"),
     (r"\bas cheap\b", "tie"),
     (r"\bknown to no better than\b", "uncertainty"),
+    (r"\bless the\b", "minus the"),
+    (r"\btak(es?|en) (?!by\b|as\b|from\b)(?:\w+ ){0,4}away\b", "removes"),
+    (r"\bis there already\b|\balready there\b", "already exists"),
+    (r"\b(is|are) no (column|folder|file|day)\b", "not a valid column; is not a folder"),
+    (r"\bturn(s|ed|ing)? steadily\b", "rotates steadily"),
+    (r"\bthe inside of\b", "internal to; inside"),
+    (r"\b(is|are) (another one|other ones)\b", "differs; name it again"),
+    (r"\bfilled whole\b", "filled completely"),
+    (r"\berrors? of time\b", "time error"),
+    (r"\bfiles? of results\b", "results file"),
+    (r"\bfrom which on\b", "at and above which"),
+    (r"\bnot written (as|with) solids\b", "cannot be written as solids"),
+    (r"\b(rejected|refused) are\b", "the following are rejected; ... is rejected"),
+    (r"\b(errors?|messages?|refusals?|reasons?|exceptions?) of one line\b", "one-line error"),
 )
 ANY = re.compile("|".join(pattern for pattern, _ in WORDS), re.I)
 NAME = re.compile(r"`[^`]*`")

@@ -179,7 +179,7 @@ NAMED = 3  # exceptions of a box that are stored, the worst ones
 class Gathered:
     """F formulations, M meshes, Q quantities and their whole, C cells of the first lattice.
 
-    reaches: for each lattice, points by the first mesh from which on all are within the tolerance
+    reaches: for each lattice, points by the first mesh at and above which all are within the tolerance
     [C, F, Q+1, M+2], of which the first is also reach; M:
     none, M+1: none, and the finest mesh has no solution. Only points at which the formulation is
     measured. known: points with a reference [C, Q+1]. worst: largest error [C, F, Q+1, M], infinite
@@ -267,7 +267,7 @@ def errors_in(piece, asked):
 
 
 def reached_in(sweep, piece, asked):
-    """The first mesh from which on all are within, as in Gathered.reach; [points, F, Q+1]."""
+    """The first mesh at and above which all are within, as in Gathered.reach; [points, F, Q+1]."""
     count = len(sweep.meshes)
     own = np.searchsorted(sweep.meshes, piece.least)
     own = np.where(piece.least == 0, count, own)

@@ -63,7 +63,7 @@ class Worst:
 class Piece:
     """Some consecutive points. at: [points, axes]; reference, its uncertainty `doubt`, kind: [points, quantities];
     value, error: [points, formulations, meshes, quantities], NaN if there is none; error is relative;
-    status, cost [s]: [points, formulations, meshes]; least: elements from which on every mesh is
+    status, cost [s]: [points, formulations, meshes]; least: elements at and above which every mesh is
     within the tolerance, 0 for none [points, formulations, quantities]."""
 
     first: int

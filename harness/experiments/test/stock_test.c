@@ -177,7 +177,7 @@ static void nowhere(void)
                  strstr(f.text, "--shard K/N --into") == NULL,
              "an empty folder: %s", f.text);
     gsl_test(numbers_shard(&w, deep.text, 0, 1, &done, &f) != STATUS_FAULT ||
-                 strstr(f.text, "cannot be made") == NULL,
+                 strstr(f.text, "cannot be created") == NULL,
              "no folder around it: %s", f.text);
     folder_remove(&of);
 }

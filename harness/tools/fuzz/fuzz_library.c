@@ -1,5 +1,5 @@
 /* Uses the input as texts passed to the library: the number of the call, then one or two texts
- * separated by a line. A refusal must have a reason of one line, or a list of errors in JSON. A
+ * separated by a line. A refusal must have a one-line reason, or a list of errors in JSON. A
  * result must be JSON, or a scene that can be read back; both must be UTF-8. */
 #include <jansson.h>
 
