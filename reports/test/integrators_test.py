@@ -232,7 +232,7 @@ class Page(ProgramTest):
         self.assertIn('<td class="n">3.0e-09</td><td class="n">4.0e-10</td>', table)
         self.assertIn("not possible: no inertia", table)
         self.assertIn("elbow, beamw_vlasov: does not support shear", text)
-        self.assertRegex(text, r"keeps energy to round-off: conserving, at [\d.]+ times the cost")
+        self.assertRegex(text, r"conserves energy to round-off: conserving, at [\d.]+ times the cost")
 
     def test_an_old_paces(self):
         """Of another form, or cut short: one line says what to run."""
