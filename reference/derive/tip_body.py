@@ -1,4 +1,4 @@
-"""Free vibration of a cantilever with a rigid body at its end, at rest and turning steadily about an axis through the root, normal to it.
+"""Free vibration of a cantilever with a rigid body at its end, at rest and rotating steadily about an axis through the root, normal to it.
 
 Units and beam as in rotating.py: L = 1, EI = 1, rho A = 1, EA = s^2.  The body: mass m, centre c beyond the end, inertia J = m g^2 about axes
 across the beam through that centre, none about the beam's axis.
