@@ -365,7 +365,7 @@ static void write_matrix(FILE *to, const void *what)
 static status add_matrix(const output_folder *folder, const char *state, const char *letter,
                          const triplets *t, const char *comment, fault *f)
 {
-    char file[2 * NAME];
+    char file[3 * NAME];
     const titled what = {t, comment};
     if (t->rows == 0 || t->columns == 0)
         return STATUS_OK;
