@@ -132,6 +132,15 @@ static void check_words(void)
                  "a reaction in words");
     meaning_of_quantity(&s, 1, text, 20);
     gsl_test_int((int)strlen(text), 19, "cut where it does not fit");
+    const scene_extract largest = {.kind = SCENE_ENVELOPE_OF,
+                                   .of = {.envelope = SCENE_ENVELOPE_MAX}};
+    scene_quantity *q = scene_add_quantity(&s, "most", "1", states, largest);
+    for (int i = 0; i < 2; i++)
+        if (scene_grow(&s, &q->over, &q->overs, sizeof *q->over) == i)
+            q->over[i] = i;
+    meaning_of_quantity(&s, 2, text, sizeof text);
+    gsl_test_str(text, "largest of c, M", "an envelope in words");
+    seen[SCENE_ENVELOPE_OF]++;
     scene_free(&s);
 }
 
