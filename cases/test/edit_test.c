@@ -65,6 +65,32 @@ static void reversed(void)
     scene_free(&s);
 }
 
+/* A full stiffness and mass of a section: entries between a resultant along or about z and one
+ * along or about x or y change sign, others stay. */
+static void reversed_section(void)
+{
+    scene s;
+    fault f = {""};
+    make(&s);
+    section *c = &s.section[0].constants;
+    for (int i = 0; i < 36; i++) {
+        c->stiffness[i] = 1 + i;
+        c->mass[i] = 50 + i;
+    }
+    for (int times = 1; times <= 2; times++) {
+        gsl_test(scene_edit_apply(&s, &(scene_edit){SCENE_EDIT_REVERSE, 0}, &f) != STATUS_OK, "%s",
+                 f.text);
+        c = &s.section[0].constants;
+        for (int i = 0; i < 36; i++) {
+            const int odd = times == 1 && (i / 6 % 3 == 2) != (i % 3 == 2);
+            gsl_test(c->stiffness[i] != (odd ? -(1 + i) : 1 + i), "stiffness %d: %g", i,
+                     c->stiffness[i]);
+            gsl_test(c->mass[i] != (odd ? -(50 + i) : 50 + i), "mass %d: %g", i, c->mass[i]);
+        }
+    }
+    scene_free(&s);
+}
+
 /* Loads on parts of a member of length 2, along x, that is turned round or cut in two. */
 static const struct {
     scene_load_kind kind;
@@ -298,6 +324,7 @@ static void edit_tests(void)
     sides();
     in_millimetres();
     reversed();
+    reversed_section();
     is_split();
     parts();
     refused();
