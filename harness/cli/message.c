@@ -75,7 +75,8 @@ static void asked(int number)
 static void crashed(int number)
 {
     if (getpid() == program) {
-        say("beamwork: crashed; run 'beamwork element-test' to check an element; libraries also "
+        say("beamwork: crashed; check an element of your own with 'beamwork element-test'; in the "
+            "source tree, run valgrind on a program built with 'make DEBUG=1'; libraries also "
             "crash when memory is short\n");
         output_abandon();
     }
