@@ -7,6 +7,13 @@ BUILD ?= build/debug
 CFLAGS ?= -O0 -g3
 PLAIN ?= -O0
 endif
+# FAST=1: as .ci/run fast builds.
+ifdef FAST
+BUILD ?= build/fast
+CFLAGS ?= -O1
+PLAIN ?= -O0
+WERROR ?= 1
+endif
 BUILD ?= build
 CFLAGS ?= -O3 -g
 PYTHON := /usr/bin/python3
@@ -63,13 +70,13 @@ $(call in_order,$(MAKECMDGOALS))
 endif
 
 # Where nothing is compiled here, the compiler's part is not looked for.
-QUIET := $(if $(filter-out help clean format format-check words $(if $(filter-out mutants faults,$(L)),,lab),$(or $(MAKECMDGOALS),$(if $(DEBUG),all,help))),,1)
+QUIET := $(if $(filter-out help clean format format-check words $(if $(filter-out mutants faults,$(L)),,lab),$(or $(MAKECMDGOALS),$(if $(DEBUG)$(FAST),all,help))),,1)
 ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
 .PHONY: help all verify docs words test tests stress bench layers asan tidy format format-check check clean report truths FORCE
-.DEFAULT_GOAL := $(if $(DEBUG),all,help)
+.DEFAULT_GOAL := $(if $(DEBUG)$(FAST),all,help)
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .SECONDARY:
@@ -93,7 +100,7 @@ named = $(sort $(foreach test,$(1),$(if $(strip $(foreach word,$(T),$(findstring
 ifdef T
 CHOSEN := $(call named,$(TEST_SOURCES) $(filter %.py,$(PYTHON_TESTS)) $(wildcard $(addsuffix /*_test.py,$(filter-out %.py,$(PYTHON_TESTS)))))
 RUN := $(patsubst %.c,$(BUILD)/%,$(CHOSEN))
-$(if $(CHOSEN),,$(error No test has '$(T)' in the name of its file or folder))
+$(foreach word,$(T),$(if $(findstring $(word),$(CHOSEN)),,$(error No test has '$(word)' in the name of its file or folder)))
 else
 RUN = $(sort $(PYTHON_TESTS)) $(TESTS)
 endif
