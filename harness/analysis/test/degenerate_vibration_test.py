@@ -100,7 +100,7 @@ class Degenerate(ProgramTest):
         for words, scene in (
                 (alone, (f"a: {{at: [0, 0, 0], mass: 1}}, {tip(', mass: 2')}", bar("light"))),
                 (alone, (f"{HELD}, z: {{at: [0, 1, 0], hold: all}}, {tip(', mass: 2')}", other, spring)),
-                ("the released ends make a mechanism", (f"{HELD}, {tip()}, {SECOND}", arm))):
+                ("the released ends form a mechanism", (f"{HELD}, {tip()}, {SECOND}", arm))):
             self.refused(1, words, "solve", "--scene", self.scene(*scene), "-f", "collocation", "-n", 2, silent=False)
 
     def test_zeros(self):

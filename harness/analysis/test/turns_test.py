@@ -263,7 +263,7 @@ class Turns(ProgramTest):
                 done = run("solve", "--scene", self.scene(DRIVEN), "-f", formulation, "-n", n, "--set",
                                 f"angle={angle}", "--format", "json")
                 if done.returncode != 0:
-                    self.assertRegex(done.stdout + done.stderr, r"element \d+ of \d+ of member rod is (turned|twisted) by "
+                    self.assertRegex(done.stdout + done.stderr, r"element \d+ of \d+ of member rod is (rotated|twisted) by "
                                      ".*use more elements", (formulation, n, angle))
                     self.assertGreater(abs(angle/n), 0.78 if formulation.startswith("beamw") else 1.57)
                     continue
