@@ -173,7 +173,7 @@ quantities:
   u: {{{what}}}
 {more}""")
             said = " ".join(self.answered("solve", "--scene", scene).stdout.split())
-            self.assertEqual("not modelled: what the bimoment of section zed does to its torsion" in said, told,
+            self.assertEqual("not modelled: the effect of the bimoment of section zed on its torsion" in said, told,
                              (flange, analysis, more))
 
     def test_assumptions_stand_everywhere(self):
