@@ -50,7 +50,7 @@ class Bench(ProgramTest):
         self.assertIn("collocation", {r["formulation"] for r in rows})
         self.assertEqual([r["formulation"] for r in rows if r["formulation"][:2] not in ("be", "co")], [])
         self.refused(2, "did you mean 'buckling_load'", "bench", "c_column", "-k", "buckling_laod")
-        self.refused(2, "for no quantity of elastica", "bench", "warping_torsion", "elastica", "-k", "warping_torsion")
+        self.refused(2, "selects no quantity of elastica", "bench", "warping_torsion", "elastica", "-k", "warping_torsion")
 
     def test_ranks_as_converge(self):
         """What converge ranks without a reference value: errors against the agreement, and a formulation that
