@@ -102,6 +102,8 @@ static void check_examples(void)
     gsl_test(files < 10, "%d examples", files);
 }
 
+extern const quantity_type quantity_envelope_of;
+
 /* Two nodes, a member, a static path of two stations and a compliance. */
 static void check_words(void)
 {
@@ -133,6 +135,7 @@ static void check_words(void)
     meaning_of_quantity(&s, 1, text, 20);
     gsl_test_int((int)strlen(text), 19, "cut where it does not fit");
     const scene_extract largest = {.kind = SCENE_ENVELOPE_OF,
+                                   .type = &quantity_envelope_of,
                                    .of = {.envelope = SCENE_ENVELOPE_MAX}};
     scene_quantity *q = scene_add_quantity(&s, "most", "1", states, largest);
     for (int i = 0; i < 2; i++)

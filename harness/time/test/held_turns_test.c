@@ -84,11 +84,11 @@ static void kept(int held, int released, int integrator)
     gsl_test(all.outcome != plain.outcome, "rows of %d turns kept: %s", count, all.reason);
     if (count == 1) {
         static const char *const back[] = {"about y, then about z, and back by both leaves it "
-                                           "turned about x;",
+                                           "rotated about x;",
                                            "about x, then about z, and back by both leaves it "
-                                           "turned about y;",
+                                           "rotated about y;",
                                            "about x, then about y, and back by both leaves it "
-                                           "turned about z;"};
+                                           "rotated about z;"};
         gsl_test(strstr(plain.reason, back[held / 2]) == NULL, "left out: %s", plain.reason);
         gsl_test(strstr(all.reason, back[held / 2]) == NULL, "kept: %s", all.reason);
         return;
