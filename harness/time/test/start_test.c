@@ -53,7 +53,8 @@ static void refuse_otherwise(void)
     answer a;
     scenes_ask(START_RODS, &element_geometrically_exact, 2, &a,
                "of=on_hub;integrator=alpha;rate=2.9");
-    gsl_test(a.status != STATUS_REFUSED || strstr(a.reason, "does not rotate with the axes") == NULL,
+    gsl_test(a.status != STATUS_REFUSED ||
+                 strstr(a.reason, "does not rotate with the axes") == NULL,
              "a drive beside the axes is refused (%s)", a.reason);
 }
 
