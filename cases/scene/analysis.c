@@ -11,15 +11,13 @@ const char *scene_moments_name(scene_moments moments)
     return name[moments];
 }
 
-/* Index of a new analysis, which owns its path, or -1: the path is freed. */
+/* Index of a new analysis, or -1. */
 static int add(scene *s, scene_analysis analysis)
 {
     const int i = scene_grow(s, &s->analysis, &s->analyses, sizeof *s->analysis);
     analysis.acting = (scene_acting){SCENE_NONE, SCENE_NONE};
     if (i >= 0)
         s->analysis[i] = analysis;
-    else if (scene_path_of(&analysis) != NULL)
-        free(scene_path_of(&analysis)->value);
     return i;
 }
 
@@ -35,7 +33,11 @@ int scene_add_linear(scene *s)
 
 static int add_walk(scene *s, scene_analysis_kind kind, scene_walk walk)
 {
-    return add(s, (scene_analysis){.kind = kind, .follows = SCENE_NONE, .of = {.walk = walk}});
+    const int i =
+        add(s, (scene_analysis){.kind = kind, .follows = SCENE_NONE, .of = {.walk = walk}});
+    if (i < 0)
+        free(walk.path.value);
+    return i;
 }
 
 int scene_add_static(scene *s, int stations, const double path[], int steps_between)
@@ -69,24 +71,33 @@ int scene_add_compliance(scene *s, int follows, scene_compliance what)
 
 int scene_add_harmonic(scene *s, int follows, int frequencies, const double hertz[])
 {
-    return add(s, (scene_analysis){.kind = SCENE_HARMONIC,
-                                   .follows = follows,
-                                   .of = {.harmonic = path_of(s, frequencies, hertz)}});
+    const scene_path path = path_of(s, frequencies, hertz);
+    const int i = add(
+        s, (scene_analysis){.kind = SCENE_HARMONIC, .follows = follows, .of = {.harmonic = path}});
+    if (i < 0)
+        free(path.value);
+    return i;
 }
 
 int scene_add_continuation(scene *s, int stations, const double path[], scene_control control)
 {
     const scene_continuation what = {.path = path_of(s, stations, path), .control = control};
-    return add(s, (scene_analysis){.kind = SCENE_CONTINUATION,
-                                   .follows = SCENE_NONE,
-                                   .of = {.continuation = what}});
+    const int i = add(s, (scene_analysis){.kind = SCENE_CONTINUATION,
+                                          .follows = SCENE_NONE,
+                                          .of = {.continuation = what}});
+    if (i < 0)
+        free(what.path.value);
+    return i;
 }
 
 int scene_add_motion(scene *s, int follows, int stations, const double path[], scene_motion how)
 {
     how.path = path_of(s, stations, path);
-    return add(s,
-               (scene_analysis){.kind = SCENE_MOTION, .follows = follows, .of = {.motion = how}});
+    const int i =
+        add(s, (scene_analysis){.kind = SCENE_MOTION, .follows = follows, .of = {.motion = how}});
+    if (i < 0)
+        free(how.path.value);
+    return i;
 }
 
 scene_alpha scene_alpha_of_radius(double rho)
