@@ -174,9 +174,9 @@ static status split_dampers(split *s, fault *f)
  * without it. */
 static status eliminate(split *s, fault *f)
 {
-    const size_t n = (size_t)s->n, first = (size_t)(s->masses + s->slow), rigid = (size_t)s->rigid,
-                 motions = (size_t)s->of->motions, inputs = (size_t)s->of->inputs,
-                 width = first + motions + inputs;
+    const size_t n = (size_t)s->n, first = (size_t)s->masses + (size_t)s->slow,
+                 rigid = (size_t)s->rigid, motions = (size_t)s->of->motions,
+                 inputs = (size_t)s->of->inputs, width = first + motions + inputs;
     double *block = calloc(rigid * rigid + 1, sizeof *block);
     int *pivot = calloc(rigid + 1, sizeof *pivot), singular = 0;
     s->still = calloc(rigid * width + 1, sizeof *s->still);
@@ -436,7 +436,7 @@ static status fill_outputs(const split *s, const double rows[], const double pos
                            double *work, state_space *out, fault *f)
 {
     const second_order *m = s->of;
-    const size_t N = (size_t)(m->n + m->motions), states = (size_t)out->states,
+    const size_t N = (size_t)m->n + (size_t)m->motions, states = (size_t)out->states,
                  inputs = (size_t)m->inputs, width = states + inputs;
     double *const c = work, *const d = work + width;
     for (size_t y = 0; y < (size_t)m->outputs; y++) {
@@ -472,7 +472,7 @@ static status fill_outputs(const split *s, const double rows[], const double pos
 static status fill(const split *s, state_space *out, fault *f)
 {
     const second_order *m = s->of;
-    const size_t N = (size_t)(m->n + m->motions), inputs = (size_t)m->inputs,
+    const size_t N = (size_t)m->n + (size_t)m->motions, inputs = (size_t)m->inputs,
                  outputs = (size_t)m->outputs;
     out->states = 2 * s->masses + s->slow + 2 * m->motions;
     out->eliminated = s->rigid;
