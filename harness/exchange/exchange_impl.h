@@ -20,7 +20,7 @@
  * twice; the solid counts it once. */
 
 enum {
-    FACE_WALLS = 8, /* least number of elements along the longer side of a section of walls */
+    FACE_WALLS = 8, /* minimum number of elements along the longer side of a section of walls */
     FACE_MOST = 2 * SECTION_MAX_WALLS + FACE_WALLS
 };
 
@@ -78,7 +78,7 @@ int body_direction(int component);
  * value = factor*printed + offset, with the reciprocal of the printed number if `reciprocal` is 1.
  * Steps start at 1; x [SI] is the abscissa of a curve, or empty. */
 
-/* Quantities and loads of a scene that a deck of solids supports. All others are refused, so that
+/* Quantities and loads of a scene that a deck of solids supports. All others are rejected, so that
  * none is omitted without notice. */
 
 /* The static analysis, if there is exactly one; else SCENE_NONE. */
@@ -104,8 +104,8 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
  * meshes than a series can have. */
 status import_cells_add(sweep *s, int point_index, imported *found, fault *f);
 
-/* Reads entries of a map in YAML: unknown keys, texts, numbers; reports errors with their
- * positions. */
+/* Reads entries of a map in YAML (strings, numbers), and reports unknown keys and other errors with
+ * their positions. */
 
 /* Text of an entry; `otherwise` if it is missing. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,

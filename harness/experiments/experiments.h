@@ -47,7 +47,7 @@ const char *against_name(against_outcome);
 /* Runs one lap of one of the two, which takes *seconds. */
 typedef status against_lap(void *contestant, double *seconds, fault *f);
 /* Runs as many pairs as fit into `budget` [s], at least 51. Their number is fixed before the first
- * one counts. */
+ * counted pair. */
 status against_run(against_lap *lap, void *a, void *b, double budget, contest_clock *out, fault *f);
 
 typedef enum axis_kind { AXIS_LINEAR, AXIS_LOG, AXIS_LIST, AXIS_WORDS } axis_kind;
@@ -61,7 +61,7 @@ typedef struct sweep_axis {
     double *value;   /* [count] for AXIS_LIST and AXIS_WORDS; owned */
 } sweep_axis;
 
-/* The machine that computes a batch: times depend on it, and the last digits may. */
+/* The machine that computes a batch: times depend on it, and the last digits of results may too. */
 
 typedef struct machine {
     char host[128], processor[128];
@@ -134,8 +134,8 @@ typedef struct measures {
 } measures;
 
 /* An experiment: it is planned, run and evaluated, and one function writes the results of all
- * experiments in the requested form. The results are tables of records, from which the group in the
- * results file, JSON and CSV are written; or the cells of a sweep with their verdicts. */
+ * experiments in the requested form. The results are either tables of records, from which the group
+ * in the results file, JSON and CSV are written, or the cells of a sweep with their verdicts. */
 
 typedef struct experiment_cells {
     const sweep *sweep;
@@ -145,8 +145,8 @@ typedef struct experiment_cells {
 
 typedef struct experiment_type {
     const char *name; /* name of its group */
-    /* Called one after the other; NULL: omitted. asked: the request; found: passed to the next one.
-     */
+    /* Called one after the other; NULL: omitted. asked: the request; found: the results, passed
+     * from one function to the next. */
     status (*plan)(const void *asked, void *found, fault *f);
     status (*run)(const void *asked, void *found, fault *f);
     status (*judge)(const void *asked, void *found, fault *f);
@@ -177,7 +177,7 @@ status experiment_plan(const experiment_type *, const void *asked, void *found, 
 /* Runs the experiment after its plan. */
 status experiment_run(const experiment_type *, const void *asked, const experiment_output *,
                       void *found, fault *f);
-/* Both. */
+/* Plans and runs the experiment. */
 status experiment_do(const experiment_type *, const void *asked, const experiment_output *,
                      void *found, fault *f);
 
@@ -200,7 +200,7 @@ typedef struct bench {
     sweep sweep;
     judgement judgement;
     environment made;
-    int named; /* 1: cases were named, so that more of them is shown */
+    int named; /* 1: cases were named, so that more is shown of each */
 } bench;
 
 extern const experiment_type experiment_bench;
@@ -307,8 +307,8 @@ enum { MEASURED_GROUPS = 3 };
 extern const measured_group measured_groups[MEASURED_GROUPS];
 
 /* Certificate of a formulation: the interface requirements that it must satisfy, and its
- * measurements. Each part runs in its own process; if it crashes, does not return or corrupts its
- * memory, this is reported as its result, and the other parts continue. */
+ * measurements. Each part runs in its own process; if it crashes, hangs or corrupts its memory,
+ * this is reported as its result, and the other parts continue. */
 
 enum { CERTIFICATE_PARTS = CHECKS_FAMILIES + MEASURED_GROUPS };
 
@@ -563,8 +563,8 @@ typedef struct pace {
  *   order      pass, low order or undecided, from errors at halved steps (experiments_impl.h)
  *   energy     conserved, or "order P" of its drift at halved steps, or drifts
  *   momentum   the same
- *   tolerance  for each of them the decimal logarithm of how many times it the error is; twice as
- *              much or as little is as expected
+ *   tolerance  for each tolerance the decimal logarithm of error/tolerance; the verdict allows
+ *              a factor of two
  *   fate       of each step: grows, stops, bounded or exact (pace_fate) */
 
 enum { PACE_FOUND = 128 };
@@ -578,7 +578,7 @@ typedef enum pace_judged {
     PACE_JUDGED
 } pace_judged;
 
-/* A row of the table; texts live there. */
+/* A row of the table, which owns its strings. */
 typedef struct pace_verdict {
     pace_judged kind;
     const char *judged, *case_name, *parameters, *formulation, *integrator, *steps, *expected, *why;
@@ -650,7 +650,7 @@ typedef struct rows {
     double *cost, *seconds; /* [points, formulations, meshes] [s]: counted work, measured time */
     int32_t *lacks;  /* [points, formulations] omitted physics, bits of model.h, of another model,
                         which is not counted; 0: model of the scene */
-    int32_t *least;  /* [points, formulations, quantities] least number of elements from which
+    int32_t *least;  /* [points, formulations, quantities] smallest number of elements from which
                         every mesh is within the tolerance; 0: none */
     uint8_t *kind;   /* [points, quantities] values of rows_reference */
     uint8_t *status; /* [points, formulations, meshes] */
@@ -667,7 +667,7 @@ typedef struct ranges_request {
     const scene_file *file; /* file of the case; NULL: a built-in case */
     const double *base;     /* values of parameters that do not vary */
     int varies;
-    const char *const *vary; /* [varies] texts of --vary */
+    const char *const *vary; /* [varies] arguments of --vary */
     design_kind design;
     long points; /* number of points for designs other than grids */
     unsigned long seed;
@@ -712,8 +712,8 @@ status ranges_make(const ranges_request *request, parameter_ranges *out, fault *
 void ranges_free(parameter_ranges *);
 rows_shape ranges_shape(const parameter_ranges *);
 
-/* One shard of a work: its batches, each computed by a process and written to a file when it is
- * finished. */
+/* One shard of a work: its batches, each computed by a process and written to a file as soon as it
+ * is finished. */
 
 typedef struct shard_request {
     int index, count; /* index of the shard, starting at 0, and number of shards */
@@ -816,7 +816,7 @@ enum { MESHES_FINEST = 10000000 };
 status meshes_parse(const char *list, int most, int mesh[], int *count, fault *f);
 
 /* Summary of a sweep, accumulated point by point: at how many points a formulation is within the
- * tolerance, with how many elements, where it is not, and its worst points. */
+ * tolerance and with how many elements, where it is not, and its worst points. */
 
 enum { TALLY_WORST = 3, TALLY_COLUMNS = 10, TALLY_ROWS = 12, TALLY_SCENE = 64 };
 
@@ -838,7 +838,7 @@ typedef struct tally_series {
     long open;                      /* number of points with a value but without a reference */
     long within[SERIES_MAX_MESHES]; /* of `asked`, within the tolerance, for each mesh */
     long never;     /* of `asked`, not within the tolerance on all meshes from some mesh on */
-    int everywhere; /* least number of elements at and above which all others are within the
+    int everywhere; /* smallest number of elements at and above which all others are within the
                        tolerance */
 } tally_series;
 
@@ -846,8 +846,8 @@ typedef struct tally_series {
 typedef struct tally_place {
     long points, other, asked, never; /* other: number of points with another model */
     long proven; /* of `asked`: with a reference value instead of limits of meshes */
-    int least; /* least number of elements at and above which all points of the field are within the
-                  tolerance */
+    int least; /* smallest number of elements at and above which all points of the field are within
+                  the tolerance */
 } tally_place;
 
 typedef struct tally {
@@ -942,7 +942,7 @@ void ranges_identity_add(const parameter_ranges *r, digest *plan);
 /* Header of the table: number of points and cells, and the axes. */
 void ranges_table_head(FILE *to, const parameter_ranges *r);
 /* Writes within PARAGRAPH_WIDTH: the references of errors; the percentage of points within the
- * tolerance for each mesh, quantity and formulation; for one or two axes the least number of
+ * tolerance for each mesh, quantity and formulation; for one or two axes the smallest number of
  * elements over them, for all quantities together (every: also for each); the worst points with
  * their values and a command that shows one. folder: with their scenes; "": none were stored. */
 void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault *f);

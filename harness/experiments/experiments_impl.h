@@ -121,8 +121,8 @@ const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS]);
  * supports and adds its results. */
 
 checks_run checks_declared;    /* its declarations are consistent            */
-checks_run checks_features;    /* supports the features it declares, alone, in subsets, and as cases
-                                  require */
+checks_run checks_features;    /* supports the features it declares, alone, in subsets, and as
+                                  required by cases */
 checks_run checks_derivatives; /* J and H of the strains */
 checks_run checks_energy; /* stress, stiffness and geometric stiffness derive from the energy */
 checks_run
@@ -153,7 +153,7 @@ const claim *certificate_broken(const certificate *);
 /* Cuts work into batches and assigns batches to shards. Both depend only on the costs. */
 
 /* shard[batches]: assigns each batch to a shard 0..shards-1. The most expensive batch is assigned
- * first, each to the shard with the least cost so far. Returns 0, or -1 when out of memory. */
+ * first, each to the shard with the lowest cost so far. Returns 0, or -1 when out of memory. */
 int deal_out(int batches, const double cost[], int shards, int shard[]);
 /* order[batches]: the most expensive first; equal costs keep their order. */
 void deal_order(int batches, const double cost[], int order[]);
@@ -163,7 +163,7 @@ enum { DESIGN_STRIDE = 16384, DESIGN_MARKS = 1024, DESIGN_MOST_POINTS = 10000000
 
 /* points: ignored for grids. In a grid the last axis changes fastest. As in GSL, the first point of
  * Sobol's and Halton's sequences is the one after the origin. REFUSED: too many points; a grid with
- * an axis without parts; another design with an axis with parts; more axes than the sequence
+ * an axis that is not divided; another design with an axis that is; more axes than the sequence
  * supports. */
 status design_make(design_kind kind, int axes, const sweep_axis list[], long points,
                    unsigned long seed, design *out, fault *f);
@@ -295,8 +295,7 @@ typedef struct beam_request {
     beam_analysis analysis;
     scene_load_kind load; /* force or moment at the end */
     double vector[3];     /* [N, N m] */
-    int component; /* component that is read at the end; ignored for a frequency or critical factor
-                    */
+    int component; /* component read at the end; ignored for a frequency or critical factor */
 } beam_request;
 
 /* Constants of its section. */
@@ -379,8 +378,8 @@ _Noreturn void labour_work(const labour *, int self, int to);
 
 /* Distance between two motions on the same mesh. */
 
-/* Largest value, over stations, nodes and centre lines, of the distance of two positions relative
- * to the size of the structure, and of the angle between two sections [rad]. NAN: a station is
+/* Largest distance of two positions, relative to the size of the structure, and largest angle
+ * between two sections [rad], over all stations, nodes and centre lines. NAN: a station is
  * missing. */
 double pace_distance(const cell_result *, const cell_result *other, int analysis);
 /* Distance in a quantity of the scene, relative to the other value or near_zero; NAN: a value is
@@ -402,7 +401,7 @@ status pace_judge(pace *, const sweep_request *, fault *);
 
 typedef enum pace_order_kind {
     PACE_ORDER_PASS,
-    PACE_ORDER_LOW,       /* significantly below the nominal one */
+    PACE_ORDER_LOW,       /* significantly below the nominal order */
     PACE_ORDER_UNDECIDED, /* fewer than three errors above the floor, or orders that differ */
     PACE_ORDER_KINDS
 } pace_order_kind;
@@ -453,8 +452,8 @@ status pace_plan_usual(pace_plan_request *, fault *);
 /* Appends a group. REFUSED: no motion, or nothing to run. */
 status pace_plan_add(pace *, const pace_plan_request *, fault *);
 
-/* Cost at equal error: the integrator, with its step or tolerance, that reaches an error at the
- * lowest cost. */
+/* Cost at equal error: the integrator, with its step or tolerance, that reaches a given error at
+ * the lowest cost. */
 
 enum { PACE_LEVELS = 3 };
 extern const double pace_levels[PACE_LEVELS];
@@ -504,7 +503,7 @@ void ranges_points_text(const parameter_ranges *, const double at[], char *text,
 
 enum { RANGES_TABLE_NAME = 24, RANGES_TABLE_COLUMN = 7, RANGES_TABLE_LINE = 1024 };
 
-/* Name of a quantity, or of all together for `index` equal to their number. */
+/* Name of a quantity; "all" for `index` equal to their number. */
 static inline const char *ranges_table_name(const parameter_ranges *r, int q)
 {
     return q < r->quantities ? r->quantity[q].name : "all quantities";
@@ -512,8 +511,8 @@ static inline const char *ranges_table_name(const parameter_ranges *r, int q)
 
 /* ranges_request.c: writes the references of errors, and the points without a scene. */
 void ranges_table_known(FILE *to, const tally *t);
-/* ranges_request.c: writes the least number of elements over one or two axes; every: also for each
- * quantity. */
+/* ranges_request.c: writes the smallest number of elements over one or two axes; every: also for
+ * each quantity. */
 void ranges_table_map(FILE *to, const tally *t, int every);
 
 /* Reference of the values at one point: a stored reference value, one computed by a deriving
@@ -521,8 +520,8 @@ void ranges_table_map(FILE *to, const tally *t, int every);
  *
  * Of the limits, the one with the smallest uncertainty U is used. Its uncertainty is U or, if
  * larger, its difference from another limit beyond the uncertainty of that limit. An uncertainty
- * above half of the tolerance is too large: such a reference value is ignored, such limits are
- * disputed or, if U itself is too large, unknown. */
+ * above half of the tolerance is too large: such a reference value is ignored; such limits count as
+ * disputed or, if U itself is too large, as unknown. */
 
 typedef struct point_reference {
     rows_reference kind;
@@ -537,16 +536,16 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
 /* The part of a scene that a continued motion depends on: all except its stations and
  * quantities. */
 
-/* Elements of a formulation under test: with everything that it supports, with each section, each
- * choice of each option, straight and curved. */
+/* Elements of a formulation under test: with everything that it supports, with each section and
+ * each choice of each option, straight and curved. */
 
 typedef void specimens_check(const specimen *s, claims *c);
-/* Calls check for every test element. An element that is refused with a reason is skipped, except
- * the default one, which must be possible (check "prepare"). */
+/* Calls check for every test element. An element that the formulation rejects with a reason is
+ * skipped, except the default one, which must be possible (check "prepare"). */
 void specimens_each(const formulation *chosen, claims *c, specimens_check *check);
 
-/* Preview of points of a sweep before the solution: quantities, meshes, formulations that run, and
- * the cost of a point. */
+/* Preview of a sweep before the solution, at some of its points: quantities, meshes, formulations
+ * that run, and the cost of a point. */
 
 /* Sets formulations, meshes, quantities, left_out and point_cost from the scenes of the first, the
  * last and some intermediate points. REFUSED: no scene can be built at any of them, no formulation

@@ -25,8 +25,7 @@ double adapters_error(const element_type *given);
 /* Lists what is computed by differences for the type. Returns "" when nothing is. */
 const char *adapters_words(const element_type *given);
 
-/* Text form NAME=VALUE of everything that a user chooses: parameters of a case and options of a
- * formulation. */
+/* Text form NAME=VALUE of all user choices: parameters of a case and options of a formulation. */
 
 /* Consecutive parameter tables, and the words that error messages use for them. */
 typedef struct assignment_list {
@@ -148,7 +147,7 @@ int formulations_is_loaded(const element_type *t);
 int formulations_is_new(const element_type *t);
 /* Marks one as accepted (reference/accepted.csv); an unknown name is ignored. */
 void formulations_accept(const char *name);
-/* Adds a type. Refuses a name that exists, and words with another meaning (all). The caller keeps
+/* Adds a type. Rejects a name that exists, and words with another meaning ("all"). The caller keeps
  * ownership of the type and of `from`, the value of --element (NULL if none). */
 status formulations_add(const element_type *t, const char *from, fault *f);
 /* Returns the value of --element that loaded the type, or NULL where it was not loaded. */

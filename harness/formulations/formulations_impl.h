@@ -23,7 +23,7 @@ typedef struct child {
 
 typedef enum child_event {
     CHILD_DONE,
-    CHILD_ENDED, /* the child closed its output or died */
+    CHILD_ENDED, /* the child closed its output or terminated */
     CHILD_LATE,  /* no answer within the time limit */
     CHILD_SPOKE  /* the child wrote before it had received the whole request */
 } child_event;
@@ -80,13 +80,13 @@ typedef struct channel {
 
 /* FAULT: memory. REFUSED: no words in the command. */
 status channel_init(channel *, const char *command, fault *);
-/* Starts the process, again where one has ended, and reads its first line: line[HANDSHAKE_MOST +
- * 1], ended by '\0'. REFUSED: there is none. */
+/* Starts the process (again, if it has ended) and reads its first line: line[HANDSHAKE_MOST + 1],
+ * ended by '\0'. REFUSED: there is none. */
 status channel_start(channel *, char line[], fault *);
-/* Is it this process's own and running? */
+/* Was it started by this process, and is it running? */
 int channel_runs(const channel *);
-/* Empties the body of the next request. The second function reserves `count` more bytes of it;
- * NULL: out of memory. */
+/* Empties the body of the next request. The second function adds `count` bytes to it and returns
+ * their address; NULL: out of memory. */
 void channel_begin(channel *);
 void *channel_add(channel *, size_t count);
 /* Sends the request and waits for the answer. *body has `least` or `most` bytes, *count says which;

@@ -20,8 +20,8 @@
 #include "harness/numerics/numerics.h"
 #include "harness/section_forces/section_forces.h"
 
-/* The equations of a model under a loading, and data of a run in addition to its states. The model
- * and the loading do not change. The data do not outlive a solution. */
+/* Equations of a model under a loading, and data of a run other than its states. The model and the
+ * loading do not change. The data are freed at the end of a solution. */
 
 /* Work done so far. */
 typedef struct counters {
@@ -36,7 +36,7 @@ typedef struct counters {
                          else 0 */
 } counters;
 
-/* Derivatives of elements in the undeformed state: harness/newton/newton_impl.h. */
+/* Stored derivatives of elements in the undeformed state (undeformed_of in newton_impl.h). */
 typedef struct run_undeformed {
     int *of;         /* [elements] index of its values, or NONE; NULL: no values yet */
     int count, room; /* of values */
@@ -62,8 +62,8 @@ typedef struct loading {
     int rotates, rotation_follows_path;
 } loading;
 
-/* Stresses in a motion gain eta S0 e', with eta of the member, and those of dashpots C e': see
- * harness/time/time.h. */
+/* Damping in a motion: the stresses of members gain eta S0 e' (eta of the member), those of
+ * dashpots C e'. See harness/time/time.h. */
 typedef struct run_damping {
     double *stiffness; /* [kinds x strains^2] S0 */
     double *none;      /* [model_stresses] zero */
@@ -89,8 +89,8 @@ typedef struct run_state {
     run_undeformed undeformed;
     struct run_free *free_strain; /* free_strain.c; NULL: no type changes its data */
     run_damping *damping;         /* damping of a motion; NULL: none */
-    double *feedback; /* [loads] factors of those with feedback in the state that is evaluated: set
-                         by feedback_take (harness/time); NULL: no motion yet */
+    double *feedback; /* [loads] factors of the loads with feedback in the evaluated state, set by
+                         feedback_take (harness/time); NULL: no motion yet */
     linear_memory memory; /* for callers that linearise one state at a time */
 } run_state;
 
@@ -115,11 +115,11 @@ typedef struct advance_stress {
     double largest, change; /* after the update; change due to it */
 } advance_stress;
 
-/* Call after linearise_state with that memory and K dx = residual. Adds the increments to strains,
- * stresses and inner unknowns of every element, then to the frames. dx[free + driven]. Returns the
- * largest correction, dimensionless: translations relative to the size of the scene, rotations in
- * rad, warping relative to the element length, inner unknowns as the element defines. stress: may
- * be NULL. */
+/* Call after linearise_state with the same memory and after solving K dx = residual. Adds the
+ * increments to strains, stresses and inner unknowns of every element, then to the frames. dx[free
+ * + driven]. Returns the largest correction, dimensionless: translations relative to the size of
+ * the scene, rotations in rad, warping relative to the element length, inner unknowns as the
+ * element defines. stress: may be NULL. */
 double advance_state(const equations *, const linear_memory *, model_state *, const double dx[],
                      double path, advance_stress *);
 /* Marks the state as an equilibrium: later increments start from it with the last tangent, and gaps
@@ -138,9 +138,9 @@ typedef struct applied {
  * its derivative. */
 double applied_factor(const equations *, const scene_load *load, double path);
 double applied_rate(const equations *, const scene_load *load, double path);
-/* The load times `scale`. Loads along members are lumped at the nodes of elements with linear shape
- * functions, or quadratic ones with a middle node; for a uniform load 1/2, 1/2, or Simpson's
- * weights. */
+/* Calls `take` with each nodal force of the load times `scale`. Loads along members are lumped at
+ * the nodes of elements with linear shape functions (quadratic ones if there is a middle node); a
+ * uniform load has the weights 1/2, 1/2, or Simpson's. */
 void applied_each(const model *, const model_state *, const scene_load *, double scale,
                   void (*take)(void *context, const applied *), void *context);
 
@@ -160,11 +160,11 @@ typedef struct arrival {
 } arrival;
 
 /* differences 1: derivatives are computed by differences, whose noise prevents quadratic
- * convergence, so that the first small correction is the last. elements: with many elements
- * rounding of the positions limits the size of corrections. */
+ * convergence, so that the iteration ends at the first small correction. elements: with many
+ * elements rounding of the positions limits the size of corrections. */
 void arrival_start(double criterion, int differences, int elements, arrival *);
-/* Returns 1 when the state has moved so little since the last linearisation that the tangent is
- * valid for the state, up to rounding. */
+/* Returns 1 when the state has moved so little since the last linearisation that its tangent is
+ * still exact up to rounding. */
 int arrival_tangent_stands(const arrival *);
 
 typedef struct condensation condensation;
@@ -180,9 +180,9 @@ int modes_in_family(const scene_mode *,
                     const mode_shape *); /* Returns 1 when the mode belongs to the family that the
                                             quantity requests. */
 const char *modes_family_name(scene_family);
-/* Separates modes of equal value[count], stored one after the other (each [n = free + driven]),
- * which may be arbitrary mixtures: into those that move along the z axes of members and those that
- * do not. */
+/* Separates modes with equal value[count], which may be arbitrary mixtures, into modes that move
+ * along the z axes of members and modes that do not. They are stored one after the other, each [n =
+ * free + driven]. */
 status modes_separate(const model *, const scene *, int count, const double value[], size_t n,
                       double *mode, fault *);
 
@@ -216,8 +216,9 @@ typedef struct outcome_spectrum {
     outcome_side positive, negative; /* frequencies are in `positive` */
     char meaning[OUTCOME_MEANING];   /* with or without the damping of members, or the kind of
                                         instability; "": no damping, and loads have a potential */
-    double growth; /* [1/s] largest growth rate about a state without potential; 0: stable */
-    const char *growth_meaning; /* as `meaning`, of the growth rate; NULL: `meaning` */
+    double growth; /* [1/s] largest growth rate about a state whose loads have no potential; 0:
+                      stable */
+    const char *growth_meaning; /* as `meaning`, for the growth rate; NULL: the same as `meaning` */
     double *strained; /* [free + driven] displacements due to initial strains alone, about which
                          modes without loads are computed; NULL: none */
 } outcome_spectrum;
@@ -320,10 +321,11 @@ typedef struct outcome_harmonic {
     outcome_path path;  /* path of frequencies [Hz]; without states */
     double *response;   /* [quantities of the scene x stations] as extracted */
     double *bound;      /* the same: error by omitted modes, at most */
-    outcome_peak *peak; /* [quantities of the scene] of those that take the largest or the least */
+    outcome_peak *peak; /* [quantities of the scene] for quantities that request the largest or the
+                           smallest value */
 } outcome_harmonic;
 
-/* Displacements under each of the load cases and combinations that are read. */
+/* Displacements under each load case and combination that quantities read. */
 typedef struct outcome_linear {
     int solutions, *acting; /* [solutions] their numbers */
     size_t coordinates;
@@ -358,7 +360,7 @@ typedef struct analysis_outcome {
     } left;
 } analysis_outcome;
 
-/* Return the results of an analysis of that kind; another kind ends the program. */
+/* Return the results of an analysis of the given kind; any other kind ends the program. */
 const outcome_linear *outcome_linear_of(const analysis_outcome *);
 /* Displacements of a linear solution under that load case or combination; NULL: there is none. */
 const double *outcome_displacements(const analysis_outcome *, int acting);
@@ -380,7 +382,8 @@ void outcome_free(analysis_outcome *);
 void outcome_take(eigen_side *from, outcome_side *to);
 /* Allocates the states of that many stations. */
 status outcome_stations(outcome_path *, int stations, fault *);
-/* Copies the state to the next station; whole 0: only of its nodes (kinematics_nodes_alloc). */
+/* Copies the state to the next station; whole 0: only the states of its nodes
+ * (kinematics_nodes_alloc). */
 status outcome_keep(outcome_path *, const model *, const model_state *, int whole, double path,
                     fault *);
 
@@ -446,11 +449,11 @@ typedef struct linear_model {
         triplets A, B, C, D;
     } state;
     int eliminated; /* coordinates without mass and damping */
-    double apart; /* of a harmonic analysis: largest difference from its responses, relative ... */
-    int farthest; /* ... of this quantity */
+    double apart;   /* harmonic analysis: largest difference from its responses, relative ... */
+    int farthest;   /* ... and the quantity that has it */
 } linear_model;
 
-/* A reduced linear model, q = T x, beside the whole one. */
+/* A reduced linear model, q = T x, next to the full one. */
 typedef struct reduced_model {
     linear_model of;
     triplets T;
@@ -458,10 +461,11 @@ typedef struct reduced_model {
     double *whole, *reduced; /* ... [modes] */
     double *apart, *at;      /* [outputs x inputs] largest difference of transfer functions at the
                                 frequencies of a harmonic analysis, relative to the largest value,
-                                and its frequency [Hz]; NULL: of no harmonic analysis */
+                                and its frequency [Hz]; NULL: no harmonic analysis */
 } reduced_model;
 
-/* A load with factor 1, a force or moment of 1 at a node, or an acceleration of 1 of a motion. */
+/* A load with factor 1, a unit force or moment at a node, or a unit acceleration of a prescribed
+ * motion. */
 typedef struct system_input {
     int load, driver, node, component; /* SCENE_NONE: not this */
 } system_input;
@@ -509,7 +513,7 @@ typedef struct solve_options {
     int condition; /* 1: estimate the condition of the tangents (on a static path: at its stations)
                     */
     int condensed; /* number of elements at and above which a member is condensed to its ends; 0:
-                    * default
+                      default
                     */
     int phases;    /* 1: read the clock between the parts of an iteration */
     int sample;    /* N > 0: only N iterations of each static path, to measure their time, without
@@ -523,7 +527,7 @@ typedef struct solve_options {
     const outcome_end
         *restart;     /* [restarts] ends of motions in another run, from which motions continue */
     int all_analyses; /* 1: also run analyses that no quantity reads */
-    int looks; /* 1: check the stability of static paths where pivots do not decide it, and within
+    int looks; /* 1: check the stability of static paths where pivots are not conclusive, and within
                   their steps */
     int values_only; /* 1: do not compute values needed only for curves and matrices */
 } solve_options;
@@ -537,12 +541,12 @@ typedef struct quantity_result {
     status status;   /* OK: value is a number */
     double value;    /* NAN where it does not exist */
     double x;        /* abscissa where a maximum or minimum was found */
-    double rounding; /* critical loads, frequencies: estimate of |error| by round-off; of a motion
-                        what reading it between its steps adds; of a response by modes the most that
-                        omitted ones add; relative to the value, of a curve to its largest; else 0
-                      */
-    double change;   /* from the mesh that was solved before, by the value; of a curve, by its
-                        largest; NAN: not known */
+    double rounding; /* estimated |error| relative to the value (for a curve: to its largest value).
+                        Critical loads and frequencies: due to round-off; motions: due to
+                        interpolation between steps; responses by modes: upper bound for the omitted
+                        modes; else 0 */
+    double change;   /* change from the previously solved mesh, relative to the value (for a curve:
+                        to its largest value); NAN: unknown */
     curve curve;     /* of SCENE_CURVE, else 0 points */
     char reason[FAULT_TEXT];       /* why there is no value */
     char meaning[OUTCOME_MEANING]; /* see outcome_spectrum */
@@ -560,8 +564,8 @@ typedef struct iteration_record {
 /* Stability of a state under small disturbances, with fixed and prescribed coordinates unchanged.
  */
 typedef enum step_stability {
-    STEP_OPEN, /* the signs of pivots do not decide it: the tangent is not symmetric, or axes rotate
-                */
+    STEP_OPEN, /* the signs of pivots are not conclusive: the tangent is not symmetric, or axes
+                  rotate */
     STEP_NO_DIVERGENCE, /* the tangent is not symmetric and there is no mass: no eigenvalue has
                            crossed zero */
     STEP_STABLE,
@@ -591,7 +595,7 @@ typedef struct step_record {
     double energy;    /* r . K^-1 r of the first iteration [J] */
 } step_record;
 
-/* Compliance and stiffness [6 x 6] (ux uy uz thx thy thz by Fx Fy Fz Mx My Mz; SI) of a node at
+/* Compliance and stiffness [6 x 6] (ux uy uz thx thy thz by Fx Fy Fz Mx My Mz; SI) of a node, at
  * stations of a path. */
 typedef struct nodal_matrices {
     int node;
@@ -677,7 +681,8 @@ typedef struct analysis_context {
     solve_result *result;       /* receives the step records */
     analysis_outcome *outcomes; /* [analyses]; those before the present one are complete */
     context_work *work;
-    /* With imperfections, of the imperfect and of the perfect structure: context_of; NULL: none */
+    /* With imperfections: contexts of the imperfect and of the perfect structure (context_of);
+     * NULL: none */
     const struct analysis_context *const *sides;
 } analysis_context;
 
@@ -739,7 +744,7 @@ typedef struct node_tangent {
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
 } node_tangent;
 
-/* members: condensation that shares its chains, to be taken from an iteration; NULL: none. */
+/* members: a condensation with the same chains, which are taken from an iteration; NULL: none. */
 status tangent_alloc(analysis_context *c, const scene_compliance *a, const condensation *members,
                      node_tangent *t, fault *f);
 void tangent_free(node_tangent *t);
@@ -775,13 +780,13 @@ typedef struct element_part {
 /* Loads and drivers along a path. */
 
 /* Returns the loading of an analysis. In a motion the path parameter is the time, and loads and
- * drivers are functions of it; those without such a function act in full. Axes rotate as those of
+ * drivers are functions of it; a load without such a function acts in full. Axes rotate as those of
  * the analysis, or of its base analysis. */
 loading loading_of(const model *, int analysis);
 /* Value of a known driver [m or rad]. */
 double loads_driver_value(const equations *, const scene_driver *d, double path);
-/* In a motion, also the first two derivatives; at the end of a piece those of the next one. A
- * driver without a function of time keeps its last value, and a load its full value. */
+/* In a motion, also computes the first two derivatives; at the end of a piece, those of the next
+ * piece. A driver without a function of time keeps its last value, and a load its full value. */
 void loads_driver_rates(const equations *, const scene_driver *d, double path, double out[3]);
 /* out[free + driven] += the load times `scale` in a state. */
 void loads_add_one(const equations *, const model_state *, const scene_load *, double scale,
@@ -795,9 +800,9 @@ void loads_rate(const equations *, const model_state *, double path, double out[
 /* Is there a load or a nonzero driver at path 0? */
 int loads_begin(const equations *);
 
-/* An unknown driver: the prescribed coordinate `unknown` moves such that the free one `coordinate`
- * moves by `increment`. The force on `coordinate` contains no reaction; the force on the driver
- * results from the solution. */
+/* An unknown driver: the prescribed coordinate `unknown` moves so that the free coordinate
+ * `coordinate` moves by `increment`. The force on `coordinate` contains no reaction; the force on
+ * the driver results from the solution. */
 enum { MODEL_MAX_CONDITIONS = 4 };
 typedef struct model_condition {
     int unknown, coordinate;
@@ -808,8 +813,8 @@ int loads_conditions(const equations *, const model_state *, double path,
 
 /* Force and spatial moment of the loads at `path` on the frame of a node: F[6] [N, N m]. */
 void loads_at_node(const equations *, const model_state *, double path, int node, double F[6]);
-/* Force or moment that holds a component of a node, along the axes of its supports, of what
- * elements and loads have there. */
+/* Reaction force or moment on a component of a node, in the axes of its supports, from the forces
+ * that elements and loads exert there. */
 double loads_reaction(const model *, int node, int component, const double elements[6],
                       const double loads[6]);
 
@@ -872,8 +877,8 @@ enum {
 
 /* Number of elements in a batch; 1 if they are evaluated one after the other. */
 int chunk_size(const model *m);
-/* The next batch from [first, end), end - first <= CHUNK_WINDOW: index[]; returns its size, 0: none
- * left. done[end - first] must be zero before the first call. */
+/* Writes the next batch from [first, end), end - first <= CHUNK_WINDOW, to index[]; returns its
+ * size, 0: none left. done[end - first] must be zero before the first call. */
 int chunk_next(const model *m, int first, int end, unsigned char done[], int index[CHUNK_MOST]);
 
 /* Stiffness of a moment m on a node that rotates, by convention. K: the stiffness of the
@@ -898,9 +903,9 @@ status convention_apply(scene_moments of_tangent, scene_moments convention, cons
 
 /* Initial guess for the next state of a path. */
 
-/* Extrapolates the state at `path` from the last `count` ones (two: a line, three: a parabola,
- * ...), oldest first. Returns 0, without a change of `out`, when prescribed motions are nonlinear
- * or the step is too long. */
+/* Extrapolates the state at `path` from the last `count` states (two: a line, three: a parabola,
+ * ...), oldest first. Returns 0 and leaves `out` unchanged when prescribed motions are nonlinear or
+ * the step is too long. */
 enum { MODEL_EXTRAPOLATED = 12 };
 int extrapolate_state(const equations *, int count, const model_state *const at[], double path,
                       model_state *out);
@@ -977,8 +982,8 @@ typedef struct internal_inertia {
  * m], bimoment [N m^2] (conjugate to the rate of the warping amplitude). end: 0 from, 1 to. */
 void internal_at_end(const equations *, const internal_state *, int member, int end, double out[7]);
 
-/* A position on a member, 0 (from) .. 1 (to) of its initial length; before: on the side of `from`
- * where a value jumps. */
+/* A position on a member, 0 (from) .. 1 (to) of its initial length; before 1: where a value jumps,
+ * take the side of `from`. */
 typedef struct internal_place {
     int member;
     double place;
@@ -1015,7 +1020,7 @@ status internal_stress_at(const equations *, const internal_state *, const inter
 status internal_stress_largest(const equations *, const internal_state *, int member,
                                stress_measure, double *out, fault *);
 
-/* Subtracts them from e[strains], the strains of node positions. */
+/* Subtracts the free strains from e[strains], the strains due to the node positions. */
 void free_strain_subtract(const equations *, int element, double path, double e[]);
 /* Data for the stresses of an element: those of its kind, or modified by its type; valid until the
  * next call for the element. */
@@ -1030,8 +1035,8 @@ double free_strain_work(const equations *, const model_state *from, double begin
 status linear_stiffness(const equations *, sparse *K, fault *); /* J^T S J at e = 0 */
 /* Largest initial strain of a member; 0: none. */
 double linear_initial(const model *);
-/* Stresses including those of initial strains, and of temperatures at `path`: for the whole
- * structure, not for a motion. */
+/* Stresses, including those due to initial strains and to temperatures at `path`; for the whole
+ * structure, not in a motion. */
 status linear_whole_stresses(const equations *, const double x[], double path, double sigma[],
                              fault *);
 status linear_geometric_stiffness(const equations *, const double sigma[], double path, sparse *G,
@@ -1056,8 +1061,8 @@ typedef struct predictor {
     int count, iterations; /* iterations: in the last step */
     int most;              /* largest number of states used for an extrapolation */
     model_state *at[MODEL_EXTRAPOLATED + 1]; /* NULL: not allocated yet */
-    /* [m] error that an extrapolation of the last state from k states would have had; k = 1: from
-     * the last state unchanged */
+    /* [m] error that an extrapolation of the last state from k states would have had; k = 1: the
+     * previous state unchanged */
     double error[MODEL_EXTRAPOLATED + 1];
 } predictor;
 
@@ -1171,7 +1176,7 @@ void quadratic_forms_free(quadratic_forms *p);
 status quadratic_forms_load(const equations *, quadratic_forms *p, double path, int whole,
                             fault *f);
 
-/* Return x^T K x and x^T G x of x[free], and bounds of their rounding errors. */
+/* Return x^T K x and x^T G x for x[free], and bounds of their rounding errors. */
 double quadratic_forms_stiffness(quadratic_forms *p, const double x[]);
 double quadratic_forms_geometric(quadratic_forms *p, const double x[]);
 double quadratic_forms_stiffness_rounding(quadratic_forms *p, const double x[]);
@@ -1200,11 +1205,11 @@ int quantity_curve(quantity_result *, int points);
  * is then the solution for loads rounded in their last digit, and the correction is its error. This
  * level depends on the problem, not on the mesh or on K. Example: a bar of length L is pushed along
  * an oblique axis, so that the components of the force are rounded; the transverse displacement eps
- * P L^3/(3 EI) is eps (L/r)^2/3 relative to P L/(EA). Square bars of side L/10 to L/1e5, 1 to 256
- * elements, three oblique axes, every formulation: eps (L/side)^2 times 2.5 at most where that is
- * above what the mesh rounds (170 times for the geometrically exact element, whose factors are the
- * worst), whatever the condition, which goes from 1 to 2e16, and q from 0 to 0.08 (0.8 for that
- * element). */
+ * P L^3/(3 EI) is eps (L/r)^2/3 relative to P L/(EA). Measured with square bars of side L/10 to
+ * L/1e5, 1 to 256 elements, three oblique axes and every formulation: at most 2.5 eps (L/side)^2
+ * where this exceeds the rounding due to the mesh (170 times that for the geometrically exact
+ * element, whose factors are the worst). The accuracy does not depend on the condition, which
+ * ranges from 1 to 2e16; q ranges from 0 to 0.08 (0.8 for the geometrically exact element). */
 
 typedef enum refinement_state {
     REFINEMENT_GOES_ON,
@@ -1218,8 +1223,9 @@ typedef struct solution_refinement {
     double last;     /* relative to the solution */
 } solution_refinement;
 
-/* Decides from the size of a correction relative to the solution: at least two corrections after
- * the first, and more while they halve and the accuracy is insufficient. */
+/* Decides from the size of a correction relative to the solution whether to continue: with at least
+ * two corrections after the first, and then as long as each halves the error and the accuracy is
+ * insufficient. */
 refinement_state refinement_next(solution_refinement *, double correction);
 
 /* A frame that rotates at a constant rate. */
@@ -1232,16 +1238,17 @@ status rotating_frame_inertia(const equations *, const model_state *, double pat
 /* x^T B x of the undeformed structure, x[free + driven]: effect of the mass inside elements on a
  * mode, k = lambda m + lambda^2 b (field/field.h). */
 double rotating_frame_inner(const model *, const double x[]);
-/* B on the pattern of a symmetric K. Returns 0 when no element has it, so that it is zero. */
+/* B on the pattern of a symmetric K. Returns 0 when B is zero because no element has such a
+ * matrix. */
 int rotating_frame_inner_matrix(const equations *, sparse *out);
 
 /* Explains why a stiffness matrix cannot be factored. */
 
-/* SINGULAR, with the motion, when released ends make the undeformed structure a mechanism; else
- * `otherwise` with f unchanged. */
+/* Returns SINGULAR and describes the motion in f when released ends make the undeformed structure a
+ * mechanism; otherwise returns `otherwise` and leaves f unchanged. */
 status singular_mechanism(const analysis_context *c, status otherwise, fault *f);
 
-/* Call after the last factorisation failed: sets the fault with its cause: a part without supports;
+/* Call after the last factorisation failed. Sets the fault with its cause: a part without supports;
  * digits lost in round-off, due to many elements or very different stiffnesses; else a critical
  * point. The work for this is not counted. */
 void singular_explain(analysis_context *c, fault *f);

@@ -22,8 +22,8 @@ element_rotating_frame loading_frame(const loading *, double path);
 
 /* Forces of a load on the vertices of a mesh, in a given state. */
 
-/* Is the load along the whole of a member distributed to nodes by the shares of the mass of a
- * motion, instead of its own option? */
+/* Returns 1 for a uniform load on the whole length of a member without lumping of its own: it is
+ * distributed to the nodes in the same shares as the mass. */
 int applied_with_mass(const scene_load *);
 /* As applied_each, for a load along the member of this element, on this element only. */
 void applied_element(const model *, const model_state *, const scene_load *, double scale,
@@ -51,23 +51,24 @@ void applied_stiffness(const model *, const model_state *, const scene_load *, d
  * number. Flexibilities of members (newton_impl.h) do not, and the remaining system is as small as
  * with one element per member. */
 
-/* Least number of elements of a condensed member: with fewer, the assembled tangent costs less and
- * is accurate enough. */
+/* Minimum number of elements of a condensed member: with fewer, the assembled tangent costs less
+ * and is accurate enough. */
 enum { CONDENSATION_ELEMENTS = 1000 };
 
 /* *out NULL: members have fewer elements than `from`, or a load between their ends has a stiffness,
  * or frames rotate. released[count]: prescribed coordinates that are also unknowns. */
 status condensation_alloc(const equations *, int from, int count, const int released[],
                           condensation **out, fault *);
-/* With the members of `of`, which must outlive it, and other released coordinates: see
- * condensation_take. */
+/* Allocates a condensation with the members of `of`, which must outlive it, and other released
+ * coordinates; see condensation_take. */
 status condensation_alloc_like(const condensation *of, int count, const int released[],
                                condensation **out, fault *);
 void condensation_free(condensation *);
 
-/* The tangent of the last linearise_state with the same arguments, with members condensed. */
+/* Computes the tangent of the last linearise_state with the same arguments, with members
+ * condensed. */
 status condensation_at(condensation *, const model_state *, double path, fault *);
-/* The tangent in the state of `of`, which owns the members. */
+/* Computes the tangent in the state of `of`, which owns the members. */
 void condensation_take(condensation *, const condensation *of, const model_state *);
 /* Matrix on all coordinates of ends, to be changed before it is factored. */
 sparse *condensation_ends(condensation *);
@@ -92,8 +93,8 @@ matrix_factor *context_take_factor(analysis_context *);
 status border_alloc(const analysis_context *, const scene_compliance *, border *, fault *);
 void border_free(border *);
 
-/* Loads along members as they act between vertices: by their work on the displacements inside
- * elements (elements/field), or by the element's own equilibrium; also loads that act through
+/* Loads along members between vertices. They act by their work on the displacements inside elements
+ * (elements/field), or through the element's own equilibrium. Also loads that act through
  * sections. */
 
 /* Loads along one element at a path parameter. */
@@ -124,14 +125,15 @@ void distributed_take(const equations *, int element, double path, distributed_t
 void distributed_add_taken(const model *, const along_output *out, const double J[],
                            const double gap[], double forces[], double K[]);
 
-/* forces[7 nodes] += forces on an element of a load along a member, times `scale`; K[7 nodes x 7
- * nodes] -= its derivative (may be NULL). Returns 0 when there is none. For a load in the element's
- * own equilibrium: the derivative of its forces with respect to the load, and K does not change. */
+/* forces[7 nodes] += forces of a load along a member on one of its elements, times `scale`; K[7
+ * nodes x 7 nodes] -= its derivative (may be NULL). Returns 0 when there is none. For a load in the
+ * element's own equilibrium: the derivative of its forces with respect to the load, and K does not
+ * change. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
-/* As distributed_add_one for all loads at `path`. For loads in the element's own equilibrium only
- * the part that J^T sigma does not contain; in a linear solution about `rest` all. field 1: without
- * those loads. */
+/* As distributed_add_one, for all loads at `path`. Of loads in the element's own equilibrium it
+ * adds only the part that J^T sigma does not contain; in a linear solution about `rest` it adds
+ * them fully. field 1: excludes those loads. */
 int distributed_add(const equations *, const model_state *, const node_state x[], int element,
                     double path, double forces[], double K[]);
 /* As distributed_add, only for loads in the element's own equilibrium. */
@@ -225,11 +227,11 @@ status history_add_iteration(solve_result *r, step_record *step, const iteration
  * measured from them, or stresses are computed with element data that include them; in both cases
  * the strains are mechanical. */
 
-/* Adds the elongation and the curvatures about principal axes. */
+/* Adds the elongation and the curvatures about principal axes of the free strain. */
 void free_strain_amounts(const equations *, int element, double path, double strain[3],
                          double curvature[3]);
-/* To first order about the undeformed state, out[strains]: of temperatures at `path`; initial
- * strains of members. */
+/* out[strains]: free strains to first order about the undeformed state, due to temperatures at
+ * `path`; due to initial strains of members. */
 void free_strain_linear(const equations *, int element, double path, double out[]);
 void free_strain_own(const model *, int element, double out[]);
 /* Largest strain due to temperatures; curvatures are multiplied by the length of the model. */
@@ -243,8 +245,8 @@ int free_strain_by_load(const equations *, const model_state *, int element, con
 
 status linear_stresses(const equations *, const double x[], double sigma[],
                        fault *); /* sigma = S J x, [model_stresses] */
-/* Stresses of the loads that increase from path 0 to `path`: x from these loads, temperatures
- * included. */
+/* Stresses due to the loads that increase from path 0 to `path`, temperatures included; x:
+ * displacements due to these loads. */
 status linear_growing_stresses(const equations *, const double x[], double path, double sigma[],
                                fault *);
 void linear_forces(const equations *, const double sigma[],
@@ -255,8 +257,8 @@ double linear_strain_energy2(const equations *, const double x[]); /* x^T K x = 
 double linear_strain_rounding(const equations *,
                               const double x[]); /* bound of its rounding error */
 double linear_geometric_energy2(const equations *, const double sigma[], const double x[]);
-/* Size of its rounding error, with the stresses sigma of the displacements load_x[free + driven].
- */
+/* Size of the rounding error of the geometric form, with the stresses sigma of the displacements
+ * load_x[free + driven]. */
 double linear_geometric_rounding(const equations *, const double load_x[], const double sigma[],
                                  const double x[]);
 
@@ -298,7 +300,7 @@ enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* values of `what` */
 /* Evaluates strains in batches at the nodes of s; sigma[elements x strains] for H. Valid until
  * ahead_end. */
 void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[]);
-/* At e[elements x strains], or NULL: at the strains evaluated before; sigma and C. */
+/* Evaluates sigma and C at e[elements x strains] (NULL: at the strains evaluated before). */
 void ahead_stresses(const equations *eq, const double e[], const double inner[]);
 void ahead_end(const equations *eq);
 
@@ -385,8 +387,8 @@ int chain_negative(const chain *);
 /* Loads r[links x y] on all coordinates except those of the ends (the last joint is not read), in
  * the order of the links; ends[2 joint]: resulting forces on the ends. */
 void chain_reduce(chain *, const double r[], double ends[]);
-/* x[links x y] for these loads and for motions of the ends[2 joint]; the last joint is an end. x
- * may be r. */
+/* Computes x[links x y] for these loads and for the motions ends[2 joint] of the ends; the last
+ * joint is an end. x may be r. */
 void chain_expand(chain *, const double r[], const double ends[], double x[]);
 
 /* Members of a chain: chain.c builds the chain and solves with it. */
@@ -433,8 +435,8 @@ static inline kept_link chain_kept(const chain *s, int link, int c, int y)
 
 /* Members of condensation. */
 
-/* Structures with more coordinates of ends are not condensed, because the pattern is built densely.
- */
+/* Structures with more end coordinates than this are not condensed, because the pattern is built
+ * densely. */
 enum { MOST_ENDS = 2000, MEMBER_COLUMNS = 2 * NODE_COORDINATES + 2 * SCENE_RELEASED };
 
 typedef struct condensed_member {
@@ -466,8 +468,8 @@ struct condensation {
     long factorisations;
 };
 
-/* Springs about the undeformed state, as linear_stresses for elements: sigma[6 x springs] are the
- * last of the stresses. */
+/* Springs about the undeformed state, as linear_stresses for elements: sigma[6 x springs] is the
+ * last part of the stresses. */
 
 void linear_springs_stiffness(const model *, sparse *K); /* += */
 void linear_springs_stresses(const model *, const double x[], double sigma[]);
@@ -496,9 +498,9 @@ status link_of(const link_element *, chain_link *, fault *);
 
 /* Members as rigid parts of a linkage with joints at released ends. */
 
-/* Returns 1 when the undeformed structure with its supports is a mechanism because of released
- * ends: gives the node that moves most, or -1 and a member between nodes at rest, and its motion
- * (displacement [m], rotation [rad], arbitrary scale). Not searched for more than 200 parts. */
+/* Returns 1 when released ends make the undeformed structure with its supports a mechanism. Gives
+ * the node that moves most, or -1 and a member between nodes at rest, and its motion (displacement
+ * [m], rotation [rad], arbitrary scale). Structures of more than 200 parts are not searched. */
 int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 /* Small symmetric matrices whose rows may have different units. */
@@ -518,8 +520,8 @@ typedef struct undeformed_element {
     const double *J, *C, *initial;
 } undeformed_element;
 
-/* In large models consecutive elements of one kind with equal orientation, up to the rounding of
- * their positions, share one. FAULT: out of memory. */
+/* In large models, consecutive elements of one kind with equal orientation, up to the rounding of
+ * their positions, share one set of derivatives. FAULT: out of memory. */
 status undeformed_of(const equations *, int element, undeformed_element *, fault *);
 /* Evaluates missing elements together, if the formulation can; valid until ahead_end. */
 void undeformed_begin(const equations *);

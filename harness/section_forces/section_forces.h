@@ -37,9 +37,10 @@ typedef struct span_frame {
  * The ends of elements are in equilibrium, whatever a formulation assumes inside. Between them the
  * line is that of the exact beam (Simo-Reissner with warping, the constants of the section, the
  * active physics) between the end frames. It satisfies F' = -q, m' = -r' x F - mu, N = R^T F, M =
- * R^T m, and the torsion equations of section_forces_impl.h. The solution from p with the forces at
- * p blends in proportion to x into that from q with the forces at q. The only error is that of the
- * end forces: values inside converge as they do, and agree with them at the ends. */
+ * R^T m, and the torsion equations of section_forces_impl.h. The solution that starts at p with the
+ * forces at p is blended, in proportion to x, with the solution that starts at q with the forces at
+ * q. The only error is that of the end forces: values inside converge as they do, and agree with
+ * them at the ends. */
 
 /* Action of the part towards q on the part towards p, in the principal axes of the rotated section;
  * moments about the centroid. */
@@ -96,8 +97,8 @@ typedef struct span_move {
 /* NOT_CONVERGED: no line between the ends was found. */
 status span_recover(const span_grid *g, const span_problem *problem, span_fields *out, fault *f);
 
-/* Displacement and turn of the section at x, from those of the ends. begin: the undeformed frames
- * of the ends, with the initial curvature between. */
+/* Displacement and rotation of the section at x, from those of the ends. begin: the undeformed
+ * frames of the ends, with the initial curvature between. */
 void span_moved(const span_grid *, const span_problem *, const span_fields *,
                 const span_frame begin[2], const double curvature[3], const span_move end[2],
                 double x, span_move *out);

@@ -155,8 +155,8 @@ typedef struct imported {
 int imported_same_model(const imported *);
 void imported_free(imported *); /* may be NULL */
 
-/* Physics of a scene that a formulation omits, and the resulting change. Without a change of the
- * requested quantities the model is the same, otherwise it is another model. */
+/* Physics of a scene that a formulation omits, and the resulting change. If no requested quantity
+ * changes, the formulation solves the same model; otherwise it solves another model. */
 
 typedef struct omission {
     unsigned what;          /* FEATURE_* and OMIT_* bits (model.h); 0: nothing */
@@ -168,9 +168,9 @@ typedef struct omission {
     char why[FAULT_TEXT];      /* why the bound is unknown */
 } omission;
 
-/* Finds the physics of a scene that the type omits. If no formulation of the program has all of it,
- * or the one that has it finds no values, the bound is unknown and the model counts as another one.
- */
+/* Finds the physics of a scene that the type omits. If no formulation of the program includes all
+ * of it, or the one that does finds no values, the bound is unknown and the model counts as another
+ * one. */
 void omission_of(const scene *, const element_type *, omission *out);
 /* "without shear: changes no value by more than 2e-06", "another model: shear is not modelled
  * (changes frequency_1 by about 16 %)". */
@@ -235,7 +235,7 @@ typedef struct truths {
     int indexed, places; /* number of rows in the index: the first ones */
     int *first, *next;   /* [places], [indexed] */
     rule *rule;          /* known deviations */
-    int strangers;       /* cases in the file that the program does not have */
+    int strangers;       /* number of cases in the file that the program does not have */
     char stranger[64];
 } truths;
 
@@ -378,7 +378,7 @@ typedef enum verdict_kind {
     VERDICT_DIVERGED,  /* no value on the finest mesh: not converged, singular or crashed */
     VERDICT_REFUSED,
     VERDICT_SKIP,        /* the formulation does not support a required feature */
-    VERDICT_NO_TRUTH,    /* no reference value, or none for its theory of shear */
+    VERDICT_NO_TRUTH,    /* the formulation does not support a required feature */
     VERDICT_OTHER_MODEL, /* omits physics of the scene that changes the requested quantity */
     VERDICT_KINDS
 } verdict_kind;
@@ -386,12 +386,12 @@ typedef enum verdict_kind {
 typedef struct verdict {
     int series, quantity; /* indices: series in the sweep, quantity in the scene */
     verdict_kind kind, expected;
-    /* reference value of the same model and theory of shear; NULL: none */
+    /* reference value of the same model and shear theory; NULL: none */
     const truth *truth;
     /* for information only, if there is no such reference value: one of another model or theory, or
      * a cross-formulation agreement; NULL: none */
     const truth *model_truth;
-    const truth *theory_truth; /* without such a reference value: that of another theory of shear */
+    const truth *theory_truth; /* without such a reference value: that of another shear theory */
     const truth *predicted;    /* limit derived for the formulation; NULL: none */
     /* published value that differs from the limit by more than both uncertainties; NULL: none */
     const truth *contradicted;
@@ -421,7 +421,7 @@ const char *verdict_name(verdict_kind kind);
 /* Meshes up to the finest one that has the quantity: another program may give it on fewer. */
 int verdict_meshes(const series *, int quantity);
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
-/* Reference value by which a formulation is evaluated, for the same model and its theory of shear;
+/* Reference value by which a formulation is evaluated, for the same model and its shear theory;
  * NULL: none. */
 const truth *verdict_truth(const truths *t, const sweep_point *p, const formulation *chosen,
                            int quantity);
@@ -429,10 +429,10 @@ const truth *verdict_truth(const truths *t, const sweep_point *p, const formulat
  * never affects the exit status. */
 const truth *verdict_reference(const truths *t, const sweep_point *p, const formulation *chosen,
                                int quantity);
-/* Evaluates the quantity of the series that v names: sets kind, fit, errors, and as_expected if it
- * is so without known deviations. */
+/* Evaluates the quantity of the series that v names: sets kind, fit and errors, and `matches` if
+ * the verdict is as expected without known deviations. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
-/* Relative error of a value of a quantity against a truth. */
+/* Relative error of a value of a quantity with respect to a reference value. */
 double verdict_error(const scene_quantity *q, double value, double truth_value);
 
 /* Evaluation of all runs (case, point, formulation, quantity) against reference values and expected
@@ -494,8 +494,8 @@ typedef struct judgement {
     int proposed; /* ... and how many of them would need a known deviation */
     int disagreements;
     int judged; /* number of verdicts with a reference value */
-    /* number of rules that no verdict showed, or whose derived limits none confirmed: of the
-     * built-in list (complete runs only), of user tables (study_impl.h) */
+    /* number of rules that no verdict matched, or whose derived limits no verdict confirmed: in the
+     * built-in list (complete runs only), in user tables (study_impl.h) */
     int unobserved;
     int unmet; /* number of reference values without a case, point or quantity (complete runs only)
                 */
@@ -516,7 +516,7 @@ status judgement_add(const sweep *s, truths *t, int series_index, judgement *out
 /* whole: 1 when no selection was made; then unobserved rules and reference values without a
  * quantity are failures. */
 void judgement_end(const sweep *s, truths *t, int whole, judgement *out);
-/* All three. */
+/* Calls judgement_begin, judgement_add for every series, and judgement_end. */
 status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);
 void judgement_free(judgement *j);
 enum { JUDGED_AS_EXPECTED = 0, JUDGED_DIFFERS = 1, JUDGED_NOTHING = 3 };
@@ -528,8 +528,8 @@ const char *judgement_outcome(const judgement *j);
 
 /* Largest extent of the positions of nodes [m]. */
 double change_size(const scene *);
-/* Scale of a quantity [its unit], such that round-off is small compared with it: strains of 1e-14,
- * rotations and fractions of the size of the structure of 1e-12, fractions of 1e-9 of other values
+/* Scale of a quantity [its unit]. Round-off is small compared with it: it is 1e-14 for strains,
+ * 1e-12 for rotations and (times the size of the structure) for lengths, and 1e-9 of other values
  * in the same unit. */
 double change_scale(const scene *s, int quantity, const solve_result *r);
 
@@ -540,7 +540,8 @@ double change_scale(const scene *s, int quantity, const solve_result *r);
 enum { CHECKSUM_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
 
 void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1]);
-/* As above, for a whole file without such a line. FAULT: it cannot be read. */
+/* Computes the checksum line of a file that does not contain one. FAULT: the file cannot be
+ * read. */
 status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f);
 /* FAULT: the file is missing, foreign, or altered. */
 status checksum_check(const char *path, fault *f);
@@ -640,10 +641,10 @@ enum { WORKERS_MOST = 64 };
 double expense_of_scene(const scene *s, int steps, const element_type *type, int elements);
 double expense_of_cell(const sweep *s, int index, int mesh);
 
-/* Writes why there is no agreement, and which formulation may bring one. */
+/* Writes why there is no agreement, and which formulation could provide one. */
 void families_why(FILE *to, const sweep *s, int point_index, int quantity, const truths *);
-/* Adds a reference value of kind agreement for every quantity of a point that has none of its
- * model. files_only 1: for scene files only, not for built-in cases. */
+/* Adds a reference value of kind agreement for every quantity of a point that has no reference
+ * value of its model. files_only 1: for scene files only, not for built-in cases. */
 status families_add_truths(const sweep *s, int files_only, truths *t, fault *f);
 /* As families_add_truths for one point, when all its series are complete. */
 status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f);
@@ -662,7 +663,7 @@ typedef struct follow_request {
     cell_request cell; /* with the type and its parameters; the analyses to solve are set here */
     int parameter;     /* index of the parameter that varies */
     double from, to;
-    int parts; /* least number of equal intervals */
+    int parts; /* minimum number of equal intervals */
 } follow_request;
 
 typedef struct follow_sample {
@@ -731,8 +732,8 @@ static inline void handles_close(int count, const hid_t handle[])
             H5Idec_ref(handle[i]);
 }
 
-/* Requests to end (Ctrl-C, SIGTERM, SIGHUP) as a descriptor on which a process can wait together
- * with its workers. */
+/* Makes requests to end (Ctrl-C, SIGTERM, SIGHUP) available as a descriptor on which a process can
+ * wait together with its workers. */
 
 typedef struct interrupt {
     int descriptor;  /* becomes readable when a request arrives; -1: none */
@@ -777,8 +778,8 @@ status narrow_scene(scene *, const case_type *, const double parameter[], const 
 
 int noise_cells(const sweep *s); /* number of cells run to measure scatter */
 
-/* Overview of a run: for each case and formulation the worst verdict, and the number of quantities
- * that have it, over all parameter points. */
+/* Overview of a run: the worst verdict for each case and formulation over all parameter points, and
+ * the number of quantities that have it. */
 
 /* In increasing order of severity. */
 typedef enum overview_mark {
@@ -821,7 +822,7 @@ int overview_judged(const overview *, int row);
 /* Does the row get its own line? All do if there are few; otherwise passing cases share lines, so
  * that the table fits on one screen. */
 int overview_shown(const overview *, int row);
-/* "ok", "~3", "!#2": readable without colour. utf8 1: uses signs outside ASCII. */
+/* "ok", "~3", "!#2": readable without colour. utf8 1: uses characters outside ASCII. */
 void overview_text(const overview_cell *, int utf8, char text[OVERVIEW_TEXT]);
 /* Description of the mark. */
 const char *overview_words(overview_mark mark);
@@ -849,8 +850,8 @@ typedef struct own_table {
     own_table_row *row;
 } own_table;
 
-/* columns: their names in order, separated by commas, as the first line must have them. Errors in
- * lines are reported to `m`, and these lines are skipped; FAULT: the file cannot be read. The
+/* columns: their names in order, separated by commas, as the first line must list them. Errors in
+ * lines are reported to `m`, and these lines are skipped. FAULT: the file cannot be read. The
  * caller frees *out in any case. */
 status own_table_read(const char *path, const char *columns, own_table *out, mistakes *m, fault *f);
 void own_table_free(own_table *);
@@ -878,14 +879,14 @@ status plan_add(sweep *s, const case_type *type, const double value[], const sce
 /* Adds a series to the last point, with the meshes of its scene. */
 status plan_extend(sweep *s, const formulation those[], int count, fault *f);
 
-/* Default formulation and mesh: a formulation that, as far as is known without a solution, is right
- * for the scene, and a number of elements with which its values have converged. */
+/* Default formulation and mesh: a formulation that is right for the scene as far as is known
+ * without a solution, and a number of elements with which its values have converged. */
 
-/* Chooses a formulation that supports everything the scene requires, has the scene's theory of
- * shear, and has no rule that its limit of a quantity here is wrong or biased. Preference: fewest
- * such rules for other quantities, then highest order in the requested quantities, then name. rules
- * NULL: no list of known deviations. REFUSED: no formulation supports what the scene requires. why:
- * one line that explains the choice. */
+/* Chooses a formulation that supports everything the scene requires, has the scene's shear
+ * theory, and has no rule that says its limit of a quantity here is wrong or biased. Preference:
+ * fewest such rules for other quantities, then highest order in the requested quantities, then
+ * name. rules NULL: no list of known deviations. REFUSED: no formulation supports what the scene
+ * requires. why: one line that explains the choice. */
 status preference_formulation(const scene *, const rule_subject *where, const rule *rules,
                               int count, formulation *out, char why[FAULT_TEXT], fault *f);
 
@@ -908,9 +909,10 @@ void preference_free(preference *);
 status preference_elements(const cell_request *, const formulation *chosen, double asked,
                            preference *out, fault *f);
 
-/* Chooses formulation and mesh together: among those that preference_formulation ranks equal to the
- * first (at most five, two of a family), the first that converges. The mesh with the lowest counted
- * work is always solved next. request: the cell without formulation and elements. */
+/* Chooses formulation and mesh together: of the formulations that preference_formulation ranks
+ * equal to the first (at most five, two per family), takes the first one that converges. The mesh
+ * with the lowest counted work is always solved next. request: the cell without formulation and
+ * elements. */
 status preference_both(const cell_request *, const rule_subject *where, const rule *rules,
                        int count, double asked, preference *out, fault *f);
 
@@ -1014,13 +1016,13 @@ typedef struct reach_question {
     double level; /* relative error */
 } reach_question;
 
-/* Why a type is not ranked by its work: "by differences", "in another process"; "": it is ranked.
- */
+/* Reason why a type is not ranked by its work: "by differences", "in another process"; "": it is
+ * ranked. */
 const char *reach_unranked(const element_type *type);
 /* Index of the coarsest mesh such that its error and those of all finer meshes meet the target, or
  * -1. */
 int reach_mesh(const sweep *s, const verdict *v, double level);
-/* Describes a formulation that meets the target in spite of such a verdict. */
+/* Describes a formulation that meets the target despite such a verdict. */
 const char *reach_defect_words(verdict_kind kind);
 /* Ranks the formulations that meet the target: those without a defect first, each group by cost,
  * then by name. Returns their number; out: room for all series. Other programs are omitted, because
@@ -1077,8 +1079,8 @@ typedef struct dense_reference {
     rounds_reading whole; /* times of whole runs, if short enough; else rounds = 0 */
 } dense_reference;
 
-/* [s] of a run: measured, or the time of one iteration times the number of iterations, which is the
- * same; INFINITY: not measured. */
+/* [s] of a run: measured, or the time of one iteration times the number of iterations (the same as
+ * in the other solution); INFINITY: not measured. */
 double dense_reference_seconds(const dense_reference *b, long iterations);
 
 /* Repeated runs of a cell: unchanged, and with all degrees of freedom kept (--all-dofs). */
@@ -1124,8 +1126,9 @@ enum { SERIALISE_DAMAGED = -1, SERIALISE_NO_MEMORY = -2 };
 int serialise_read(FILE *from, cell_result *cell);
 
 int truth_holds(const truth *row, const case_type *type, const double value[]);
-/* Values of truth.kind. The first known one is used for the verdict; truth_gates decides which ones
- * may be. "predicted": the derived limit of a formulation. */
+/* Values of truth.kind. A verdict uses the first kind for which there is a value; truth_gates
+ * returns whether a verdict may depend on a row. "predicted": the derived limit of a formulation.
+ */
 extern const char truth_kinds[];
 /* Reference value of the continuum for that model (exact before published; not a point of a curve),
  * or NULL. Verdicts against the same model affect the exit status. */

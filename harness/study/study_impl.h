@@ -14,8 +14,8 @@ enum { LIMIT_MESHES = 32 };
 
 /* Relative change of a value above which the model counts as another one. */
 extern const double omission_most;
-/* Safety factor: the bound is this factor times the change between two coarse solutions, with and
- * without the physics, by a formulation that has it. */
+/* Safety factor: the bound is this factor times the difference between two coarse solutions, with
+ * and without the physics, by a formulation that includes it. */
 extern const double omission_safety;
 
 /* Largest relative change of a requested value due to the omission, on one mesh. NAN: some value is
@@ -123,8 +123,8 @@ typedef struct workload {
     workload_task *tasks;
     char *done;         /* [all] 1: the task has a result */
     int due, finished;  /* number of tasks to be done; how many are finished */
-    int *open;          /* [seriess] number of its unfinished tasks */
-    char *state;        /* [seriess] enum series_state */
+    int *open;          /* [series] number of its unfinished tasks */
+    char *state;        /* [series] enum series_state */
     int told;           /* number of series passed to the observer */
     cell_result *again; /* [all - count] */
     claims *known;      /* problems that are solved only once; NULL: every cell is solved */
@@ -167,7 +167,7 @@ void workload_keep_whole(workload *);
 
 /* Cost items and how often each occurs. */
 typedef enum expense_kind {
-    EXPENSE_cell, /* once */
+    EXPENSE_cell, /* once per cell */
     EXPENSE_linear,
     EXPENSE_buckling,
     EXPENSE_loaded_buckling, /* about a loaded state, including the path to the critical point */
@@ -221,8 +221,8 @@ int expense_order(const sweep *s, int jobs, workload_task tasks[]);
  * is the mean, weighted by 1/U^2, of those that are within their U of it. Its uncertainty is that
  * of the mean or the weighted spread, whichever is larger. Other formulations that differ by more
  * than their U are named. If no two families agree so closely, the reference is the limit of the
- * formulation whose neighbour of another family is nearest, with their distance plus U as
- * uncertainty. If equally many families agree on another limit, there is no reference. */
+ * formulation that is nearest to a limit of another family; its uncertainty is their distance plus
+ * U. If equally many families agree on another limit, there is no reference. */
 
 /* Relative: half of the one per cent that `converge` aims at. */
 #define FAMILIES_APART 5e-3
@@ -235,7 +235,7 @@ typedef struct families_limit {
     int series[FAMILIES_MOST]; /* nearest limit of each family, `families` of them */
     int others; /* number of other limits nearby that differ by more than their uncertainty */
     int other[FAMILIES_MOST];
-    unsigned theory; /* theory of shear in stability, enum element_feature; 0: it does not matter */
+    unsigned theory; /* shear theory for stability, enum element_feature; 0: it does not matter */
 } families_limit;
 
 /* Agreement for one point and quantity; also for tests, which check disputes and the number of
@@ -269,7 +269,7 @@ int reach_is_defect(verdict_kind kind);
 /* Returns 1 when a verdict may depend on the row; 0 for an agreement of formulations, or a value
  * that cannot be reproduced. */
 int truth_gates(const truth *row);
-/* As truth_of, among reference values for one of the theories of shear (words separated by |), or
+/* As truth_of, among reference values for one of the shear theories (words separated by |), or
  * independent of them; NULL: any. */
 const truth *truth_of_theory(const truths *t, const case_type *type, const double value[],
                              const char *quantity, const char *model, const char *theories);
@@ -342,7 +342,8 @@ void follow_match_free(follow_shapes *);
 
 /* Internals of study.h that its files share. */
 
-static const double follow_sure = 0.9; /* Least match of two shapes that count as the same mode. */
+static const double follow_sure = 0.9; /* Smallest match of two shapes that count as the same
+                                          mode. */
 
 typedef struct follow_walk {
     const follow_request *of;
@@ -356,8 +357,8 @@ typedef struct follow_walk {
 status follow_solve(follow_walk *, double value, const follow_shapes *before, follow_shapes *out,
                     double *least, fault *);
 
-/* follow_match.c: finds crossings in the last step; *least: the worst match on the way. Shapes that
- * are exchanged within one step (veering) do not match where the frequencies would meet. */
+/* follow_match.c: finds crossings in the last step; *least: the worst match found. Shapes that are
+ * exchanged within one step (veering) do not match where the frequencies would meet. */
 status follow_events_step(follow_walk *, double *least, fault *);
 /* Adds crossings at samples, and veerings, all in the order of their parameter values. */
 status follow_events_rest(follow_walk *, fault *);

@@ -167,28 +167,29 @@ status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fau
 
 /* Quantities of a state, as their files in cases/quantities read them. */
 
-/* What is known of the state. */
+/* Known data of a state. */
 typedef struct reading {
     const equations *eq;
-    const model_state *state; /* NULL: not kept; of compliances alone */
+    const model_state *state; /* NULL: not kept, because only compliances are read */
     const double *v,
         *a; /* [free + driven] rates of a motion and their derivatives; NULL: at rest */
-    const double *balance;    /* [SCENE_BALANCES]; NULL: of no SCENE_BALANCE */
-    const double *compliance; /* [36]; NULL: of no entry of that */
-    /* of linear statics about the state, which is undeformed: displacements [free + driven] and
-     * stresses [elements x strains] under all loads; else NULL */
+    const double *balance;    /* [SCENE_BALANCES]; NULL: not needed */
+    const double *compliance; /* [36]; NULL: not needed */
+    /* for linear statics about the undeformed state: displacements [free + driven] and stresses
+     * [elements x strains] under all loads; else NULL */
     const double *x, *sigma;
 } reading;
 
 /* Does the quantity depend on positions and rates only? */
 int reading_is_kinematic(const scene_quantity *);
-/* The extracted value without factor and offset; for kinematic kinds only; of a jerk the
+/* Returns the value without factor and offset, for kinematic kinds only; for a jerk, the
  * acceleration. v, a[free + driven]: rates of a motion and their derivatives; NULL: at rest. */
 double reading_of(const model *, const scene_quantity *, const model_state *, const double v[],
                   const double a[]);
-/* Is it the slope of a reading, which is known inside steps only? */
+/* Is the quantity the slope of a reading, which is known only inside steps? */
 int reading_is_slope(const scene_quantity *);
-/* The extracted value without factor and offset, of every kind with `read`. */
+/* Computes the value, without factor and offset, for every kind of quantity with a `read`
+ * function. */
 status reading_whole(const reading *, const scene_quantity *, double *out, fault *);
 
 #endif

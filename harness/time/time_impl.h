@@ -64,7 +64,7 @@ status damping_rates(const model *, const model_state *, const double v[], doubl
 size_t dashpots_room(const model *);
 double dashpots_subtract(const model *, const model_state *, const double v[], double room[],
                          double out[]);
-/* Power taken up by springs without a potential [W]; room as above. */
+/* Power absorbed by springs without a potential [W]; room as above. */
 double springs_circulating_power(const model *, const model_state *, const double v[],
                                  double room[]);
 /* Adds the force of dashpots to F[6] on the frame of a node. */
@@ -283,7 +283,7 @@ typedef struct inertia_balance {
 void inertia_of(const model *, const carried_masses *, const model_state *, const double v[],
                 const double ends[], inertia_balance *out);
 
-/* [W] that mass-proportional damping takes, with the rates v. */
+/* Power dissipated by mass-proportional damping at the rates v [W]. */
 double inertia_damping_power(const model *, const carried_masses *, const model_state *,
                              const double v[]);
 
@@ -528,9 +528,9 @@ typedef struct explicit_scheme {
     scheme_request of;
     gsl_odeiv2_step *stepper;
     int free, all;
-    double *y, *error, *dydt; /* [2 x free + 2 + feedback_count] increments, rates, work, what is
-                                 dissipated, integrals of feedback; error estimate of GSL;
-                                 derivatives at the end */
+    double *y, *error, *dydt; /* [2 x free + 2 + feedback_count] increments, rates, work, dissipated
+                                 energy, integrals of feedback; error estimate of GSL; derivatives
+                                 at the end */
     double *inc, *residual;   /* [free + driven] */
     double *memory,
         *still; /* memory of one element, whose size its type defines; zero increment of strains */
@@ -688,8 +688,8 @@ status massless_forces(const model *, const carried_masses *, const model_state 
                        fault *);
 status massless_motion(const model *, const carried_masses *, const model_state *, double dx[],
                        fault *);
-/* REFUSED: an acceleration or a jerk of the analysis is read of a node that moves without inertia:
- * the accelerations of what has none are not known (settle). */
+/* REFUSED: a quantity of the analysis reads the acceleration or the jerk of a node that moves
+ * without inertia. Accelerations of massless coordinates are not known (see settle). */
 status massless_readings(const model *, const carried_masses *, const model_state *, int analysis,
                          fault *);
 /* Removes the motion without inertia from a[free], given in the coordinates of forms_rates. */
@@ -901,7 +901,7 @@ void released_project(const released_masses *, const double A[36], const double 
 
 /* Continues a motion from the end of another one, with the same result as one motion. */
 
-/* Step control that a motion continues with. */
+/* Step-control data with which a motion continues. */
 typedef struct resume_control {
     double step; /* [s] next step size */
     account account;
@@ -941,8 +941,8 @@ typedef struct shares_motion {
 /* F[6] += force and moment (about the node's frame) that accelerate the masses moved by a node. */
 status shares_node(const model *, const model_state *, const shares_motion *, int node, double F[6],
                    fault *);
-/* density[nodes][6]: what the mass of one element takes where it moves as each of its nodes does,
- * per initial length, with the moment about that node. */
+/* density[nodes][6]: force that accelerates the mass of one element if it moves as each of its
+ * nodes does, per initial length, with the moment about that node. */
 void shares_along(const model *, const model_state *, const shares_motion *, int element,
                   double density[ELEMENT_MAX_NODES][6]);
 /* ends[e][7] += inertia force on the share of one element's mass at its first (0) and last (1)
@@ -1007,7 +1007,7 @@ typedef struct stations {
     const carried_masses *masses;
     motion_scheme *scheme;
     outcome_motion *out;
-    int slopes, sloped; /* is one read; has a step been */
+    int slopes, sloped; /* 1: a slope is read; 1: a step has been made */
     step_between inside;
     instant at;
 } stations;
@@ -1046,18 +1046,19 @@ void vertex_rates(const model *, const model_state *, int vertex, const double v
 
 /* Does nothing without such loads. */
 status feedback_begin(const equations *, fault *);
-/* Number of loads of the scene where one has feedback; 0: none has. */
+/* Number of loads of the scene if any of them has feedback, else 0. */
 int feedback_count(const equations *);
-/* Factors for the evaluation of this state, with the integrals in it. v NULL: at rest. */
+/* Computes the factors for the evaluation of this state, with the integrals in it. v NULL: at
+ * rest. */
 void feedback_take(const equations *, const model_state *, const double v[], double time);
-/* Errors, reference minus measured: out[feedback_count]. */
+/* Computes the errors, reference minus measured value: out[feedback_count]. */
 void feedback_errors(const equations *, const model_state *, double time, double out[]);
 /* Size of a step [s], and the times at its ends at which references are read: the last one before
  * a jump. */
 typedef struct feedback_step {
     double h, begin, end;
 } feedback_step;
-/* Integrals at the end of a step by the trapezoidal rule: out[feedback_count]. */
+/* Computes the integrals at the end of a step by the trapezoidal rule: out[feedback_count]. */
 void feedback_integrate(const equations *, const model_state *from, const model_state *now,
                         const feedback_step *, double out[]);
 /* Derivatives of place, rate and integral of a measured component with respect to itself. */
