@@ -9,7 +9,7 @@
 #include "elements/section/section.h"
 #include "elements/shared/masses.h"
 
-/* Times that of its load case. */
+/* Multiplies a factor by that of the load case. */
 static double combined(const equations *eq, const scene_load *load, double factor)
 {
     return load->load_case == SCENE_NONE
@@ -58,7 +58,7 @@ void applied_member_axes(const double triad[9], const section *of, double R[9])
     }
 }
 
-/* A load on one vertex. axes: axes in which it is given; NULL: global ones. beside: offset of its
+/* A load on one vertex. axes: axes of its components; NULL: global ones. beside: offset of its
  * point of application from `at`, in global axes. */
 static applied of_vertex(const model_state *s, int vertex, const scene_load *load, double scale,
                          const double axes[9], const double beside[3])
@@ -96,14 +96,14 @@ static applied of_weight(const model *m, const model_state *s, const scene_load 
     return of_vertex(s, load->where, &force, scale, NULL, body->centre);
 }
 
-/* Per length of an element: 1; for gravity its mass. */
+/* Returns the load density per length of an element: 1; for gravity the mass. */
 static double density_of(const model *m, const scene_load *load, const mesh_element *el)
 {
     const section *c = model_section(m, model_kind(m, el->kind)->section);
     return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
 }
 
-/* Gravity acts at the centre of mass of the undeformed section. */
+/* Point of action of gravity: the centre of mass of the undeformed section. */
 static void weight_centre(const model *m, const scene_load *load, const mesh_element *el, int node,
                           double centre[3])
 {
@@ -230,7 +230,7 @@ void applied_element(const model *m, const model_state *s, const scene_load *loa
     }
 }
 
-/* Distance of the nodes of a tension; e: the direction from the first to the second one. */
+/* Distance between the nodes of a tension; e: direction from the first node to the second. */
 static double line_of(const model *m, const model_state *s, const scene_load *load, double e[3])
 {
     double from[3], to[3];
@@ -303,14 +303,15 @@ static void add_following(const entries *all, const mesh_vertex *body, const dou
 typedef struct load_motion {
     int coordinate;
     int own;        /* 1: coordinate of the end, 0: of its body */
-    int chart;      /* 1: rotation about a fixed axis, in no order with the two others */
+    int chart;      /* 1: rotation about a fixed axis, which does not depend on the order of the two
+                       others */
     double axis[3]; /* of a rotation */
     double turn[3]; /* rotation of the load's frame */
     double shift[3];
 } load_motion;
 
-/* In the order of the frame: position and rotations of the body, rotations of the end, its shifts.
- * Returns their number. */
+/* Fills the motions in the order of the frame: position and rotations of the body, rotations of the
+ * end, its shifts. Returns their number. */
 static int motions_at_release(const entries *all, const applied *what,
                               load_motion out[KINEMATICS_MOST])
 {
@@ -338,7 +339,8 @@ static int motions_at_release(const entries *all, const applied *what,
     return count;
 }
 
-/* Does rotation e come before l, so that it rotates the axis of l? 1/2: both in no order. */
+/* Does rotation e come before l, so that it rotates the axis of l? Returns 1, 0, or 1/2: neither
+ * comes first. */
 static double carries(const mesh_release *r, const load_motion *e, const load_motion *l)
 {
     if (r->turns == 3 && e->own != l->own)
@@ -354,7 +356,7 @@ static double triple(const double a[3], const double b[3], const double c[3])
     return vec3_dot(a, cross);
 }
 
-/* Derivative of the generalised load of coordinate i with respect to coordinate j. */
+/* Derivative of the generalised load on coordinate i with respect to coordinate j. */
 static double release_entry(const mesh_release *r, const applied *what, const load_motion *i,
                             const load_motion *j)
 {
@@ -420,8 +422,8 @@ static void add_stiffness(void *context, const applied *what)
             mat3_mul_vec(D, b[j], Db);
             vec3_cross(b[j], b[i], cross);
             double value = vec3_dot(b[i], Db);
-            if (body->angles > 0) /* symmetric for the conservative part; a spatial moment acts only
-                                     through earlier axes */
+            if (body->angles > 0) /* symmetric for the conservative part; a spatial moment does work
+                                     only through earlier axes */
                 value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 +
                          (j < i ? vec3_dot(F + 3, cross) : 0);
             else

@@ -6,8 +6,9 @@
 
 #include "elements/math/dense.h"
 
-/* Number of negative eigenvalues of A[n x n], which is overwritten; -1: singular, a pivot is a
- * rounding error. LDL^T without pivoting, which does not depend on the units of the rows. */
+/* Number of negative eigenvalues of A[n x n], which is overwritten; -1: singular (a pivot is a
+ * rounding error). Uses LDL^T without pivoting, whose result does not depend on the units of the
+ * rows. */
 static int symmetric_negative(int n, double A[]);
 
 status chain_alloc(int links, int joint, int y, chain **out, fault *f)
@@ -45,8 +46,8 @@ void chain_begin(chain *s)
         s->A[i * s->c + i] = 1;
 }
 
-/* Do all eigenvalues of 1 + F B remain positive? For positive F those of F B are real, and bounded
- * by its row sums scaled with the diagonal of F. */
+/* Are all eigenvalues of 1 + F B positive, according to a bound? For positive F the eigenvalues of
+ * F B are real and bounded by its row sums scaled with the diagonal of F. */
 static int small_product(int n, const double F[], const double W[])
 {
     for (int i = 0; i < n; i++) {
@@ -59,7 +60,8 @@ static int small_product(int n, const double F[], const double W[])
     return 1;
 }
 
-/* Number of eigenvalues that become negative when the stiffness B is added after the row. */
+/* Number of eigenvalues that become negative when the stiffness B is added at the end of the
+ * row. */
 static int more_negative(int n, const double F[], const double B[], const double W[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT];
@@ -181,8 +183,8 @@ status chain_stiffness(const chain *s, double K[], fault *f)
 
 /* Transfers loads to the ends of a chain, and motions of the ends to its interior.
  *
- * Two sweeps find the forces between the links: where w are the forces on the joint before a link
- * and of the link on it,
+ * Two sweeps find the forces between the links. If w is the force on the joint before a link,
+ * including that of the link,
  *   x = Z a + Z F w,   w - B x = Z^T w - B Z a.
  * The motions then follow link by link, so that neighbours differ exactly by the deformation of a
  * link. Differences of independently computed motions would lose as many digits as an assembled
@@ -281,8 +283,8 @@ INLINED void backward(chain *s, int c, int y, const double r[], const double las
         begin[i] = -g[in + i];
 }
 
-/* Motions from that of the first joint and the forces, whose deformations of links are exact to the
- * last digit. Writes x[links x y]; r NULL: adds to x; r may be x. */
+/* Computes the motions from that of the first joint and the forces, so that the deformations of
+ * links are exact to the last digit. Writes x[links x y]; r NULL: adds to x; r may be x. */
 INLINED void deform(const chain *s, int c, int y, const double r[], const double first[],
                     double x[])
 {
@@ -318,7 +320,7 @@ static void force_to(const chain *s, const double x[], const double from[], doub
 
 static const double still[CHAIN_JOINT] = {0};
 
-/* Position of the last joint without forces after it. */
+/* Position of the last joint if no force acts on it. */
 static const double *last_of(const chain *s)
 {
     return s->a + (size_t)s->links * (size_t)s->c;
@@ -357,7 +359,7 @@ INLINED void expand(chain *s, int c, int y, const double r[], const double ends[
     close_gap(s, c, y, ends + c, x);
 }
 
-/* For elements of two nodes, with and without warping. */
+/* Uses compile-time sizes for elements of two nodes, with and without warping. */
 void chain_reduce(chain *s, const double r[], double ends[])
 {
     if (s->c == 7 && s->y == 7)

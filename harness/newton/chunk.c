@@ -5,8 +5,9 @@
 #include "elements/math/dense.h"
 #include "elements/math/real.h"
 
-/* Fewer elements than these are cheaper one by one; without AVX2 any number is, because four lanes
- * are then two vectors (measured on sheets and collocation). */
+/* Smallest number of elements that is evaluated faster together than one by one (measured on sheets
+ * and collocation). Without AVX2 there is no such number, because four lanes are then two
+ * vectors. */
 enum { together_from_avx2 = 2, together_from_plain = CHUNK_MOST + 1 };
 
 int chunk_size(const model *m)
@@ -121,7 +122,7 @@ static void stresses_together(const model *m, const linear_memory *memory, const
         element[own[k]].outcome = outcome[k];
 }
 
-/* Stresses of elements with loads along them in their own equilibrium. */
+/* Evaluates the stresses of elements that include loads along them in their own equilibrium. */
 static void stresses_under_loads(const equations *eq, const linear_memory *memory,
                                  const model_state *s, double path, int count,
                                  chunk_element element[])
@@ -207,7 +208,7 @@ static void mix(const model *m, const linear_memory *memory, const model_state *
         w.sigma[i] += more[i];
 }
 
-/* Adds the strain rates of motions, in which the linearised equations are damped. */
+/* Adds damping by the strain rates of motions to the linearised equations. */
 static void damp(const equations *eq, const linear_memory *memory, const model_state *s, int index)
 {
     const model *m = eq->m;

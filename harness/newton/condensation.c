@@ -5,13 +5,13 @@
 
 #include "elements/math/dense.h"
 
-/* condensation.c: numbers the coordinates of ends, and the unknown ones among them. Returns the
- * number of the former; s->unknown NULL: out of memory. */
+/* condensation.c: numbers the end coordinates, and the unknown ones among them. Returns the number
+ * of end coordinates; s->unknown NULL: out of memory. */
 static int condensation_number(condensation *s, int count, const int released[]);
-/* Patterns of both matrices. */
+/* Builds the patterns of both matrices. */
 static status condensation_patterns(condensation *s, int ends, fault *f);
 
-/* Do loads have a stiffness only at the ends of members, and are all nodes between them free? */
+/* Do loads have a stiffness only at the ends of members, and are all nodes in between free? */
 static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;
@@ -73,7 +73,7 @@ static status member_of(const model *m, int index, condensed_member *out, fault 
     return chain_alloc(out->links, out->joint, out->y, &out->chain, f);
 }
 
-/* Members and their loads: own arrays, or those of `of`. */
+/* Sets the members and their loads: own arrays, or those of `of`. */
 static status find_members(condensation *s, const condensation *of, fault *f)
 {
     const model *m = s->m;
@@ -201,7 +201,7 @@ static status link_element_of(const equations *eq, const model_state *s, const c
     return link_of(&el, link, f);
 }
 
-/* The chain of a member; force[14]: internal forces at its ends. */
+/* Builds the chain of a member; force[14]: internal forces at its ends. */
 static status fill_chain(const equations *eq, const model_state *s, condensed_member *of,
                          double path, double force[], fault *f)
 {
@@ -298,7 +298,8 @@ static void note(const mesh_element *el, int number[])
             number[el->index[k]] = 0;
 }
 
-/* Coordinates of ends, and which of them are unknowns. Returns the number of the former. */
+/* Numbers the end coordinates, and those of them that are unknown. Returns the number of end
+ * coordinates. */
 static int condensation_number(condensation *s, int count, const int released[])
 {
     const model *m = s->m;
@@ -331,7 +332,7 @@ static void couple(const condensation *s, const mesh_element *el, int ends, char
                 coupled[s->number[el->index[k]] * ends + s->number[el->index[i]]] = 1;
 }
 
-/* Pattern of the coordinates list[count], as part of all coordinates or of the list. */
+/* Pattern of the coordinates list[count], as a part of all coordinates or of the list. */
 static status pattern_of(const condensation *s, int count, const int list[], int ends,
                          const char coupled[], int own, sparse *out, fault *f)
 {

@@ -48,8 +48,7 @@ static void undeformed(const distributed_loads *of, double x, double R[9])
     mat3_mul(el->triad[0], by, R);
 }
 
-/* Load at x times `scale`, with the undeformed triad there: per length, or for gravity on the mass.
- */
+/* Load at x times `scale`, with the undeformed triad there: per length, or for gravity per mass. */
 static void load_at(const distributed_loads *of, const scene_load *load, double scale, double x,
                     const double before[9], field_load *out)
 {
@@ -79,7 +78,7 @@ static void load_at(const distributed_loads *of, const scene_load *load, double 
 
 enum { MOST = FIELD_MOST_POINTS };
 
-/* Is a load along an element, with value `one` at one of its points, constant? */
+/* Is a load along an element constant? one: its value at one point. */
 static int same(const distributed_loads *of, const scene_load *load, const field_load *one)
 {
     return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&
@@ -358,8 +357,9 @@ static void add_load(const distributed_loads *of, const scene_load *load, double
     }
 }
 
-/* As above for a section given by matrices: for momentum p and h, velocity v of the line and omega,
- * the load on the line is -omega x p and -omega x h - v x p. */
+/* As add_rotating, for a section given by matrices: with momentum p and angular momentum h per
+ * length, velocity v of the line and omega, the load on the line is -omega x p, and the moment is
+ * -omega x h - v x p. */
 static void add_rotating_matrices(const section *c, const double omega[3], const double speed[3],
                                   const double R[9], span_load *out)
 {

@@ -5,16 +5,17 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* error[k], k = 1 ... most: error that an extrapolation from k states would have had for at[most]:
- * largest error of a displacement or strain [m]; k = 1: with the last state unchanged. INFINITY: no
+/* error[k], k = 1 ... most: largest error of a displacement or strain [m] that an extrapolation
+ * from k states would have had for at[most]; k = 1: the last state unchanged. INFINITY: no
  * extrapolation was possible. */
 static void extrapolate_errors(const equations *, int most, const model_state *const at[],
                                double error[]);
 
-/* In large models fewer states are stored. The numbers of iterations of sheet_cantilever,
- * spherical_joint and hexapod are the same with eight as with twelve. */
+/* In large models fewer states are stored. sheet_cantilever, spherical_joint and hexapod take the
+ * same numbers of iterations with eight states as with twelve. */
 enum { MANY_ELEMENTS = 1000, OF_MANY = 8 };
-/* Largest number of iterations in a first step from which a linear extrapolation starts. */
+/* The second step is extrapolated linearly if the first one took at most this number of
+ * iterations. */
 enum { EASY_ITERATIONS = 4 };
 /* Largest error of an extrapolation, relative to no extrapolation, with which it saves iterations.
  */
@@ -66,8 +67,8 @@ status predictor_add(const equations *eq, const model_state *s, int iterations, 
     return STATUS_OK;
 }
 
-/* The number of states that would have extrapolated the last one best, plus one if the error still
- * decreased with the number. 0: no extrapolation is best. */
+/* Number of states that would have extrapolated the last state best, plus one if the error was
+ * still decreasing with the number. 0: no extrapolation is better than none. */
 static int states_of_least_error(const predictor *t)
 {
     int best = 2;
@@ -90,7 +91,7 @@ void predictor_guess(const equations *eq, const predictor *t, double path, model
 
 /* Initial guess of the next state of a path: the polynomial through the last ones. */
 
-/* Largest step for extrapolation relative to the last one; largest error of prescribed values
+/* Largest step for extrapolation relative to the last step; largest error of prescribed values
  * relative to the largest of their steps. */
 static const double far = 1.5 * (1 + 1e-9), bent = 0.25;
 
@@ -115,7 +116,7 @@ static int continues(int count, const double weight[], const double value[])
     return fabs(dense_dot(count, weight, value) - value[count]) <= bent * step + rounding;
 }
 
-/* Extrapolations from the last k = 2 ... most of the states at[most], for the state at `path`. */
+/* Extrapolations from the last k states of at[most], k = 2 ... most, for the state at `path`. */
 typedef struct guesses {
     int most, good[MODEL_EXTRAPOLATED + 1]; /* good[k]: possible with k states */
     double weight[MODEL_EXTRAPOLATED + 1][MODEL_EXTRAPOLATED];
@@ -127,7 +128,7 @@ static void keep_continuing(const double value[], guesses *g)
         g->good[k] = g->good[k] && continues(k, g->weight[k], value + g->most - k);
 }
 
-/* Rejects extrapolations that do not agree with drivers and loads at the next path parameter. */
+/* Rejects extrapolations that disagree with drivers and loads at the next path parameter. */
 static void keep_smooth(const equations *eq, const model_state *const at[], double path, guesses *g)
 {
     const model *m = eq->m;
@@ -164,7 +165,8 @@ static void prescribe(const model *m, const mesh_vertex *v, const model_state *l
     }
 }
 
-/* Extrapolates from the last orientation along the rotation vector through the others. */
+/* Extrapolates from the last orientation, with the rotation vectors relative to it of the other
+ * states. */
 static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[],
                                  const model_state *const at[], model_state *out)
 {
@@ -191,7 +193,7 @@ static int turns_by_itself(const model *m, int vertex)
                : model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
-/* For `least` to `most` states. */
+/* Computes the weights for `least` to `most` states. */
 static void weigh(const equations *eq, int least, int most, const model_state *const at[],
                   double path, guesses *g)
 {

@@ -1,7 +1,7 @@
 /* Stress-free strains of elements in addition to those of the undeformed state: due to
- * temperatures, and initial strains of members. For all formulations they are D(x) of the nodes of
- * a free element, and strains of a state are measured from them. A type whose stresses depend on
- * its curvature beyond that provides element_type.unstressed. */
+ * temperatures, and initial strains of members. For all formulations they are the D(x) of a free
+ * element, and strains of a state are measured from them. A type whose stresses also depend on the
+ * curvature itself provides element_type.unstressed. */
 #include "harness/newton/newton_impl.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-enum { POINTS = 6 }; /* along a part of an arc: exact to round-off up to a rotation of 1 rad */
+enum { POINTS = 6 }; /* along a part of an arc; exact to round-off up to a rotation of 1 rad */
 
 /* Elongation, and curvatures about the principal axes y and z [1/m]. */
 enum { ELONGATION, ABOUT_Y, ABOUT_Z, AMOUNTS };
@@ -59,7 +59,7 @@ static void heat_at(const equations *eq, int element, double path, double out[AM
             add_amounts(eq->m, element, &s->load[i], applied_factor(eq, &s->load[i], path), out);
 }
 
-/* Including the initial strains of the member. */
+/* Amounts including the initial strains of the member. */
 static void amounts_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const double *own = model_kind_of(eq->m, element)->free;
@@ -116,7 +116,7 @@ static void place(const model *m, int element, const double amounts[AMOUNTS], fr
     }
 }
 
-/* Motion of the node at x due to the amounts: out[6]. */
+/* Motion of the node at x due to the amounts. */
 static void moved(const free_element *of, const double amounts[AMOUNTS], double x, double out[6])
 {
     const double turn[3] = {0, amounts[ABOUT_Y] * of->length, amounts[ABOUT_Z] * of->length},

@@ -7,7 +7,7 @@
 #include "elements/math/rotation.h"
 #include "elements/section/section.h"
 
-/* Subtracts the loads along the member that are lumped at its vertices. */
+/* A vertex from whose force the loads that are lumped there are subtracted. */
 typedef struct share {
     int vertex;
     double *force; /* [6] */
@@ -28,7 +28,7 @@ static void take_off(void *context, const applied *what)
         of->force[3 + i] -= moment[i];
 }
 
-/* Does the load act inside the element? A load at its end acts on the node. */
+/* Does the load act inside the element? A load at an end of the element acts on the node. */
 static int lies_along(const model *m, int element, const scene_load *load)
 {
     double part[2];
@@ -45,7 +45,7 @@ static void note_taken(const model *m, const double force[], double sign, double
 }
 
 /* Records the shares of weight or centrifugal force that were subtracted at the ends of a two-node
- * element. The distributed load has a couple in addition, as its inertia has
+ * element. The distributed load also has a couple, and so does its inertia
  * (harness/time/deformable.c). */
 static void take_couple(const mesh_element *el, const node_state x[], double taken[2][3],
                         double ends[2][7])
@@ -128,13 +128,13 @@ static double axes_turned(const model *m, int member, double place, const mesh_e
     if (!scene_member_tapers(sm))
         return 0;
     section_taper_at(&s->section[sm->section], &s->section[sm->section_q], place, &spec);
-    const int known =
-        section_compute(&spec, &c, NULL) == STATUS_OK; /* as for neighbouring elements */
+    const int known = section_compute(&spec, &c, NULL) == STATUS_OK; /* the same computation as for
+                                                                        neighbouring elements */
     return known ? c.axes_angle - model_section(m, model_kind(m, el->kind)->section)->axes_angle
                  : 0;
 }
 
-/* Rotates components to axes turned by an angle about x. */
+/* Transforms components to axes rotated by an angle about x. */
 static void turn_components(double angle, double v[3])
 {
     const double c = cos(angle), d = sin(angle), y = v[1];
@@ -163,7 +163,7 @@ void internal_at_end(const equations *eq, const internal_state *s, int member, i
         out[c] *= -1;
 }
 
-/* The ends of an element in the form of section_forces.h. */
+/* Ends of an element in the form of section_forces.h. */
 static void take_ends(const equations *eq, const internal_state *s, int i, span_end end[2])
 {
     const model *m = eq->m;
@@ -219,7 +219,7 @@ static void between_at(void *context, double x, const span_frame *at, span_load 
         }
 }
 
-/* What the ends have moved by since the undeformed state, where they were then. */
+/* Undeformed frames of the ends, and their displacements and rotations since. */
 static void moves_of(const equations *eq, const internal_state *s, int i, span_frame begin[2],
                      span_move end[2])
 {
@@ -249,7 +249,7 @@ static void moves_of(const equations *eq, const internal_state *s, int i, span_f
     }
 }
 
-/* moved NULL, or what the section at x has moved by. */
+/* moved: NULL, or receives the displacement and rotation of the section at x. */
 static status recover_moved(const equations *eq, const internal_state *s, int i, const span_grid *g,
                             double x, span_move *moved, span_fields *out, fault *f)
 {
@@ -417,11 +417,11 @@ status internal_largest(const equations *eq, const internal_state *s, int member
     return STATUS_OK;
 }
 
-/* Stress points of one member, or of a position of a tapered member. */
+/* Stress points of a member, or of a section of a tapered member. */
 typedef struct member_points {
     const model *m;
     int member, tapers;
-    int turned; /* 1: the twist rotates fibres */
+    int turned; /* 1: the twist inclines the fibres */
     stress_measure what;
     section local;
     stress_points points;
@@ -442,7 +442,7 @@ static status prepare(const model *m, const internal_state *s, int member, stres
                             &out->points, f);
 }
 
-/* The section at a position of a tapered member. */
+/* Computes the section at a position of a tapered member. */
 static status take_local(member_points *of, double place, fault *f)
 {
     const scene_member *sm = &model_scene(of->m)->member[of->member];

@@ -71,7 +71,7 @@ double linear_initial(const model *m)
     return largest;
 }
 
-/* sigma += times the stresses of the temperatures at `path` in elements with fixed nodes. */
+/* sigma += `times` the stresses due to the temperatures at `path` in elements with fixed nodes. */
 static status add_free(const equations *eq, double path, double times, double sigma[], fault *f)
 {
     const model *m = eq->m;
@@ -201,8 +201,8 @@ static void linear_terms(const equations *eq, int i, const double x[], double st
     }
 }
 
-/* Strains have the rounding errors of their terms, S those of its entries; these errors are alike
- * in all elements and therefore add up. */
+/* Strains have the rounding errors of their terms, and S those of its entries. These errors are
+ * similar in all elements and therefore add up. */
 double linear_strain_rounding(const equations *eq, const double x[])
 {
     const model *m = eq->m;
@@ -276,7 +276,7 @@ double linear_geometric_energy2(const equations *eq, const double sigma[], const
            linear_springs_geometric_energy2(m, sigma + model_elements(m) * model_strains(m), x);
 }
 
-/* The form is linear in the stresses, whose error is that of their terms: as large as the stress
+/* The form is linear in the stresses. Their error is that of their terms: as large as the stress
  * `other` of all kinds together, in any direction. */
 double linear_geometric_rounding(const equations *eq, const double load_x[], const double sigma[],
                                  const double x[])
@@ -343,8 +343,8 @@ void linear_system_free(linear_system *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Right-hand side minus K x for the prescribed coordinates and x, and minus the forces of initial
- * strains, computed from element strains, so that the error does not grow with the mesh. */
+/* Residual: load minus K x, including prescribed coordinates, minus the forces of initial strains.
+ * It is computed from element strains, so that its error does not grow with the mesh. */
 static status residual_of(analysis_context *c, double path, const double load[], const double x[],
                           double sigma[], double r[], fault *f)
 {
@@ -400,8 +400,8 @@ static status correct(analysis_context *c, linear_system *s, system_workspace *w
     return STATUS_OK;
 }
 
-/* A correction may be zero by accident, especially with one element. Measures how far x, perturbed
- * in its last digits and corrected, is from its old value. The work is not counted. */
+/* A correction may be zero by accident, especially with one element. Perturbs x in its last digits,
+ * corrects it, and measures the distance from its old value. The work is not counted. */
 static status shake(analysis_context *c, linear_system *s, system_workspace *w, const double x[],
                     double *change, fault *f)
 {

@@ -59,7 +59,7 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
     return largest;
 }
 
-/* force and K (which contains H) of an evaluated element, minus centrifugal forces; present:
+/* Adds force and K (which contains H) of an evaluated element, minus centrifugal forces; present:
  * conjugate to the stresses of the state, to which H belongs. */
 static status add_material(const equations *eq, const linear_memory *memory, const model_state *s,
                            const chunk_element *of, int tangent, double path, double present[],
@@ -140,7 +140,7 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
     }
 }
 
-/* Columns of the unknowns of conditions. */
+/* Adds the columns of K for the unknowns of conditions. */
 static void add_columns(const model *m, const mesh_element *el, const double K[],
                         model_linearisation *lin)
 {
@@ -206,8 +206,8 @@ static void fill_piece(void *context, int piece, int slot)
                 loop->part + (size_t)slot * (size_t)loop->window);
 }
 
-/* Number of elements whose parts are stored in eq->run->part; 0: one at a time, because memory is
- * short or one is enough. */
+/* Number of elements whose parts are stored in eq->run->part; 0: elements are added one at a time,
+ * because memory is short or one thread is enough. */
 static int window_of(const equations *eq)
 {
     const model *m = eq->m;
@@ -287,7 +287,7 @@ static status linearise_elements(const equations *eq, const linear_memory *memor
                         .window = window > 0 ? window : 1,
                         .part = window > 0 ? eq->run->part : &own,
                         .f = f};
-    /* inertia counts its evaluations */
+    /* inertia counts its evaluations, so that one thread is used */
     thread_team *together = window > 0 && !eq->loading.rotates ? eq->run->team : NULL;
     memset(lin->residual, 0, (size_t)model_all_coordinates(m) * sizeof *lin->residual);
     lin->incompatibility = 0;
@@ -358,7 +358,7 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
                                   node, F);
 }
 
-/* relative to the moments at a node; a smaller sum is rounding */
+/* relative to the moments at a node; a smaller sum counts as rounding */
 static const double least_moment = 1e-12;
 
 /* Reaction moment [N m] about the axis of a node that is fixed about one axis only

@@ -7,8 +7,8 @@
 #include "elements/element.h"
 #include "elements/math/dense.h"
 
-/* Fewer elements than this are finished before another thread starts (measured on the joint and the
- * hexapod). */
+/* Fewer elements than this are finished before a second thread has started (measured on the joint
+ * and the hexapod). */
 enum { ELEMENTS_OF_A_THREAD = 32 };
 
 status linear_memory_alloc(const model *m, linear_memory *out, fault *f)
@@ -70,7 +70,8 @@ element_rotating_frame loading_frame(const loading *l, double path)
 
 enum { WIDE = ELEMENT_MAX_COORDINATES };
 
-/* Where coordinate i of the link is among those of the element; the first joint's come first. */
+/* Index of coordinate i of the link among those of the element; the coordinates of the first joint
+ * come first. */
 static int place(const link_element *el, int i)
 {
     return NODE_COORDINATES * (i / el->joint) + i % el->joint;
@@ -91,7 +92,8 @@ static void take(const link_element *el, double J_p[], double J_y[], double H[])
             H[i * n + j] = el->H[place(el, i) * all + place(el, j)];
 }
 
-/* T[used x joint]: all nodes move with the first one as a rigid body; warping does not change. */
+/* T[used x joint]: all nodes move with the first one as a rigid body; the warping amplitudes are
+ * zero. */
 static void carry_along(const link_element *el, double T[])
 {
     const int c = el->joint;
@@ -189,7 +191,7 @@ static void add_block(linkage *l, int a, int b, double sign, const double C[N * 
                 sign * block[N * i + j];
 }
 
-/* Rows of one kind of motion, minus their components along orthogonal unit vectors. */
+/* Rows of one kind of motion, without their components along orthogonal unit vectors. */
 static void leave_out(int count, const double along[3][3], double rows[3 * N])
 {
     for (int k = 0; k < count; k++)
@@ -221,7 +223,8 @@ static void add_joint(linkage *l, int vertex)
     add_block(l, b, a, -1, C);
 }
 
-/* Motion of a node's coordinate with its part: row[6] by the motions of that. Returns the part. */
+/* Motion of a node's coordinate with its part: row[6], multiplied by the motions of the part.
+ * Returns the part. */
 static int coordinate_row(const linkage *l, int node, int coordinate, double row[N])
 {
     const model *m = l->m;
@@ -242,7 +245,7 @@ static int coordinate_row(const linkage *l, int node, int coordinate, double row
         for (int i = 0; i < 3; i++)
             row[j] += scale * axis[i] * C[N * (turns ? 3 + i : i) + j];
     }
-    if (v->led && !turns) { /* without what the angle about the normal moves it by */
+    if (v->led && !turns) { /* without the motion due to the angle about the normal */
         double moved[3];
         vec3_cross(v->axis[0], v->arm, moved);
         for (int j = 0; j < N; j++)
@@ -252,7 +255,7 @@ static int coordinate_row(const linkage *l, int node, int coordinate, double row
     return l->number[supports_root(l->part, node)];
 }
 
-/* A coordinate of a node that follows another's. */
+/* Adds the constraint of a node's coordinate that follows the coordinate of another node. */
 static void add_tie(linkage *l, int node, int coordinate)
 {
     const scene_tie *tie = model_tie(l->m, node, coordinate);
@@ -324,7 +327,7 @@ static void name_what_moves(const linkage *l, int *node, int *member, double mot
         const double size =
             part != NONE ? motion_of(l, part, model_vertex(m, i)->position, moved) : 0;
         if (size > most) {
-            most = size * (1 + 1e-9); /* the first of equal ones */
+            most = size * (1 + 1e-9); /* take the first of equal values */
             *node = i;
             memcpy(motion, moved, sizeof moved);
         }

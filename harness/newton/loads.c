@@ -7,12 +7,12 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Largest asymmetry of the stiffness of a moment that counts as round-off, relative to the moment.
- */
+/* Asymmetry of the stiffness of a moment, relative to the moment, up to which it counts as
+ * round-off. */
 static const double potential = 1e-12;
 
-/* Which loads along members are lumped at the ends of elements: weights if mass is lumped there;
- * all if a motion must conserve energy, also in its initial states. */
+/* Which loads along members are lumped at the ends of elements: weights, if mass is lumped there;
+ * all loads, if a motion must conserve energy (also in its initial states). */
 static int lumps_of(const model *m, int analysis)
 {
     const scene *s = model_scene(m);
@@ -146,7 +146,7 @@ void loads_add(const equations *eq, const model_state *s, double path, double ou
                       applied_factor(eq, &model_scene(m)->load[i], path), out);
 }
 
-/* C in the state under the loads along the element. */
+/* Computes C in the state under the loads along the element. */
 static status tangent_of(const equations *eq, const model_state *s, const node_state x[],
                          int element, double C[])
 {

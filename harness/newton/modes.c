@@ -12,7 +12,7 @@ static void put(const model *m, int row, const row_label *label, row_label out[]
         out[row] = *label;
 }
 
-/* Names of the six coordinates of a vertex. */
+/* Name of coordinate c of a vertex. */
 static const char *component_of(const model *m, int vertex, int c)
 {
     static const char *const plain[] = {"ux", "uy", "uz", "rx", "ry", "rz"},
@@ -69,9 +69,10 @@ void rows_label(const model *m, row_label out[])
         put_element(m, model_element(m, i), out);
 }
 
-/* Family of a mode: axial, along y, along z or twist, by the largest sum of squares of translations
- * along the member, across it, and twist times the radius of gyration. The number of half-waves
- * follows from sign changes of the leading component along the first member. */
+/* Determines the family of a mode: axial, along y, along z or twist. The largest sum of squares
+ * decides: of translations along the member, of those across it, or of the twist times the radius
+ * of gyration. The number of half-waves follows from sign changes of the leading component along
+ * the first member. */
 
 enum { AXIAL, ALONG_Y, ALONG_Z, TWIST, MEASURES };
 
@@ -83,8 +84,8 @@ static void components(const double R[9], double radius, const double u[7], doub
     out[TWIST] = radius * (R[0] * u[3] + R[3] * u[4] + R[6] * u[5]);
 }
 
-/* If vertices do not move: rotations of the section about z and y times r, and warping times r^2.
- */
+/* Measures for modes in which vertices do not move: rotations of the section about z and y times r,
+ * and warping times r^2. */
 static void turns(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     out[AXIAL] = 0;
@@ -114,7 +115,7 @@ static int count_half_waves(int vertices, const double *value)
 typedef struct motion {
     int points, first_member; /* number of points of all members, and of the first */
     double *part;             /* [points x MEASURES] */
-    double *turn;             /* the same for rotations and warping */
+    double *turn;             /* the same for rotations and warping amplitudes */
 } motion;
 
 static int points_of(const model *m, const scene *s)
@@ -186,8 +187,8 @@ static int largest_of(const double sum[MEASURES])
     return leading;
 }
 
-/* Below this fraction, in squares, of rotations and warping, the translation of vertices is
- * round-off. */
+/* If the translations of vertices are below this fraction (of squares) of rotations and warping,
+ * they are round-off. */
 static const double in_place_part = 1e-16;
 
 status modes_identify(const model *m, const scene *s, const double mode[], mode_shape *out,
@@ -278,8 +279,8 @@ static void combine(int count, size_t n, const double C[], double *mode)
     }
 }
 
-/* Replaces the modes by combinations for which the fraction of motion along z is as small or as
- * large as possible; modes that look alike at the vertices do not change. */
+/* Replaces the modes by combinations with the smallest and largest possible fractions of motion
+ * along z. Modes that are alike at the vertices do not change. */
 static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode,
                                fault *f)
 {
@@ -323,7 +324,7 @@ identity identity_begin(void)
     return (identity){{14695981039346656037ull, 0x9e3779b97f4a7c15ull}};
 }
 
-/* FNV-1a hash, and a second hash with another multiplier. */
+/* Updates an FNV-1a hash, and a second hash with another multiplier. */
 void identity_add(identity *out, const void *bytes, size_t size)
 {
     const unsigned char *at = bytes;
@@ -339,7 +340,8 @@ static void add_number(identity *out, long number)
     identity_add(out, &number, sizeof number);
 }
 
-/* Adds a type without its texts, and without the functions used only during preparation. */
+/* Adds a type without its descriptive strings, and without the functions used only during
+ * preparation. */
 static void add_type(identity *out, const element_type *type)
 {
     element_type t;

@@ -8,8 +8,8 @@
 
 #include "elements/math/dense.h"
 
-/* Releases a symmetric factor for the pattern of the free coordinates. It is kept if a compliance
- * may need one, to save the ordering and the pattern. */
+/* Gives up a symmetric factor for the pattern of the free coordinates. Stores it in the context if
+ * a compliance may need it, to save the ordering and the pattern; otherwise frees it. */
 static void context_leave_factor(analysis_context *, matrix_factor *);
 
 enum { MAX_ITERATIONS = 30 };
@@ -87,8 +87,7 @@ void newton_free(newton_run *n)
     kinematics_state_free(n->backup);
 }
 
-/* Returns 1 when the effect of a driver on its coordinate exceeds the round-off of all its effects.
- */
+/* Does the effect of a driver on its coordinate exceed the round-off of all its effects? */
 static int drives(const newton_run *n, int count, const model_condition condition[],
                   const double column[])
 {
@@ -103,8 +102,8 @@ static int drives(const newton_run *n, int count, const model_condition conditio
     return conditioned > round_off * round_off * all;
 }
 
-/* Computes the increments of unknown drivers, whose columns are known, from their conditions, then
- * dx of the free coordinates. */
+/* Computes the increments of unknown drivers from their conditions and known columns, then dx of
+ * the free coordinates. */
 static status meet_conditions(newton_run *n, int count, const model_condition condition[], fault *f)
 {
     double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];

@@ -1,6 +1,6 @@
-/* Newton's corrections converge quadratically, and so do those of the stresses. In stiff elements
- * the stresses are less exact than the motions by orders of magnitude, so that a test of the
- * motions alone is not enough. */
+/* Convergence of Newton's method. The corrections converge quadratically, and so do those of the
+ * stresses. In stiff elements the relative error of the stresses is larger than that of the motions
+ * by orders of magnitude, so that a test of the motions alone is not enough. */
 #include "harness/newton/newton_impl.h"
 
 #include <stdio.h>
@@ -11,19 +11,20 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* Largest size of two successive corrections at convergence (those of the geometrically exact
+/* Convergence: two successive corrections are smaller than this (those of the geometrically exact
  * element reach 3e-11 with 1000 elements, 6e-9 with 40 000) ... */
 static const double small = 1e-8;
 static const double many_elements =
-    1e4; /* number of elements above which it increases in proportion */
-/* ... or of one correction after which the rest is below rounding ... */
+    1e4; /* number of elements above which `small` increases in proportion */
+/* ... or one correction is so small that the next is below rounding ... */
 static const double arrival_near = 1e-6, negligible = 1e-15;
-/* ... or of one whose square is negligible even if stresses are 1e10 times as sensitive. */
+/* ... or its square is negligible even if stresses are 1e10 times as sensitive. */
 static const double rounding = 1e-12;
 /* Corrections larger than this need not converge quadratically. */
 static const double quadratic = 0.1;
-/* relative change of stresses below which a tangent is reused. Compliances change by at most half
- * of it (measured on the mechanisms of cases/), which is less than their scatter in most cases. */
+/* Relative change of stresses below which a tangent is reused. Compliances change by at most half
+ * of this (measured on the mechanisms of cases/), which is less than their scatter in most
+ * cases. */
 static const double same_tangent = 3e-11;
 
 void arrival_start(double criterion, int differences, int elements, arrival *a)
@@ -36,9 +37,9 @@ void arrival_start(double criterion, int differences, int elements, arrival *a)
                    .remaining = NAN};
 }
 
-/* Records a correction and the change of stresses; `first`: first one of its step. Updates the
- * history by a correction. Changes of stresses are relative to the largest stress of the path so
- * far, since stresses may pass through zero. */
+/* Records a correction and the resulting change of stresses; `first`: 1 for the first correction of
+ * a step. Changes of stresses are relative to the largest stress of the path so far, since stresses
+ * may pass through zero. */
 static void arrival_take(double correction, const advance_stress *stress, int first, arrival *a)
 {
     a->before = first ? INFINITY : a->correction;
@@ -64,8 +65,8 @@ int arrival_tangent_stands(const arrival *a)
     return a->correction <= same_tangent && a->stress_change <= same_tangent;
 }
 
-/* Changes of stresses and inner unknowns due to the rotation of an element's frame, if the element
- * includes loads along it. */
+/* Changes of stresses and inner unknowns due to the rotation of an element's frame, for an element
+ * that includes loads along it. */
 static void follow_turn(const model *m, const double along[], const double local[], double sigma[],
                         double inner[])
 {
@@ -78,7 +79,7 @@ static void follow_turn(const model *m, const double along[], const double local
         inner[k] += vec3_dot(along + slot_followed(m) + (ptrdiff_t)3 * k, turn);
 }
 
-/* Strains, stresses and inner unknowns of one element. */
+/* Updates the strains, stresses and inner unknowns of one element. */
 static double advance_element(const model *m, const linear_memory *memory, model_state *s, int i,
                               const double dx[], advance_stress *stress)
 {
@@ -192,8 +193,8 @@ static status judge_twist(const model *m, const model_state *s, fault *f)
         s->path);
 }
 
-/* The rotation within the element [rad]: between neighbouring nodes; for formulations that use
- * sines, relative to the chord. */
+/* Checks the rotation within an element [rad]: between neighbouring nodes, or relative to the chord
+ * for formulations that use sines. */
 static status judge_elements(const model *m, const model_state *s, fault *f)
 {
     const int quarter = (model_type(m)->limits & LIMIT_QUARTER_TURN) != 0;
@@ -222,8 +223,8 @@ static int swings(const model *m, const mesh_element *el, int node)
            (fabs(vec3_dot(r->turn[0], x)) < across && fabs(vec3_dot(r->turn[1], x)) < across);
 }
 
-/* Elements must not be longer than their axial force allows; bars without bending are not limited.
- */
+/* Checks that elements are not longer than their axial force allows; bars without bending are not
+ * limited. */
 static status judge_tension(const model *m, const model_state *s, fault *f)
 {
     int worst = 0;
@@ -269,7 +270,7 @@ status newton_judge_rest(const model *m, fault *f)
                      model_type(m)->name, most, floor(count * sqrt(rise / most)) + 1);
 }
 
-/* Near a full rotation a moment normal to the rotation axis has an unbounded effect. */
+/* Near a full revolution, a moment normal to the rotation axis has an unbounded effect. */
 static int across(const mesh_discrete *d, const double turn[3])
 {
     const double near = 1e-3, size = vec3_norm(turn);
@@ -341,12 +342,12 @@ status newton_accept(const model *m, const model_state *from, model_state *s, fa
 
 /* Sizes of the corrections of one step. */
 typedef struct watch {
-    double last, first, largest; /* `largest`: of those after the first */
+    double last, first, largest; /* largest: of the corrections after the first */
     int growing;                 /* number of successive growing corrections */
 } watch;
 
-/* Limits for all iterations: a correction of several radians or lengths does not lead to
- * convergence, nor do corrections that grow repeatedly. */
+/* A correction of several radians or lengths does not lead to convergence, nor do corrections that
+ * grow repeatedly. */
 static const double wild = 4, wild_at_first = 16;
 enum { AT_FIRST = 3, GROWING = 4, MOST_IN_TIME = 20 };
 

@@ -299,8 +299,8 @@ void history_judge_steps(solve_result *r, const scene *s, int analysis, int firs
             one->stability =
                 STEP_UNSTABLE; /* in rotating axes gyroscopic forces may stabilise it, ... */
         else if (one->negative_pivots % 2 != 0)
-            one->stability = STEP_GROWS; /* ... except for an odd number: det(s^2 M + s G + K) is
-                                            negative at s = 0 and positive for large s */
+            one->stability = STEP_GROWS; /* ... unless the number is odd: det(s^2 M + s G + K) is
+                                            then negative at s = 0 and positive for large s */
     }
 }
 

@@ -170,7 +170,7 @@ int convention_changes(scene_moments of_tangent, scene_moments convention, const
            (convention != of_tangent && vec3_norm(m) > 0);
 }
 
-/* Multiple of m~/2 that is subtracted. */
+/* Number of times that m~/2 is subtracted. */
 static int times_of(scene_moments of_tangent, scene_moments convention)
 {
     return (convention != SCENE_MOMENTS_SEMITANGENTIAL) - (of_tangent == SCENE_MOMENTS_SPATIAL);
@@ -186,7 +186,7 @@ static void congruence(int m, int n, const double T[], const double A[], double 
             to[i * m + j] = dense_dot(n, half + i * n, T + j * n);
 }
 
-/* to = dual C dual^T: restricted to the possible motions. */
+/* to = dual C dual^T: C restricted to the possible motions. */
 static void gather(const movable *v, const double C[36], double to[])
 {
     const int n = v->count;
@@ -197,7 +197,7 @@ static void gather(const movable *v, const double C[36], double to[])
             to[i * n + j] = C[N * v->component[i] + v->component[j]];
 }
 
-/* Expands a matrix to all components; the sums give no negative zero. */
+/* Expands a matrix to all components; avoids negative zeros. */
 static void scatter(const movable *v, const double from[], double to[36])
 {
     const int n = v->count;

@@ -83,7 +83,7 @@ status rotating_frame_inertia(const equations *eq, const model_state *state, dou
     return STATUS_OK;
 }
 
-/* Components of a vector in global axes along the axes of an element between its ends. */
+/* Transforms a vector from global axes to the axes of an element between its ends. */
 static void in_axes(const mesh_element *el, const double v[3], double out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -114,7 +114,7 @@ double rotating_frame_inner(const model *m, const double x[])
     return sum;
 }
 
-/* B in global axes. */
+/* Transforms B to global axes. */
 static void turn_inner(const mesh_element *el, const double B[], double out[])
 {
     double T[FIELD_INNER * FIELD_INNER] = {0}, half[FIELD_INNER * FIELD_INNER];
@@ -161,7 +161,7 @@ void rotating_frame_load_stiffness(const equations *eq, const model_state *s, do
  *   [ sum sigma H     0    J^T ] [dx    ]   [ f - J^T sigma ]
  *   [ J              -1    0   ] [de    ] = [ e - D(x)      ]
  *   [ 0              -C    1   ] [dsigma]   [ P'(e) - sigma ]
- * The published algorithm, kept as the baseline that speed is measured against. */
+ * This is the published algorithm, kept as the baseline for comparisons of speed. */
 
 int uncondensed_size(const model *m)
 {

@@ -73,7 +73,8 @@ double quadratic_forms_geometric_rounding(quadratic_forms *p, const double x[])
     return linear_geometric_rounding(p->eq, p->load_x, p->sigma, all_of(p, x));
 }
 
-/* The undeformed elements were evaluated when K was assembled, so that they cannot fail here. */
+/* The undeformed elements were evaluated when K was assembled, so that no evaluation can fail
+ * here. */
 void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
 {
     linear_stresses(p->eq, all_of(p, x), p->stress, NULL);
@@ -81,7 +82,7 @@ void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
     memcpy(y, p->force, (size_t)p->free * sizeof *y);
 }
 
-/* Above this condition no digit is reliable; a failure is then due to round-off. */
+/* Above this condition no digit is reliable: a failure is then attributed to round-off. */
 static const double no_digits = 1e15;
 
 /* Describes a rigid motion that the supports allow. */
@@ -121,8 +122,9 @@ status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
                                                   : "parts that constraints join");
 }
 
-/* Ratio of the largest to the smallest stiffness of the coordinates of K, displacements in units of
- * the structure's length, since rotation of the structure mixes them. 1: out of memory. */
+/* Ratio of the largest to the smallest stiffness of the coordinates of K, with displacements in
+ * units of the structure's length, since a rotation of the structure mixes the coordinates. 1: out
+ * of memory. */
 static double spread(const model *m, const sparse *K)
 {
     const model_size size = model_sizes(m);
@@ -180,7 +182,7 @@ static double condition_at_rest(const analysis_context *c, const equations *eq, 
 }
 
 /* Condition of the same scene with one element per member; *elements: their number; *lost: 1 when
- * accuracy is lost too. */
+ * accuracy is lost here too. */
 static double condition_when_coarse(const analysis_context *c, int *elements, int *lost)
 {
     model *coarse = NULL;
@@ -198,8 +200,8 @@ static double condition_when_coarse(const analysis_context *c, int *elements, in
     return condition;
 }
 
-/* Explains lost accuracy: due to the mesh, whose condition grows with the fourth power of the
- * number of elements, or independent of it. */
+/* Explains a loss of accuracy: it is due to the mesh, since the condition grows with the fourth
+ * power of the number of elements, or independent of it. */
 static void explain_loss(const analysis_context *c, fault *f)
 {
     const int elements = model_sizes(c->model).elements;

@@ -1,4 +1,5 @@
-/* The tangent of the free coordinates is factored once, and bordered by the released coordinates:
+/* The tangent of the free coordinates is factored once, and then bordered by the released
+ * coordinates:
  *   [ K  U ] [x]   [f]
  *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
 #include "harness/newton/newton_impl.h"
@@ -12,21 +13,22 @@
 static int border_place(const border *, int coordinate);
 /* Fills the border from K of all coordinates. */
 static void border_fill(border *, int free_count, const sparse *K);
-/* In place; fixed and prescribed coordinates do not change. x: [columns x all] */
+/* Solves in place; fixed and prescribed coordinates do not change. x: [columns x all] */
 static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns,
                            double x[]);
 /* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
  * strains (refinement_judge). SINGULAR: round-off leaves insufficient accuracy. */
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
 
-/* Solutions are refined above this condition, where round-off would leave less than eight digits.
- */
+/* Condition above which solutions are refined, because round-off would leave less than eight
+ * digits. */
 static const double harmless_condition = 1e8;
-/* A condition that differed from it by this factor is not estimated again while the ratio of the
- * largest to the smallest pivot has changed by less than a factor. */
+/* A condition is not estimated again if it differed from harmless_condition by the factor `clear`,
+ * and the ratio of the largest to the smallest pivot has changed by less than the factor
+ * `alike`. */
 static const double clear = 30, alike = 2;
 
-/* Copies the free block from the whole. */
+/* Copies the free block from the whole matrix. */
 static void copy_inside(node_tangent *t)
 {
     if (t->inside.value != t->K.value)
@@ -190,7 +192,7 @@ static int moves(const node_tangent *t, int k)
     return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
 }
 
-/* Loads on the moving coordinates, or their motions: x[index] = column of T, or sum = T x. */
+/* Loads on the moving coordinates, or their motions: x[index] = column of T; or sum = T x. */
 static void load_of(const node_tangent *t, const int moving[], int component, double x[])
 {
     memset(x, 0, (size_t)t->all * sizeof *x);
@@ -379,7 +381,7 @@ void bordered_free(bordered *s)
     free(s->solution);
 }
 
-/* Released coordinates z, and their contribution to a solution without them. */
+/* Computes the released coordinates z and adds their contribution to a solution without them. */
 static void add_released(const node_tangent *t, const bordered *s, double x[])
 {
     const border *b = &t->border;
@@ -415,7 +417,7 @@ static void residual_of(const equations *eq, const node_tangent *t, const border
 
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
 {
-    /* x was the first solution; that of condensed members is as accurate as a second one */
+    /* x is the first solution; with condensed members it is as accurate as a second one */
     solution_refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
     refinement_state state = REFINEMENT_GOES_ON;
     metric_of(eq->m, s->weight);
@@ -431,9 +433,9 @@ static status bordered_refine(const equations *eq, node_tangent *t, const border
 
 enum { LEAST = 2, MOST = 30 };
 
-/* Sizes of a correction: below the first no further one is made. The second is a thousandth of the
- * tolerance of quantities (SCENE_TOLERANCE), since quantities derived from the solution may lose
- * further digits. With the level of newton.h, eps (L/side)^2 times 2.5, bars exceed the first
+/* Sizes of a correction: below the first, no further correction is made. The second is a thousandth
+ * of the tolerance of quantities (SCENE_TOLERANCE), since quantities derived from the solution may
+ * lose further digits. With the error level of newton.h, 2.5 eps (L/side)^2, bars exceed the first
  * beyond L/side = 1300 and the second beyond 42000. In a run of verify no correction exceeded
  * 2e-12. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;

@@ -6,7 +6,7 @@
 
 #include "elements/math/dense.h"
 
-/* Loads between the ends of a member, in the order of its links. */
+/* Gathers the loads between the ends of a member, in the order of its links. */
 static void gather_loads(const condensation *s, const condensed_member *of, const double x[])
 {
     const int c = of->joint, nodes = model_nodes(s->m);
@@ -138,8 +138,8 @@ void stiffness_parts_material_product(const model *m, const linear_memory *memor
     discrete_material_product(m, s, x, y);
 }
 
-/* Strains have the rounding errors of their terms, P'' those of its entries; these errors are alike
- * in all elements and therefore add up. */
+/* Strains have the rounding errors of their terms, and P'' those of its entries. These errors are
+ * similar in all elements and therefore add up. */
 double stiffness_parts_material_rounding(const model *m, const linear_memory *memory,
                                          const model_state *s, const double x[])
 {

@@ -36,8 +36,8 @@ static status begin(const equations *eq, fault *f)
     return STATUS_OK;
 }
 
-/* Is element i like the last one stored? The triads are those of chords between rounded positions.
- */
+/* Is element i like the last stored one? The triads are those of chords between rounded
+ * positions. */
 static int alike(const equations *eq, int i)
 {
     const model *m = eq->m;
@@ -60,7 +60,8 @@ static int is_strained(const model *m, int i)
     return vec3_norm(model_kind_of(m, i)->strain) + vec3_norm(model_kind_of(m, i)->free) > 0;
 }
 
-/* C for zero strain; the contribution of initial stresses is left to geometric stiffnesses. */
+/* Computes C at zero strain; the contribution of initial stresses is included in geometric
+ * stiffnesses. */
 static status evaluate_strained(const model *m, int i, const double e[], const double inner[],
                                 double C[], double initial[])
 {
@@ -158,7 +159,7 @@ static const mesh_discrete *spring_of(const model *m, int i)
     return model_discrete(m, model_discretes(m) - model_springs(m) + i);
 }
 
-/* J in the undeformed state, and H of sigma if sigma is given. */
+/* Computes J in the undeformed state, and H for sigma if sigma is given. */
 static void springs_evaluate(const model *m, const mesh_discrete *d, const double sigma[],
                              double J[], double H[])
 {
