@@ -43,7 +43,7 @@ static status set_up(const cell_request *request, const scene *s, model **m, cel
     return copy_left_out(*m, out, f);
 }
 
-/* The scene of the request, or one that is built here and stored in the result. */
+/* Gives the scene of the request, or builds it and stores it in the result. */
 static status scene_of(const cell_request *request, const scene **s, cell_result *out, fault *f)
 {
     *s = request->scene;
@@ -134,7 +134,7 @@ static const double surely = 100;
 /* relative to the largest value in the same unit: smaller values count as zero */
 static const double nothing = 1e-9;
 
-/* Physics that the section does not have, because the constants are zero. */
+/* Physics that the section lacks, because the constants are zero. */
 static unsigned absent_in(const section *c)
 {
     const double length = sqrt(c->Ip / c->A), moment = 1e-12 * c->Ip * length;
@@ -152,7 +152,8 @@ static unsigned absent_in(const section *c)
     return absent | (c->Iw <= 0 ? FEATURE_WARPING : 0);
 }
 
-/* Second-order physics that linear analyses do not depend on, and inertia in analyses at rest. */
+/* Physics without effect in the scene: second-order physics in linear analyses, inertia in analyses
+ * at rest. */
 static unsigned absent_in_analyses(const scene *s)
 {
     const unsigned higher = FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
@@ -189,7 +190,7 @@ static int can_be_shown(const scene *s)
     return can;
 }
 
-/* Returns the formulation of the highest order among those that support all physics of the scene,
+/* Returns the formulation with the highest order among those that support all physics of the scene,
  * or NULL. */
 static const element_type *whole_model(const scene *s)
 {
@@ -247,7 +248,7 @@ static double change_of_curve(const curve *a, const curve *b, double least)
         size = fmax(size, fabs(a->value[i]));
         apart = fmax(apart, fabs(b->value[i] - a->value[i]));
         if (fabs(a->x[i] - b->x[i]) > 1e-9 * fmax(fabs(a->x[i]), fabs(a->x[a->points - 1])))
-            return INFINITY; /* a different path cannot be compared */
+            return INFINITY; /* curves over different paths cannot be compared */
     }
     return relative(apart, size);
 }
@@ -312,7 +313,7 @@ static int agree(double coarse, double fine)
     return fmax(coarse, fine) <= noise || (coarse <= apart * fine && fine <= apart * coarse);
 }
 
-/* Solves on meshes that double their elements, until two of them agree; the larger change counts. A
+/* Solves on successively doubled meshes until two of them agree; the larger change counts. A
  * clearly significant change is refined only within a short run time. */
 static void estimate(const scene *s, const element_type *type, omission *out)
 {
@@ -373,7 +374,7 @@ void omission_of(const scene *s, const element_type *type, omission *out)
     if (out->what == 0)
         return;
     find_change(s, out);
-    out->other = !(out->change <= omission_most); /* also true for NAN */
+    out->other = !(out->change <= omission_most); /* true also for NAN */
 }
 
 void omission_words(const omission *o, char text[OMISSION_TEXT])

@@ -6,8 +6,8 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Round-off is below a thousandth of these: for strains, for positions and rotations, for other
- * values. */
+/* Scales: round-off is below a thousandth of these for strains, for positions and rotations, and
+ * for other values. */
 static const double small_strain = 1e-14, small_part = 1e-12, small_beside = 1e-9;
 
 double change_size(const scene *s)
@@ -63,7 +63,7 @@ static double of_resultant(const scene *s, scene_resultant which)
     return which <= SCENE_QZ ? force : force * size;
 }
 
-/* Scale of positions, rotations and plain numbers; 0 (unknown) for rates and others. */
+/* Scale of positions, rotations and dimensionless numbers; 0 (unknown) for rates and others. */
 static double of_reading(const scene *s, const char *unit)
 {
     if (strcmp(unit, "m") == 0)
@@ -118,7 +118,7 @@ double change_scale(const scene *s, int quantity, const solve_result *r)
     return is_of_time(q) ? out : fmax(out, fabs(q->factor) * physical_scale(s, q));
 }
 
-/* NAN: both have no value. */
+/* Change of one quantity; NAN: both results lack the value. */
 static double change_of(const scene *s, int index, const solve_result *a, const solve_result *b)
 {
     const double x = index < a->quantities ? a->quantity[index].value : (double)NAN,
@@ -159,7 +159,7 @@ void change_between(const scene *s, const cell_result *before, const cell_result
         out->largest = INFINITY;
 }
 
-/* Are its points those of steps, which differ between meshes? */
+/* Are the points of the curve those of steps, which differ between meshes? */
 static int has_own_points(const scene *s, const scene_quantity *q)
 {
     return s->analysis[q->analysis].kind == SCENE_CONTINUATION;

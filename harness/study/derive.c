@@ -55,8 +55,8 @@ static status start(const derive_question *q, script *s, fault *f)
         }
         if (q->input != NULL && dup2(fileno(q->input), STDIN_FILENO) < 0)
             _exit(127);
-        /* with its full name, because Python finds its libraries relative to the name by which it
-         * was called; isolated (-I) from the environment, for users of virtual environments */
+        /* Uses the full name, because Python finds its libraries relative to the name by which it
+         * was called. -I isolates it from the environment, for users of virtual environments. */
         execl(python, python, "-I", "-B", q->path, q->case_name, q->parameters, (char *)NULL);
         _exit(127);
     }
@@ -111,7 +111,7 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
     return STATUS_OK;
 }
 
-/* Closes its streams and waits for its end; returns its status from waitpid. */
+/* Closes the streams of the script and waits for its end; returns its status from waitpid. */
 static int stop(script *s)
 {
     int how = 0;
@@ -191,7 +191,7 @@ static int is_in(const char *folder, const char *below, const char *name, char p
     return length < PATH_MAX && access(path, R_OK) == 0;
 }
 
-/* bin/ and lib/ are next to share/; lib/x86_64-linux-gnu is one level deeper. */
+/* Searches next to bin/ and lib/, where share/ is; lib/x86_64-linux-gnu is one level deeper. */
 static int is_near(const char *folder, const char *name, char path[PATH_MAX])
 {
     static const char *const below[] = {"", "../", "../share/beamwork/", "../../share/beamwork/"};
@@ -201,7 +201,7 @@ static int is_near(const char *folder, const char *name, char path[PATH_MAX])
     return 0;
 }
 
-/* The folder of this program. */
+/* Folder of the running program. */
 static void program_folder(char out[PATH_MAX])
 {
     const ssize_t length = readlink("/proc/self/exe", out, PATH_MAX - 1);
@@ -213,7 +213,8 @@ static void program_folder(char out[PATH_MAX])
         snprintf(out, PATH_MAX, ".");
 }
 
-/* Folder of the shared library that contains this code; 0: it is linked into a program. */
+/* Folder of the shared library that contains this code; returns 0 if the code is linked into a
+ * program. */
 static int library_folder(char out[PATH_MAX])
 {
     static const char here = 0;

@@ -13,15 +13,15 @@ static double stations_of(const scene *s, const scene_analysis *a)
     return scene_path_of(a) != NULL ? scene_path_of(a)->stations : 1;
 }
 
-/* Number of load steps; initially shorter steps count as if they had full length. */
+/* Number of load steps; shorter initial steps count as if they had full length. */
 static double steps_of(const scene_analysis *a, int steps)
 {
     const int between = steps > 0 ? steps : scene_walk_of(a)->steps_between;
     return scene_path_of(a)->stations + between - 1;
 }
 
-/* Estimated number of time steps. With a tolerance it depends little on the motion, whose time
- * scale the scene sets, and grows with a power of the tolerance; measured on four motions. */
+/* Estimated number of time steps. With a tolerance it is a power of the tolerance and depends
+ * little on the motion, whose time scale is given by the scene (measured on four motions). */
 static double motion_steps(const scene_motion *m)
 {
     static const double usual = 1e-4, steps[] = {80, 40}, power[] = {0.45, 0.3};
@@ -100,7 +100,7 @@ double expense_of_cell(const sweep *s, int series_index, int mesh)
     return expense_of_scene(&p->scene, p->steps, one->formulation.type, one->mesh[mesh]);
 }
 
-/* relative to the work of one process; below it the order of tasks does not matter */
+/* relative to the work of one process; for series below it the order of tasks does not matter */
 static const double dear_share = 0.01;
 
 /* A series that is run. */
@@ -147,13 +147,13 @@ int expense_order(const sweep *s, int jobs, workload_task tasks[])
 }
 
 /* The result of a cell is a tree of arrays. Records and elements are sent as stored in memory, and
- * pointers are replaced by those of the receiver. A new array needs a line in the tables below; a
- * new number does not. */
+ * pointers are replaced by those of the receiver. A new array requires a line in the tables below;
+ * a new number does not. */
 typedef struct branch branch;
 struct branch {
     size_t pointer, size; /* position of the pointer in the record; size of an element [bytes] */
-    /* positions of the integers whose product is the number of elements; count 0: a text; times 0:
-     * one factor */
+    /* positions of the integers whose product is the number of elements; count 0: a string; times
+     * 0: one factor */
     size_t count, times;
     size_t each, more;   /* elements per unit of the product, and additional ones */
     const branch *parts; /* arrays inside each element; NULL: none */
@@ -252,7 +252,7 @@ static void forget(void *record, const branch parts[])
 /* As serialise_read; *out is NULL after a failure. */
 static int get_array(FILE *from, const branch *b, size_t count, char **out)
 {
-    enum { LARGEST = 1 << 28 }; /* [bytes] a larger count means damage */
+    enum { LARGEST = 1 << 28 }; /* [bytes] a larger count means damaged data */
     *out = NULL;
     if (count >= LARGEST / b->size)
         return SERIALISE_DAMAGED;

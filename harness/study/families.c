@@ -80,7 +80,7 @@ static int agree(const scene_quantity *q, const families_known_limit *a,
     return d.apart + d.unknown <= FAMILIES_APART * size;
 }
 
-/* Returns the limits that agree with one limit: the nearest one of each family. */
+/* Returns the limits that agree with the given one: the nearest limit of each family. */
 static families_limit around(const scene_quantity *q, const families_known_limit *all, int count,
                              int centre)
 {
@@ -111,7 +111,7 @@ static families_limit around(const scene_quantity *q, const families_known_limit
     return out;
 }
 
-/* Mean of limits weighted by 1/U^2. */
+/* Mean of limits, weighted by 1/U^2. */
 typedef struct mean {
     double value, uncertainty, spread;
 } mean;
@@ -227,7 +227,7 @@ families_limit families_limit_of(const sweep *s, int point_index, int quantity, 
     return best;
 }
 
-/* Why a series takes no part in an agreement; NULL: it does. */
+/* Reason why a series takes no part in an agreement; NULL: it takes part. */
 static const char *kept_out(const sweep *s, int index, int quantity, const truths *t)
 {
     const series *one = &s->series[index];
@@ -244,7 +244,7 @@ static const char *kept_out(const sweep *s, int index, int quantity, const truth
                : "without a limit on these meshes";
 }
 
-/* A formulation of a family other than this one that could take part. */
+/* Finds a formulation of a different family that could take part. */
 static const char *of_another_family(const sweep *s, int point_index, const char *family,
                                      const truths *t)
 {
@@ -264,7 +264,7 @@ static const char *of_another_family(const sweep *s, int point_index, const char
     return NULL;
 }
 
-/* "A, B " for the series of a point with this reason; NULL: those that take part. */
+/* Writes "A, B " for the series of a point with this reason (NULL: the series that take part). */
 static int put_series(FILE *to, const sweep *s, int point_index, int quantity, const truths *t,
                       const char *reason, const char *before)
 {
@@ -371,7 +371,7 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
     return STATUS_OK;
 }
 
-/* May agreements for the point become reference values? */
+/* May agreements become reference values at this point? */
 static int is_open(const sweep_point *p, int files_only)
 {
     return p->status == STATUS_OK && (!files_only || p->type->file != NULL);
@@ -452,7 +452,8 @@ static const char *quantity_at(const void *context, int i)
     return i < s->quantities ? s->quantity[i].name : NULL;
 }
 
-/* Nearest name: among the quantities of the point, otherwise among all names. */
+/* Reports words that match nothing, with the nearest name: among the quantities of the point,
+ * otherwise among all names. */
 static status check_words(const sweep_point *p, const char *select, const select_words *words,
                           fault *f)
 {
@@ -474,7 +475,7 @@ static status narrow(sweep *s, const char *select, kept *k, fault *f)
     TRY(select_begin(select, &words, f));
     mark(s, select, &words, k);
     TRY(check_words(&s->point[k->point], select, &words, f));
-    drop(s, k); /* omissions stay those of all quantities */
+    drop(s, k); /* omissions still refer to all quantities */
     const sweep_point *p = &s->point[k->point];
     return p->scene.quantities > 0
                ? STATUS_OK

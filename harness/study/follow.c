@@ -50,7 +50,7 @@ static void drop_sample(follow_walk *w)
     follow_match_free(&w->shapes[last]);
 }
 
-/* One step from the last sample; *least < follow_sure: the step was too large, and nothing is
+/* Makes one step from the last sample; *least < follow_sure: the step was too large, and nothing is
  * stored. */
 static status try_step(follow_walk *w, double target, int asked, double *least, fault *f)
 {
@@ -71,7 +71,7 @@ static status try_step(follow_walk *w, double target, int asked, double *least, 
     return STATUS_OK;
 }
 
-/* From the last sample to `to`, in as many steps as necessary. */
+/* Proceeds from the last sample to `to`, in as many steps as necessary. */
 static status step_to(follow_walk *w, double to, fault *f)
 {
     const follow_curves *c = w->out;
@@ -135,9 +135,9 @@ void follow_free(follow_curves *c)
 }
 
 /* Largest last correction of a converged step: the next correction would be its square. A larger
- * one, up to the second value, may be the last if the next one is predicted to be negligible. With
- * more elements than given here the limit grows in proportion, because rounding of the positions
- * limits the corrections. */
+ * one, up to largest_correction, may be the last if the next one is predicted to be negligible.
+ * With more elements than the third value the limit grows in proportion, because rounding of the
+ * positions limits the corrections. */
 static const double promised_correction = 1e-8, largest_correction = 1e-6,
                     negligible_correction = 1e-14, many_elements = 1e4;
 
@@ -149,7 +149,7 @@ static int iterations_of_steps(const solve_result *r)
     return sum;
 }
 
-/* Number of rejected longer steps before the accepted ones. */
+/* Number of longer steps that were rejected before the accepted ones. */
 static long rejected_before_steps(const solve_result *r)
 {
     long sum = 0;
@@ -169,8 +169,8 @@ static int unfinished_step(const solve_result *r, double promised)
     return -1;
 }
 
-/* Returns 1 when the solution has only Newton iterations without rejected steps: each one then
- * evaluates every element once and factors once. */
+/* Returns 1 when the solution consists only of Newton iterations without rejected steps, so that
+ * each iteration evaluates every element once and factors once. */
 static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -189,7 +189,7 @@ static long most_reused(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* Factorisations saved in time steps, where iterations reuse earlier factors. */
+/* Factorisations saved in time steps, whose iterations reuse earlier factors. */
 static long most_stale(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -198,8 +198,8 @@ static long most_stale(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* Name of the first count that is smaller than the iterations require, or differs from them for a
- * plain solution; NULL: none. */
+/* Name of the first count that is smaller than the iterations require or, for a plain solution,
+ * differs from what they require; NULL: none. */
 static const char *wrong_count(const cell_result *cell, long reused, long stale, int plain)
 {
     const counters *c = &cell->counters;

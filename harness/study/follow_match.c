@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/scalar.h"
 
-/* Relative distance below which frequencies count as equal, so that their shapes are not unique. */
+/* Relative distance below which frequencies count as equal; their shapes are then not unique. */
 static const double alike = 1e-6;
 
 static status allocate(int modes, int rows, follow_shapes *out, fault *f)
@@ -52,7 +52,7 @@ static status first(const state_matrices *s, follow_shapes *out, double work[])
     return STATUS_OK;
 }
 
-/* The first `modes` of a state. */
+/* Takes the first `modes` modes of a state. */
 static status follow_match_first(const state_matrices *s, int modes, follow_shapes *out, fault *f)
 {
     double *work = malloc(((size_t)s->M.rows + 1) * sizeof *work);
@@ -80,8 +80,8 @@ typedef struct match_workspace {
     int *taken;             /* [modes] number of followed modes in the group that starts here */
 } match_workspace;
 
-/* Finds the group that contains most of mode i of `before`, and the mean frequency of that mode in
- * it. */
+/* Finds the group that contains the largest part of mode i of `before`, and the mean frequency of
+ * that part. */
 static void match_one(const follow_shapes *before, int i, const state_matrices *s,
                       match_workspace *w, follow_shapes *out)
 {
@@ -219,7 +219,7 @@ static const double exact =
     1e-12; /* accuracy of the position of a crossing, relative to the step */
 static const double close_enough = 0.1; /* largest gap of a veering that is reported */
 
-/* f_i - f_j at a parameter value, with modes matched to sample k; *mean of both [Hz]. */
+/* f_i - f_j at a parameter value, with modes matched to sample k; *mean: mean of both [Hz]. */
 static status difference_at(follow_walk *w, int k, double value, const int mode[2],
                             double *difference, double *mean, double *least, fault *f)
 {
@@ -246,8 +246,8 @@ static double gap_of(const follow_sample *s, const int mode[2])
     return 2 * fabs(difference_of(s, mode)) / (s->frequency[mode[0]] + s->frequency[mode[1]]);
 }
 
-/* Finds the crossing between samples a and b of opposite sign by the Illinois variant of regula
- * falsi. */
+/* Finds the crossing between samples a and b, where the difference has opposite signs, by the
+ * Illinois variant of regula falsi. */
 static status find_crossing(follow_walk *w, int a, int b, follow_event *e, double *least, fault *f)
 {
     const follow_sample *s = w->out->sample;
@@ -283,7 +283,7 @@ static status add_event(follow_curves *c, const follow_event *e, fault *f)
     return STATUS_OK;
 }
 
-/* Repeats the last step where two modes change their order. */
+/* Repeats the last step if two modes change their order in it. */
 status follow_events_step(follow_walk *w, double *least, fault *f)
 {
     const int last = w->out->samples - 1;

@@ -9,18 +9,18 @@
 
 #include "harness/numerics/numerics.h"
 
-/* Marks them (rule.missed) and counts them. whole 1: no selection was made, and every rule should
- * have been shown. Otherwise only rules of user tables (rule.from) are counted whose formulations
- * and cases were run completely, with all points and quantities; a selection (-k) includes a case
- * completely if it matches the case name. */
+/* Marks missed rules (rule.missed) and counts them. whole 1: no selection was made, and every rule
+ * should have been shown. Otherwise only those rules of user tables (rule.from) count whose
+ * formulations and cases were run completely, with all points and quantities. A selection (-k)
+ * includes a case completely if it matches the case name. */
 static int missed_rules(const sweep *s, truths *t, int whole);
 /* Counts the reference values that a complete run did not use: unmet, waiting and unread. An unread
- * value counts as met (truth.met) but is not evaluated: a run evaluates a motion at a few instants
- * and structures only, `make lab L=motions` at all. */
+ * value counts as met (truth.met) but is not evaluated: a run evaluates motions only for a few
+ * instants and structures, `make lab L=motions` evaluates all of them. */
 static void missed_truths(const sweep *s, truths *t, judgement *out);
 
-/* Is the limit outside the range that the rule covers? For a derived limit its own distance counts.
- */
+/* Is the limit outside the range that the rule covers? For a derived limit, the distance from that
+ * limit counts. */
 static int is_beyond(const rule *r, const verdict *v)
 {
     return isfinite(v->departure) && isfinite(r->largest_error) &&
@@ -54,7 +54,8 @@ static void expect(const sweep *s, truths *t, verdict *v)
         if (v->kind == VERDICT_BIASED_AS_PREDICTED || v->kind == VERDICT_WRONG_AS_PREDICTED)
             rules_foretell(r, &subject);
         if (is_beyond(r, v) && r->from == NULL && formulations_is_loaded(one->formulation.type))
-            continue; /* what is known of the formulations here explains nothing of this one */
+            continue; /* findings about formulations of this program do not apply to other
+                         programs */
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,
                      "its limit is %+.3g %% from %s, beyond the %.3g %% of known deviation %.60s",
@@ -150,7 +151,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
         v->expected = v->kind;
         v->matches = 1;
     }
-    if (!gates && one->imported != NULL) { /* shown without effect on the exit status */
+    if (!gates && one->imported != NULL) { /* shown, but without effect on the exit status */
         v->expected = v->kind;
         v->matches = 1;
         return;

@@ -11,8 +11,8 @@ static double richardson_limit(const double n[3], const double f[3], double p);
  * sum of squares. */
 static double richardson_amplification(const double n[3], const double f[3], double p);
 
-/* least ratio of elements between successive meshes; changes between closer ones are mostly noise
- */
+/* smallest ratio of elements between successive meshes; changes between closer meshes are mostly
+ * noise */
 static const double least_refinement = 1.4;
 static const double unmeasured_noise = 3e-11, least_noise = 2.3e-16; /* relative */
 /* changes below this multiple of the noise do not show an order */
@@ -21,7 +21,7 @@ static const double least_seen_order = 0.5; /* smallest observed order that is a
 /* ... and order assumed for the remaining error */
 static const double remaining_order = 1;
 static const double settled_part = 1e-4;
-/* least uncertainty as a fraction of the extrapolation step, if scatter was not measured */
+/* smallest uncertainty as a fraction of the extrapolation step, if scatter was not measured */
 static const double doubted_step = 0.02;
 static const double sure = 1.25, unsure = 3;
 static const double end_factor =
@@ -55,7 +55,8 @@ static int coarser_than(const limit_sequence *s, double fine)
     return best;
 }
 
-/* From the finest mesh down, each coarser than the previous one by at least least_refinement. */
+/* Selects meshes from the finest one down, each coarser than the previous one by at least
+ * least_refinement. */
 static void thin(const limit_sequence *s, meshes *m)
 {
     int kept[LIMIT_MESHES];
@@ -105,7 +106,7 @@ static double refinement(const meshes *m, int before_last)
     return m->n[i] / m->n[i - 1];
 }
 
-/* For fewer than three meshes the order is assumed. */
+/* Sets the limit for fewer than three meshes, with an assumed order. */
 static void few(const meshes *m, mesh_limit *out)
 {
     out->kind = LIMIT_NOT_YET;
@@ -133,7 +134,7 @@ static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Limit of meshes first, first + 1, first + 2 with their observed order. */
+/* Limit from the meshes first, first + 1, first + 2 with their observed order. */
 static double own_limit(const meshes *m, int first)
 {
     return richardson_limit(m->n + first, m->f + first, m->order[first]);
@@ -154,8 +155,8 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
             change = fmax(change, before);
             *factor = unsure;
         }
-        /* a small change may be accidental; an order above the highest possible one means that
-         * another error term contributes, and accidents are likely */
+        /* a small change may be accidental. An order above the highest possible one means that
+         * another error term contributes, which makes accidents likely. */
         const double next =
             m->order[k] <= 1.1 * s->highest_order ? m->order[k] + 2 : s->nominal_order;
         change = fmax(change, before / pow(R, next));
@@ -194,8 +195,8 @@ static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* For an order that still changes, or only three meshes: the largest of the last changes, with the
- * smallest plausible order. Returns 1 if this applies. */
+/* If the order still changes, or there are only three meshes: takes the largest of the last changes
+ * and the smallest plausible order. Returns 1 if this applies. */
 static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int k = m->count - 3;
@@ -213,7 +214,8 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
         q = p;
         rest = a;
         factor = p >= 0.9 * nominal ? sure : unsure;
-    } else { /* too high an order indicates a coming change of sign; it is extrapolated downwards */
+    } else { /* too high an order announces a change of sign, so that the order is extrapolated
+                downwards */
         q = fmax(fmin(fmin(p, highest), fmin(before, 2 * before - p)), fmin(remaining_order, p));
         rest = fmax(a, b * pow(R, -fmax(before, q)));
     }
@@ -225,8 +227,8 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Without an order: the largest of the last three changes, each reduced by the nominal order;
- * increased if changes grow. */
+/* Without an observed order: takes the largest of the last three changes, each reduced by the
+ * nominal order; larger if the changes grow. */
 static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int last = m->count - 1;

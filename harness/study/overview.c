@@ -5,9 +5,9 @@
 #include <string.h>
 #include <zlib.h>
 
-/* If there are more columns, all options of a formulation share one. */
+/* With more columns than this, all options of a formulation share one column. */
 enum { MOST_COLUMNS = 10 };
-/* If there are more cases, those that pass share lines. */
+/* With more cases than this, cases that pass share lines. */
 enum { MOST_ROWS = 24 };
 
 static const overview_mark marks[VERDICT_KINDS] = {
@@ -116,7 +116,7 @@ static overview_cell *cell_of(const sweep *s, const overview *o, int series_inde
     return &o->cell[row * o->columns + column_of(o, name_of(one, o->joined))];
 }
 
-/* Adds a mark; marks with a higher value replace lower ones. */
+/* Adds a mark; a more severe mark replaces a less severe one. */
 static void add(overview_cell *to, overview_mark mark, int unexpected)
 {
     const int rank = OVERVIEW_MARKS * unexpected + (int)mark;
@@ -230,8 +230,8 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
     return bad ? fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path) : STATUS_OK;
 }
 
-/* Checksum of all but the last CHECKSUM_LENGTH bytes, which are copied to `tail`. Returns -1 when
- * the file is shorter. */
+/* Computes the checksum of all but the last CHECKSUM_LENGTH bytes, which are copied to `tail`.
+ * Returns -1 when the file is shorter. */
 static long read_body(FILE *from, uint32_t *sum, char tail[CHECKSUM_LENGTH + 1])
 {
     enum { PIECE = 1 << 18 };

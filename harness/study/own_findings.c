@@ -34,7 +34,7 @@ typedef struct findings_reader {
     truths *t;
     mistakes *m;
     const own_table_row *row;
-    int good; /* 1: the present row has no error */
+    int good; /* 1: no error has been found in the present row */
 } findings_reader;
 
 /* Reports an error in a column of the row. */
@@ -163,7 +163,7 @@ static void check_name(findings_reader *r)
                   r->t->rule[i].from != NULL ? r->t->rule[i].from : "the list of known deviations");
 }
 
-/* Requires the cause, and how it is known. */
+/* Requires the cause and how it is known. */
 static void check_grounds(findings_reader *r)
 {
     if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)

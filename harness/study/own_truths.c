@@ -37,7 +37,7 @@ typedef struct truths_reader {
     truths *t;
     mistakes *m;
     const own_table_row *row;
-    int good; /* 1: the present row has no error */
+    int good; /* 1: no error has been found in the present row */
 } truths_reader;
 
 /* Reports an error in a column of the row. */
@@ -109,7 +109,8 @@ static int same_point(const truth *a, const truth *b)
     return 1;
 }
 
-/* Finds an existing reference value for the same quantity; only one of them would be used. */
+/* Finds an existing reference value for the same quantity. Two would be an error, since only one of
+ * them would be used. */
 static const truth *known(const truths *t, const truth *row)
 {
     for (int i = 0; i < t->rows; i++) {
@@ -124,7 +125,7 @@ static const truth *known(const truths *t, const truth *row)
     return NULL;
 }
 
-/* Copies the row without its texts. */
+/* Copies the row without its strings. */
 static void take_row(truths_reader *r, const case_type *type, truth *out)
 {
     char *const *field = r->row->field;
@@ -155,7 +156,7 @@ static void take_row(truths_reader *r, const case_type *type, truth *out)
     check_quantity(r, type, out->parameter);
 }
 
-/* Checks a row: words of closed lists, and members that require each other. */
+/* Checks a row: words from fixed lists, and members that require each other. */
 static void check_row(truths_reader *r, const truth *row)
 {
     const char *wrong = truth_rows_wrong(row);

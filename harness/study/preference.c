@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reasons against a formulation, the most serious first; the formulation with the least serious
+/* Reasons against a formulation, the most serious first. The formulation with the least serious
  * reasons is chosen. */
 enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
 typedef struct standing {
@@ -24,7 +24,7 @@ static int holds_here(const rule *r, const scene *s, rule_subject at)
     return 0;
 }
 
-/* Number of features of the scene that the formulation does not have. */
+/* Number of features of the scene that the formulation lacks. */
 static int count_omits(const scene *s, const element_type *type)
 {
     int count = 0;
@@ -76,7 +76,7 @@ static int is_better(const standing *a, const standing *b)
     return 0;
 }
 
-/* Does the type support the whole scene or, with `other`, enough to run as another model of it? */
+/* Does the type support the whole scene or, with `other`, enough of it to run as another model? */
 static int can_run(const scene *s, const element_type *type, int other)
 {
     char words[OMIT_WORDS];
@@ -85,7 +85,7 @@ static int can_run(const scene *s, const element_type *type, int other)
     return !missing_words(s, type, words, sizeof words) && !lacks_of(s, type, words, sizeof words);
 }
 
-/* Candidates, best first: equal in rank to the first one, and at most two of a family. */
+/* Candidates, best first: ranked equal to the first one, at most two per family. */
 enum { CANDIDATES = 5, OF_FAMILY = 2 };
 typedef struct preference_candidates {
     int count;
@@ -113,7 +113,7 @@ static int as_sound(const standing *a, const standing *b)
     return 1;
 }
 
-/* The best one not yet chosen; 0: none is equal in rank to the first. */
+/* Appends the best candidate not yet chosen; returns 0 when none is ranked equal to the first. */
 static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
                      int other, preference_candidates *all)
 {
@@ -194,11 +194,13 @@ typedef struct runner {
     cell_result cell[2];  /* results of the last two meshes, alternating */
     double asked;         /* relative change that counts as converged */
     value_change last;    /* expected change from the last mesh on */
-    double *former, *raw; /* [quantities] changes before, and between the last two meshes */
-    double slow;          /* largest change between the last two, where more is expected; 0: no */
+    double *former, *raw; /* [quantities] earlier changes, and changes between the last two
+                             meshes */
+    double slow;          /* largest change between the last two meshes if a further change is
+                             expected; else 0 */
     int tried, before, elements; /* number of meshes; elements of the last two */
-    int unstable;      /* 1: a mesh had unstable states, which finer meshes may not have */
-    double cost, next; /* cost of the last mesh; estimated cost of the next one [s] */
+    int unstable;                /* 1: a mesh had unstable states that finer meshes may not have */
+    double cost, next;           /* cost of the last mesh; estimated cost of the next one [s] */
 } runner;
 
 static status begin(runner *r, const cell_request *request, const formulation *chosen, double asked,
@@ -251,10 +253,12 @@ static int exhausted(const scene *s, const runner *r)
            (!tells || r->next > PREFERENCE_COST || r->elements >= PREFERENCE_FINEST);
 }
 
-/* Below first order more change follows than the last one: c (q + q^2 + ...), q = c / former c. */
+/* Below first order, the remaining change exceeds the last one: c (q + q^2 + ...), q = c / former
+ * c. */
 static void expect_more(const scene *s, runner *r)
 {
-    const double seen = 1e-6, most = 9; /* relative change below which no order shows; multiple */
+    const double seen = 1e-6, most = 9; /* relative change below which no order is visible; largest
+                                           multiple */
     const double largest = r->last.largest;
     for (int i = 0; i < s->quantities; i++) {
         const double now = r->last.of_each[i], rate = now / r->former[i];
@@ -279,7 +283,7 @@ static void refine(const scene *s, runner *r)
     memset(now, 0, sizeof *now);
     r->before = r->elements;
     r->request.elements = r->elements = next_mesh(s, r);
-    cell_run(&r->request, now, &f); /* a mesh that fails has not converged */
+    cell_run(&r->request, now, &f); /* a mesh that fails counts as not converged */
     if (r->tried > 0) {
         memcpy(r->former, r->raw, (size_t)s->quantities * sizeof *r->raw);
         change_between(s, &r->cell[(r->tried + 1) % 2], now, &r->last);
@@ -329,7 +333,7 @@ static void tell_elements(const scene *s, const runner *r, char why[FAULT_TEXT])
                  r->unstable ? "; coarser ones met unstable states" : "");
 }
 
-/* The runner whose values changed least, when none has converged. */
+/* Returns the runner whose values changed least, if none has converged. */
 static runner *calmest(runner of[], int count)
 {
     runner *out = &of[0];

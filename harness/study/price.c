@@ -117,7 +117,7 @@ int reach_mesh(const sweep *s, const verdict *v, double level)
     for (int i = one->meshes - 1; i >= 0; i--) {
         const solve_result *r = &one->cell[i].solve;
         const double value = v->quantity < r->quantities ? r->quantity[v->quantity].value : NAN;
-        if (!(fabs(verdict_error(q, value, v->truth->value)) <= level)) /* also false for NAN */
+        if (!(fabs(verdict_error(q, value, v->truth->value)) <= level)) /* false also for NAN */
             break;
         first = i;
     }
@@ -142,8 +142,8 @@ const char *reach_defect_words(verdict_kind kind)
     }
 }
 
-/* Is the quantity part of the question: named, or one with a reference value for some formulation?
- */
+/* Is the quantity part of the question: it is the named one, or some formulation has a reference
+ * value for it? */
 static int is_asked(const reach_question *q, int quantity)
 {
     int known = 0;

@@ -11,7 +11,7 @@
 
 enum { WORD = RULES_WORD };
 
-/* Copies the next word of a text; returns the rest, or NULL at the end. */
+/* Copies the next word of a string; returns the rest, or NULL at the end. */
 static const char *next_word(const char *text, const char *separators, char word[WORD])
 {
     text += strspn(text, separators);
@@ -43,7 +43,7 @@ typedef struct rules_term {
     char parameter[WORD], sign[3], values[WORD];
 } rules_term;
 
-/* Returns 0 when the text is not a term. */
+/* Parses a term; returns 0 when the text is not a term. */
 static int term_parse(const char *text, rules_term *out)
 {
     char copy[WORD];
@@ -152,7 +152,7 @@ int rules_is_observed(const rule *r)
     return r->observed > 0 && r->foretold == all;
 }
 
-/* Returns 1 when some case of the rule has the parameter of the term, with possible values. */
+/* Does some case of the rule have the parameter of the term, with a possible value? */
 static int term_means_something(const rule *r, const rules_term *t, const case_type *const cases[])
 {
     int found = t->feature != 0;
@@ -285,7 +285,7 @@ status columns_strings(const table_columns *r, const char *column, char **out)
     int good = stored >= 0 && H5Tget_class(stored) == H5T_STRING && !H5Tis_variable_str(stored);
     const size_t size = good ? H5Tget_size(stored) : 1;
     char *all = good && size < 100000 ? calloc((size_t)r->rows + 1, size) : NULL;
-    /* in the stored type, because HDF5 clears a large buffer for each conversion */
+    /* read in the stored type, because HDF5 clears a large buffer for each conversion */
     good = good && all != NULL && H5Dread(set, stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, all) >= 0;
     for (int i = 0; i < r->rows && good; i++)
         good = (out[i] = strndup(all + (size_t)i * size, size)) != NULL;

@@ -158,8 +158,8 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
     return outcome == STATUS_OK ? tell_all(w, f) : outcome;
 }
 
-/* Uses a separate process even for one job, so that a crash is reported as a result, and results do
- * not depend on the number of jobs. */
+/* Runs cells in a separate process even for one job, so that a crash is reported as a result and
+ * results do not depend on the number of jobs. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f)
 {
     workload w;
@@ -176,7 +176,7 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f)
 enum { COLUMNS = 79, LINE = 400 };
 /* [s] between two outputs, and before the first estimate of the remaining time */
 static const double interval = 0.2, first_word = 1;
-static const double least_share = 0.01; /* least completed fraction for an estimate */
+static const double least_share = 0.01; /* smallest completed fraction for an estimate */
 
 progress progress_begin(FILE *to, const char *things, int count, double now)
 {

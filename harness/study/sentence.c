@@ -22,8 +22,8 @@ static void passed(const verdict *v, char *text, size_t size)
                  digits);
 }
 
-/* Uncertainty of a limit in percent of the reference value. If that is zero or very small, in the
- * unit of the quantity; the error is then relative to near_zero. */
+/* Uncertainty of a limit in percent of the reference value; if the reference value is zero or very
+ * small, in the unit of the quantity, and the error is relative to near_zero. */
 static void doubt_of(const verdict *v, char text[2 * ROUNDING_TEXT])
 {
     const double size = fabs(v->truth->value), apart = fabs(v->fit.limit - v->truth->value);
@@ -45,8 +45,9 @@ static void undecided(const verdict *v, char *text, size_t size)
              100 * v->error, doubt, limit_kind_name(v->fit.kind), v->fit.meshes);
 }
 
-/* A limit that is neither the reference value nor the one that was derived for the formulation is
- * likely none: elements longer than a layer is thick seem to converge. */
+/* Describes a limit within the tolerance. If it is neither the reference value nor the limit
+ * derived for the formulation, it is probably not the true limit: values seem to converge while
+ * elements are longer than a boundary layer is thick. */
 static void biased(const verdict *v, char *text, size_t size)
 {
     char doubt[2 * ROUNDING_TEXT];
@@ -138,7 +139,7 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     unjudged(v, text, size);
 }
 
-/* Appends a part to a text, after a joint if there are earlier parts. */
+/* Appends a part to a string, after a joint if there are earlier parts. */
 static void add_part(char *text, size_t size, int *parts, const char *joint, const char *part)
 {
     const size_t used = strlen(text);

@@ -241,7 +241,7 @@ static void choose_given(const sweep_request *request, chosen_cells *out)
         out->list[out->count++] = request->formulation[i];
 }
 
-/* Adds the formulation once for each choice of those options that are judged too. */
+/* Adds the formulation once for each choice of those options that are evaluated too. */
 static void choose_options(const element_type *type, chosen_cells *out)
 {
     for (int k = 0; k < parameter_count(type->options); k++) {
@@ -253,7 +253,7 @@ static void choose_options(const element_type *type, chosen_cells *out)
     }
 }
 
-/* Options for which the point has a discrete reference value. */
+/* Adds the options for which the point has a discrete reference value. */
 static void choose_stored(const truths *t, const sweep_point *p, chosen_cells *out)
 {
     for (int i = 0; i < t->rows && out->count < MOST_FORMULATIONS; i++) {
@@ -293,8 +293,8 @@ static int is_selected(const sweep *s, const sweep_point *p, const formulation *
     return selected;
 }
 
-/* Formulations at one point: those requested, or all, and options with a discrete reference value.
- */
+/* Plans the formulations at one point: those requested, or all, and options with a discrete
+ * reference value. */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
                           select_words *words, char asked[], fault *f)
 {
@@ -310,7 +310,7 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
     return STATUS_OK;
 }
 
-/* Removes quantities that are requested for no formulation. */
+/* Removes quantities that no formulation requests. */
 static void drop_quantities(scene *s, const char asked[])
 {
     int kept = 0;
@@ -327,7 +327,8 @@ static status plan_point(const sweep_request *request, const truths *t, sweep *s
     if (asked == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a selection");
     const status outcome = plan_series(request, t, s, index, words, asked, f);
-    plan_omissions(s, index); /* by all quantities: a verdict does not depend on what is selected */
+    plan_omissions(s, index); /* depends on all quantities, so that a verdict does not depend on the
+                                 selection */
     drop_quantities(&s->point[index].scene, asked);
     free(asked);
     return outcome;

@@ -120,7 +120,7 @@ static int place_of(const truths *t, const case_type *type, const char *quantity
     return at;
 }
 
-/* Search from row i on, without the index. */
+/* Searches from row i on, without the index. */
 static int walk(const truths *t, const case_type *type, const char *quantity, int i)
 {
     while (i < t->rows && !is_of(&t->row[i], type, quantity))
@@ -182,7 +182,7 @@ void truth_index_free(truths *t)
     t->indexed = t->places = 0;
 }
 
-/* Reads the parameters of a row and checks that they still have their meaning of the time when the
+/* Reads the parameters of a row and checks that they still have the meaning that they had when the
  * table was packed. */
 static status check_row(const table_columns *r, const case_type *type, int i, const char *text,
                         uint64_t hash, parameters_words *before, double value[], int any[])
@@ -214,7 +214,7 @@ static int is_known_or_empty(const char *word, const char *choices)
     return word[0] == '\0' || is_known(word, choices);
 }
 
-/* Are formulation and elements set as the kind requires? */
+/* Are formulation and number of elements given as the kind requires? */
 static int elements_fit(const truth *row)
 {
     const int of_formulation = row->formulation[0] != '\0';

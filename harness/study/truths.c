@@ -64,7 +64,8 @@ static status read_cases(const char *path, hid_t all, const case_type *only, tru
     return STATUS_OK;
 }
 
-/* Finds tables of cases that do not exist, which would otherwise remain unused without notice. */
+/* Finds tables of cases that the program does not have; otherwise they would remain unused without
+ * notice. */
 static void find_strangers(hid_t all, truths *out)
 {
     char name[64];

@@ -18,7 +18,8 @@ static const char *const names[VERDICT_KINDS] = {"pass",
                                                  "skip",
                                                  "no truth",
                                                  "other model"};
-static const double order_slack = 0.3; /* an order observed on finite meshes is not more accurate */
+static const double order_slack = 0.3; /* orders observed on finite meshes are no more accurate than
+                                          this */
 /* a limit differs significantly if it is this many uncertainties away */
 static const double surely = 3;
 
@@ -120,10 +121,10 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     return limit_of(&sequence);
 }
 
-/* Is the order known and too low? Two low orders may agree by accident, where error terms of
- * opposite sign cancel or elements are as long as a boundary layer. Therefore with five meshes or
- * more the previous order must also be below the nominal one, and the three must be monotonic.
- * Changes below the uncertainty of the reference value are ignored. */
+/* Is the order known and too low? Two low orders may agree by accident: if error terms of opposite
+ * sign cancel, or if elements are as long as a boundary layer. Therefore with five meshes or more
+ * the previous order must also be below the nominal one, and the three must be monotonic. Changes
+ * below the uncertainty of the reference value are ignored. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
     const double least = q->least_order - order_slack, nominal = ceil(q->least_order);
@@ -159,8 +160,8 @@ static verdict_kind compare(const scene_quantity *q, const verdict *v)
     return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
 }
 
-/* Values of truth.theory that apply to the formulation; NULL: any. A formulation whose modes have
- * no shear follows a theory of its own; its limits are shown against any reference. */
+/* Values of truth.theory that apply to the formulation; NULL: any. A formulation whose modes
+ * exclude shear follows a theory of its own; its limits are compared with any reference value. */
 static const char *theories_of(const scene *s, const element_type *type)
 {
     switch (features_theory(s, type)) {
@@ -203,14 +204,14 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
         v->model_truth = truth_agreed(t, p->type, p->parameter, name);
     const int foreign = one->imported != NULL && !imported_same_model(one->imported);
     if ((foreign || one->without.other) && v->truth != NULL) {
-        v->model_truth =
-            v->truth; /* a difference between models, whatever the source of the reference */
+        v->model_truth = v->truth; /* shown as the difference between models, whatever the source of
+                                      the reference value */
         v->truth = NULL;
     }
     v->predicted = truth_predicted(t, p->type, p->parameter, name, one->formulation.key);
 }
 
-/* A published value of the same model and theory with a lower rank than the reference value, if the
+/* Finds a published value of the same model and theory that ranks below the reference value, if the
  * limit differs from it. */
 static const truth *contradiction(const sweep *s, const truths *t, const verdict *v)
 {
@@ -230,7 +231,7 @@ static const truth *contradiction(const sweep *s, const truths *t, const verdict
     return NULL;
 }
 
-/* Reports another model, which gets no verdict on its values. */
+/* Reports another model; its values get no verdict. */
 static void say_other_model(const series *one, verdict *v)
 {
     char words[OMISSION_TEXT];

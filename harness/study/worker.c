@@ -12,7 +12,7 @@
 
 #include "harness/numerics/numerics.h"
 
-/* A task, and another one with the same results. */
+/* A task and, if there is one, another task with the same results. */
 typedef struct asked {
     const workload *w;
     const cell_request *request;
@@ -20,7 +20,7 @@ typedef struct asked {
     int task, same;
 } asked;
 
-/* Adds the inputs of a cell that the model does not contain: words of its scene, and requested
+/* Adds the inputs of a cell that the model does not contain: strings of its scene, and requested
  * quantities. */
 static void add_request(identity *out, const workload *w, const asked *a)
 {
@@ -62,7 +62,7 @@ static int is_known(void *context, const model *m)
     return a->same >= 0;
 }
 
-/* Runs the equivalent scene of a repetition, for its values only; no result if that scene is
+/* Runs the equivalent scene of a repetition, for its values only; gives no result if that scene is
  * invalid. */
 static void run_again(const workload *w, const asked *a, cell_request *request, cell_result *out)
 {
@@ -225,7 +225,7 @@ static int spoilt(worker *from)
     return WORKER_ENDED;
 }
 
-/* Reads all complete results; as worker_receive. */
+/* Reads all complete results; returns as worker_receive. */
 static int take_whole(workload *w, worker *from)
 {
     size_t at = 0;

@@ -7,11 +7,11 @@
 
 #include "harness/numerics/numerics.h"
 
-/* The edit that makes equivalent scene number k. */
+/* The edit that makes equivalent scene number `repetition`. */
 static scene_edit noise_words(const formulation *, int repetition);
-/* Sets series.noise: twice the larger of the two relative differences (relative to the value or
- * near_zero), or the error of differences if the formulation uses them; NAN if a value or a
- * repetition is missing. Returns -1 when out of memory. */
+/* Sets series.noise to twice the larger of the two relative differences (relative to the value or
+ * near_zero), or to the error of finite differences if the formulation uses them; NAN if a value or
+ * a repetition is missing. Returns -1 when out of memory. */
 static int noise_take(const sweep_point *, const cell_result again[NOISE_REPETITIONS], series *);
 
 static int is_run(const sweep *s, int i)
@@ -102,8 +102,8 @@ void workload_end(workload *w)
     free(w->after);
 }
 
-/* Takes task i, number n of a counter. The worker first records that it works on it, so that the
- * task is not lost if the worker ends in between. Returns 0 if another worker took it. */
+/* Takes task i, the nth of a counter. The worker first records that it works on the task, so that
+ * the task is not lost if the worker ends in between. Returns 0 if another worker took it. */
 static int take(board *b, int self, atomic_int *counter, int n, int i)
 {
     b->since[self] = clock_wall_seconds();
@@ -212,7 +212,7 @@ static int copy(const cell_result *from, cell_result *to)
     return bad;
 }
 
-/* Copies the results of another task that is complete. A failed solution is repeated by each task,
+/* Copies the results of another, completed task. A failed solution is repeated by each task,
  * because messages differ. */
 static void settle(workload *w, int i, int same)
 {
@@ -284,7 +284,7 @@ void workload_keep_whole(workload *w)
     w->s->seriess = kept;
 }
 
-/* twice the larger of two differences exceeds the standard deviation in nineteen of twenty cases */
+/* twice the larger of two differences exceeds the standard deviation in 19 of 20 cases */
 static const double cover = 2;
 
 static scene_edit noise_words(const formulation *chosen, int repetition)
@@ -330,7 +330,7 @@ static int noise_take(const sweep_point *p, const cell_result again[NOISE_REPETI
             value[k] = value_of(&again[k], q);
         const double measured =
             noise_of(&p->scene.quantity[q], value_of(&one->cell[one->meshes - 1], q), value);
-        /* errors of differences are equal on all meshes and in equivalent scenes */
+        /* errors of finite differences are equal on all meshes and in equivalent scenes */
         one->noise[q] =
             isnan(measured) ? measured : fmax(measured, adapters_error(one->formulation.type));
     }
@@ -375,7 +375,7 @@ void claims_free(claims *c)
         munmap(c, c->size);
 }
 
-/* Is it the same problem? A claim that is being written counts as another one. */
+/* Is it the same problem? A claim that is still being written counts as a different problem. */
 static int is_same(process_claim *at, const identity *what)
 {
     return atomic_load(&at->task) != 0 && atomic_load(&at->check) == what->part[1];

@@ -17,13 +17,14 @@ typedef struct alpha {
     double *a0, *v0, *inc, *weight;  /* [free + driven] */
 } alpha;
 
-/* The acceleration that the scheme averages, from the true acceleration at the end of the step. */
+/* The acceleration that the scheme averages, computed from the true acceleration at the end of the
+ * step. */
 static double averaged(const alpha *s, double a, double before, double now)
 {
     return ((1 - s->force) * now + s->force * before - s->mass * a) / (1 - s->mass);
 }
 
-/* Relates rates to the increment and sets its initial guess, for constant acceleration. */
+/* Relates rates to the increment, and sets its initial guess for constant acceleration. */
 static void relate(alpha *s, const instant *from, double h, stage_rates *r)
 {
     for (int i = 0; i < s->stage.free; i++) {
@@ -61,7 +62,7 @@ static void relate_strains(alpha *s, const instant *from, double h, instant *to)
     damping_follow(&s->stage.c->eq, g, to->strain, from->state);
 }
 
-/* Taken up by springs without a potential. */
+/* Energy absorbed in a step by springs without a potential. */
 static double circulated(const model *m, const model_state *from, const model_state *to)
 {
     double sum = 0;
@@ -79,8 +80,8 @@ static double circulated(const model *m, const model_state *from, const model_st
     return sum;
 }
 
-/* Strain rates at the end, and the energy dissipated with the mean rates: without inertia, rates at
- * the ends of steps oscillate about their mean. */
+/* Sets the strain rates at the end, and the energy dissipated with the mean rates: without inertia,
+ * rates at the ends of steps oscillate about their mean. */
 static void damp(alpha *s, const instant *from, double h, instant *to)
 {
     const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);

@@ -16,7 +16,7 @@ static void add_point(double mass, const double r[3], double tensor[9])
             tensor[3 * i + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/* Moves the tensor of a mass to r, with its first moment from there. */
+/* Moves the tensor of a mass to r, and gives its first moment about r. */
 static void shift(double mass, const double moment[3], const double r[3], double tensor[9])
 {
     add_point(mass, r, tensor);
@@ -45,7 +45,7 @@ static void take(const model *m, int vertex, double mass, const double moment[3]
         to->inertia[i] += moved[i];
 }
 
-/* In the axes of the element. */
+/* Moment and tensor of a lumped mass, in the axes of the element. */
 static void lump(const lumped_mass *l, double share, double moment[3], double tensor[9])
 {
     memset(moment, 0, 3 * sizeof *moment);
@@ -160,10 +160,10 @@ void carried_free(carried_masses *c)
 }
 
 /* If some translations of a frame are fixed and others free, the fixed component of the velocity of
- * the centre follows from the rotation. It is (w x s) at both ends of the step, whose mean differs
- * from that of the step by h (v_c + v_c1)/2 - dr_c = h/4 c x g, g = (R_n + R_1)/2 (W1 - W) x s. The
- * moment g x m (v_c1 - v_c)/4 of the fixed components compensates for the work of this difference,
- * so that the kinetic energy gained equals the work done. */
+ * the centre follows from the rotation. It is (w x s) at both ends of the step. Its mean differs
+ * from the mean velocity of the step by h (v_c + v_c1)/2 - dr_c = h/4 c x g, g = (R_n + R_1)/2 (W1
+ * - W) x s. The moment g x m (v_c1 - v_c)/4 of the fixed components compensates for the work of
+ * this difference, so that the kinetic energy gained equals the work done. */
 
 /* to[3 x n]: its fixed translations become those of from. */
 static void hold_rows(const carried_step *p, int n, const double from[], double to[])
@@ -283,9 +283,9 @@ double account_size(const account *a)
     return fmax(a->largest, a->turned);
 }
 
-/* Returns 1 when the request explains a loss of energy: fixed steps, or generalized-alpha with more
- * damping than rho_inf = 0.9. For all its parameters alpha_f - alpha_m = (1 - rho)/(1 + rho), where
- * rho is the spectral radius. */
+/* Returns 1 when the request explains a loss of energy: it asks for fixed steps, or for
+ * generalized-alpha with more damping than rho_inf = 0.9. For all its parameters alpha_f - alpha_m
+ * = (1 - rho)/(1 + rho), where rho is the spectral radius. */
 static int account_loses(const scene_motion *how)
 {
     const double usual = 0.9, most = (1 - usual) / (1 + usual) * (1 + 1e-9);

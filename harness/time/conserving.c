@@ -198,9 +198,9 @@ static status refuse_constraint(const model *m, int node, const char *why, fault
                      scene_called(model_scene(m), SCENE_NODES, node).text);
 }
 
-/* Rejects constraints that its rates at the ends of a step do not satisfy: Cayley vectors of
- * rotations in a ratio are in another one, and masses beside their nodes have velocities of their
- * own. */
+/* Rejects constraints that the rates at the ends of a step would violate: the Cayley vectors of
+ * rotations in a given ratio are not in that ratio, and masses at a distance from their nodes have
+ * velocities of their own. */
 static status check_constraints(const model *m, const carried_masses *masses, fault *f)
 {
     if (model_mesh_of(m)->joined == NULL)
@@ -415,7 +415,7 @@ static void without_inertia(const carried_mass *one, const double N[9], carried_
         p->W1[i] += back[i];
 }
 
-/* Which released coordinates of an end move its mass. */
+/* Finds the released coordinates of an end that move its mass. */
 static void heavy_ones(const model *m, const carried_mass *one, const carried_step *p,
                        const model_state *s, int heavy[6])
 {
@@ -435,8 +435,8 @@ static void heavy_ones(const model *m, const carried_mass *one, const carried_st
 }
 
 /* Velocities of the masses at released ends, integrated separately so that these masses conserve
- * energy and momenta as those of nodes do. They differ from the rates of the coordinates by terms
- * of second order in the step. */
+ * energy and momenta like the masses of nodes. They differ from the rates of the coordinates by
+ * terms of second order in the step. */
 static void conserving_released_rates(const conserving *s, const instant *from, double h,
                                       instant *to)
 {
@@ -465,7 +465,7 @@ static void conserving_released_rates(const conserving *s, const instant *from, 
     to->ends_known = 1;
 }
 
-/* Does a vertex follow another one's turns, or others its own? */
+/* Does a vertex follow the rotations of another one, or do others follow its rotations? */
 static int turns_with(const model *m, int vertex)
 {
     int with = 0;
@@ -474,8 +474,8 @@ static int turns_with(const model *m, int vertex)
     return with;
 }
 
-/* N[9] as without_inertia takes it, of the masses of all nodes that turn by the coordinates of this
- * one. */
+/* Computes N[9] for without_inertia, from the masses of all nodes that rotate with the coordinates
+ * of this one. */
 static void massless_together(const conserving *s, int vertex, double N[9])
 {
     const model *m = s->of.c->model;
@@ -510,8 +510,7 @@ static void massless_together(const conserving *s, int vertex, double N[9])
         N[i] = i % 4 == 0 && !(about > 1e-12 * all);
 }
 
-/* Rates of translations in constraints: of their coordinates, with the masses of all their nodes.
- */
+/* Sets the rates of translations in constraints, from the masses of all nodes that they move. */
 static void rates_together(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
@@ -528,8 +527,8 @@ static void rates_together(const conserving *s, const instant *from, double h, i
         }
 }
 
-/* Sets the rates after a step: for frames with a mass at their centres, for the others at the
- * frames. */
+/* Sets the rates after a step: for frames with a mass, of its centre; for the others, of the
+ * frame. */
 static void conserving_rates(conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;

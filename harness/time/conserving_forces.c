@@ -1,5 +1,5 @@
 /* Forces A^T sigma_m of elements and springs and their tangent. Geometric terms (those with a
- * stress as a factor) use s + k W d and exclude the spurious stresses of the gaps. */
+ * stress as a factor) use s + k W d, without the spurious stresses due to the gaps. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ static void middle_of(const conserving *s, evaluation *v)
         v->middle[k] += of->damping / s->h * Wd[k];
 }
 
-/* Gaps, and sigma_m including their contribution. */
+/* Computes the gaps, and sigma_m including their contribution. */
 static double gaps_of(const conserving *s, const double J[], evaluation *v, double sigma[])
 {
     const deformable *of = &v->of;
@@ -95,8 +95,8 @@ static void add_scalar(conserving *s, const double J[], evaluation *v)
     dense_add_transpose_mul(n, strains, 1, of->J, k_e, v->row);
 }
 
-/* Transforms to the coordinates that move the nodes of the element; F[7 nodes]: forces of `middle`.
- */
+/* Transforms the equations to the coordinates that move the nodes of the element; F[7 nodes]:
+ * forces of `middle`. */
 static void to_coordinates(const conserving *s, const instant *from, const model_state *now,
                            const double F[], evaluation *v)
 {
@@ -189,7 +189,8 @@ void conserving_forces(conserving *s, const instant *from, model_state *now,
     }
 }
 
-/* Loads at the middle of a step: rotating directions and arms are means of those at both ends. */
+/* Loads at the middle of a step: rotating directions and arms are means of those at the two
+ * ends. */
 
 typedef struct loaded {
     conserving *s;
@@ -261,7 +262,7 @@ static void loads_middle_of(const loaded *of, const applied *what, const double 
         F[3 + i] += levered[i];
 }
 
-/* Transforms to the coordinates that move the vertex. */
+/* Transforms force and tangent to the coordinates that move the vertex. */
 static void take(void *context, const applied *what)
 {
     const loaded *of = context;
@@ -283,7 +284,7 @@ void conserving_loads(conserving *s, const instant *from, const model_state *now
                      take, &of);
 }
 
-/* Updates the strains at and between the ends of the step by Newton's corrections. */
+/* Updates the strains at the ends of the step and in between by Newton's corrections. */
 
 /* Increments dr, dc, da of the nodes of an element. */
 static void own_increments(const conserving *s, const instant *from, const model_state *now,
@@ -340,7 +341,7 @@ double conserving_update(conserving *s, const instant *from, model_state *now)
 /* Work of external loads in a step: the forces that act in the step times the increments of the
  * coordinates. */
 
-/* dr and c of the coordinates; of angles 2 tan(d angle/2). */
+/* dr and c of the coordinates; for angles 2 tan(d angle/2). */
 static double worked_on(const conserving *s, const double force[])
 {
     const model *m = s->of.c->model;
@@ -409,8 +410,8 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
 /* Strain rates r1 and their derivatives s1 at the end of a step, from r0 and s0 at its start and
  * the mean rate m:
  *   r1 = (3 m - r0)/2 + h s0/4,  s1 = (m - r0)/h + s0/2.
- * Of second order, also without inertia. An initial error disappears after two steps; with r1 = 2 m
- * - r0 it would persist. */
+ * This is of second order, even without inertia. An initial error disappears after two steps; with
+ * r1 = 2 m - r0 it would persist. */
 void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
@@ -427,7 +428,8 @@ void conserving_damped(const conserving *s, const instant *from, double h, insta
             r[k] = (3 * mean - r0) / 2 + h * s0 / 4;
             rate2[k] = (mean - r0) / h + s0 / 2;
         }
-        if (of.S == NULL || of.spring != NULL) /* its stresses follow from its strains */
+        if (of.S == NULL || of.spring != NULL) /* the stresses of a spring follow from its
+                                                  strains */
             continue;
         dense_mul_vec(of.strains, of.strains, of.S, r, more);
         for (int k = 0; k < of.strains; k++)

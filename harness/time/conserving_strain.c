@@ -141,7 +141,7 @@ static void stress_spring(conserving *s, const instant *from, model_state *now, 
     take_energy(s, &of, spring_energy(of.spring->spring, of.e), sum);
 }
 
-/* Kinetic energy, and magnitudes of the strain energies, at the start of the step [J]. */
+/* Kinetic energy plus magnitudes of the strain energies at the start of the step [J]. */
 static double size_of_energy(const conserving *s, const instant *from)
 {
     inertia_balance moving;
@@ -179,8 +179,8 @@ status conserving_stresses(conserving *s, const instant *from, model_state *now,
 }
 
 /* Centres of mass move by dr_c = h (v_c + v_c1)/2, R_n^T c = h (W + W1)/2; forces act at the mean
- * positions of the centres. For a frame that only rotates, the tensor about the frame is constant
- * in its axes too. */
+ * positions of the centres. If a frame only rotates, the tensor about the frame is also constant in
+ * its axes. */
 
 /* Number of fixed translations of a frame if it also has free ones, else 0; the fixed translations
  * of its centre of mass follow from its rotation. */
@@ -268,7 +268,7 @@ static void forces_of(const carried_mass *one, const carried_step *p, double h, 
         F[3 + i] = (spun1[i] - spun0[i]) / h + lever[i] + (p->rides ? p->late[i] : 0);
 }
 
-/* K[6 x 6] with respect to dr and c. */
+/* K[6 x 6]: derivative with respect to dr and c. */
 static void tangent_of(const carried_mass *one, const carried_step *p, double h, const double F[6],
                        double K[36])
 {
@@ -375,7 +375,7 @@ void conserving_increment(const conserving *s, const model_state *from, double i
     }
 }
 
-/* c = h w; for a prescribed rotation the prescribed increment. */
+/* c = h w; for a prescribed rotation, the prescribed increment. */
 static void predict_turn(conserving *s, const frame_rates *r, const int at[3], double h,
                          double c[3])
 {

@@ -99,7 +99,8 @@ static void place_nodes(const conserving *s, const instant *from, const model_st
     place_turn(m, at, from, now, v);
 }
 
-/* At the end of the step (point DEFORMABLE_POINTS): e and J; between its ends: J and H. */
+/* Nodes at which strains are evaluated: at the end of the step (point DEFORMABLE_POINTS) e and J,
+ * between its ends J and H. */
 static const node_state *nodes_of(const evaluation *v, int point)
 {
     return point < DEFORMABLE_POINTS ? v->point[point].x : v->last;
@@ -220,7 +221,8 @@ status shares_node(const model *m, const model_state *s, const shares_motion *mo
     return STATUS_OK;
 }
 
-/* Inertia force of node k of an element, including warping; *share: its part of the mass. */
+/* Inertia force of node k of an element, including warping; *share: fraction of the mass at the
+ * node. */
 static void force_of(const model *m, const model_state *s, const shares_motion *motion, int element,
                      int k, double F[7], carried_mass *share)
 {
@@ -253,9 +255,9 @@ void shares_along(const model *m, const model_state *s, const shares_motion *mot
     }
 }
 
-/* Corrects the moments of mass along a member that is lumped at its nodes: shifts are then right,
- * and resultants except inside an element. F is the force of the whole element's mass at both
- * nodes. */
+/* Corrects the moments of mass along a member that is lumped at its nodes. Translations, and
+ * resultants except inside an element, are then exact. F is the force of the whole element's mass
+ * at both nodes. */
 static void add_couple(const model *m, const model_state *s, int element, double F[2][7],
                        double ends[2][7])
 {

@@ -11,7 +11,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* explicit.c: dydt at t [s] and y in GSL's order; leaves the motion there in `at`. */
+/* explicit.c: computes dydt at t [s] for y in GSL's order; leaves the motion at that time in
+ * `at`. */
 static int explicit_rates(double t, const double y[], double dydt[], void *context);
 /* REFUSED: a coordinate of the undeformed model has no inertia. */
 static status explicit_check(const model *, const carried_masses *, fault *);
@@ -138,7 +139,7 @@ static int block(const model *m, const carried_masses *masses, int index, const 
     return count;
 }
 
-/* Accelerations of bodies that constraints join, as below. */
+/* Accelerations of bodies that constraints join; as explicit_accelerate. */
 static status accelerate_joined(const model *m, const carried_masses *masses, int body,
                                 const model_state *s, const double residual[], body_mass *g,
                                 double a[], fault *f)
@@ -192,7 +193,7 @@ static status accelerate_together(const model *m, const carried_masses *masses,
     return outcome;
 }
 
-/* a[free] = M^-1 times the residual, which includes the effect of the driven
+/* a[free] = M^-1 times the residual, which includes the effect of the prescribed
  * accelerations in a. SINGULAR: two axes of a sequence of angles coincide. */
 static status explicit_accelerate(const model *m, const carried_masses *masses,
                                   const model_state *s, const double v[], const double residual[],
@@ -273,7 +274,7 @@ static void mark(const model *m, const carried_masses *masses, const double rest
         const int n = block(m, masses, k, kinematics_rest(m), rest, of, M);
         for (int i = 0; i < n; i++) {
             double some[36];
-            /* rank of the first i + 1 coordinates; if the last one does not increase it, it has no
+            /* rank of the first i + 1 coordinates; a coordinate that does not increase it has no
              * inertia */
             for (int r = 0; r <= i; r++)
                 memcpy(&some[(i + 1) * r], &M[n * r], (size_t)(i + 1) * sizeof *some);
@@ -284,7 +285,7 @@ static void mark(const model *m, const carried_masses *masses, const double rest
         heavy[model_warp(m, w)] = masses->warping[model_warp(m, w)] > 0;
 }
 
-/* The same where constraints join bodies, whose masses count together. */
+/* As explicit_check, for bodies that constraints join and whose masses count together. */
 static status check_joined(const model *m, const carried_masses *masses, fault *f)
 {
     const double rounding = 1e-13;
@@ -364,8 +365,8 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
     }
 }
 
-/* Newton iteration for the inner unknowns of an element at given strains, with the element's own
- * steps. */
+/* Newton's iteration for the inner unknowns of an element at given strains, with the steps that the
+ * element defines. */
 static status settle_rates(const explicit_scheme *s, int i, double time, fault *f)
 {
     enum { MOST = 30 };

@@ -30,7 +30,8 @@ static void turn_row(const model *m, const model_state *s, int node, int k, doub
     double t[3], inverse[9];
     for (int i = 0; i < 3; i++)
         t[i] = kinematics_component(m, s, node, SCENE_RX + i);
-    turning_inverse(t, inverse); /* of rates in the node's axes; transposed: in fixed axes */
+    turning_inverse(t, inverse); /* maps rates in the node's axes; transposed: rates in fixed
+                                    axes */
     for (int i = 0; i < 3; i++)
         row[i] = inverse[3 * i + k];
 }
@@ -54,7 +55,7 @@ static double component_at(const model *m, const model_state *s, int node, int c
     return node == SCENE_NONE ? 0 : kinematics_component(m, s, node, component);
 }
 
-/* The reference and its rate. */
+/* Reference value of the controller and its rate. */
 static void reference_of(const scene_load *load, double time, double out[3])
 {
     out[0] = out[1] = 0;
@@ -71,7 +72,7 @@ static double error_of(const model *m, const model_state *s, const scene_load *l
            (component_at(m, s, b->node, b->component) - component_at(m, s, b->from, b->component));
 }
 
-/* Before the limit. */
+/* Factor of the load before it is limited. */
 static double feedback_of(const model *m, const model_state *s, const scene_load *load, int index,
                           const double v[], double time)
 {
@@ -133,7 +134,7 @@ static int measure(const model *m, const model_state *s, int node, int component
     return n;
 }
 
-/* Sum of the generalised loads of its nodes for the factor 1. */
+/* Sum of the generalised loads on its nodes for a factor of 1. */
 typedef struct feedback_push {
     const model *m;
     const model_state *s;

@@ -12,7 +12,7 @@ static void three(const mesh_vertex *v, const double of[], double out[3])
         out[i] = of[v->coordinate[SCENE_RX + i]];
 }
 
-/* Global vector of the rotation of a frame: R_n inc. */
+/* Moves a vertex by inc; global rotation vector: R_n inc. */
 static void apply_vertex(const model *m, const model_state *from, int index, const double inc[],
                          model_state *to)
 {
@@ -32,7 +32,7 @@ static void apply_vertex(const model *m, const model_state *from, int index, con
     rotation_normalise(&to->q[4 * index]);
 }
 
-/* R_n exp(inc), as for frames. */
+/* Rotates a ball joint: R_n exp(inc), as for frames. */
 static void turn_ball(const model *m, const model_state *from, int index, const double inc[],
                       model_state *to)
 {
@@ -68,7 +68,7 @@ void increment_apply(const model *m, const model_state *from, const double inc[]
     to->path = time;
 }
 
-/* Rotation of a frame whose rates are in its rotating axes. */
+/* Adds a rotation to the increment of a frame whose rates are in its rotating axes. */
 static void add_turn(const model_state *now, int index, const mesh_vertex *v, const double dx[],
                      double inc[])
 {

@@ -45,7 +45,7 @@ void inertia_force_at(const carried_mass *one, const frame_rates *r, double F[6]
     }
 }
 
-/* Rates of a frame whose acceleration includes what its damping takes: M (a + damping v). */
+/* Rates of a frame whose acceleration includes mass-proportional damping: M (a + damping v). */
 static void damped_rates(const model *m, const carried_masses *all, int index, const model_state *s,
                          const double v[], const double a[], frame_rates *r)
 {
@@ -179,8 +179,8 @@ void inertia_rows(const double turn[9], double K[36])
     }
 }
 
-/* As above for a released end. The change of its rates with the state (for rotating axes) is
- * neglected. */
+/* As inertia_add_tangent, for a released end. The change of its rates with the state (for rotating
+ * axes) is neglected. */
 static void released_tangent(const model *m, int vertex, const model_state *s,
                              const inertia_parts *p, const inertia_relation *with, sparse *S)
 {

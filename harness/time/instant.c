@@ -130,7 +130,7 @@ void peaks_free(peaks *s)
     free(s->one);
 }
 
-/* balance NULL: not known yet. */
+/* Reads a quantity at an instant; balance NULL: not known yet. */
 static status read_at(const peaks *s, const scene_quantity *q, const instant *at,
                       const double balance[], double *out, fault *f)
 {
@@ -153,7 +153,7 @@ static void take(peak *one, double value, double time, double error)
         *one->out = (outcome_passing){1, value, time, error};
 }
 
-/* Computes the value at a time inside the following step by a side step; *known 0: it did not
+/* Computes the value at a time inside the next step by a side step; *known 0: it did not
  * converge. */
 static status beside(peaks *s, const scene_quantity *q, const instant *from, double time,
                      double *value, int *known, fault *f)
@@ -180,8 +180,8 @@ static double cubic(const peaks *s, const peak *one, double time)
     return p[0];
 }
 
-/* Maximum of the cubic between two ends by golden-section search. A cubic with two maxima in one
- * step means that the steps do not resolve the motion. */
+/* Maximum of the cubic between two ends by golden-section search. If a cubic has two maxima in one
+ * step, the steps do not resolve the motion. */
 static double top_of(const peaks *s, const peak *one, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;

@@ -1,5 +1,5 @@
-/* Initial accelerations are those of a stage with a very small compliance of positions; time_impl.h
- * explains the case without inertia. */
+/* Initial accelerations are those of a stage with a very small compliance of positions; for
+ * coordinates without inertia see time_impl.h. */
 #include "harness/time/time_impl.h"
 
 #include <float.h>
@@ -16,7 +16,7 @@
 static const double softness = 1e-12;
 
 /* Rates of the angles of a sequence that add up to the angular velocity; fixed and prescribed
- * angles keep theirs. */
+ * angles keep their rates. */
 static void start_angles(const model *m, const model_state *s, int index, const double spin[3],
                          double v[])
 {
@@ -104,7 +104,7 @@ static status check_field(const model *m, const model_state *s, const scene_star
     return STATUS_OK;
 }
 
-/* REFUSED: a prescribed coordinate has another value at the start than in the state. */
+/* REFUSED: a prescribed coordinate starts at a different value than in the state. */
 static status check_drivers(const model *m, const double inc[], fault *f)
 {
     const double nothing = 1e-9;
@@ -154,7 +154,7 @@ static status begin(motion_stage *s, const scene_motion *how, instant *now, inst
     if (massless == 0)
         return accelerate(s, how->step, now, room, inc, zero, f);
     TRY(settle(s, zero, how->step, now, f));
-    if (!s->masses->spread) /* otherwise masses accelerate together */
+    if (!s->masses->spread) /* with consistent mass, masses accelerate together */
         return STATUS_OK;
     TRY(accelerate(s, how->step, now, room, inc, zero, f));
     TRY(massless_drop(m, s->masses, now->state, now->a, f));
@@ -177,7 +177,7 @@ status launch_again(analysis_context *c, const carried_masses *masses, const sce
     return outcome;
 }
 
-/* REFUSED: a coordinate that follows another one has another rate in the field. */
+/* REFUSED: a coordinate that follows another one has a different rate in the field. */
 static status check_followers(const model *m, const model_state *s, const scene_start *field,
                               const double v[], fault *f)
 {
@@ -261,7 +261,7 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     return STATUS_OK;
 }
 
-/* Refuses scenes for which consistent mass is not possible. */
+/* Rejects scenes for which consistent mass is not possible. */
 static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];
@@ -340,7 +340,8 @@ static const double rounding = 32 * DBL_EPSILON;
 
 double extent_allows(const extent *so_far, double part, double tolerance)
 {
-    const double size = 1; /* size of a structure that moves far away stays the same */
+    const double size = 1; /* the size of a structure, which does not change when it moves far
+                              away */
     const double most = tolerance * fmax(so_far->scale, fmin(size, so_far->largest)),
                  noise = 8 * DBL_EPSILON * so_far->bent;
     return fmax(part * fmax(most, rounding), noise);

@@ -68,7 +68,8 @@ static double stiffest(const body_mass *g, double none, const double diagonal[],
     return most;
 }
 
-/* Performs the task for one body and those that constraints join to it; the rank of its M. */
+/* Performs the task for one body and those that constraints join to it; returns the rank of its
+ * M. */
 static int visit(const model *m, const carried_masses *all, int body, const model_state *s,
                  body_mass *g, wish *of)
 {
@@ -143,7 +144,7 @@ status massless_motion(const model *m, const carried_masses *all, const model_st
     return walk(m, all, s, &of, &count, f);
 }
 
-/* The largest ratio of stiffness to inertia [1/s^2]; diagonal[free]: of a stiffness. */
+/* Finds the largest ratio of stiffness to inertia [1/s^2]; diagonal[free]: of a stiffness. */
 static status massless_stiffest(const model *m, const carried_masses *all, const model_state *s,
                                 const double diagonal[], double *out, fault *f)
 {
@@ -211,8 +212,8 @@ status massless_accelerate(const model *m, const carried_masses *all, const mode
 
 enum { BLOCK = 9, BLOCKS = 2 };
 
-/* Are all three coordinates of a rotation free and those of the body itself, or of bodies that move
- * as one? */
+/* Are all three coordinates of a rotation free, and do they belong to one body or to bodies that
+ * move as one? */
 static int is_whole(const model *m, int i, int block)
 {
     const int *at = model_vertex(m, i)->coordinate + 3 * block, first = model_first_joined(m, i);
@@ -254,7 +255,8 @@ static void own_axes(const model *m, const model_state *s, massive *h)
     }
 }
 
-/* Does a motion dx[free] without inertia move it there: three translations or three turns? */
+/* Does a motion dx[free] without inertia move this component: three translations or three
+ * rotations? */
 static int is_moved(const model *m, const model_state *s, const scene_component *what,
                     const double dx[])
 {
@@ -288,7 +290,7 @@ status massless_readings(const model *m, const carried_masses *masses, const mod
         if (dx == NULL)
             dx = calloc((size_t)model_unknowns(m) + 1, sizeof *dx);
         for (int k = 0; k < model_unknowns(m) && dx != NULL; k++)
-            dx[k] = 1 + 0.01 * k; /* any motion of all */
+            dx[k] = 1 + 0.01 * k; /* any motion of all coordinates */
         outcome = dx != NULL ? massless_motion(m, masses, s, dx, f)
                              : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
         if (outcome == STATUS_OK && is_moved(m, s, scene_component_of(q), dx))
@@ -352,8 +354,8 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
 /* Newton's method for the motions without inertia: forces and increments are projected onto them
  * (massless_forces), and in the tangent a large stiffness on the masses fixes all others. */
 
-/* Stiffness that fixes coordinates with inertia, relative to their largest one. It costs at most
- * this factor in accuracy and in Newton's order of convergence. */
+/* Stiffness that fixes coordinates with inertia, relative to the largest stiffness. It costs at
+ * most this factor in accuracy and in Newton's order of convergence. */
 static const double firm = 1e6;
 
 static double *diagonal_of(const sparse *S, double out[])
@@ -444,9 +446,8 @@ static int mark(const model *m, const mesh_element *el, unsigned char of[])
     return count;
 }
 
-/* Nodes of elements and springs whose damping time is long compared with a step h: their
- * coordinates without inertia relax no faster. of[free]: these coordinates; returns their number.
- */
+/* Marks in of[free] the coordinates without inertia that relax slowly: those of nodes of elements
+ * and springs whose damping time is long compared with a step h. Returns their number. */
 static int creeping(const model *m, const model_state *state, double h, unsigned char of[])
 {
     const double part = 1e-3;
@@ -469,8 +470,8 @@ static int creeping(const model *m, const model_state *state, double h, unsigned
     return count;
 }
 
-/* Equilibrium in which positions fixed by damping yield by a fraction of their displacement in h.
- */
+/* Finds the equilibrium in which positions fixed by damping give way by a fraction of their
+ * displacement in h. */
 static status give_way(motion_stage *s, const double zero[], double h, double softness,
                        instant *now, double moved[], fault *f)
 {
@@ -479,8 +480,9 @@ static status give_way(motion_stage *s, const double zero[], double h, double so
 }
 
 /* First computes the rates from a displacement that is large enough to be accurate. Then computes,
- * from the state before it, the equilibrium of coordinates without damping. Gaps between D(x) and e
- * left by iterations are closed first, since they would act as a displacement. */
+ * starting from the state before this displacement, the equilibrium of coordinates without damping.
+ * Gaps between D(x) and e left by iterations are closed first, since they would act as a
+ * displacement. */
 static status creep(motion_stage *s, const double zero[], double h, instant *now, double moved[],
                     const unsigned char of[], fault *f)
 {

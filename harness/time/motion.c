@@ -9,7 +9,7 @@
 
 enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 
-/* bounds of the ratio of consecutive step sizes, and the safety factor on the error estimate. */
+/* bounds of the ratio of consecutive step sizes, and safety factor on the error estimate */
 static const double shorter = 0.3, longer = 2, safety = 0.9;
 
 /* Data of the integration of one motion. */
@@ -68,7 +68,7 @@ static status record_step(motion_course *w, const step_record *record, double er
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
 }
 
-/* last: a discontinuity or the end of the motion follows. */
+/* Accepts a step; last: a discontinuity or the end of the motion follows. */
 static status keep_step(motion_course *w, const step_record *record, double error, int last,
                         fault *f)
 {
@@ -83,7 +83,7 @@ static status keep_step(motion_course *w, const step_record *record, double erro
     return peaks_here(&w->peaks, &w->now, w->balance, last, f);
 }
 
-/* [s] end of the last motion in the chain of continued motions. */
+/* [s] end of the last motion in the chain of continued motions */
 static double end_of_all(const motion_course *w)
 {
     const scene *s = w->c->scene;
@@ -96,8 +96,8 @@ static double end_of_all(const motion_course *w)
 }
 
 /* Returns 1 when the error allows the step, and sets the size of the next one from the error of
- * this one. If errors of steps add up to that of the motion, each step may use a share proportional
- * to its size. */
+ * this one. If the errors of steps add up to the error of the motion, each step may use a share
+ * proportional to its size. */
 static int allowed(motion_course *w, double step, double error)
 {
     w->reaches = extent_with(&w->extent, w->c->model, w->scheme, &w->now, &w->next, step, error);
@@ -120,8 +120,9 @@ static int looks(const motion_course *w)
     return w->how->tolerance > 0 && (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
 }
 
-/* Unresolved modes gain energy without cause, and less with shorter steps. *grows: more than
- * allowed, by this step or together with previous ones. Fixed steps are not checked. */
+/* Detects energy gained without cause, as by unresolved modes; shorter steps reduce it. *grows: the
+ * gain is larger than allowed, in this step or together with previous ones. Fixed steps are not
+ * checked. */
 static status watch(motion_course *w, int *grows, fault *f)
 {
     *grows = 0;
@@ -143,7 +144,7 @@ static void lengthen(motion_course *w, double step, double whole, int rejected)
     if (w->how->tolerance > 0 && step < whole)
         w->h = fmax(
             w->h,
-            whole); /* a step that was shortened to meet a station does not limit the next one */
+            whole); /* a step that was shortened to end at a station does not limit the next one */
     if (w->how->tolerance <= 0 && rejected == 0)
         w->h = fmin(w->how->step, 2 * w->h); /* returns to the size before it was halved */
 }
@@ -229,8 +230,8 @@ static status integrate(motion_course *w, fault *f)
                        w->out, f);
 }
 
-/* Continues where the previous motion stopped; with another scheme or step only in the same scene.
- */
+/* Continues where the previous motion stopped; another scheme or step is allowed only within the
+ * same scene. */
 static status go_on(motion_course *w, fault *f)
 {
     const scene_motion *former = w->from->analysis == w->analysis
@@ -259,8 +260,8 @@ static status find_end(motion_course *w, fault *f)
     return resume_before(w->c, w->follows, &w->from, f);
 }
 
-/* The state at time 0 from which the motion starts, and the rotation of the axes in which it is at
- * rest. */
+/* Finds the state at time 0 from which the motion starts, and the rotation of the axes in which it
+ * is at rest. */
 static status begin(motion_course *w, scene_rotating_frame *frame, fault *f)
 {
     const int follows = w->follows;
@@ -355,7 +356,7 @@ static void release(motion_course *w)
     damping_end(&w->c->eq, &w->damping);
 }
 
-/* Integrates once, with an estimate of the extent; *again: the motion was smaller, and a better
+/* Integrates once, with an estimate of the extent; *again: 1 if the motion was smaller and a better
  * estimate is known. */
 static status run(analysis_context *c, int analysis, double *scale, int *again, analysis_outcome *o,
                   fault *f)
@@ -379,7 +380,7 @@ static status run(analysis_context *c, int analysis, double *scale, int *again, 
         history_add_motion(c->result, analysis, w.path, w.out, f) != STATUS_OK)
         result = STATUS_FAULT;
     release(&w);
-    if (*again) { /* its work is counted, its steps are discarded */
+    if (*again) { /* the work is counted, the steps are discarded */
         history_go_back(c->result, &begin);
         c->run->counters.steps = before.steps;
         c->run->counters.rejected_steps = before.rejected_steps;

@@ -14,7 +14,7 @@ int place_plain(const model *m, int vertex)
     return v->body == vertex && v->angles == 0 && !v->turned;
 }
 
-/* A relative position under construction, with its derivatives as [3 x columns]. */
+/* A relative position under construction, with derivatives [3 x columns]. */
 typedef struct place_chain {
     const model *m;
     const model_state *from, *now;
@@ -25,7 +25,7 @@ typedef struct place_chain {
     double a[3][3], da[3][3 * PLACE_MOST]; /* columns of `about` that are mean axes of angles */
     double c[3], dc[3 * PLACE_MOST];       /* c after all rotations */
     double x[3][3], dx[3][3 * PLACE_MOST];
-    double rho[3], drho[3 * PLACE_MOST], moved[3 * PLACE_MOST]; /* rho_m; of rho_1 */
+    double rho[3], drho[3 * PLACE_MOST], moved[3 * PLACE_MOST]; /* rho_m; derivative of rho_1 */
     double sigma[3], dsigma[3 * PLACE_MOST];                    /* shift of the mean: (a s)_m */
 } place_chain;
 

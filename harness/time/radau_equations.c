@@ -15,7 +15,7 @@ static void radau_spread(radau *, double h);
 /* radau_equations.c: adds the damping of members to the residual, and to S if fresh is 1. */
 static void radau_damp(radau *, int fresh, const instant *from, double h);
 
-/* Blocks (i, k) of one frame for all k. */
+/* Adds blocks (i, k) of one frame for all k. */
 static void add_frame(radau *r, int index, double h, int i)
 {
     const model *m = r->of.c->model;
@@ -125,8 +125,8 @@ static void add_entry(void *to, int row, int column, double value)
     stages_add(at->S, at->i, at->k, row, column, value);
 }
 
-/* Loads with feedback: of the error in stage k, the rate in stage i has B_ik/h, the integral
- * h A_ik. */
+/* Adds the derivatives of loads with feedback: with respect to the error in stage k, the rate in
+ * stage i is B_ik/h and the integral h A_ik. */
 static void add_feedback(radau *r, double h, int i)
 {
     for (int k = 0; k < STAGES && feedback_count(&r->of.c->eq) > 0; k++) {
@@ -373,8 +373,8 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
     }
 }
 
-/* As above for a dashpot, whose stress is not stored in a slot; includes the rotation of its axes.
- */
+/* As damp_element, for a dashpot, whose stress is not stored in a slot; includes the rotation of
+ * its axes. */
 static void damp_spring(radau *r, int fresh, const instant *from, double h, int spring)
 {
     enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };
@@ -460,7 +460,7 @@ static void sum_strains(const radau *r, const instant *from, const double weight
     }
 }
 
-/* Taken up in a step by springs without a potential. */
+/* Energy absorbed in a step by springs without a potential. */
 static double circulated(const radau *r, const instant *from)
 {
     enum { SIX = SPRING_STRAINS };

@@ -1,4 +1,5 @@
-/* Quantities as their files in cases/quantities read them: of a state, with what is known of it. */
+/* Values of quantities in a state, as the files in cases/quantities read them, from the known data
+ * of the state. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -8,13 +9,13 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* A state as kinds of quantities read it. */
+/* A state in the form that kinds of quantities read. */
 typedef struct read_state {
     quantity_state as;
     const reading *from;
     shares_motion motion;
     internal_state section;
-    status *outcome; /* of the first force that is not known */
+    status *outcome; /* outcome of the first force that is not known */
     fault *f;
 } read_state;
 
@@ -46,7 +47,7 @@ static void frame_of(const quantity_state *s, int node, double place[3], double 
     rotation_matrix(turn, R);
 }
 
-/* Velocity of a node, which a body may carry, or angular velocity in the node's axes. */
+/* Velocity of a node, also of one that a body carries, or angular velocity in the node's axes. */
 static double rate_of(const quantity_state *s, int node, int component)
 {
     const model *m = model_of(s);
@@ -87,7 +88,7 @@ static double released_of(const quantity_state *s, int member, int end, int comp
     return release_value(model_of(s), of(s)->from->state, member, end, component);
 }
 
-/* Of linear statics. */
+/* Displacement in linear statics. */
 static double linear_component(const quantity_state *s, int node, int component)
 {
     const double *x = of(s)->from->x;
@@ -99,7 +100,7 @@ static double linear_component(const quantity_state *s, int node, int component)
     return sum;
 }
 
-/* The value where the outcome is OK; keeps the first one that is not. */
+/* Returns the value if the outcome is OK; keeps the first outcome that is not. */
 static double known(const quantity_state *s, status outcome, const double *value)
 {
     if (outcome != STATUS_OK && *of(s)->outcome == STATUS_OK)
@@ -138,7 +139,7 @@ static const int value_of[SCENE_RESULTANTS] = {[SCENE_N] = SPAN_N,
                                                [SCENE_MX_WARPING] = SPAN_MX_WARPING,
                                                [SCENE_MX_WAGNER] = SPAN_MX_WAGNER};
 
-/* One resultant, times a sign; its magnitude where the sign is zero. */
+/* A resultant times a sign; its magnitude if the sign is zero. */
 typedef struct chosen_resultants {
     scene_resultant resultant;
     double sign;
@@ -257,7 +258,7 @@ double reading_of(const model *m, const scene_quantity *q, const model_state *s,
     return quantity_type_of(q)->read(q, &state.as);
 }
 
-/* a: accelerations with what mass-proportional damping adds to the forces of masses. */
+/* a: accelerations, including the forces of mass-proportional damping per mass. */
 static status read_whole(const reading *from, const scene_quantity *q, const double a[],
                          double *out, fault *f)
 {

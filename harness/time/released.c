@@ -1,5 +1,5 @@
-/* Masses of ends that are released from their nodes. For a body with velocities v, w, a node at the
- * offset p from it, released rotations t about axes b and shifts s along d, q = sum d s:
+/* Masses of ends that are released from their nodes. For a body with velocities v, w, a node at
+ * offset p from it, released rotations t about axes b, and shifts s along d, with q = sum d s:
  *   w_end = w + sum b t',  w_end' = w' + sum b t'' + sum t' (rotation before it) x b,
  *   v_end = v + w x p + w_end x q + sum d s',
  *   a_end = a + w' x p + w x (w x p) + w_end' x q + w_end x (w_end x q) + 2 w_end x sum d s'
@@ -193,7 +193,7 @@ static size_t of_members(const model *m)
     return (size_t)model_elements(m) * (size_t)model_strains(m);
 }
 
-/* members: 1: with the stiffnesses of elements. */
+/* members 1: also computes the stiffnesses of elements. */
 static status begin(const equations *eq, int members, run_damping *d, fault *f)
 {
     const model *m = eq->m;
@@ -424,7 +424,7 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
-/* Is at most one rotation axis free, considering fixed rotations that are kept as rows? */
+/* Is at most one rotation axis free, counting fixed rotations that are kept as rows? */
 static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;

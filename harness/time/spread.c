@@ -15,7 +15,7 @@ typedef struct moving_element {
     double rate[MOST], acceleration[MOST];
 } moving_element;
 
-/* The acceleration includes damping x the rates. */
+/* Gathers the data of the nodes; the acceleration includes damping times the rates. */
 static void gather(const model *m, const mesh_element *el, const model_state *s, const double v[],
                    const double a[], double damping, moving_element *out)
 {
@@ -116,8 +116,8 @@ static void cross_all(const double x[3], const double A[9], double out[9])
 }
 
 /* For a node at rho from the body that moves it: v = v_b + w x rho, a = a_b + w' x rho + w x (w x
- * rho). Adds the terms of w and of rotations d of the body that the Jacobian of the rates does not
- * contain. */
+ * rho). Adds the terms with w and with rotations d of the body that are not in the Jacobian of the
+ * rates. */
 static void carry(int n, int at, const moving_element *e, const double rho[3], const double M[],
                   double C[], double K[])
 {
@@ -194,7 +194,7 @@ void spread_element(const model *m, int element, const model_state *s, const dou
                                .taken = F,
                                .C = out->velocity,
                                .K = out->place});
-    for (int i = 0; i < all; i++) /* the part of the rates is that of the velocity */
+    for (int i = 0; i < all; i++) /* the part due to the rates is that of the velocity */
         e.acceleration[i] -= damping * e.rate[i];
     for (int i = 0; i < all * all && damping != 0; i++)
         out->velocity[i] += damping * out->acceleration[i];

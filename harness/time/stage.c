@@ -211,7 +211,7 @@ typedef struct complement_way {
     double e[MOST], sigma[MOST], C[MOST * MOST]; /* P' and P'' at e */
 } complement_way;
 
-/* Distance that is close enough: below it Newton's method converges as fast from the strains as
+/* Distance that is small enough: below it, Newton's method converges as fast from the strains as
  * from the stresses. */
 static double near_of(int n, const double sigma[])
 {
@@ -370,7 +370,8 @@ static void settled(const complement *c, const model_state *s, int count, const 
                                                 near_of(model_strains(m), goal[k]));
 }
 
-/* Returns 1 when all of them agree. */
+/* Updates the strains of elements [first, end); returns 1 when the stresses of all of them
+ * agree. */
 static int follow_stresses(const complement *c, model_state *s, int first, int end)
 {
     const size_t n = (size_t)model_strains(c->m);

@@ -25,7 +25,8 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
     return count;
 }
 
-/* Columns of stage k, one after the other; returns the number of entries. row NULL: only counts. */
+/* Fills the columns of stage k, one after the other; returns the number of entries. row NULL: only
+ * counts. */
 static int fill(const equations *eq, const sparse *single, const int frame_of[],
                 const carried_masses *masses, stages_matrix *out, int *row)
 {
@@ -207,7 +208,7 @@ static double add_mass(const model *m, const carried_masses *all, int index, con
     return all->mass[index].mass;
 }
 
-/* The first of the bodies that constraints join to the one that moves a vertex. */
+/* First of the bodies that constraints join to the body that moves a vertex. */
 static int first_of(const model *m, int vertex)
 {
     return model_first_joined(m, model_vertex(m, vertex)->body);
@@ -215,7 +216,7 @@ static int first_of(const model *m, int vertex)
 
 /* Adds an element with consistent mass: entries of the nodes that the body moves and of the ends
  * released from it, without their coupling with other nodes. A motion without mass in this block
- * has none in the whole matrix. Returns the largest mass of a node. */
+ * has no mass in the whole matrix. Returns the largest mass of a node. */
 static double add_element(const model *m, int element, int body, const model_state *s,
                           const body_mass *g)
 {

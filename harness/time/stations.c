@@ -47,7 +47,7 @@ static void put(const step_between *b, int coordinate, const between_ends *e)
     memcpy(part, b->degree == BETWEEN_CUBIC ? cubic : quintic, sizeof cubic);
 }
 
-/* For an additive coordinate that increases by `whole` in the step. */
+/* Sets the polynomial of an additive coordinate that increases by `whole` in the step. */
 static void put_plain(const step_between *b, int c, double whole, double h)
 {
     const instant *from = b->from, *to = b->to;
@@ -101,7 +101,7 @@ static void put_turn(const step_between *b, int vertex, double h)
                 &(between_ends){t[1][k], {rate[0][k], rate[1][k]}, {second[0][k], second[1][k]}});
 }
 
-/* A ball joint has no rates: interpolates linearly. */
+/* Interpolates a ball joint linearly, since it has no rates. */
 static void put_ball(const step_between *b, int vertex)
 {
     const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
@@ -273,7 +273,8 @@ static int is_slope(const stations *s, int quantity)
     return q->analysis == s->analysis && reading_is_slope(q);
 }
 
-/* At the stations of a step and at its end; the first step gives those at time 0, too. */
+/* Computes slopes at the stations of a step and at its end; the first step also gives those at time
+ * 0. */
 static void take_slopes(stations *s, const instant *from, const instant *to)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
