@@ -148,8 +148,6 @@ extern const option_group options_shards; /* all except jobs and quiet */
 status spread_asked(const shard_options *, int *asked, fault *f);
 /* Computes the shard and reports its outcome, or reads the batches. */
 status spread_work(const shard_options *, const shard_work *w, spread_end *out, fault *f);
-/* Environment of a result: this machine, or the one that computed the batches. */
-environment spread_environment(const spread_end *, int threads);
 void spread_free(spread_end *);
 
 enum { IDENTITY_TEXT = 2000 };

@@ -1,12 +1,8 @@
 /* Verb sweep: a case over ranges of its parameters. */
 #include "harness/cli/cli_impl.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "elements/shared/choice.h"
@@ -29,18 +25,13 @@ typedef struct sweep_options {
 
 /* A sweep and its data during the run. */
 typedef struct sweeping {
-    parameter_ranges ranges;
-    ranges_work work;
-    truths truths;
-    ranges_output output;
-    char batches[PATH_MAX]; /* folder */
-    char script[PATH_MAX];  /* of --compute-references */
-    char partial[PATH_MAX]; /* output name for --partial */
+    range_sweep_request asked;
+    range_sweep sweep;
+    char script[PATH_MAX]; /* of --compute-references */
     identity_texts texts;
-    shard_work all;
-    int asked;      /* 1: runs as a shard, or from batches */
+    const shard_options *shards;
+    int spread;     /* 1: runs as a shard, or from batches */
     spread_end end; /* outcome of that */
-    int lost;       /* number of missing batches: exit status 5 */
 } sweeping;
 
 static status read_design(const sweep_options *r, ranges_request *q, fault *f)
@@ -79,174 +70,88 @@ static status check_set(const sweep_options *r, const parameter_ranges *s, fault
 static status identify(const sweep_options *r, sweeping *s, fault *f)
 {
     digest plan;
-    s->all = ranges_work_of(&s->work);
     TRY(identity_make(r->of.line, &s->texts, &plan, f));
-    ranges_identity_add(&s->ranges, &plan);
-    identity_set(&s->texts, &plan, &s->all);
-    s->output.plan = s->texts.plan;
+    ranges_identity_add(&s->sweep.ranges, &plan);
+    identity_set(&s->texts, &plan, &s->sweep.all);
     return STATUS_OK;
+}
+
+/* Reads what --from names. */
+static status take_given(void *context, const shard_work *w, fault *f)
+{
+    sweeping *s = context;
+    TRY(spread_work(s->shards, w, &s->end, f));
+    return s->end.ended ? STATUS_NO_VALUE : STATUS_OK;
 }
 
 static status prepare(sweep_options *r, const case_type *type, sweeping *s, fault *f)
 {
-    ranges_request q = {.type = type,
-                        .file = r->of.scene,
-                        .base = r->of.parameter,
-                        .varies = r->vary.count,
-                        .vary = r->vary.text,
-                        .formulations = r->chosen.formulations,
-                        .formulation = r->chosen.formulation,
-                        .meshes = r->meshes.count,
-                        .mesh = r->meshes.elements,
-                        .select = r->select,
-                        .tolerance = r->error > 0 ? r->error : 0.01,
-                        .time_limit = r->chosen.time_limit};
+    ranges_request *q = &s->asked.of;
+    *q = (ranges_request){.type = type,
+                          .file = r->of.scene,
+                          .base = r->of.parameter,
+                          .varies = r->vary.count,
+                          .vary = r->vary.text,
+                          .formulations = r->chosen.formulations,
+                          .formulation = r->chosen.formulation,
+                          .meshes = r->meshes.count,
+                          .mesh = r->meshes.elements,
+                          .select = r->select,
+                          .tolerance = r->error > 0 ? r->error : 0.01,
+                          .time_limit = r->chosen.time_limit};
     if (strcmp(r->format, "json") == 0)
         return fault_set(f, STATUS_REFUSED, "sweep writes text, csv, and HDF5 with -o FILE");
-    TRY(read_design(r, &q, f));
+    TRY(read_design(r, q, f));
     TRY(files_check_results(r->of.line, 1, own_tables_packed(&r->truths), f));
     if (r->of.scene == NULL) {
-        TRY(case_input_truths(&r->of, &r->truths, &s->truths, f));
-        q.truths = &s->truths;
+        TRY(case_input_truths(&r->of, &r->truths, &s->sweep.truths, f));
+        q->truths = &s->sweep.truths;
     }
     if (r->derive) {
         TRY(derive_script(r->of.scene != NULL ? "of_scene.py" : "at.py", s->script, f));
-        q.derive = s->script;
+        q->derive = s->script;
     }
-    TRY(ranges_make(&q, &s->ranges, f));
-    TRY(check_set(r, &s->ranges, f));
-    TRY(ranges_work_make(&s->ranges, &s->work, f));
+    TRY(experiment_plan(&experiment_sweep, &s->asked, &s->sweep, f));
+    TRY(check_set(r, &s->sweep.ranges, f));
     return identify(r, s, f);
-}
-
-/* Determines the output of the results. */
-static status place_output(const sweep_options *r, sweeping *s, fault *f)
-{
-    if (r->output == NULL)
-        return STATUS_OK;
-    s->output.path = r->output;
-    if (r->shards.partial) {
-        TRY(output_partial(r->output, s->partial, f));
-        s->output.path = s->partial;
-    }
-    TRY(ranges_collect_beside(s->output.path, ".worst", s->output.folder, f));
-    return ranges_collect_check(&s->output, f);
-}
-
-/* Locks the folder until this process ends: of two runs with the same output, one is refused. */
-static status hold_batches(const char *folder, fault *f)
-{
-    struct stat there = {.st_nlink = 0};
-    while (there.st_nlink == 0) { /* the previous owner has removed the folder meanwhile */
-        const int made = mkdir(folder, 0777),
-                  held = made == 0 || errno == EEXIST
-                             ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
-                             : -1;
-        if (held < 0)
-            return fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s)", folder,
-                             strerror(errno));
-        if (flock(held, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-            close(held);
-            return fault_set(f, STATUS_REFUSED,
-                             "%.200s: another 'beamwork sweep' is using it; wait until it ends, or "
-                             "give -o another name",
-                             folder);
-        }
-        if (fstat(held, &there) != 0)
-            there.st_nlink = 1;
-    }
-    return STATUS_OK;
-}
-
-/* Folder for batches until all are complete: next to the output, or a temporary one. */
-static status place_batches(const sweep_options *r, sweeping *s, fault *f)
-{
-    if (r->output != NULL) {
-        TRY(ranges_collect_beside(r->output, ".batches", s->batches, f));
-        return hold_batches(s->batches, f);
-    }
-    const char *temporary = getenv("TMPDIR");
-    snprintf(s->batches, sizeof s->batches, "%s/beamwork-sweep-XXXXXX",
-             temporary != NULL ? temporary : "/tmp");
-    return mkdtemp(s->batches) != NULL
-               ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s)", s->batches,
-                           strerror(errno));
-}
-
-/* Reads the batches of the stock, or those that --from names; does nothing if some of these are
- * missing. */
-static status take_all(const sweep_options *r, sweeping *s, const stock *there, fault *f)
-{
-    ranges_collect c;
-    status outcome = ranges_collect_begin(&s->work, &s->output, &c, f);
-    if (outcome == STATUS_OK)
-        outcome = there != NULL ? merge_take(&s->all, there, f)
-                                : spread_work(&r->shards, &s->all, &s->end, f);
-    const int ended = outcome == STATUS_OK && s->end.ended;
-    outcome = ranges_collect_end(&c, ended ? STATUS_NO_VALUE : outcome, f);
-    if (outcome == STATUS_OK && s->work.csv == NULL && !r->shards.quiet)
-        ranges_table(stdout, &c.tally, r->verbose, s->output.folder, f);
-    tally_free(&c.tally);
-    return ended ? STATUS_OK : outcome;
-}
-
-static status collect(const sweep_options *r, sweeping *s, fault *f)
-{
-    const char *const folder[] = {s->batches};
-    stock there = {.batches = 0};
-    status outcome = stock_take(&s->all, folder, 1, NULL, stderr, &there, f);
-    s->lost = there.batches - there.there;
-    if (outcome == STATUS_OK && s->lost == 0)
-        outcome = take_all(r, s, &there, f);
-    if (outcome == STATUS_OK && (s->lost == 0 || r->output == NULL))
-        outcome = ranges_collect_remove(&there, s->batches, f);
-    stock_free(&there);
-    return outcome;
-}
-
-/* Computes all batches in this run. */
-static status run_here(const sweep_options *r, sweeping *s, fault *f)
-{
-    shard_outcome done = {0};
-    TRY(place_batches(r, s, f));
-    const shard_request request = {.count = 1,
-                                   .into = s->batches,
-                                   .jobs = r->shards.jobs,
-                                   .progress =
-                                       isatty(STDERR_FILENO) && !r->shards.quiet ? stderr : NULL,
-                                   .tell = stderr};
-    TRY(shard_run(&s->all, &request, &done, f));
-    return collect(r, s, f);
 }
 
 static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f)
 {
-    TRY(spread_asked(&r->shards, &s->asked, f));
+    const experiment_output to = {.format = r->format};
+    const int csv = strcmp(r->format, "csv") == 0, quiet = r->shards.quiet;
+    TRY(spread_asked(&r->shards, &s->spread, f));
+    s->shards = &r->shards;
+    s->asked = (range_sweep_request){.output = r->output,
+                                     .partial = r->shards.partial,
+                                     .jobs = r->shards.jobs,
+                                     .verbose = r->verbose,
+                                     .quiet = quiet,
+                                     .progress = isatty(STDERR_FILENO) && !quiet ? stderr : NULL,
+                                     .csv = csv ? stdout : NULL,
+                                     .take = r->shards.from.count > 0 ? take_given : NULL,
+                                     .context = s};
     TRY(prepare(r, type, s, f));
-    TRY(place_output(r, s, f));
-    if (strcmp(r->format, "csv") == 0)
-        s->work.csv = stdout;
-    else if (!r->shards.quiet)
-        ranges_table_head(stdout, &s->ranges);
+    if (!csv && !quiet)
+        ranges_table_head(stdout, &s->sweep.ranges);
     if (r->output == NULL) /* otherwise the text output stays free for other data */
         TRY(output_flush(f));
-    if (!s->asked)
-        return run_here(r, s, f);
-    return r->shards.from.count > 0 ? take_all(r, s, NULL, f)
-                                    : spread_work(&r->shards, &s->all, &s->end, f);
+    if (s->spread && s->asked.take == NULL)
+        return spread_work(&r->shards, &s->sweep.all, &s->end, f);
+    return experiment_run(&experiment_sweep, &s->asked, &to, &s->sweep, f);
 }
 
 /* Reports missing points, which the same command computes when repeated. */
 static int tell(const sweep_options *r, const sweeping *s)
 {
-    if (s->asked)
+    if (s->spread)
         return s->end.code;
-    if (s->lost == 0)
+    if (s->sweep.lost == 0)
         return EXIT_AS_EXPECTED;
-    fprintf(stderr, "beamwork: %d of %d batches are missing; ", s->lost, s->ranges.batches);
+    fprintf(stderr, "beamwork: %d of %d batches are missing; ", s->sweep.lost,
+            s->sweep.ranges.batches);
     if (r->output != NULL)
-        fprintf(stderr, "the others are in %s: run the same command again\n", s->batches);
+        fprintf(stderr, "the others are in %s: run the same command again\n", s->sweep.batches);
     else
         fprintf(stderr, "with -o FILE the others would be kept\n");
     return EXIT_INTERRUPTED;
@@ -256,7 +161,7 @@ static int answer(const command_line *l, void *request)
 {
     sweep_options *r = request;
     (void)l;
-    sweeping s = {.lost = 0};
+    sweeping s = {.spread = 0};
     fault f = {""};
     const case_type *type = case_input_find(&r->of);
     if (type == NULL)
@@ -265,9 +170,7 @@ static int answer(const command_line *l, void *request)
     const int code = outcome == STATUS_OK ? tell(r, &s) : message_fail(outcome, f.text);
     spread_free(&s.end);
     identity_free(&s.texts);
-    ranges_work_free(&s.work);
-    ranges_free(&s.ranges);
-    truths_free(&s.truths);
+    range_sweep_free(&s.sweep);
     return code;
 }
 
@@ -398,14 +301,6 @@ static void name_processors(const stock *s, spread_end *out)
     for (int i = 0; i < s->kinds && at < sizeof out->processor; i++)
         at += (size_t)snprintf(out->processor + at, sizeof out->processor - at, "%s%s (%s)",
                                i > 0 ? "; " : "", s->kind[i].node.processor, s->kind[i].node.host);
-}
-
-environment spread_environment(const spread_end *end, int threads)
-{
-    environment e = environment_now(threads);
-    if (end->processor[0] != '\0')
-        memcpy(e.processor, end->processor, sizeof e.processor);
-    return e;
 }
 
 static status take(const shard_options *r, const shard_work *w, const stock *s, spread_end *out,

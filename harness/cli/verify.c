@@ -3,9 +3,7 @@
 #include <limits.h>
 #include <unistd.h>
 
-#include "harness/exchange/exchange.h"
 #include "harness/numerics/numerics.h"
-#include "harness/terminal/terminal.h"
 
 typedef struct verify_request {
     chosen_formulations chosen;
@@ -24,48 +22,6 @@ typedef struct verify_request {
 } verify_request;
 
 enum { PICTURED_STATES = 5 };
-
-/* Are all limits shown? Yes with --verbose, or if cases or formulations were selected. */
-static int shows_limits(const verify_request *r, const overview *o)
-{
-    return r->verbose || r->select != NULL || o->rows == 1;
-}
-
-/* Prints one screen: the matrix, the counts, unexpected results, and the conclusion. */
-static void show(const verify_request *r, const sweep *s, const judgement *j, const truths *t,
-                 const overview *o, double seconds)
-{
-    const screen look = screen_of(stdout);
-    char sentence[SENTENCE_OF_RUN];
-    if (r->exit_zero)
-        fputs("exploration: the exit status is 0 for any verdicts (--exit-zero)\n\n", stdout);
-    table_breaches(stdout, look, j);
-    if (!r->shards.quiet && shows_limits(r, o)) {
-        table_verdicts(stdout, s, j);
-        table_run_details(stdout, s, j);
-        fputc('\n', stdout);
-    }
-    if (!r->shards.quiet) {
-        table_overview(stdout, look, o);
-        fputc('\n', stdout);
-        table_run(stdout, s, j, seconds);
-    }
-    table_unexpected(stdout, look, s, j, t);
-    sentence_of_run(s, j, sentence, sizeof sentence);
-    table_run_end(stdout, look, sentence);
-}
-
-/* Is there a verdict of another program that affects the exit status? */
-static int imported_was_judged(const sweep *s, const judgement *j)
-{
-    for (int i = 0; i < j->verdicts; i++) {
-        const imported *from = s->series[j->verdict[i].series].imported;
-        if (from != NULL && from->gates && j->verdict[i].truth != NULL &&
-            j->verdict[i].kind != VERDICT_SKIP && j->verdict[i].kind != VERDICT_OTHER_MODEL)
-            return 1;
-    }
-    return 0;
-}
 
 /* Prints details that the exit status does not show, and returns that status. */
 static int tell(const verify_request *r, const sweep *s, const judgement *j, const spread_end *e)
@@ -92,47 +48,6 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     return r->exit_zero ? EXIT_AS_EXPECTED : code;
 }
 
-/* Adds other programs to the comparison; reports those that match no point of this run. */
-static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
-{
-    import_left left;
-    TRY(import_store_read(path, must_pass, s, &left, f));
-    if (left.series == left.all && must_pass)
-        return fault_set(f, STATUS_REFUSED,
-                         "--imported-must-pass: nothing of %.150s was run: it belongs to %s; "
-                         "select that with -k, or give its --scene",
-                         path, left.first);
-    if (left.series == left.all)
-        fprintf(stderr,
-                "beamwork: %s: nothing of it was run; it belongs to %s; select that with -k, or "
-                "give its --scene\n",
-                path, left.first);
-    else if (left.series > 0)
-        fprintf(stderr,
-                "beamwork: %s: %d of %d series are of cases or parameters that were not run, the "
-                "first %s\n",
-                path, left.series, left.all, left.first);
-    return STATUS_OK;
-}
-
-/* Data of a verification; verify_scenes frees it. */
-typedef struct trial {
-    sweep sweep;
-    truths truths;
-    judgement judgement;
-    overview overview;
-    verification_files files;
-    stored_results former; /* previous results; this run must not be worse */
-    spread_end end;        /* outcome of shards, or of merged batches */
-} trial;
-
-static status add_all_imported(const verify_request *r, sweep *s, fault *f)
-{
-    for (int i = 0; i < r->imported.count; i++)
-        TRY(add_imported(r->imported.text[i], r->imported_must_pass, s, f));
-    return STATUS_OK;
-}
-
 /* Warns of units of each scene file that look like others. */
 static void tell_units(const scenes *own, const sweep *s)
 {
@@ -147,86 +62,67 @@ static void tell_units(const scenes *own, const sweep *s)
 }
 
 /* Runs here, or as batches of shards, which are evaluated when all exist. */
-static status run_and_judge(const verify_request *r, const scenes *own,
-                            const sweep_request *request, trial *v, fault *f)
+static status compute(const verify_request *r, const scenes *own, verification_request *asked,
+                      verification *v, spread_end *end, fault *f)
 {
-    const int whole = r->select == NULL && r->chosen.formulations == 0 &&
-                      (r->scenes.built_in || r->scenes.scene.count == 0);
-    const verification_reader reader = {&v->files, verification_files_case};
-    int asked;
-    TRY(spread_asked(&r->shards, &asked, f));
-    TRY(plan_sweep(request, &v->truths, &v->sweep, f));
+    TRY(spread_asked(&r->shards, &asked->taken, f));
+    TRY(experiment_plan(&experiment_verify, asked, v, f));
     tell_units(own, &v->sweep);
-    if (asked)
-        TRY(verification_work_run(&r->shards, request, &v->truths, &v->sweep, &v->end, f));
-    if (v->end.ended)
-        return STATUS_OK;
-    TRY(add_all_imported(r, &v->sweep, f));
-    TRY(verification_files_open(&v->files, &v->sweep, &v->judgement, f));
-    if (asked)
-        TRY(verification_judge(request, whole, &v->truths, &v->sweep, &v->judgement, f));
-    else
-        TRY(verification_run(request, whole, &reader, &v->truths, &v->sweep, &v->judgement, f));
-    if (r->imported_must_pass && !imported_was_judged(&v->sweep, &v->judgement))
-        return fault_set(f, STATUS_REFUSED,
-                         "--imported-must-pass: no imported value has a verdict: none of its "
-                         "quantities has a reference value and is selected (-k), or its model is "
-                         "not 'beam'");
-    if (r->former != NULL && v->sweep.unfinished == 0)
-        TRY(regressions_find(&v->former, r->former, &v->sweep, &v->judgement, f));
-    return overview_make(&v->sweep, &v->judgement, &v->overview, f);
+    if (asked->taken)
+        TRY(verification_work_run(&r->shards, &asked->cells, &v->truths, &v->sweep, end, f));
+    return end->ended ? STATUS_OK
+                      : experiment_run(&experiment_verify, asked, &(experiment_output){0}, v, f);
 }
 
-static status run(const verify_request *r, const scenes *own, trial *v, fault *f)
+static status run(const verify_request *r, const scenes *own, verification *v, spread_end *end,
+                  fault *f)
 {
-    const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
-    const double begun = clock_wall_seconds();
-    const sweep_request request = {.cases = own->type,
-                                   .select = r->select,
-                                   .jobs = r->shards.jobs,
-                                   .share = 1,
-                                   .time_limit = r->chosen.time_limit,
-                                   .interruptible = 1,
-                                   .doublings = r->refine,
-                                   .formulations = r->chosen.formulations,
-                                   .formulation = r->chosen.formulation,
-                                   .named = named_alone(&r->chosen),
-                                   .tolerance = r->tolerance,
-                                   .shapes = states,
-                                   .progress =
-                                       isatty(STDERR_FILENO) && !r->shards.quiet ? stderr : NULL};
+    verification_request asked = {
+        .cells = {.cases = own->type,
+                  .select = r->select,
+                  .jobs = r->shards.jobs,
+                  .share = 1,
+                  .time_limit = r->chosen.time_limit,
+                  .interruptible = 1,
+                  .doublings = r->refine,
+                  .formulations = r->chosen.formulations,
+                  .formulation = r->chosen.formulation,
+                  .named = named_alone(&r->chosen),
+                  .tolerance = r->tolerance,
+                  .shapes = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES,
+                  .progress = isatty(STDERR_FILENO) && !r->shards.quiet ? stderr : NULL},
+        .whole = r->select == NULL && r->chosen.formulations == 0 &&
+                 (r->scenes.built_in || r->scenes.scene.count == 0),
+        .imported = r->imported.text,
+        .importeds = r->imported.count,
+        .imported_must_pass = r->imported_must_pass,
+        .former = r->former,
+        .processor = end->processor,
+        .exit_zero = r->exit_zero,
+        .verbose = r->verbose,
+        .quiet = r->shards.quiet};
     TRY(files_check_results(r->shards.line, 1, own_tables_packed(&r->scenes.truths), f));
     if (r->former != NULL)
         TRY(results_read(r->former, &v->former, f));
     TRY(scenes_truths(own, &r->scenes, &v->truths, f));
-    TRY(run_and_judge(r, own, &request, v, f));
-    if (v->end.ended)
-        return STATUS_OK;
-    show(r, &v->sweep, &v->judgement, &v->truths, &v->overview, clock_wall_seconds() - begun);
-    const environment e = spread_environment(&v->end, r->shards.jobs);
-    TRY(verification_files_close(&v->files, &v->overview, &e,
-                                 f)); /* needed even if no output was requested */
-    return output_flush(f);
+    return compute(r, own, &asked, v, end, f);
 }
 
 static int verify_scenes(const verify_request *r, const scenes *own)
 {
-    trial v = {.files = {.output = r->output,
-                         .json = r->reports.json,
-                         .junit = r->reports.junit,
-                         .markdown = r->reports.markdown,
-                         .propose = r->reports.propose}};
+    verification_files files = {.output = r->output,
+                                .json = r->reports.json,
+                                .junit = r->reports.junit,
+                                .markdown = r->reports.markdown,
+                                .propose = r->reports.propose};
+    verification v = {.files = &files, .begun = clock_wall_seconds()};
+    spread_end end = {0};
     fault f = {""};
-    const status outcome = run(r, own, &v, &f);
+    const status outcome = run(r, own, &v, &end, &f);
     const int code = outcome != STATUS_OK ? message_fail(outcome, f.text)
-                                          : tell(r, &v.sweep, &v.judgement, &v.end);
-    verification_files_drop(&v.files);
-    spread_free(&v.end);
-    overview_free(&v.overview);
-    judgement_free(&v.judgement);
-    results_free(&v.former);
-    sweep_free(&v.sweep);
-    truths_free(&v.truths);
+                                          : tell(r, &v.sweep, &v.judgement, &end);
+    verification_free(&v);
+    spread_free(&end);
     return code;
 }
 

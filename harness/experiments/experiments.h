@@ -896,41 +896,37 @@ typedef struct ranges_work {
     digest content;    /* of all values read, without times */
 } ranges_work;
 
-/* FAULT: out of memory. ranges_work_free frees it. */
-status ranges_work_make(const parameter_ranges *r, ranges_work *out, fault *f);
-void ranges_work_free(ranges_work *);
-/* The caller sets the identity of the sweep. */
-shard_work ranges_work_of(ranges_work *);
+/* Computes the batches of a sweep, or reads those of shards: summary, file, worst points. */
 
-/* Combines the batches of a sweep: summary, file, worst points. */
+typedef struct range_sweep_request {
+    ranges_request of;
+    const char *output; /* HDF5; NULL: none */
+    int partial;        /* 1: batches may be missing, and the name of the output says so */
+    int jobs, verbose, quiet;
+    FILE *progress, *csv; /* NULL: none */
+    /* Reads the batches; NULL: computed here. NO_VALUE: nothing is to be evaluated. */
+    status (*take)(void *context, const shard_work *, fault *f);
+    void *context;
+} range_sweep_request;
 
-typedef struct ranges_output {
-    const char *path;      /* HDF5; NULL: none */
-    const char *plan;      /* digits that identify the sweep */
-    char folder[PATH_MAX]; /* folder for the scenes of the worst points; empty: none */
-} ranges_output;
-
-/* "sweep.worst" for "sweep.h5", and so on. REFUSED: the name is too long. */
-status ranges_collect_beside(const char *path, const char *ending, char out[PATH_MAX], fault *f);
-/* REFUSED: the path of the folder for the scenes exists and is something else. */
-status ranges_collect_check(const ranges_output *, fault *f);
-/* A sweep whose batches are being read. */
-typedef struct ranges_collect {
-    ranges_work *work;
-    const ranges_output *output;
+typedef struct range_sweep {
+    const range_sweep_request *asked;
+    truths truths; /* read before planning */
+    parameter_ranges ranges;
+    ranges_work work;
+    shard_work all; /* its identity is set after planning */
+    const char *output;
+    char partial[PATH_MAX]; /* output name for missing batches */
+    char worst[PATH_MAX];   /* folder for the scenes of the worst points; empty: none */
+    char batches[PATH_MAX]; /* folder */
+    int lost;               /* number of missing batches, if they are computed here */
+    int evaluated;          /* 1: all were read */
     tally tally;
     ranges_file file;
-} ranges_collect;
+} range_sweep;
 
-/* From now on all batches that the work reads are added to the summary and the file, one at a time
- * in memory. The output must outlive it. */
-status ranges_collect_begin(ranges_work *, const ranges_output *, ranges_collect *out, fault *f);
-/* Finishes after the last batch: scenes of the worst points, and the file. taken: status of
- * reading; if not OK, the files are removed. The caller frees the tally. */
-status ranges_collect_end(ranges_collect *, status taken, fault *f);
-/* After everything is written: removes the batches from a folder, and the folder if it is then
- * empty. */
-status ranges_collect_remove(const stock *, const char *folder, fault *f);
+extern const experiment_type experiment_sweep;
+void range_sweep_free(range_sweep *);
 
 /* Data that batches of one sweep must share in addition to the command line. */
 
@@ -941,11 +937,6 @@ void ranges_identity_add(const parameter_ranges *r, digest *plan);
 
 /* Header of the table: number of points and cells, and the axes. */
 void ranges_table_head(FILE *to, const parameter_ranges *r);
-/* Writes within PARAGRAPH_WIDTH: the references of errors; the percentage of points within the
- * tolerance for each mesh, quantity and formulation; for one or two axes the smallest number of
- * elements over them, for all quantities together (every: also for each); the worst points with
- * their values and a command that shows one. folder: with their scenes; "": none were stored. */
-void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault *f);
 
 /* Results of a verification that are worse than in a previous run. */
 
@@ -1065,15 +1056,12 @@ status verification_run(const sweep_request *, int whole, const verification_rea
 /* Runs the cells of a planned sweep, or of some of its series, and measures scatter, without
  * evaluation. */
 status verification_cells(const sweep_request *, truths *, sweep *, fault *);
-/* Evaluates a sweep whose cells have been run for the request. */
-status verification_judge(const sweep_request *, int whole, truths *, const sweep *, judgement *out,
-                          fault *);
 
 /* Output files of a verification: HDF5, JSON, JUnit, Markdown, and proposed known deviations. The
  * content of a case is prepared as soon as the case is evaluated. */
 
 typedef struct verification_files {
-    const char *output, *json, *junit, *markdown, *propose; /* NULL: none */
+    const char *output, *json, *junit, *markdown, *propose; /* set by the caller; NULL: none */
     const sweep *sweep;
     const judgement *judged;
     store store;    /* open if requested */
@@ -1081,14 +1069,31 @@ typedef struct verification_files {
     int open;
 } verification_files;
 
-/* The caller sets the paths; sweep and judgement must exist until the files are closed. */
-status verification_files_open(verification_files *, const sweep *, const judgement *, fault *f);
-/* Adds an evaluated case; an observer of a verification, with the files as context. */
-void verification_files_case(void *files, const case_type *);
-/* Writes all files, with the environment; for an interrupted run under names that say so. */
-status verification_files_close(verification_files *, const overview *, const environment *e,
-                                fault *f);
-/* Closes without writing; does nothing if they are closed. */
-void verification_files_drop(verification_files *);
+typedef struct verification_request {
+    sweep_request cells;
+    int whole;                   /* 1: no selection was made */
+    int taken;                   /* 1: the cells have been read from batches and are not run */
+    const char *const *imported; /* [importeds] stored imports: other programs to compare */
+    int importeds;
+    int imported_must_pass; /* 1: their verdicts affect the exit status */
+    const char *former;     /* name of verification.former; NULL: none */
+    const char *processor;  /* computed the batches; "": this one */
+    int exit_zero, verbose, quiet;
+} verification_request;
+
+typedef struct verification {
+    const verification_request *asked;
+    truths truths;             /* read before planning */
+    stored_results former;     /* previous results; this run must not be worse */
+    verification_files *files; /* owned by the caller */
+    double begun;              /* [s] clock_wall_seconds at its start */
+    sweep sweep;
+    judgement judgement;
+    overview overview;
+} verification;
+
+/* For an interrupted run its files have names that say so. */
+extern const experiment_type experiment_verify;
+void verification_free(verification *);
 
 #endif

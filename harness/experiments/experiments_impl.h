@@ -554,4 +554,30 @@ status survey(parameter_ranges *r, fault *f);
 
 /* The worst points of a sweep kept as scene files. */
 
+/* FAULT: out of memory. ranges_work_free frees it. */
+status ranges_work_make(const parameter_ranges *r, ranges_work *out, fault *f);
+void ranges_work_free(ranges_work *);
+/* The caller sets the identity of the sweep. */
+shard_work ranges_work_of(ranges_work *);
+
+/* File of a sweep. */
+
+/* The path must outlive it. plan: digits that identify the sweep. */
+status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
+                        ranges_file *out, fault *f);
+/* Finishes the file: worst points with the names of their scenes, and content: digits of all values
+ * that do not depend on how they were computed. written: status so far; if not OK, the file is
+ * removed. */
+status ranges_file_close(ranges_file *, const tally *, const char *content, status written,
+                         fault *f);
+/* Writes the scenes of the worst points to a new folder as "point_12.yaml", each point once, and
+ * stores the names in the tally. A scene that a file cannot express is omitted. FAULT: disk or
+ * memory; no file remains. */
+status worst_write(const char *folder, tally *t, fault *f);
+/* Writes within PARAGRAPH_WIDTH: the references of errors; the percentage of points within the
+ * tolerance for each mesh, quantity and formulation; for one or two axes the smallest number of
+ * elements over them, for all quantities together (every: also for each); the worst points with
+ * their values and a command that shows one. folder: with their scenes; "": none were stored. */
+void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault *f);
+
 #endif

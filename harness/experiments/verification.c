@@ -6,18 +6,21 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/exchange/exchange.h"
 #include "harness/numerics/numerics.h"
+#include "harness/terminal/terminal.h"
 
-typedef struct verification {
+/* Evaluation of series as they arrive. */
+typedef struct judging {
     truths *truths;
     judgement *judgement;
     const verification_reader *reader; /* NULL: none */
     int judged;                        /* series that are */
-} verification;
+} judging;
 
 static int doubts(void *context, const sweep *s, int series_index)
 {
-    const verification *v = context;
+    const judging *v = context;
     return judgement_doubts(s, v->truths, series_index);
 }
 
@@ -27,7 +30,7 @@ static const case_type *case_of(const sweep *s, int series_index)
 }
 
 /* Passes on the case of a series if this is its last one. */
-static void hand_over(verification *v, const sweep *s, int series_index)
+static void hand_over(judging *v, const sweep *s, int series_index)
 {
     const case_type *type = case_of(s, series_index);
     if (v->reader == NULL)
@@ -39,7 +42,7 @@ static void hand_over(verification *v, const sweep *s, int series_index)
 }
 
 /* Evaluates the series up to that one, whose points are all complete. */
-static status judge_to(verification *v, const sweep *s, int end, fault *f)
+static status judge_to(judging *v, const sweep *s, int end, fault *f)
 {
     int of = -1;
     for (int i = v->judged; i < end; i++) {
@@ -56,7 +59,7 @@ static status judge_to(verification *v, const sweep *s, int end, fault *f)
  * them. */
 static status whole(void *context, const sweep *s, int series_index, fault *f)
 {
-    verification *v = context;
+    judging *v = context;
     const int here = s->series[series_index].point;
     if (v->judged < series_index && s->series[v->judged].point != here)
         TRY(judge_to(v, s, series_index, f)); /* the rest of that point was not run */
@@ -116,7 +119,7 @@ static status hold_contracts(const sweep *s, int jobs, int time_limit, judgement
     return outcome;
 }
 
-static status begin(verification *v, const sweep *s, int jobs, int time_limit, fault *f)
+static status begin(judging *v, const sweep *s, int jobs, int time_limit, fault *f)
 {
     memset(v->judgement, 0, sizeof *v->judgement);
     TRY(families_reserve(s, 1, v->truths, f));
@@ -125,7 +128,7 @@ static status begin(verification *v, const sweep *s, int jobs, int time_limit, f
 }
 
 /* Evaluates the remaining series: those of a point that an interrupted run did not finish. */
-static status end(verification *v, const sweep *s, int everything, fault *f)
+static status end(judging *v, const sweep *s, int everything, fault *f)
 {
     TRY(judge_to(v, s, s->seriess, f));
     judgement_end(s, v->truths, everything && s->unfinished == 0, v->judgement);
@@ -136,7 +139,7 @@ status verification_run(const sweep_request *request, int everything,
                         const verification_reader *reader, truths *t, sweep *s, judgement *out,
                         fault *f)
 {
-    verification v = {.truths = t, .judgement = out, .reader = reader};
+    judging v = {.truths = t, .judgement = out, .reader = reader};
     const sweep_follower follower = {.context = &v, .doubts = doubts, .whole = whole};
     sweep_request followed = *request;
     followed.follower = &follower;
@@ -147,22 +150,22 @@ status verification_run(const sweep_request *request, int everything,
 
 status verification_cells(const sweep_request *request, truths *t, sweep *s, fault *f)
 {
-    verification v = {.truths = t};
+    judging v = {.truths = t};
     const sweep_follower follower = {.context = &v, .doubts = doubts};
     sweep_request followed = *request;
     followed.follower = &follower;
     return run_sweep(&followed, s, f);
 }
 
-status verification_judge(const sweep_request *request, int everything, truths *t, const sweep *s,
-                          judgement *out, fault *f)
+static status judge_all(const sweep_request *request, int everything, truths *t, const sweep *s,
+                        judgement *out, fault *f)
 {
-    verification v = {.truths = t, .judgement = out};
+    judging v = {.truths = t, .judgement = out};
     TRY(begin(&v, s, request->jobs, request->time_limit, f));
     return end(&v, s, everything, f);
 }
 
-status verification_files_open(verification_files *to, const sweep *s, const judgement *j, fault *f)
+static status files_open(verification_files *to, const sweep *s, const judgement *j, fault *f)
 {
     to->sweep = s;
     to->judged = j;
@@ -175,7 +178,7 @@ status verification_files_open(verification_files *to, const sweep *s, const jud
     return STATUS_OK;
 }
 
-void verification_files_case(void *files, const case_type *type)
+static void files_case(void *files, const case_type *type)
 {
     verification_files *to = files;
     if (to->output != NULL)
@@ -257,8 +260,7 @@ static status write_store(verification_files *to, const environment *e, fault *f
     return outcome != STATUS_OK ? outcome : written;
 }
 
-status verification_files_close(verification_files *to, const overview *o, const environment *e,
-                                fault *f)
+static status files_close(verification_files *to, const overview *o, const environment *e, fault *f)
 {
     status outcome = write_store(to, e, f);
     if (outcome == STATUS_OK)
@@ -268,7 +270,7 @@ status verification_files_close(verification_files *to, const overview *o, const
     return outcome;
 }
 
-void verification_files_drop(verification_files *to)
+static void files_drop(verification_files *to)
 {
     if (!to->open)
         return;
@@ -278,148 +280,130 @@ void verification_files_drop(verification_files *to)
     to->open = 0;
 }
 
-/* Allowed increase of an error: between processors, the kernels of LAPACK change errors of some
- * series near rounding by up to 1.2 %. */
-static const double LARGER = 0.02;
-
-/* Allowed relative change of a limit if no reference value checks it as closely: 1e-5, so that a
- * fault of 1e-3 is detected wherever it changes a limit by a hundredth of itself. */
-static const double MOVED = 1e-5;
-
-/* The run as it will be stored, read back, so that both sides are treated in the same way. */
-static status read_back(const sweep *s, const judgement *j, stored_results *out, fault *f)
+/* Adds other programs to the comparison; reports those that match no point of this run. */
+static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
 {
-    const char *folder = getenv("TMPDIR");
-    char path[PATH_MAX];
-    const environment e = environment_now(1);
-    if (snprintf(path, sizeof path, "%s/beamwork-XXXXXX", folder != NULL ? folder : "/tmp") >=
-        (int)sizeof path)
-        return fault_set(f, STATUS_FAULT, "TMPDIR: the name is too long");
-    const int file = mkstemp(path);
-    if (file < 0)
-        return fault_set(f, STATUS_FAULT, "%.200s: cannot be written; set TMPDIR to a folder",
-                         path);
-    close(file);
-    status outcome = store_write(path, NULL, s, j, &e, f);
-    if (outcome == STATUS_OK)
-        outcome = results_read(path, out, f);
-    unlink(path);
-    return outcome;
-}
-
-/* A line of the comparison, "worse    NAME n=4: WHY". */
-static status add_line(const char *line, judgement *j, fault *f)
-{
-    static const comparison_kind counted[] = {CHANGE_WORSE, CHANGE_GONE};
-    for (size_t i = 0; i < sizeof counted / sizeof counted[0]; i++) {
-        const char *kind = comparison_kind_names[counted[i]];
-        const size_t length = strlen(kind);
-        if (strncmp(line, kind, length) != 0 || line[length] != ' ')
-            continue;
-        const char *name = line + length + strspn(line + length, " "), *why = strstr(name, ": ");
-        regression one;
-        snprintf(one.of, sizeof one.of, "%.*s", why != NULL ? (int)(why - name) : (int)strlen(name),
-                 name);
-        snprintf(one.why, sizeof one.why, "%s%s", counted[i] == CHANGE_GONE ? "gone" : "",
-                 why != NULL ? why + (counted[i] == CHANGE_GONE ? 0 : 2) : "");
-        return memory_append(&j->regression, &j->regressions, &one, sizeof one, "regressions", f);
-    }
+    import_left left;
+    TRY(import_store_read(path, must_pass, s, &left, f));
+    if (left.series == left.all && must_pass)
+        return fault_set(f, STATUS_REFUSED,
+                         "--imported-must-pass: nothing of %.150s was run: it belongs to %s; "
+                         "select that with -k, or give its --scene",
+                         path, left.first);
+    if (left.series == left.all)
+        fprintf(stderr,
+                "beamwork: %s: nothing of it was run; it belongs to %s; select that with -k, or "
+                "give its --scene\n",
+                path, left.first);
+    else if (left.series > 0)
+        fprintf(stderr,
+                "beamwork: %s: %d of %d series are of cases or parameters that were not run, the "
+                "first %s\n",
+                path, left.series, left.all, left.first);
     return STATUS_OK;
 }
 
-static status add_lines(char *text, judgement *j, fault *f)
-{
-    char *rest = NULL;
-    for (char *line = strtok_r(text, "\n", &rest); line != NULL; line = strtok_r(NULL, "\n", &rest))
-        TRY(add_line(line, j, f));
-    return STATUS_OK;
-}
-
-static status compare(const stored_results *former, const char *name, const stored_results *now,
-                      judgement *j, fault *f)
-{
-    const comparison_limits limits = {LARGER, RESULTS_FLOOR, DBL_MAX};
-    char *text = NULL;
-    size_t size = 0;
-    comparison c;
-    FILE *to = open_memstream(&text, &size);
-    if (to == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a comparison");
-    comparison_run(to, former, now, &limits, NULL, &c);
-    status outcome =
-        fclose(to) == 0 ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a comparison");
-    if (outcome == STATUS_OK && c.pairs == 0)
-        outcome = fault_set(f, STATUS_REFUSED,
-                            "--not-worse-than %.120s has no results of this run; give a run of the "
-                            "same formulations and cases",
-                            name);
-    if (outcome == STATUS_OK)
-        outcome = add_lines(text, j, f);
-    free(text);
-    return outcome;
-}
-
-/* The limit of a quantity of a series at its default point in the former run, or NULL. */
-static const result_limit *limit_of_former(const stored_results *former, const sweep *s,
-                                           const verdict *v)
-{
-    const series *one = &s->series[v->series];
-    const sweep_point *p = &s->point[one->point];
-    char name[FAULT_TEXT];
-    snprintf(name, sizeof name, "%s/default/%s", p->type->name, one->formulation.key);
-    for (int i = 0; p->text[0] == '\0' && i < former->seriess; i++)
-        for (int k = 0; strcmp(former->series[i].name, name) == 0 && k < former->series[i].limits;
-             k++)
-            if (strcmp(former->series[i].limit[k].quantity, p->scene.quantity[v->quantity].name) ==
-                0)
-                return &former->series[i].limit[k];
-    return NULL;
-}
-
-/* Does a reference value check the limit as closely? Not if it is an estimate, if the limit has a
- * larger uncertainty, or if a known deviation allows it to differ. */
-static int is_judged_closely(const verdict *v, double slack)
-{
-    return (v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED_AS_PREDICTED ||
-            v->kind == VERDICT_WRONG_AS_PREDICTED) &&
-           strcmp(v->truth->kind, "exact") == 0 &&
-           3 * v->fit.limit_uncertainty + v->truth->uncertainty <= slack;
-}
-
-static status find_moved(const stored_results *former, const sweep *s, judgement *j, fault *f)
+/* Is there a verdict of another program that affects the exit status? */
+static int imported_was_judged(const sweep *s, const judgement *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
-        const verdict *v = &j->verdict[i];
-        const series *one = &s->series[v->series];
-        const scene_quantity *q = &s->point[one->point].scene.quantity[v->quantity];
-        const result_limit *old = isfinite(v->fit.limit) && v->kind != VERDICT_OTHER_MODEL
-                                      ? limit_of_former(former, s, v)
-                                      : NULL;
-        if (old == NULL || one->imported != NULL)
-            continue;
-        const double slack = MOVED * fmax(fabs(old->value), q->near_zero);
-        if (fabs(v->fit.limit - old->value) <= slack || is_judged_closely(v, slack))
-            continue;
-        regression new;
-        snprintf(new.of, sizeof new.of, "%s/default/%s", s->point[one->point].type->name,
-                 one->formulation.key);
-        snprintf(new.why, sizeof new.why,
-                 "limit of %s %.10g -> %.10g %s, which no reference value checks as closely",
-                 q->name, old->value, v->fit.limit, q->unit);
-        TRY(memory_append(&j->regression, &j->regressions, &new, sizeof new, "regressions", f));
+        const imported *from = s->series[j->verdict[i].series].imported;
+        if (from != NULL && from->gates && j->verdict[i].truth != NULL &&
+            j->verdict[i].kind != VERDICT_SKIP && j->verdict[i].kind != VERDICT_OTHER_MODEL)
+            return 1;
     }
-    return STATUS_OK;
+    return 0;
 }
 
-status regressions_find(const stored_results *former, const char *name, const sweep *s,
-                        judgement *j, fault *f)
+static status plan(const void *asked, void *found, fault *f)
 {
-    stored_results now = {.cells = 0};
-    status outcome = read_back(s, j, &now, f);
-    if (outcome == STATUS_OK)
-        outcome = compare(former, name, &now, j, f);
-    if (outcome == STATUS_OK)
-        outcome = find_moved(former, s, j, f);
-    results_free(&now);
-    return outcome;
+    verification *v = found;
+    v->asked = asked;
+    return plan_sweep(&v->asked->cells, &v->truths, &v->sweep, f);
 }
+
+/* Evaluates the series as they arrive. */
+static status run(const void *asked, void *found, fault *f)
+{
+    const verification_request *r = asked;
+    verification *v = found;
+    const verification_reader reader = {v->files, files_case};
+    for (int i = 0; i < r->importeds; i++)
+        TRY(add_imported(r->imported[i], r->imported_must_pass, &v->sweep, f));
+    TRY(files_open(v->files, &v->sweep, &v->judgement, f));
+    return r->taken ? STATUS_OK
+                    : verification_run(&r->cells, r->whole, &reader, &v->truths, &v->sweep,
+                                       &v->judgement, f);
+}
+
+static status judge(const void *asked, void *found, fault *f)
+{
+    const verification_request *r = asked;
+    verification *v = found;
+    if (r->taken)
+        TRY(judge_all(&r->cells, r->whole, &v->truths, &v->sweep, &v->judgement, f));
+    if (r->imported_must_pass && !imported_was_judged(&v->sweep, &v->judgement))
+        return fault_set(f, STATUS_REFUSED,
+                         "--imported-must-pass: no imported value has a verdict: none of its "
+                         "quantities has a reference value and is selected (-k), or its model is "
+                         "not 'beam'");
+    if (r->former != NULL && v->sweep.unfinished == 0)
+        TRY(regressions_find(&v->former, r->former, &v->sweep, &v->judgement, f));
+    return overview_make(&v->sweep, &v->judgement, &v->overview, f);
+}
+
+/* Are all limits shown? Yes with --verbose, or if cases or formulations were selected. */
+static int shows_limits(const verification *v)
+{
+    return v->asked->verbose || v->asked->cells.select != NULL || v->overview.rows == 1;
+}
+
+/* Prints one screen: the matrix, the counts, unexpected results, and the conclusion. */
+static void print(FILE *to, const verification *v)
+{
+    const screen look = screen_of(to);
+    const sweep *s = &v->sweep;
+    const judgement *j = &v->judgement;
+    char sentence[SENTENCE_OF_RUN];
+    if (v->asked->exit_zero)
+        fputs("exploration: the exit status is 0 for any verdicts (--exit-zero)\n\n", to);
+    table_breaches(to, look, j);
+    if (!v->asked->quiet && shows_limits(v)) {
+        table_verdicts(to, s, j);
+        table_run_details(to, s, j);
+        fputc('\n', to);
+    }
+    if (!v->asked->quiet) {
+        table_overview(to, look, &v->overview);
+        fputc('\n', to);
+        table_run(to, s, j, clock_wall_seconds() - v->begun);
+    }
+    table_unexpected(to, look, s, j, &v->truths);
+    sentence_of_run(s, j, sentence, sizeof sentence);
+    table_run_end(to, look, sentence);
+}
+
+/* Completes the files, of which those of evaluated cases have been prepared during the run. */
+static status write_form(FILE *to, const char *format, const void *found, fault *f)
+{
+    const verification *v = found;
+    environment made = environment_now(v->asked->cells.jobs);
+    (void)format;
+    if (v->asked->processor[0] != '\0')
+        snprintf(made.processor, sizeof made.processor, "%s", v->asked->processor);
+    print(to, v);
+    return files_close(v->files, &v->overview, &made, f);
+}
+
+void verification_free(verification *v)
+{
+    files_drop(v->files);
+    overview_free(&v->overview);
+    judgement_free(&v->judgement);
+    results_free(&v->former);
+    sweep_free(&v->sweep);
+    truths_free(&v->truths);
+}
+
+const experiment_type experiment_verify = {
+    .name = "verify", .plan = plan, .run = run, .judge = judge, .write = write_form};

@@ -205,12 +205,18 @@ void paragraph_end_command(paragraph *p, int at, int indent)
 void paragraph_say(FILE *to, int at, int indent, const char *format, ...)
 {
     char *text = NULL;
-    va_list arguments;
+    va_list arguments, again;
     va_start(arguments, format);
+    va_copy(again, arguments);
     if (vasprintf(&text, format, arguments) >= 0) {
         paragraph_write(to, at, indent, text);
         free(text);
+    } else { /* no memory: one long line */
+        fputc(' ', to);
+        vfprintf(to, format, again);
+        fputc('\n', to);
     }
+    va_end(again);
     va_end(arguments);
 }
 

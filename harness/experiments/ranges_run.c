@@ -1,0 +1,254 @@
+#include "harness/experiments/experiments_impl.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* "sweep.worst" for "sweep.h5", and so on. REFUSED: the name is too long. */
+static status beside(const char *path, const char *ending, char out[PATH_MAX], fault *f)
+{
+    const char *leaf = strrchr(path, '/'), *dot = strrchr(path, '.');
+    const int stem = dot != NULL && dot > (leaf != NULL ? leaf + 1 : path) ? (int)(dot - path)
+                                                                           : (int)strlen(path);
+    return snprintf(out, PATH_MAX, "%.*s%s", stem, path, ending) < PATH_MAX
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED, "%.200s: the name is too long", path);
+}
+
+/* Returns 1 for names of files that worst_write writes. */
+static int is_ours(const char *name)
+{
+    int end = 0;
+    long index;
+    return strcmp(name, ".") == 0 || strcmp(name, "..") == 0 ||
+           (sscanf(name, "point_%ld.yaml%n", &index, &end) == 1 && end > 0 && name[end] == '\0');
+}
+
+/* Does the folder contain only files of an earlier sweep? 0: there are others. */
+static int is_former(const char *folder)
+{
+    DIR *at = opendir(folder);
+    int ours = 1;
+    for (const struct dirent *e; at != NULL && (e = readdir(at)) != NULL;)
+        ours = ours && is_ours(e->d_name);
+    if (at != NULL)
+        closedir(at);
+    return ours;
+}
+
+static void remove_former(const char *folder)
+{
+    DIR *at = opendir(folder);
+    char path[PATH_MAX];
+    for (const struct dirent *e; at != NULL && (e = readdir(at)) != NULL;)
+        if (is_ours(e->d_name) && e->d_name[0] != '.' &&
+            snprintf(path, sizeof path, "%s/%s", folder, e->d_name) < (int)sizeof path)
+            unlink(path);
+    if (at != NULL)
+        closedir(at);
+}
+
+static status check_folder(const char *folder, fault *f)
+{
+    file_place where;
+    if (folder[0] == '\0' || (access(folder, F_OK) == 0 && is_former(folder)))
+        return STATUS_OK;
+    return output_folder_try(folder, &where, f);
+}
+
+static status write_scenes(const char *folder, tally *t, fault *f)
+{
+    int worsts = 0;
+    for (int i = 0; i < t->of->formulations; i++)
+        worsts += t->worsts[i];
+    if (folder[0] == '\0')
+        return STATUS_OK;
+    if (is_former(folder))
+        remove_former(folder);
+    if (worsts > 0)
+        return worst_write(folder, t, f);
+    rmdir(folder);
+    return STATUS_OK;
+}
+
+/* Determines the output of the results. */
+static status place_output(const range_sweep_request *r, range_sweep *s, fault *f)
+{
+    if (r->output == NULL)
+        return STATUS_OK;
+    s->output = r->output;
+    if (r->partial) {
+        TRY(output_partial(r->output, s->partial, f));
+        s->output = s->partial;
+    }
+    TRY(beside(s->output, ".worst", s->worst, f));
+    return check_folder(s->worst, f);
+}
+
+/* Locks the folder until this process ends: of two runs with the same output, one is refused. */
+static status hold_batches(const char *folder, fault *f)
+{
+    struct stat there = {.st_nlink = 0};
+    while (there.st_nlink == 0) { /* the previous owner has removed the folder meanwhile */
+        const int made = mkdir(folder, 0777),
+                  held = made == 0 || errno == EEXIST
+                             ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
+                             : -1;
+        if (held < 0)
+            return fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s)", folder,
+                             strerror(errno));
+        if (flock(held, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            close(held);
+            return fault_set(f, STATUS_REFUSED,
+                             "%.200s: another 'beamwork sweep' is using it; wait until it ends, or "
+                             "give -o another name",
+                             folder);
+        }
+        if (fstat(held, &there) != 0)
+            there.st_nlink = 1;
+    }
+    return STATUS_OK;
+}
+
+/* Folder for batches until all are complete: next to the output, or a temporary one. */
+static status place_batches(const char *path, char folder[PATH_MAX], fault *f)
+{
+    if (path != NULL) {
+        TRY(beside(path, ".batches", folder, f));
+        return hold_batches(folder, f);
+    }
+    const char *temporary = getenv("TMPDIR");
+    snprintf(folder, PATH_MAX, "%s/beamwork-sweep-XXXXXX", temporary != NULL ? temporary : "/tmp");
+    return mkdtemp(folder) != NULL ? STATUS_OK
+                                   : fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s)",
+                                               folder, strerror(errno));
+}
+
+static status plan(const void *asked, void *found, fault *f)
+{
+    range_sweep *s = found;
+    s->asked = asked;
+    TRY(ranges_make(&s->asked->of, &s->ranges, f));
+    TRY(ranges_work_make(&s->ranges, &s->work, f));
+    s->work.csv = s->asked->csv;
+    s->all = ranges_work_of(&s->work);
+    return place_output(s->asked, s, f);
+}
+
+static status run(const void *asked, void *found, fault *f)
+{
+    const range_sweep_request *r = asked;
+    range_sweep *s = found;
+    shard_outcome done = {0};
+    if (r->take != NULL)
+        return STATUS_OK;
+    TRY(place_batches(r->output, s->batches, f));
+    const shard_request request = {
+        .count = 1, .into = s->batches, .jobs = r->jobs, .progress = r->progress, .tell = stderr};
+    return shard_run(&s->all, &request, &done, f);
+}
+
+/* From now on all batches that the work reads are added to the summary and the file, one at a time
+ * in memory. */
+static status begin(range_sweep *s, fault *f)
+{
+    TRY(tally_alloc(&s->ranges, &s->tally, f));
+    s->work.tally = &s->tally;
+    s->work.content = digest_begin();
+    if (s->asked->output == NULL)
+        return STATUS_OK;
+    TRY(ranges_file_open(s->output, &s->ranges, s->all.plan, &s->file, f));
+    s->work.file = &s->file;
+    return STATUS_OK;
+}
+
+/* Finishes after the last batch: scenes of the worst points, and the file; if `taken` is not OK, it
+ * is removed. */
+static status end(range_sweep *s, status taken, fault *f)
+{
+    char content[DIGEST_TEXT];
+    digest_text(&s->work.content, content);
+    if (taken == STATUS_OK)
+        taken = write_scenes(s->worst, &s->tally, f);
+    if (s->work.file != NULL)
+        taken = ranges_file_close(s->work.file, &s->tally, content, taken, f);
+    s->work.file = NULL;
+    s->work.tally = NULL;
+    s->evaluated = taken == STATUS_OK;
+    return taken;
+}
+
+/* Reads the batches of the stock; NULL: those that the caller has. */
+static status take_all(range_sweep *s, const stock *there, fault *f)
+{
+    const range_sweep_request *r = s->asked;
+    status outcome = begin(s, f);
+    if (outcome == STATUS_OK)
+        outcome = there != NULL ? merge_take(&s->all, there, f) : r->take(r->context, &s->all, f);
+    return end(s, outcome, f);
+}
+
+/* Removes the batches from the folder, and the folder if it is then empty. */
+static status remove_batches(const stock *there, const char *folder, fault *f)
+{
+    char path[PATH_MAX];
+    for (int i = 0; i < there->batches; i++) {
+        if (there->where[i] < 0)
+            continue;
+        TRY(stock_path(there, i, path, f));
+        unlink(path);
+    }
+    rmdir(folder);
+    return STATUS_OK;
+}
+
+/* Reads the batches that were computed here, unless some are missing; those beside an output are
+ * then kept. */
+static status collect(range_sweep *s, fault *f)
+{
+    const char *const folder[] = {s->batches};
+    stock there = {.batches = 0};
+    status outcome = stock_take(&s->all, folder, 1, NULL, stderr, &there, f);
+    s->lost = there.batches - there.there;
+    if (outcome == STATUS_OK && s->lost == 0)
+        outcome = take_all(s, &there, f);
+    if (outcome == STATUS_OK && (s->lost == 0 || s->asked->output == NULL))
+        outcome = remove_batches(&there, s->batches, f);
+    stock_free(&there);
+    return outcome;
+}
+
+static status judge(const void *asked, void *found, fault *f)
+{
+    const range_sweep_request *r = asked;
+    range_sweep *s = found;
+    if (r->take == NULL)
+        return collect(s, f);
+    const status outcome = take_all(s, NULL, f);
+    return outcome == STATUS_NO_VALUE ? STATUS_OK : outcome;
+}
+
+/* Values and the file were written while batches were read. */
+static status write_form(FILE *to, const char *format, const void *found, fault *f)
+{
+    const range_sweep *s = found;
+    if (s->evaluated && !s->asked->quiet && strcmp(format, "text") == 0)
+        ranges_table(to, &s->tally, s->asked->verbose, s->worst, f);
+    return STATUS_OK;
+}
+
+void range_sweep_free(range_sweep *s)
+{
+    tally_free(&s->tally);
+    ranges_work_free(&s->work);
+    ranges_free(&s->ranges);
+    truths_free(&s->truths);
+}
+
+const experiment_type experiment_sweep = {
+    .name = KEPT_SWEEP, .plan = plan, .run = run, .judge = judge, .write = write_form};
