@@ -1,5 +1,5 @@
-/* Loads along one element in linear theory: as exact as forces and moments at its ends are, with
- * the stiffness that it has under these (Przemieniecki, Theory of Matrix Structural Analysis, 1968,
+/* Loads along one element in linear theory: as exact as forces and moments at its ends, with the
+ * stiffness of the element under these (Przemieniecki, Theory of Matrix Structural Analysis, 1968,
  * sec. 5 and 10: Timoshenko's beam). */
 #include "harness/experiments/experiments_impl.h"
 
@@ -20,7 +20,7 @@ typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
 static const char *const support_name[SUPPORTS] = {
     "held at its first node", "clamped at both nodes",
     "clamped at one node and propped at the other", "hinged at both nodes"};
-/* Components of its two nodes that are fixed, a bit each. */
+/* Fixed components of the two nodes, one bit each. */
 static const unsigned held[SUPPORTS][2] = {{63, 0}, {63, 63}, {63, 15}, {15, 7}};
 
 /* Displacement and rotation in a plane, and the sign of the rotation. */
@@ -28,12 +28,12 @@ static const struct {
     int shift, turn, sign;
 } planes[2] = {{1, 5, 1}, {2, 4, -1}};
 
-/* Flexibility at the end: 1/EA, 1/GIt, and in each plane 1/EI and that in shear. */
+/* Flexibility at the end: 1/EA, 1/GIt, and in each plane 1/EI and the flexibility in shear. */
 typedef struct softness {
     double axial, twist, bend[2], shear[2];
 } softness;
 
-/* Displacements of both nodes, or reactions where they are fixed. */
+/* Displacements of both nodes; at fixed components, reactions. */
 typedef struct ends {
     double of[2][SIX];
 } ends;
@@ -44,7 +44,7 @@ static void make_scene(support of, scene *s)
     section_spec spec = section_spec_rectangle(70e3, 27e3, 0.3, 0.2);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* different values, so that swapped ones are detected */
+    spec.shear_factor[1] = 0.4; /* different values, so that swapped factors are detected */
     scene_init(s, "along");
     const int profile = scene_add_section(s, &spec), from = scene_add_node(s, 0, 0, 0),
               to = scene_add_node(s, L, 0, 0);
@@ -63,7 +63,7 @@ static void ask(scene *s, int analysis, int number, scene_extract what)
     scene_add_quantity(s, name, "1", analysis, what);
 }
 
-/* Values of its quantities. */
+/* Values of the quantities of the scene. */
 static status solve(const formulation *chosen, const scene *s, double value[], fault *f)
 {
     const model_request what = {s, chosen->type, chosen->option, 1, 0, 0};
@@ -83,7 +83,7 @@ static status solve(const formulation *chosen, const scene *s, double value[], f
     return outcome;
 }
 
-/* Like the displacements between nodes (elements/field). */
+/* Shear flexibility of the displacements between nodes (elements/field). */
 static double shear_of(const formulation *chosen, const section *c, int plane)
 {
     const int rigid = !(chosen->type->offers & FEATURE_SHEAR) ||
@@ -91,8 +91,8 @@ static double shear_of(const formulation *chosen, const section *c, int plane)
     return rigid ? 0 : c->F[4 * plane] / c->shear_modulus;
 }
 
-/* REFUSED: for one element, forces and moments at its end do not give the solution of the exact
- * beam; no rule for loads along it can correct that. */
+/* REFUSED: for one element, forces and moments at the end do not give the solution of the exact
+ * beam; no rule for loads along the element can correct that. */
 static status measure(const formulation *chosen, softness *out, fault *f)
 {
     double C[SIX * SIX];
@@ -124,7 +124,7 @@ static status measure(const formulation *chosen, softness *out, fault *f)
     return STATUS_OK;
 }
 
-/* Stretch or twist, component c, under a load along it. */
+/* Stretch or twist (component c) under a load along the beam. */
 static void exact_along(support of, double soft, double load, int c, ends *out)
 {
     const int both = held[of][END] >> c & 1;
@@ -162,7 +162,7 @@ static void exact_across(support of, const softness *soft, int k, double along, 
     end[z] = sign * (of == CLAMPED ? M : t + vt * R + root);
 }
 
-/* q: force and moment per length. */
+/* Exact values; q: force and moment per length. */
 static ends exact_ends(support of, const softness *soft, const double q[SIX])
 {
     ends out;
@@ -190,7 +190,7 @@ static status found_ends(const formulation *chosen, support of, const double q[S
     return outcome;
 }
 
-/* Returns the value of a cantilever, to scale with. */
+/* Returns the corresponding value of a cantilever, as a scale. */
 static double size_of(const softness *soft, int component, int reaction)
 {
     const ends of =
@@ -232,10 +232,10 @@ typedef struct taken {
     const specimen *s;
     const node_state *x;
     double q[3 * ELEMENT_ALONG_POINTS];
-    double *inner; /* of x, from which neighbouring states are found */
+    double *inner; /* inner unknowns of x, from which neighbouring states are found */
 } taken;
 
-/* Forces with converged internal unknowns, and K if it is requested. */
+/* Computes the forces with converged inner unknowns, and K if requested. */
 static status forces_under(const taken *of, const node_state x[], double F[X], double K[X * X])
 {
     const specimen *s = of->s;

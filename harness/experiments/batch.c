@@ -81,8 +81,7 @@ static int assemble(const batch_label *b, const void *bytes, size_t size, char *
     return fclose(to) != 0 || bad ? -1 : 0;
 }
 
-/* Makes written names survive a power cut; a folder that cannot be synchronised does not need this.
- */
+/* Makes written names survive a power failure; a folder that cannot be synchronised is accepted. */
 static void keep_names(const char *folder)
 {
     const int there = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -92,7 +91,8 @@ static void keep_names(const char *folder)
     }
 }
 
-/* The lock shows that its writer runs; it ends with the process in any case. */
+/* Writes under a lock, which shows that the writer is running; the lock ends with the process in
+ * any case. */
 static status write_locked(const char *path, const char *bytes, size_t length, fault *f)
 {
     output file;
@@ -126,8 +126,8 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     return outcome;
 }
 
-/* 1: its writer has ended, so that it is not locked. An empty one may not be locked yet, unless its
- * writer is known to have ended or it is old. */
+/* Has the writer of a temporary file ended, so that the file is not locked? An empty file may not
+ * be locked yet, unless its writer is known to have ended or the file is old. */
 static int is_orphan(const char *path, int gone_for_sure)
 {
     enum { OLD = 60 }; /* [s] */
@@ -157,7 +157,7 @@ void batch_clean(const char *folder, const char *name, int gone)
         closedir(d);
 }
 
-/* Header of a batch file. */
+/* Reports that the file does not have the header of a batch. */
 
 static status no_batch(const char *path, fault *f)
 {
@@ -203,7 +203,8 @@ static int get_label(const json_t *from, batch_label *b)
     return b->batch >= 0 && b->batch < b->batches && b->shard >= 0 ? 0 : -1;
 }
 
-/* The stream is after the line. *size: of the bytes that follow. */
+/* Reads the line with the label; the stream is then after it. *size: number of bytes that
+ * follow. */
 static status read_line(FILE *from, const char *path, batch_label *out, long *size, fault *f)
 {
     char *line = NULL;
@@ -237,7 +238,7 @@ status batch_read_label(const char *path, batch_label *out, fault *f)
     return outcome;
 }
 
-/* The bytes are all that is between the two lines. */
+/* Checks that the results are all that is between the two lines. */
 static status check_size(FILE *from, const char *path, long size, fault *f)
 {
     const long begin = ftell(from);

@@ -10,7 +10,7 @@
 #include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
 
-/* floor: least processor time [s] of a round for one cell. If there are several points, only the
+/* floor: minimum processor time [s] of a round for one cell. If there are several points, only the
  * defaults are measured completely: with the parts of an iteration and, on the middle mesh of each
  * formulation, the run without elimination. At other points rounds are short, and long cells keep
  * the time of their single run. Crashed cells are not run again. dense: the published algorithm is
@@ -30,7 +30,7 @@ static int all_formulations(formulation out[MOST])
     return count;
 }
 
-/* Times rank: formulations that are another model at the point do not run. */
+/* Excludes formulations that solve another model at the point, since times serve for a ranking. */
 static void leave_out_others(sweep *s, int point)
 {
     for (int i = 0; i < s->seriess; i++) {
@@ -40,7 +40,8 @@ static void leave_out_others(sweep *s, int point)
     }
 }
 
-/* At the parameters given, with the formulations and meshes given (or all, and the case's). */
+/* Plans a case at the given parameters, with the given formulations and meshes (default: all
+ * formulations, meshes of the case). */
 static status plan_case(const bench_request *r, const case_type *type, sweep *s, fault *f)
 {
     double parameter[CASE_MAX_PARAMETERS];
@@ -87,7 +88,7 @@ static status run(const void *asked, void *found, fault *f)
     return run_sweep(&r->cells, &b->sweep, f);
 }
 
-/* Times are measured at points with verdicts. */
+/* Selects the points with verdicts; times are measured there. */
 static status judge(const void *asked, void *found, fault *f)
 {
     const bench_request *r = asked;
@@ -106,7 +107,7 @@ static experiment_cells cells(const void *found)
     return (experiment_cells){&b->sweep, &b->judgement, &b->made};
 }
 
-/* Errors against agreements are included. */
+/* Writes the table, including errors against agreements. */
 static status write_table(FILE *to, const bench *b, fault *f)
 {
     judgement shown = {.verdicts = 0};
@@ -158,11 +159,11 @@ void rounds_run(const cell_request *request, double floor, rounds_reading *out)
         out->round[out->rounds++] = least;
 }
 
-/* [s] of a whole run; longer ones are counted from one iteration */
+/* [s] of a whole run; a longer time is extrapolated from one iteration */
 static const double longest_dense = 1;
 enum { MOST_UNKNOWNS = 3000 }; /* 72 MB; a few seconds per iteration */
 
-/* Coordinates, strains and stresses. */
+/* Number of coordinates, strains and stresses. */
 static int unknowns_of(const cell_result *cell)
 {
     return cell->size.free + 2 * cell->size.strains * cell->size.elements;
@@ -178,7 +179,7 @@ static void sample(const cell_request *dense, dense_reference *out)
     if (cell_run(&one, &cell, &f) == STATUS_OK)
         for (int k = 0; k < PHASE_REST; k++)
             seconds += cell.solve.phase[k];
-    if (seconds > 0) { /* continued paths have no dense form: nothing was sampled */
+    if (seconds > 0) { /* continued paths have no dense form, so that nothing was sampled */
         out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
         out->unknowns = unknowns_of(&cell);
     }
@@ -192,7 +193,7 @@ void dense_reference_round(const cell_request *own, const cell_result *cell, dou
     cell_request dense = *own;
     dense.solve.newton = NEWTON_DENSE;
     if (iterations == 0 || unknowns_of(cell) > MOST_UNKNOWNS)
-        return; /* a linear problem, or one too large */
+        return; /* a linear problem, or one that is too large */
     if (out->unknowns == 0 || out->iteration < longest_dense)
         sample(&dense, out);
     if (out->unknowns > 0 && out->iteration * (double)iterations <= longest_dense)
@@ -217,7 +218,7 @@ static int can_run(const sweep *s, const series *one, int mesh)
             r->seconds_setup + r->seconds_solve < longest_elsewhere);
 }
 
-/* The middle mesh that has a solution, or -1. */
+/* Index of the middle one of the meshes that have a solution, or -1. */
 static int mesh_kept_whole(const sweep *s, const series *one)
 {
     if (!at_defaults(s, one))
@@ -228,7 +229,7 @@ static int mesh_kept_whole(const sweep *s, const series *one)
     return one->meshes > 0 && one->cell[mesh].solve.status == STATUS_OK ? mesh : -1;
 }
 
-/* Runs both in turn: the difference of their times is the saving by elimination. */
+/* Runs both variants in turn; the difference of their times is the time saved by elimination. */
 static void round_kept_whole(const cell_request *as_is, double floor, cell_timing *out)
 {
     cell_request whole = *as_is;
@@ -252,8 +253,8 @@ static double sum_of(const double part[PHASES])
     return sum;
 }
 
-/* One run with readings between the parts of the iterations; the fastest of all rounds stays. Long
- * cells have one in the last round. */
+/* Makes one run in which the clock is read between the parts of the iterations; keeps the fastest
+ * of all rounds. Long cells have only one such run, in the last round. */
 static void read_phases(const cell_request *as_is, cell_timing *out)
 {
     const double longest = 0.3; /* [s] */
@@ -315,7 +316,8 @@ void rounds_pin(void)
     cpu_set_t only;
     CPU_ZERO(&only);
     CPU_SET(here >= 0 ? here : 0, &only);
-    sched_setaffinity(0, sizeof only, &only); /* without it the readings only have more noise */
+    sched_setaffinity(0, sizeof only, &only); /* without this call, the readings only have more
+                                                 noise */
 }
 
 void rounds_single_thread(char **arguments)
@@ -329,7 +331,7 @@ void rounds_single_thread(char **arguments)
         setenv(threads[i], "1", 1);
     }
     if (!single)
-        /* returns only if there is no /proc; then libraries decide */
+        /* returns only if there is no /proc; then libraries choose the number of threads */
         execv("/proc/self/exe", arguments);
 }
 
@@ -355,8 +357,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The median of n draws lies between the k-th smallest and the k-th largest but with probability 2
- * P(Binomial(n, 1/2) < k). */
+/* The median of n draws lies between the k-th smallest and the k-th largest, except with
+ * probability 2 P(Binomial(n, 1/2) < k). */
 static int rank_of_interval(int pairs)
 {
     int k = 0;
@@ -475,6 +477,6 @@ status profiles_section(profiles_form form, double unit, section *out, fault *f)
         spec.density = 7850 * unit * unit * unit;
     TRY(section_compute(&spec, out, f));
     if (form == PROFILES_UNSYMMETRIC)
-        out->Iw = out->A * pow(0.2 / unit, 4); /* as large as the value with which it is compared */
+        out->Iw = out->A * pow(0.2 / unit, 4); /* as large as the value that it is compared with */
     return STATUS_OK;
 }

@@ -1,5 +1,5 @@
-/* Guard words around every output: each is filled completely, and no memory outside it is changed.
- */
+/* Guard words around every output: each output is filled completely, and no memory outside it is
+ * changed. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -42,7 +42,7 @@ static int untouched(const double *word)
     return bits == mark;
 }
 
-/* Checks it and frees it. must: 1: it must be filled completely. */
+/* Checks an output and frees it. must 1: the output must be filled completely. */
 static void look(guarded *g, int must, const specimen *s, claims *c)
 {
     claim *beside = claims_open(c, "no memory outside an output is changed", 0),
@@ -175,7 +175,7 @@ static void forces(const specimen *s, const node_state x[], claims *c)
     look(&stiffness, filled && out.K != NULL, s, c);
 }
 
-/* prepare writes into its data_size bytes only. */
+/* Checks that prepare writes only into its data_size bytes. */
 static void data(const specimen *s, claims *c)
 {
     guarded bytes;
@@ -215,13 +215,13 @@ void checks_bounds(const formulation *chosen, claims *out)
     specimens_each(chosen, out, check);
 }
 
-/* Elements keep no state: the results of a call depend on its arguments only. */
+/* Elements keep no state: the results of a call depend only on its arguments. */
 
 enum { STATELESS_M = SPECIMEN_STRAINS, STATELESS_N = SPECIMEN_COORDINATES };
 
 static const double longer = 1.7 * 0.2385; /* [m] */
 
-/* Everything that an element specifies of one state. */
+/* All results of an element for one state. */
 typedef struct call_account {
     status stress, inertia;
     double e[STATELESS_M], J[STATELESS_M * STATELESS_N], H[STATELESS_N * STATELESS_N], energy,
@@ -288,7 +288,7 @@ static void same(const call_account *a, const call_account *b, const char *after
 }
 
 /* Prepares an element of another length, in its own memory or in place of the first, which is
- * prepared again. Both must return what they return without previous calls. */
+ * prepared again. Both elements must give the same results as without previous calls. */
 static void other_element(const specimen *s, const call_account *before, const node_state x[],
                           const call_account *first, claim *one)
 {
@@ -306,7 +306,7 @@ static void other_element(const specimen *s, const call_account *before, const n
     specimen_free(&other);
 }
 
-/* 0: it cannot be prepared again, which is reported. */
+/* Prepares the element again in its own memory. Returns 0 if that fails, which is reported. */
 static int in_its_place(const specimen *s, const call_account *before, const node_state x[],
                         claim *one)
 {
@@ -336,7 +336,7 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
     return again;
 }
 
-/* Each output alone equals the output together with the others. */
+/* Checks that each output requested alone equals the output requested together with the others. */
 static void alone(const specimen *s, const call_account *before, const node_state x[], claim *one)
 {
     call_account a = *before;
@@ -358,7 +358,7 @@ static void alone(const specimen *s, const call_account *before, const node_stat
     same(before, &a, "a call for that output alone", s, one);
 }
 
-/* The same state in two ways, with internal unknowns: directly from rest, and through another
+/* Finds the same state in two ways, with inner unknowns: directly from rest, and through another
  * state. */
 static void two_ways(const specimen *s, const call_account *before, const node_state x[],
                      claim *one)
@@ -389,8 +389,8 @@ static void make_longer(const specimen *s, const node_state x[], call_account *o
     specimen_free(&other);
 }
 
-/* Results of the longer element on the first call of all: in a new process, without previous calls.
- */
+/* Gives the results of the longer element in the first call of all: in a new process, without
+ * previous calls. */
 static void tell_first(const specimen *s, const node_state x[], call_account *out)
 {
     const pid_t parent = getpid();

@@ -101,7 +101,7 @@ static status start(tester *t, certificate *of, int part, int time_limit, fault 
     return STATUS_OK;
 }
 
-/* Records that it has ended; if it did not finish, a requirement is violated. */
+/* Records that a part has ended; if it did not finish, a requirement is violated. */
 static void bury(tester *t, int time_limit)
 {
     char words[100];
@@ -109,7 +109,7 @@ static void bury(tester *t, int time_limit)
     close(t->end);
     t->end = -1;
     const int how = child_reap(t->process);
-    c->count = c->count < 0 || c->count >= CLAIMS_MOST ? 0 : c->count; /* it may be spoilt */
+    c->count = c->count < 0 || c->count >= CLAIMS_MOST ? 0 : c->count; /* may be corrupted */
     c->doing[sizeof c->doing - 1] = '\0';
     if (c->complete && WIFEXITED(how) && WEXITSTATUS(how) == 0)
         return;
@@ -127,7 +127,7 @@ static void stop_late(tester *t, int time_limit)
     kill(t->process, SIGKILL);
 }
 
-/* After one that did not return in time, the others are not waited for. */
+/* Skips the remaining parts after a part that exceeded the time limit. */
 static void pass_over(certificate *of, int part)
 {
     char why[CLAIM_SENTENCE];
@@ -135,7 +135,7 @@ static void pass_over(certificate *of, int part)
     claims_not_made(&of->part[part].claims, certificate_part_name(part), why);
 }
 
-/* Waits until one ends, and collects all that have ended. Returns their number. */
+/* Waits until a process ends, and collects all that have ended. Returns their number. */
 static int attend(tester all[], int jobs, int time_limit)
 {
     struct pollfd ends[MOST_CHILDREN];
@@ -208,7 +208,7 @@ status certificate_find(const certificate_request *r, certificate **out, fault *
             kill(team[i].process, SIGKILL);
             bury(&team[i], 0);
         }
-    for (int i = 0; i < r->count; i++) /* whoever spoilt it */
+    for (int i = 0; i < r->count; i++) /* restored, since a part may have corrupted it */
         all[i].chosen = r->chosen[i];
     return outcome;
 }

@@ -66,8 +66,8 @@ static status energy_of(const specimen *s, const node_state x[], double *energy)
     return specimen_settled(s, e, inner, &(stress_output){.energy = energy});
 }
 
-/* The reversed element: rotated by pi about y, with unchanged warping amplitude. A curved one would
- * be a different element. */
+/* Checks the reversed element: rotated by pi about y, with unchanged warping amplitude. A reversed
+ * curved element would be a different element. */
 static void node_order(const specimen *s, double size, claim *one)
 {
     static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
@@ -99,7 +99,7 @@ static void has_energy(const specimen *s, claim *one)
         s->words);
 }
 
-/* The same element in m, mm and um: its energy in joules. */
+/* Checks the same element in m, mm and um: its energy in joules is equal. */
 static void units(const specimen *s, claim *one)
 {
     static const double unit[] = {1, 1e-3, 1e-6};
@@ -142,7 +142,7 @@ static void check(const specimen *s, claims *c)
         if (s->type.offers & FEATURE_LARGE)
             node_order(s, 0.05,
                        claims_open(c, "exchanging the nodes does not change the energy", 1e-9));
-        else /* terms of higher order, which are optional, are of the size of the strains */
+        else /* optional terms of higher order are of the size of the strains */
             node_order(s, 1e-5,
                        claims_open(c, "exchanging the nodes does not change the energy", 5e-5));
     }
@@ -160,8 +160,8 @@ void checks_motion(const formulation *chosen, claims *out)
                         "declares LIMIT_ORDER_DEPENDENT");
 }
 
-/* States with NaN or Inf, as in a diverging iteration: they are reported by a status or by NaN
- * values, and never ignored. */
+/* States with NaN or Inf, as in a diverging iteration, are reported by a status or by NaN values
+ * and never ignored. */
 
 enum { UNSOUND_M = SPECIMEN_STRAINS };
 
@@ -173,7 +173,7 @@ static int all_finite(int n, const double a[])
     return 1;
 }
 
-/* 1: nothing shows that the state is invalid. */
+/* Returns 1 when nothing shows that the state is invalid. */
 static int swallowed(const specimen *s, const node_state x[])
 {
     double e[UNSOUND_M], sigma[UNSOUND_M], inner[SPECIMEN_INNER], energy = 0;
@@ -204,8 +204,8 @@ static void spoil(const specimen *s, double by, claim *one)
         }
 }
 
-/* Strains that are NaN or Inf must not have a finite stress if there is a stiffness against them.
- */
+/* Checks that strains that are NaN or Inf do not have a finite stress if there is a stiffness
+ * against them. */
 static void spoil_strains(const specimen *s, double by, claim *one)
 {
     const double none[UNSOUND_M] = {0};
@@ -229,7 +229,7 @@ static void spoil_strains(const specimen *s, double by, claim *one)
     }
 }
 
-/* All calls return for any state, including states far outside the valid range. */
+/* Checks that all calls return for any state, including states far outside the valid range. */
 static void far_away(const specimen *s, double size, claim *one)
 {
     double e[UNSOUND_M], J[UNSOUND_M * SPECIMEN_COORDINATES], sigma[UNSOUND_M],

@@ -1,4 +1,4 @@
-/* J and H against differences of sixth order, entry by entry. */
+/* Compares J and H with differences of sixth order, entry by entry. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ static double largest(int n, const double a[])
     return out;
 }
 
-/* One entry: its value and that of differences, both times the unit of the coordinate. */
+/* Compares one entry with the value from differences, both times the unit of the coordinate. */
 static void compare_J(const specimen *s, int strain, int c, double given, double found, double size,
                       claim *one)
 {
@@ -49,7 +49,7 @@ static void compare_J(const specimen *s, int strain, int c, double given, double
                    s->words);
 }
 
-/* Strain against strain: [strains x n] times units. */
+/* Compares strain by strain: [strains x n] times units. */
 static void check_J(const specimen *s, const node_state x[], claim *one)
 {
     const specimen_place at = {s, x};
@@ -70,8 +70,8 @@ static void check_J(const specimen *s, const node_state x[], claim *one)
     }
 }
 
-/* Against the symmetric part of the change of J: that of the exponential chart. change[c]: of J
- * along coordinate c, per unit of it. */
+/* Compares H with the symmetric part of the change of J, which is that of the exponential chart.
+ * change[c]: change of J along coordinate c, per unit of the coordinate. */
 static void compare_H(const specimen *s, int strain, const double H[], const double change[][M * N],
                       double size, claim *one)
 {
@@ -153,22 +153,22 @@ void checks_derivatives(const formulation *chosen, claims *out)
         claims_not_made(out, claim_H, "not checked before J is correct");
 }
 
-/* Many elements at once give the same results as each alone: two kinds, mixed, each in a different
- * state. */
+/* Many elements evaluated at once give the same results as each element alone: elements of two
+ * kinds, mixed, each in a different state. */
 
 enum { MANY_M = SPECIMEN_STRAINS, MANY_N = SPECIMEN_COORDINATES, MANY = 5 };
 
 static const double longer = 1.7 * 0.2385; /* [m] */
 static const char *const claim_name = "many at once give the same results as one by one";
 
-/* Answers of one element; values that would be differences are not requested. */
+/* Results of one element; values that would be computed by differences are not requested. */
 typedef struct many_answers {
     status outcome;
     double e[MANY_M], J[MANY_M * MANY_N], H[MANY_N * MANY_N], energy, sigma[MANY_M],
         C[MANY_M * MANY_M];
 } many_answers;
 
-/* Elements of two kinds, one by one and at once. */
+/* Elements of two kinds, evaluated one by one and at once. */
 typedef struct many_batch {
     const specimen *of[MANY];
     const element_data *data[MANY];
@@ -215,7 +215,7 @@ static stress_output many_stress_of(const many_batch *b, many_answers *a)
     return out;
 }
 
-/* The difference of two numbers of an element, relative to their size. */
+/* Records the difference of two numbers of an element, relative to their size. */
 static void differ(const many_batch *b, int k, const char *what, const char *entry, double alone,
                    double together, double size, claim *one)
 {

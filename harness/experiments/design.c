@@ -94,7 +94,7 @@ static void end(design_mark *m)
     *m = (design_mark){NULL, NULL};
 }
 
-/* A mark at every stride. */
+/* Stores a mark at every stride. */
 static status set_marks(design *d, fault *f)
 {
     const long least = (d->points + DESIGN_MARKS - 1) / DESIGN_MARKS;
@@ -302,11 +302,11 @@ static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
                          a->from, a->to);
     TRY(check(type, a, a->from, f));
     TRY(check(type, a, a->to, f));
-    /* for example of a parameter that may only be 0 or 1 */
+    /* at an inner value, for example for a parameter that may only be 0 or 1 */
     return check(type, a, a->count > 2 || a->count == 0 ? axis_at(a, 0.5) : a->to, f);
 }
 
-/* After the name: "A..B/N:log". */
+/* Reads the part after the name: "A..B/N:log". */
 static status read_range(const case_type *type, const char *text, const char *dots, sweep_axis *a,
                          fault *f)
 {

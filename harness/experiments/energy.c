@@ -1,5 +1,5 @@
-/* Stress, stiffness and geometric stiffness against differences of the energy, of the stress and of
- * the stiffness. */
+/* Compares stress, stiffness and geometric stiffness with differences of the energy, of the stress
+ * and of the stiffness. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ enum { ENERGY_M = SPECIMEN_STRAINS };
 
 static const double moved_by = 0.02; /* [lengths] of the strains that are examined */
 
-/* Where differences are taken: a unit of a strain is a twentieth of the length. */
+/* Point at which differences are taken; the unit of a strain is a twentieth of the length. */
 typedef struct energy_place {
     const specimen *s;
     const double *e, *inner;
@@ -44,7 +44,7 @@ static int stress_at(const void *context, int i, double si, int j, double sj, do
     return (int)at_place(context, i, si, j, sj, &(stress_output){.sigma = values});
 }
 
-/* Size of C[i][j]: that of an entry between two strains of these stiffnesses. */
+/* Size of C[i][j]: that of an entry between two strains with these stiffnesses. */
 static double size_of(const specimen *s, const double C[], int i, int j)
 {
     const int m = s->strains;
@@ -99,8 +99,8 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
     }
 }
 
-/* Without strains there is no energy and no stress; straightened curved elements are not examined.
- */
+/* Checks that without strains there is no energy and no stress; straightened curved elements are
+ * not examined. */
 static void check_rest(const specimen *s, claims *c)
 {
     const double none[ENERGY_M] = {0};
@@ -121,7 +121,7 @@ static void check_rest(const specimen *s, claims *c)
                        sigma[i], s->words);
 }
 
-/* G is symmetric and linear in the prestress. */
+/* Checks that G is symmetric and linear in the prestress. */
 static void check_geometric(const specimen *s, const double C[], claims *c)
 {
     const int m = s->strains;
@@ -199,7 +199,8 @@ void checks_energy(const formulation *chosen, claims *out)
 }
 
 /* Inertia in a rotating frame: centrifugal force and stiffness derive from the potential, the
- * gyroscopic matrix is skew, the frame's own motion has the centrifugal energy. */
+ * gyroscopic matrix is skew-symmetric, and the motion of the frame itself has the centrifugal
+ * energy. */
 
 enum { N = SPECIMEN_COORDINATES };
 
@@ -290,7 +291,8 @@ static void check_skew(const specimen *s, const double G[], claim *one)
                 i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
 }
 
-/* The motion v of the frame itself has the kinetic energy 1/2 v^T M v = -V, and G v = -2 F. */
+/* Checks that the motion v of the frame itself has the kinetic energy 1/2 v^T M v = -V, and that G
+ * v = -2 F. */
 static void own_motion(const specimen *s, const node_state x[], const inertia_output *out,
                        claims *c)
 {
@@ -354,7 +356,7 @@ static double twisted_energy(const specimen *s, double angle)
         node[1] = ys * (1 - cos(turn)) + zs * sin(turn); /* about the shear centre: no shear */
         node[2] = zs * (1 - cos(turn)) - ys * sin(turn);
         node[3] = turn;
-        node[6] = sin(angle) / s->request.length; /* a twist may be measured by its sine */
+        node[6] = sin(angle) / s->request.length; /* the element may measure a twist by its sine */
     }
     specimen_state(s, 0, 1, straight);
     chart_move(straight, s->nodes, d, x);
@@ -394,7 +396,8 @@ static void rotating_check(const specimen *s, claims *c)
         warping(s, claims_open(c, "centrifugal energy of warping", 2e-4));
 }
 
-/* The same without rotary inertia and without warping, where other terms remain. */
+/* Makes all checks; repeats them without rotary inertia and without warping, where other terms
+ * remain. */
 static void check_all(const specimen *s, claims *c)
 {
     static const unsigned without[] = {FEATURE_ROTARY_INERTIA, FEATURE_WARPING,

@@ -140,7 +140,7 @@ static status store_found(const experiment_type *e, const void *found, const cha
     return store_write(path, e->name, c.sweep, c.judged, c.made, f);
 }
 
-/* Writes the files first, because the table may have no reader. */
+/* Writes the files first, because the reader of the table may be gone. */
 static status leave(const experiment_type *e, const experiment_output *to, const void *found,
                     fault *f)
 {

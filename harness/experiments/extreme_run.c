@@ -9,9 +9,12 @@
 /* Reads the known deviations from the packed reference values at `path`. */
 static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f);
 
-enum { enough_elements = 16 }; /* from here the neighbours are coarser meshes, otherwise finer */
+enum {
+    enough_elements = 16
+}; /* from this number on, the neighbours are coarser meshes, below it
+      finer ones */
 
-/* A series of neighbouring meshes for the cell of an outcome, once. */
+/* Adds a series of neighbouring meshes for the cell of an outcome, once. */
 static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
 {
     const series *one = &s->first.series[o->series];
@@ -32,7 +35,7 @@ static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
     return STATUS_OK;
 }
 
-/* A number that may be under-resolved. */
+/* May the number be under-resolved? */
 static int is_open(const extreme_outcome *o)
 {
     return o->kind == OUTCOME_WRONG && isfinite(o->error);
@@ -85,7 +88,7 @@ static status run(const void *asked, void *found, fault *f)
     return s->outcomes > 0 ? run_cells(asked, &s->first, f) : STATUS_OK;
 }
 
-/* Evaluates an outcome; one that may be under-resolved is also run on other meshes. */
+/* Evaluates an outcome; if it may be under-resolved, it is also computed on other meshes. */
 static status judge(const void *asked, void *found, fault *f)
 {
     const extreme_request *request = asked;
@@ -145,14 +148,14 @@ static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f
 static int speaks_of(const extreme_finding *row, const extreme_sweep *s, const extreme_outcome *o)
 {
     const extreme *e = &extremes[o->extreme];
-    const double slack = 1e-9; /* 1e-4 of a table and pow(10, -4) */
+    const double slack = 1e-9; /* between 1e-4 in a table and pow(10, -4) */
     return o->x >= row->from * (1 - slack) && o->x <= row->to * (1 + slack) &&
            fnmatch(row->extreme, e->name, 0) == 0 &&
            fnmatch(row->formulation, s->formulation[o->formulation].key, 0) == 0 &&
            fnmatch(row->quantity, e->quantity[o->quantity].name, 0) == 0;
 }
 
-/* From the best of a cell to the worst. */
+/* Rank of an outcome, from the best to the worst. */
 static int badness(outcome_kind kind)
 {
     static const int rank[OUTCOME_KINDS] = {
@@ -172,7 +175,7 @@ static void count_cell(outcome_kind worst, extreme_count *c)
     c->faults += worst == OUTCOME_FAULT;
 }
 
-/* Outcomes of one cell are consecutive; a cell is as bad as its worst outcome. */
+/* Counts cells. Outcomes of one cell are consecutive; a cell is as bad as its worst outcome. */
 static void count_cells(extreme_sweep *s)
 {
     outcome_kind worst = OUTCOME_SKIP;

@@ -87,7 +87,7 @@ static int quantity_index(const extreme_outcome *o, const sweep_point *p)
     return q;
 }
 
-/* The exact value, of the formulation's own theory of shear; or NULL. */
+/* The exact value according to the formulation's own shear theory, or NULL. */
 static const truth *exact_value(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
 {
     const sweep_point *p = &s->first.point[o->point];
@@ -95,7 +95,7 @@ static const truth *exact_value(const extreme_sweep *s, const truths *t, const e
     return q < p->scene.quantities ? verdict_truth(t, p, &s->formulation[o->formulation], q) : NULL;
 }
 
-/* Is there an exact value, but of another theory of shear only? */
+/* Is there an exact value, but only for another shear theory? */
 static int has_other_theory(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
 {
     const sweep_point *p = &s->first.point[o->point];
@@ -152,7 +152,7 @@ static void set_failure(extreme_outcome *o, status why, const char *reason)
     set_kind(o, failure_of(why), reason);
 }
 
-/* The number of the first mesh against its reference. */
+/* Compares the number on the first mesh with its reference. */
 static void judge_value(const scene_quantity *q, double value, double uncertainty,
                         extreme_outcome *o)
 {
@@ -256,8 +256,8 @@ static const struct {
                              [OUTCOME_NO_VALUE] = {'V', "no value"},
                              [OUTCOME_FAULT] = {'F', "fault"}};
 
-/* "0.22", "2e-7" [%], with a sign of what it is: ~ coarse, ! wrong, ? not expected; a letter for a
- * failure. */
+/* "0.22", "2e-7" [%], with a sign for the outcome: ~ coarse, ! wrong, ? not expected; a letter for
+ * a failure. */
 static void cell_text(const extreme_outcome *o, char *text, size_t size)
 {
     static const char *const mark[OUTCOME_KINDS] = {[OUTCOME_COARSE] = "~", [OUTCOME_WRONG] = "!"};
@@ -330,7 +330,7 @@ static void print_line(FILE *to, const extreme_sweep *s, const extreme_outcome *
     fprintf(to, "%*.0e\n", CONDITION_WIDTH, condition);
 }
 
-/* A line for every formulation that runs. */
+/* Prints a line for every formulation that runs. */
 static void print_quantity(FILE *to, const extreme_sweep *s, const extreme_outcome *first,
                            int quantity)
 {

@@ -1,5 +1,5 @@
-/* Checks that a type supports what it declares: each feature alone, in subsets, and as the cases
- * need them. */
+/* Checks that a type supports what it declares: each feature alone, in subsets, and as required by
+ * the cases. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -59,8 +59,8 @@ static void accepted(const formulation *chosen, unsigned features, const char *w
                 why.text[0] != '\0' ? "it is refused: " : "the stiffness is not finite", why.text);
 }
 
-/* A type must not reject: no features, each supported feature with its prerequisites, all supported
- * features for straight elements. */
+/* Checks that a type accepts no features, each supported feature with its prerequisites, and all
+ * supported features for straight elements. */
 static void single_features(const formulation *chosen, claims *c)
 {
     static const struct {
@@ -80,7 +80,7 @@ static void single_features(const formulation *chosen, claims *c)
     }
 }
 
-/* Nor the features required by the cases on which it runs. */
+/* Checks that a type accepts the features required by the cases on which it runs. */
 static void features_of_cases(const formulation *chosen, claims *c)
 {
     int runs = 0;
@@ -102,7 +102,8 @@ static void features_of_cases(const formulation *chosen, claims *c)
                     "features, limits: the formulation supports none of the built-in cases");
 }
 
-/* Other subsets may be rejected by name if one feature presupposes another: at most half. */
+/* Checks that a type rejects at most half of the other subsets, by name, because one feature
+ * presupposes another. */
 static void feature_subsets(const formulation *chosen, claims *c)
 {
     enum { OPTIONAL = 7 };
@@ -141,7 +142,7 @@ void checks_features(const formulation *chosen, claims *out)
 
 enum { EFFECTS_M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 
-/* Answers of an element in a state. */
+/* Results of an element in a state. */
 typedef struct effects_answers {
     double e[EFFECTS_M], J[EFFECTS_M * N], energy, sigma[EFFECTS_M], C[EFFECTS_M * EFFECTS_M],
         G[EFFECTS_M * EFFECTS_M];
@@ -177,7 +178,7 @@ static int differ(const effects_answers *a, const effects_answers *b)
            other(EFFECTS_M * EFFECTS_M, a->C, b->C) || other(EFFECTS_M * EFFECTS_M, a->G, b->G);
 }
 
-/* The element with the features, and the same without one of them. */
+/* An element with the features, and the same element without one of them. */
 typedef struct pair {
     specimen with, without;
 } pair;
@@ -193,7 +194,7 @@ static int makes(const formulation *chosen, unsigned features, profiles_form for
     return specimen_make(&what, out, &f) == STATUS_OK;
 }
 
-/* 1: something changes, 0: nothing does, -1: one of the two is rejected. */
+/* 1: a result changes, 0: none changes, -1: one of the two elements is rejected. */
 static int changes(const formulation *chosen, unsigned features, unsigned bit, profiles_form form)
 {
     pair p;
@@ -214,7 +215,7 @@ static int changes(const formulation *chosen, unsigned features, unsigned bit, p
     return found;
 }
 
-/* The same for the warping amplitudes of its nodes. */
+/* Does the feature change the warping amplitudes of the nodes? */
 static int warps(const formulation *chosen, unsigned features, profiles_form form)
 {
     specimen s;
@@ -233,8 +234,8 @@ static int warps(const formulation *chosen, unsigned features, profiles_form for
     return found;
 }
 
-/* Returns 1 where the feature changes a result, for a rectangle or, where the type supports it, for
- * an unsymmetric section. */
+/* Returns 1 if the feature changes a result, for a rectangle or, if the type supports it, for an
+ * unsymmetric section. */
 static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 {
     const element_type *t = chosen->type;
@@ -251,10 +252,11 @@ static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 
 static void effects_check(const formulation *chosen, claims *c)
 {
-    /* Without FEATURE_ECCENTRIC: the shear centre is a constant of the section, and elements take
-     * it from there. Without FEATURE_TRAPEZE: it is one of the terms of second order, and a
-     * formulation that omits all of them to show their effect (beamw_first) gets the same requests
-     * as the complete one. Features of the structure, mass or shape are examined elsewhere. */
+    /* The list excludes FEATURE_ECCENTRIC, because the shear centre is a constant of the section,
+     * from which elements take it. It excludes FEATURE_TRAPEZE, because that is one of the
+     * second-order terms, and a formulation that omits all of them to show their effect
+     * (beamw_first) gets the same requests as the complete one. Features of the structure, mass or
+     * shape are examined elsewhere. */
     static const unsigned sections[] = {FEATURE_WARPING, FEATURE_SHEAR, FEATURE_WAGNER_MOMENTS,
                                         FEATURE_WAGNER_TORQUE};
     const unsigned all = specimen_features(chosen->type, 0);
@@ -271,7 +273,7 @@ static void effects_check(const formulation *chosen, claims *c)
                         "offers warping, but nothing depends on the warping amplitudes; let "
                         "strains depend on them, "
                         "or do not declare it");
-        else /* theories of shear go with shear */
+        else /* shear theories are requested together with shear */
             claims_asks(
                 one,
                 anywhere(chosen, all,
@@ -283,8 +285,8 @@ static void effects_check(const formulation *chosen, claims *c)
     }
 }
 
-/* The mass matrix is symmetric and positive, has the mass and moments of the beam, and rotates with
- * the element. */
+/* The mass matrix is symmetric and positive definite, has the mass and moments of inertia of the
+ * beam, and rotates with the element. */
 
 enum { MASS_N = SPECIMEN_COORDINATES };
 
@@ -310,7 +312,8 @@ static void symmetric(const specimen *s, const double A[], claim *one)
                 A[i * n + j], A[j * n + i], s->words);
 }
 
-/* Cholesky's factors of the matrix scaled to ones on its diagonal, and a little more. */
+/* Checks that Cholesky's factors exist of the matrix that is scaled to ones on its diagonal, and
+ * slightly increased there. */
 static void positive(const specimen *s, const double A[], claim *one)
 {
     const int n = s->coordinates;
@@ -328,7 +331,7 @@ static void positive(const specimen *s, const double A[], claim *one)
                 pivot, specimen_coordinate(pivot > 0 ? pivot - 1 : 0, where), s->words);
 }
 
-/* v^T M v of a motion with the velocity omega x r + shift. */
+/* v^T M v of a motion with the velocity field omega x r + shift. */
 static double energy(const specimen *s, const node_state x[], const double M[],
                      const double omega[3], const double shift[3])
 {
@@ -364,7 +367,7 @@ static void total(const specimen *s, const node_state x[], const double M[], cla
     }
 }
 
-/* The matrix of an element that is rotated as a whole is the rotated matrix. */
+/* Checks that the matrix of an element that is rotated as a whole is the rotated matrix. */
 static void carried(const specimen *s, const node_state x[], const double M[], claim *one)
 {
     static const double turn[3] = {0.71, -1.93, 1.37};
@@ -393,9 +396,9 @@ static void carried(const specimen *s, const node_state x[], const double M[], c
                            specimen_coordinate(j, second), back[i * n + j], M[i * n + j], s->words);
 }
 
-/* Inertia of a straight element that rotates about its first node: rho l (Ip, Iy, Iz) minus that of
- * masses on the line is the effect of FEATURE_ROTARY_INERTIA; about the axis it is the whole
- * inertia. */
+/* Checks the inertia of a straight element that rotates about its first node. The effect of
+ * FEATURE_ROTARY_INERTIA is rho l (Ip, Iy, Iz): about the axis this is the whole inertia, about the
+ * other axes it adds to that of the masses on the line. */
 static void moments(const specimen *s, claim *one)
 {
     static const double none[3] = {0, 0, 0};

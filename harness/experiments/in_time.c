@@ -1,5 +1,5 @@
-/* Inertia in time: the forces taken by a motion derive from the kinetic energy T = 1/2 x' . M x' by
- * Lagrange's equations,
+/* Inertia in transient analysis: the forces required by a motion derive from the kinetic energy T =
+ * 1/2 x' . M x' by Lagrange's equations,
  *   taken = d(M x')/dt + p x w - dT/dx,  p x w at the rotations of each node,
  * where p = M x' there and w is its angular velocity, x' and derivatives spatial. */
 #include <math.h>
@@ -32,7 +32,7 @@ static int momenta_at(const void *context, int i, double si, int j, double sj, d
     return (int)outcome;
 }
 
-/* Forces taken by a motion without accelerations, by differences. */
+/* Forces required by a motion without accelerations, by differences. */
 static void by_differences(const moving_place *m, const double M[], double h[])
 {
     const specimen *s = m->at.s;
@@ -71,7 +71,7 @@ static void compare(const specimen *s, const double found[], const double right[
             specimen_coordinate(i, where), found[i], what, right[i], s->words);
 }
 
-/* The forces are quadratic in the rates: central differences are exact. */
+/* Checks that the forces are quadratic in the rates; central differences are then exact. */
 static void check_rates(const specimen *s, const node_state x[], const double rate[],
                         const double C[], double size, claim *one)
 {
@@ -99,7 +99,8 @@ static void check_rates(const specimen *s, const node_state x[], const double ra
     }
 }
 
-/* An element that is rotated as a whole, with its rates, takes the rotated forces. */
+/* Checks that an element that is rotated as a whole, with its rates, requires the rotated
+ * forces. */
 static void check_turned(const specimen *s, const node_state x[], const inertia_output *out,
                          double size, claim *one)
 {
@@ -127,7 +128,7 @@ static void check_turned(const specimen *s, const node_state x[], const inertia_
 static void check_one(const specimen *s, claims *c)
 {
     const int n = s->coordinates;
-    if (n > 2 * NODE_COORDINATES) /* with other options */
+    if (n > 2 * NODE_COORDINATES) /* checked with other options */
         return;
     node_state x[ELEMENT_MAX_NODES];
     double numbers[2 * N], rate[N], acceleration[N], M[N * N], C[N * N], h[N], taken[N], right[N];
@@ -163,7 +164,7 @@ static void check_one(const specimen *s, claims *c)
                  claims_open(c, "forces taken rotate with the element", 1e-11));
 }
 
-/* Also without rotary inertia, where only the twist has a moment of inertia. */
+/* Makes the checks, also without rotary inertia, where only the twist has a moment of inertia. */
 static void check(const specimen *s, claims *c)
 {
     specimen_request what = s->made;

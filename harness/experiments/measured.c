@@ -13,25 +13,25 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
     {"orders", "orders of convergence, and errors with 1 to 32 elements", measured_orders},
 };
 
-/* Errors over thickness by length, 1 to 1e-6: with locking, they grow as the element becomes thin.
- */
+/* Errors over thickness/length, from 1 to 1e-6: with locking they grow as the element becomes
+ * thin. */
 
 enum { THICKNESSES = 7, ELEMENTS = 8 };
 
-/* Exact displacement of a straight cantilever under a force, or of a quarter ring under one towards
- * its centre. */
+/* Exact displacement of a straight cantilever under a force, or of a quarter ring under a force
+ * towards its centre. */
 static double exact_of(const beam_request *r, const section *c)
 {
     const double EI = c->young * c->Iz, EA = c->young * c->A,
                  shear = r->needs & FEATURE_SHEAR ? c->F[0] / c->shear_modulus : 0, radius = 2 / PI;
     if (r->analysis == BEAM_LARGE)
-        return 2 / PI; /* a quarter of a circle */
+        return 2 / PI; /* a quarter circle */
     if (r->quarter)
         return PI / 4 * radius * (radius * radius / EI + 1 / EA + shear);
     return 1 / (3 * EI) + shear;
 }
 
-/* Checks whether the error of the thin structure is much larger than that of the thick one. */
+/* Is the error of the thin structure much larger than that of the thick one? */
 static void conclude(element_measure *one)
 {
     const double thick = fabs(one->error[0]), thin = fabs(one->error[one->points - 1]);
@@ -87,21 +87,21 @@ void measured_locking(const formulation *chosen, claims *c, measures *out)
     over_thickness(&r, "bent by a quarter turn, moment", out);
 }
 
-/* States of a cantilever whose exact solution is known: uniform ones, which every mesh should have,
- * and linear ones, which one element may have. */
+/* States of a cantilever with a known exact solution: uniform states, which every mesh should
+ * reproduce, and linear states, which one element may reproduce. */
 
 enum { IRREGULAR = 4 };
 static const double fraction[IRREGULAR] = {0.13, 0.37, 0.19, 0.31};
 
 typedef struct state {
     const char *name;
-    double thickness, width; /* [m] of a metre */
+    double thickness, width; /* [m], for a length of 1 m */
     int profile;
     unsigned needs;
     beam_analysis analysis;
     scene_load_kind load;
     int direction, component;
-    const char *doubt; /* error of a linear one that more elements do not reduce */
+    const char *doubt; /* error of a linear state that more elements do not reduce */
 } state;
 
 static const state states[] = {
@@ -131,7 +131,7 @@ static double states_exact_of(const state *s, const section *c, double load)
         const double k = sqrt(GI / (c->young * c->Iw));
         return load / GI * (1 - tanh(k) / k);
     }
-    if (s->analysis == BEAM_LARGE) /* an arc of a quarter of a circle */
+    if (s->analysis == BEAM_LARGE) /* an arc of a quarter circle */
         return 2 / PI;
     if (s->load == SCENE_FORCE)
         return s->direction == 0   ? load / (c->young * c->A)
@@ -140,7 +140,8 @@ static double states_exact_of(const state *s, const section *c, double load)
     return s->direction == 0 ? load / GI : s->direction == 1 ? -load / (2 * EIy) : load / (2 * EIz);
 }
 
-/* An error that does not change with more elements comes from the section, not from the mesh. */
+/* Draws a conclusion: an error that does not change with more elements is due to the section, not
+ * to the mesh. */
 static void states_conclude(const state *s, element_measure *one)
 {
     const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
@@ -185,7 +186,7 @@ static void measure_state(const formulation *chosen, const state *s, measures *o
         states_conclude(s, one);
 }
 
-/* If all linear ones differ by the same power of a thousand, units are wrong. */
+/* Concludes that units are wrong if all linear states differ by the same power of a thousand. */
 static void compare_units(measures *out)
 {
     double times = NAN;
@@ -206,7 +207,7 @@ static void compare_units(measures *out)
              fmax(times, 1 / times), times > 1 ? "soft" : "stiff");
 }
 
-/* A wrong limit is a violated requirement: of each state, or of all of them together. */
+/* Reports wrong limits as violated requirements: of each state, or of all of them together. */
 static void hold_limits(claims *c, const measures *m)
 {
     if (m->words[0] != '\0') {
@@ -257,7 +258,8 @@ static const orders_question questions[] = {
     {"buckling: column along z", BEAM_BUCKLING, ELEMENT_BUCKLING, FEATURE_GEOMETRIC, 2},
 };
 
-/* The elastica under a transverse force whose end rotates by `angle`: (P L^2/EI, deflection/L). */
+/* The elastica with a transverse force at its end, whose end rotates by `angle`: (P L^2/EI,
+ * deflection/L). */
 static void elastica(double angle, double *load, double *deflection)
 {
     const double k = sqrt((1 + sin(angle)) / 2), phi = asin(1 / (k * sqrt(2)));
@@ -270,7 +272,7 @@ static void elastica(double angle, double *load, double *deflection)
             root;
 }
 
-/* The applied load, and its exact result. */
+/* Applied load, and its exact result. */
 static double orders_exact_of(const orders_question *q, const section *c, beam_request *r)
 {
     const double EI = c->young * (q->plane == 1 ? c->Iz : c->Iy), lambda = 1.8751040687119611;
@@ -291,8 +293,8 @@ static double orders_exact_of(const orders_question *q, const section *c, beam_r
     }
 }
 
-/* Returns the second of the finest two meshes whose errors are above rounding; 0: there are none.
- */
+/* Index of the finer one of the two finest meshes whose errors are above rounding; 0: there are
+ * none. */
 static int telling(const element_measure *one)
 {
     int last = 0;
@@ -302,7 +304,7 @@ static int telling(const element_measure *one)
     return last;
 }
 
-/* The least order is a requirement. */
+/* Requires that the observed order is at least the declared minimum. */
 static void hold_against_declared(const orders_question *q, int last, const element_measure *one,
                                   claims *c)
 {

@@ -54,8 +54,8 @@ static double balance_at(const track *t, int i, scene_balance what)
     return t->record[i].at.balance[what];
 }
 
-/* The first step that ends after all loads have ended. At the end of loads, accelerations and
- * coordinates without mass are computed again, so the end of the previous step does not count. */
+/* The first step that ends after all loads have ended. When loads end, accelerations and massless
+ * coordinates are computed again, so that the end of the previous step does not count. */
 static int first_alone(const track *t, double from)
 {
     int i = 0;
@@ -64,7 +64,8 @@ static int first_alone(const track *t, double from)
     return i;
 }
 
-/* Relative to the first step, because the run may have stopped before the last one. */
+/* Takes the energies relative to the first step, because the run may have stopped before the last
+ * one. */
 static void take_energy(const track *t, int first, pace_run *r)
 {
     const double before = balance_at(t, first, SCENE_ENERGY);
@@ -103,7 +104,7 @@ static double momentum_drift(const track *t, int first)
     return largest;
 }
 
-/* Energy not explained by work, relative to the largest energy. */
+/* Energy that is not explained by work, relative to the largest energy. */
 static double unexplained(const track *t)
 {
     double most = 0, size = 0;
@@ -172,7 +173,7 @@ void pace_order_fill(pace *p)
                               : NAN;
 }
 
-/* Two orders decide; if they differ much, the order is not yet known. */
+/* Decides from two orders; if they differ much, the order is not yet known. */
 static pace_order_kind judge(const pace_ladder *l)
 {
     const double least = l->method->order - pace_order_slack;
@@ -221,7 +222,7 @@ int pace_order_is_stopped(const pace_group *g)
 
 const double pace_levels[PACE_LEVELS] = {1e-2, 1e-4, 1e-6};
 
-/* Do both belong to one integrator, by steps or by tolerances? */
+/* Do both runs belong to one integrator, by steps or by tolerances, and is a the coarser one? */
 static int is_coarser(const pace_run *a, const pace_run *b)
 {
     return a->group == b->group && strcmp(a->method.name, b->method.name) == 0 &&
@@ -237,7 +238,7 @@ static int is_reached_from(const pace *p, const pace_run *r, double level)
     return 1;
 }
 
-/* Errors and costs are powers of the step between two runs. */
+/* Cost at an error level; errors and costs are taken as powers of the step between two runs. */
 static double cost_at(const pace *p, const pace_run *r, double level)
 {
     const pace_run *before = r > p->run ? r - 1 : NULL;
@@ -360,7 +361,7 @@ static void print_orders(FILE *to, const pace *p, const pace_group *g)
     }
 }
 
-/* Prints the integrators whose error of a quantity does not fall with the step; returns their
+/* Prints the integrators whose error of a quantity does not decrease with the step; returns their
  * number. */
 static int write_standing(FILE *text, const pace *p, const pace_group *g, int quantity)
 {

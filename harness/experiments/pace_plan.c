@@ -8,7 +8,7 @@
 
 /* first, first/ratio, first/ratio^2, ... */
 static pace_list pace_list_divided(double first, double ratio, int count);
-/* [s] INFINITY: it is fixed, driven, or always loaded. */
+/* [s] INFINITY: the structure is fixed, driven, or always loaded. */
 static double pace_alone_from(const scene *s);
 
 enum {
@@ -49,7 +49,7 @@ status pace_plan_usual(pace_plan_request *r, fault *f)
     return outcome;
 }
 
-/* Instants at which steps of all runs end, as far as these divide the first. */
+/* Sets the instants at which steps of all runs end, as far as these steps divide the first one. */
 static status stations_of(double spacing, double end, scene_path *out, fault *f)
 {
     const int before = (int)ceil(end / spacing * (1 - same)) - 1;
@@ -64,13 +64,14 @@ static status stations_of(double spacing, double end, scene_path *out, fault *f)
     return STATUS_OK;
 }
 
-/* Turns the point that was added last into that motion. */
+/* Changes the point that was added last to that motion. */
 static status set_motion(pace *p, const pace_group *g, const pace_run *r, double spacing, fault *f)
 {
     sweep_point *at = &p->sweep.point[p->sweep.points - 1];
     scene_motion *how = &at->scene.analysis[g->analysis].of.motion;
     how->scheme = r->method.scheme;
-    if (how->mass == SCENE_MASS_USUAL) /* errors are those of time: all have the same mass */
+    if (how->mass == SCENE_MASS_USUAL) /* errors are those of time integration: all runs have the
+                                          same mass */
         how->mass = SCENE_LUMPED;
     how->alpha = r->method.alpha;
     how->step = r->step;
@@ -78,14 +79,14 @@ static status set_motion(pace *p, const pace_group *g, const pace_run *r, double
     return stations_of(spacing, g->end, &how->path, f);
 }
 
-/* A number at which steps of all runs end, as far as the spacing divides the time. */
+/* Number of instants at which steps of all runs end, as far as the spacing divides the time. */
 static int frames_of(const pace_group *g, double spacing)
 {
     const int parts = (int)ceil(g->end / spacing * (1 - same));
     return 1 + parts * (parts < SHAPES_FEW ? SHAPES_FEW : 1);
 }
 
-/* A series of one mesh at a separate point. */
+/* Adds a series of one mesh at a separate point. */
 static status add_motion(pace *p, const pace_group *g, const pace_plan_request *q, pace_run *r,
                          double spacing, fault *f)
 {
@@ -102,8 +103,8 @@ static status add_motion(pace *p, const pace_group *g, const pace_plan_request *
     return STATUS_OK;
 }
 
-/* Between stations, errors are examined where all steps end, which requires a whole number of the
- * coarsest steps. */
+/* Spacing of the instants at which errors are examined between stations. All steps must end there,
+ * which requires a whole number of the coarsest steps. */
 static double spacing_of(const pace_group *g, const pace_plan_request *q)
 {
     const double coarsest = q->steps.count > 0 ? q->steps.value[0] : g->step,
@@ -179,7 +180,7 @@ static status add_runs(pace *p, const pace_plan_request *q, fault *f)
     return STATUS_OK;
 }
 
-/* The structure is built once, for its motion. */
+/* Builds the structure once to find its motion. */
 static status look(pace_group *g, const pace_plan_request *q, fault *f)
 {
     scene s;
@@ -362,7 +363,7 @@ static int is_held(const scene_node *n)
     return n->rotation != SCENE_ROTATION_SPATIAL;
 }
 
-/* Zero wherever it is examined. */
+/* Is the function zero wherever it is examined after `from`? */
 static int is_over(const scene_function *f, double from)
 {
     static const double later[] = {0, 0.37, 1, 7.3, 61};
@@ -414,7 +415,7 @@ static double apart(const double a[3], const double b[3])
     return sqrt(square);
 }
 
-/* Angle between two unit quaternions of any sign; exact for small angles, too. */
+/* Angle between two unit quaternions of any sign; also accurate for small angles. */
 static double angle(const double a[4], const double b[4])
 {
     double less = 0, more = 0;
@@ -425,7 +426,7 @@ static double angle(const double a[4], const double b[4])
     return 4 * atan2(sqrt(fmin(less, more)), sqrt(fmax(less, more)));
 }
 
-/* Largest distance between two nodes at rest. */
+/* Largest distance between two nodes in the undeformed structure. */
 static double size_of(const shapes *s)
 {
     double size = 0;

@@ -141,7 +141,7 @@ static void get_nominal(const subject *s, field_value *out)
     schema_set_number(out, ((const pace_ladder *)s->record)->method->order);
 }
 
-/* Names of quantities whose errors do not fall with the step. */
+/* Names of quantities whose errors do not decrease with the step. */
 static void get_standing(const subject *s, field_value *out)
 {
     size_t used = 0;
@@ -171,7 +171,7 @@ static const schema_field fields_of_ladder[] = {
 static const record_type record_pace_ladder = {
     "order", "orders", "an integrator with successively halved steps", {KEYS, fields_of_ladder}};
 
-/* An error, and the integrators that reach it. */
+/* An error level, and the integrators that reach it. */
 typedef struct record_reached {
     double error;
     const char *integrator;
@@ -347,7 +347,7 @@ const record_type *const pace_records[] = {&record_pace_reference,
                                            &record_pace_verdict,
                                            NULL};
 
-/* All formulations that are requested at one point. */
+/* Plans all requested formulations at one point. */
 static status plan_point(const motion_request *r, motions *m, pace_plan_request *q, fault *f)
 {
     TRY(pace_plan_usual(q, f));
@@ -375,7 +375,7 @@ static status plan_axis(const motion_request *r, motions *m, const pace_plan_req
     return STATUS_OK;
 }
 
-/* All values of the varying parameter; without one, the point itself. */
+/* Plans all values of the varying parameter; without one, the point itself. */
 static status plan_points(const motion_request *r, motions *m, pace_plan_request *q, fault *f)
 {
     sweep_axis a;

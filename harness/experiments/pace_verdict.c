@@ -6,7 +6,7 @@
 
 #include "elements/shared/choice.h"
 
-/* Tolerance of a decimal logarithm: within a factor of two. */
+/* Tolerance of a decimal logarithm: a factor of two. */
 static const double same_decade = 0.3;
 
 static void say(pace_verdict *v, const char *word)
@@ -75,7 +75,7 @@ static void reach_one(const pace *p, pace_verdict *v)
             say(v, r[i].fate != PACE_UNJUDGED ? pace_fate_name(r[i].fate) : "unjudged");
 }
 
-/* Checks that two lists have the same length and nearly equal numbers. */
+/* Do two lists have the same length and nearly equal numbers? */
 static int is_near(const char *a, const char *b)
 {
     while (*a != '\0' && *b != '\0') {
@@ -181,7 +181,8 @@ static status read_row(const own_table_row *row, pace_verdict *v, planned *out, 
     return STATUS_OK;
 }
 
-/* Rows that differ only in the integrator are consecutive and share their reference. */
+/* Do the rows differ only in the integrator? Such rows are consecutive and share their
+ * reference. */
 static int is_same(const pace_verdict *a, const pace_verdict *b)
 {
     return (a->kind == PACE_FATE) == (b->kind == PACE_FATE) &&
@@ -199,7 +200,7 @@ static int known_method(const planned *p, const pace_method list[], int count)
     return -1;
 }
 
-/* Rows [first, end) become one group. */
+/* Plans rows [first, end) as one group. */
 static status plan_block(pace *p, pace_verdicts *all, planned row[], int first, int end, fault *f)
 {
     pace_method list[PACE_LIST_MOST];
@@ -222,7 +223,7 @@ static status plan_block(pace *p, pace_verdicts *all, planned row[], int first, 
     return STATUS_OK;
 }
 
-/* Refuses a row that is wrong, with its position. */
+/* Rejects an invalid row, with its position. */
 static status refuse(const char *path, const own_table_row *row, status outcome, const fault *why,
                      fault *f)
 {
@@ -271,7 +272,8 @@ static double distance_of_check(const pace *p, const pace_group *g, int check)
                          g->analysis);
 }
 
-/* Order by which its error falls with the number of steps, between its checks. */
+/* Order with which the error of the reference decreases with the number of steps, from its
+ * checks. */
 static double order_of_reference(const pace *p, const pace_group *g, double near, double far)
 {
     const double steps = (double)pace_cell_of(p, g->reference + 1)->solve.steps /
@@ -279,9 +281,9 @@ static double order_of_reference(const pace *p, const pace_group *g, double near
     return steps > 1 && near > 0 ? log(far / near) / log(steps) : NAN;
 }
 
-/* The reference and its uncertainty: errors of its checks fall by a ratio from one to the next, and
- * the same ratio gives that of the reference, times three for safety; if they do not fall, it is
- * the distance of the nearer check. */
+/* Sets the uncertainty and the order of the reference. The errors of the two checks decrease by a
+ * ratio from one to the next. The same ratio, with a safety factor of three, gives the uncertainty
+ * of the reference; it is at most the distance of the nearer check. */
 static void judge_reference(const pace *p, pace_group *g)
 {
     static const double safety = 3;

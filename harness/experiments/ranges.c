@@ -6,8 +6,8 @@
 
 #include "harness/model/model.h"
 
-/* Columns: the varied parameters, then formulation, elements, quantity, unit, value, reference,
- * reference_kind, error, status, cost, seconds. Missing values are empty. */
+/* Writes the columns: the varied parameters, then formulation, elements, quantity, unit, value,
+ * reference, reference_kind, error, status, cost, seconds. Missing values are empty. */
 static void ranges_csv_head(FILE *to, const parameter_ranges *r);
 /* Adds points from `first` on. FAULT: out of memory. */
 static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *,
@@ -46,7 +46,7 @@ static status read_axes(parameter_ranges *r, fault *f)
     const int axes = r->design.axes;
     const status outcome = design_make(r->request.design, axes, r->axis, r->request.points,
                                        r->request.seed, &r->design, f);
-    r->design.axes = axes; /* to be freed */
+    r->design.axes = axes; /* so that it is freed */
     return outcome;
 }
 
@@ -88,7 +88,7 @@ rows_shape ranges_shape(const parameter_ranges *r)
     return (rows_shape){r->formulations, r->meshes, r->quantities};
 }
 
-/* Points of a batch: *first; returns their number. */
+/* Finds the points of a batch: *first; returns their number. */
 static int ranges_batch(const parameter_ranges *r, int batch, long *first)
 {
     *first = batch * r->points_in_batch;
@@ -112,7 +112,7 @@ static int quantity_of(const scene *s, const char *name)
     return -1;
 }
 
-/* Quantities that were not requested are not computed. */
+/* Removes quantities that were not requested, so that they are not computed. */
 static void drop_quantities(const parameter_ranges *r, scene *s)
 {
     int kept = 0;
@@ -161,7 +161,7 @@ static double value_of(const series *one, int mesh, int quantity)
     return is_there ? r->quantity[quantity].value : NAN;
 }
 
-/* Cells of one formulation at one point. */
+/* Fills the cells of one formulation at one point. */
 static void fill_cells(const making *m, int at, int which)
 {
     const series *one = &m->s->series[at * m->of->formulations + which];
@@ -186,7 +186,7 @@ static void fill_cells(const making *m, int at, int which)
     }
 }
 
-/* Errors of one formulation against its reference, and the coarsest sufficient mesh. */
+/* Fills the errors of one formulation against its reference, and the coarsest sufficient mesh. */
 static void fill_errors(const making *m, int at, int which, int q, int quantity,
                         const point_reference *against)
 {
@@ -208,7 +208,7 @@ static int is_known(const point_reference *r)
     return r->kind != ROWS_NONE && r->kind != ROWS_DISPUTED;
 }
 
-/* One quantity at one point; its reference is that of the first formulation that has one. */
+/* Fills one quantity at one point; its reference is that of the first formulation that has one. */
 static void fill_quantity(const making *m, int at, int q, const known_truths *k)
 {
     const sweep_point *p = &m->s->point[at];
@@ -277,7 +277,7 @@ static void add_numbers(digest *to, const double value[], size_t count)
         digest_add_number(to, value[i]);
 }
 
-/* Everything except the times. */
+/* Adds everything except the times. */
 static void add_content(digest *to, const rows *w)
 {
     const size_t points = (size_t)w->points, known = points * (size_t)w->shape.quantities,
@@ -378,7 +378,7 @@ static void put(FILE *to, double value)
     fputc(',', to);
 }
 
-/* Options of a formulation are joined by commas. */
+/* Writes one cell; options of a formulation are joined by commas. */
 static void put_cell(FILE *to, const parameter_ranges *r, const rows *w, const char *where, int at,
                      int which, int mesh)
 {

@@ -10,12 +10,12 @@
 enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };
 static const double piece_bytes = 256 * 1024, cache_bytes = 4 << 20;
 
-/* A column of the file: its position in rows, its dimensions in addition to the points. */
+/* A column of the file: its position in rows, and its dimensions in addition to the points. */
 typedef struct file_column {
     const char *name, *unit;
     hid_t type;
     int ranks, size[MOST_RANKS - 1];
-    const void *first; /* of these rows; of points: NULL */
+    const void *first; /* first value in these rows; for columns of points: NULL */
     int missing;       /* whole numbers: the value where nothing was computed */
 } file_column;
 
@@ -49,7 +49,7 @@ static hsize_t line_of(const file_column *c)
     return line;
 }
 
-/* Points of a compressed piece: whole batches, as long as they are small. */
+/* Number of points in a compressed chunk: whole batches, as long as they are small. */
 static hsize_t piece_of(const parameter_ranges *r, const file_column *c)
 {
     const double most = fmax(1, piece_bytes / (double)(line_of(c) * H5Tget_size(c->type)));
@@ -91,7 +91,7 @@ static hid_t make_column(ranges_file *file, const file_column *c)
     return set;
 }
 
-/* Names in the order of their numbers, one per line. */
+/* Writes names in the order of their numbers, one per line. */
 static void put_names(record_file *r, hid_t set, const char *name, const char *(*of)(int),
                       int count)
 {
@@ -109,7 +109,7 @@ static const char *name_of_bit(int bit)
     return words;
 }
 
-/* Words of an axis: its values in the file are their numbers. */
+/* Writes the words of an axis; its values in the file are their numbers. */
 static void put_words(record_file *r, hid_t points, const sweep_axis *a)
 {
     char *text = NULL;
@@ -181,7 +181,7 @@ static void write_piece(record_file *r, hid_t set, const file_column *c, long fi
     H5Sclose(file);
 }
 
-/* Words by their number in the list. */
+/* Number of the word in the list. */
 static double place_of(const sweep_axis *a, double value)
 {
     int i = 0;
@@ -235,7 +235,7 @@ static void write_text(FILE *to, const void *text)
     fputs(text, to);
 }
 
-/* The scene of a point as a text, which the caller frees; "" if scene files cannot express it. */
+/* The scene of a point as a string, which the caller frees; "" if scene files cannot express it. */
 static status text_of(const parameter_ranges *r, long index, char **text, fault *f)
 {
     double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
@@ -254,7 +254,7 @@ static status text_of(const parameter_ranges *r, long index, char **text, fault 
     return *text != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a scene");
 }
 
-/* Its name; the same if an earlier entry of the list is the same point. */
+/* Name of the scene of the point if the point occurs earlier in the list; else NULL. */
 static const char *name_known(const tally *t, int which, int k, long index)
 {
     for (int i = 0; i <= which; i++)

@@ -5,7 +5,7 @@
 
 enum { TEXT = 64, LONG_TEXT = 128 };
 
-/* A table of texts and numbers. */
+/* A table of strings and numbers. */
 typedef struct axis_row {
     char name[TEXT], unit[16], kind[8], scale[8];
     int count;
@@ -95,7 +95,7 @@ void ranges_file_request(record_file *r, hid_t at, const parameter_ranges *of, c
     if (q->select != NULL)
         record_text(r, at, "selection", q->select);
     snprintf(noise, sizeof noise, "%.15g", price_noise);
-    record_text(r, at, "cost_noise", noise); /* ratios of costs below it tie */
+    record_text(r, at, "cost_noise", noise); /* cost ratios below it count as ties */
     record_count(r, at, "axes", of->design.axes);
     record_number(r, at, "tolerance", q->tolerance);
     H5Dclose(record_array(r, at, "meshes", H5T_NATIVE_INT, 1, &meshes, of->mesh));
@@ -156,7 +156,7 @@ void ranges_points_text(const parameter_ranges *r, const double at[], char *text
 
 enum { LAST_KNOWN = 2 /* kind of reference */ };
 
-/* Formulations to which this reference does not apply, and the number of such points. */
+/* Names formulations to which this reference does not apply, and the number of such points. */
 static void say_unmeasured(const tally *t, int q, char *text, size_t size)
 {
     enum { NAMED = 3 };
@@ -227,7 +227,7 @@ static void write_reference(FILE *to, const tally *t, int q, char told[])
     paragraph_end(&words, begun, 6);
 }
 
-/* Reason why the first one has none. */
+/* Prints the reason why the first point without a scene has none. */
 static void write_without_scene(FILE *to, const tally *t)
 {
     const parameter_ranges *r = t->of;
@@ -256,9 +256,8 @@ void ranges_table_known(FILE *to, const tally *t)
         write_without_scene(to, t);
 }
 
-/* Errors against reference values next to errors against limits: only the former show what a theory
- * omits.
- */
+/* Does the row mix errors against reference values with errors against limits? Only the former show
+ * what a theory omits. */
 static int is_mixed(const tally *t, int which, int q)
 {
     const tally_series *s = tally_of(t, which, q);
@@ -292,7 +291,7 @@ static void edge_text(const tally *t, int index, int place, char *text, int size
         snprintf(text, (size_t)size, "%.3g", tally_edge(t, index, place));
 }
 
-/* The values of the first axis, sorted by the contents of their lines. */
+/* Prints the values of the first axis, sorted by the contents of their lines. */
 static void write_columns(FILE *to, const tally *t)
 {
     char edge[ASSIGNMENT_VALUE];
@@ -353,7 +352,7 @@ static int has_other(const tally *t)
     return others > 0;
 }
 
-/* Does a field lack a reference? parts: does it have points with and without one? */
+/* Does a field lack a reference? parts: does it contain points both with and without one? */
 static int has_unknown(const tally *t, int parts)
 {
     const parameter_ranges *r = t->of;

@@ -51,7 +51,7 @@ void ranges_table_head(FILE *to, const parameter_ranges *r)
         paragraph_say(to, fprintf(to, "  omitted: "), 4, "%s", r->left_out);
 }
 
-/* Does not print 100 % for 99.96 %. */
+/* Writes a percentage, without rounding 99.96 % to 100 %. */
 static void write_share(FILE *to, long part, long all)
 {
     if (part == all)
@@ -92,7 +92,7 @@ static void write_line(FILE *to, const tally *t, int which, int q)
         const int cell = which * r->meshes + mesh;
         const double cost = t->cost[cell] / (double)(t->ran[cell] > 0 ? t->ran[cell] : 1);
         fprintf(to, "   n = %-6d", s->everywhere);
-        if (isfinite(cost)) /* work by differences, or in another process, has none */
+        if (isfinite(cost)) /* work by differences or in another process has no cost */
             fprintf(to, " %.2g ms", 1e3 * cost);
     }
     fprintf(to, s->asked < t->points ? ", %ld points\n" : "\n", s->asked);
@@ -114,7 +114,7 @@ static void write_shares(FILE *to, const tally *t, int q)
         write_line(to, t, i, q);
 }
 
-/* Prints the number of elements with which a formulation is within the error everywhere. */
+/* Prints the number of elements with which a formulation is within the error at all points. */
 static void write_least(FILE *to, const tally *t, int which, int q, int width)
 {
     const tally_series *s = tally_of(t, which, q);
@@ -130,7 +130,7 @@ static void write_least(FILE *to, const tally *t, int which, int q, int width)
         fprintf(to, "%*d", width, s->everywhere);
 }
 
-/* Formulations side by side, a few at a time. */
+/* Prints formulations side by side, a few at a time. */
 static void write_leasts(FILE *to, const tally *t)
 {
     enum { BESIDE = 3, WIDTH = 24 };
@@ -204,7 +204,7 @@ static void write_failures(FILE *to, const tally *t)
     }
 }
 
-/* Its axes, in a few digits. */
+/* Values on the axes of the point, in a few digits. */
 static void short_point(const parameter_ranges *r, const double at[], char *text, int size)
 {
     int used = 0;
@@ -236,7 +236,7 @@ static void write_worst(FILE *to, const parameter_ranges *r, int which, const ta
             where, w->scene[0] != '\0' ? "  " : "", w->scene);
 }
 
-/* Prints how to examine one of them: that of the first formulation. */
+/* Prints a command that examines the worst point of the first formulation. */
 static void write_command(FILE *to, const parameter_ranges *r, int which, const tally_worst *w,
                           const char *folder, fault *f)
 {

@@ -7,9 +7,10 @@
 #include "cases/format/format.h"
 #include "cases/scene/scene.h"
 
-/* As text of a scene file, which the caller frees. REFUSED: a file cannot express it. */
+/* The scene as the text of a scene file, which the caller frees. REFUSED: a file cannot express
+ * it. */
 static status restart_text(const scene *, char **out, fault *);
-/* REFUSED: it differs from the previous text; the message gives the first different line. */
+/* REFUSED: the scene differs from the stored text; the message gives the first different line. */
 static status restart_text_check(const char *former, const scene *, fault *);
 
 status restart_possible(const scene *s, fault *f)
@@ -51,7 +52,7 @@ static status check_chosen(const restart *r, const solution_request *of, fault *
     return STATUS_OK;
 }
 
-/* Past instants are no longer stations. */
+/* Removes stations at past instants. */
 static status drop_stations(const outcome_end *e, scene *s, fault *f)
 {
     const double same_instant = 1e-9;
@@ -87,8 +88,8 @@ status restart_begin(const restart *r, solution_request *of, scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* The file of a restart: `scene` and `formulation` as text, `run` (elements, keep_all, ends), for
- * each end its `numbers` and, in `value_K`, the settings of the motion. */
+/* The file of a restart: `scene` and `formulation` as text, `run` (elements, keep_all, ends), and
+ * for each end its `numbers` and, in `value_K`, the settings of the motion. */
 
 static const char kind[] = "beamwork-motion-end-4";
 enum { RUN = 3, NUMBERS = 21, FIRST_COUNT = 11, COUNTS = 5, MOST_ENDS = 1000 };
@@ -195,8 +196,8 @@ typedef struct source {
     const char *path;
 } source;
 
-/* Contents of a data set of rank 1, followed by a zero; NULL: it does not exist, or differs. count:
- * the number of values; negative on entry: any number. */
+/* Contents of a data set of rank 1, followed by a zero; NULL: the data set does not exist or has
+ * another form. count: number of values; negative on entry: any number. */
 static void *take(const source *from, const char *name, hid_t type, size_t size, long *count)
 {
     const hid_t set =
@@ -304,7 +305,7 @@ status restart_read(const char *path, restart *out, fault *f)
     return outcome;
 }
 
-/* Is this the only station of all motions? */
+/* Replaces the stations of all motions by the same single station. */
 static void equal_stations(scene *plain, double *zero)
 {
     for (int i = 0; i < plain->analyses; i++)
@@ -338,7 +339,7 @@ static status restart_text(const scene *s, char **out, fault *f)
         "remove --save-state and --restart");
 }
 
-/* Length of the line without its leading spaces, which are skipped. */
+/* Length of the line without leading spaces, which are skipped. */
 static int line_of(const char **text)
 {
     *text += strspn(*text, " ");

@@ -28,7 +28,7 @@ status shard_parse(const char *text, int *index, int *count, fault *f)
 
 typedef struct shard_hand {
     pid_t process;
-    int from; /* -1: it does not run */
+    int from; /* -1: no process is running */
 } shard_hand;
 
 typedef struct crew {
@@ -64,7 +64,7 @@ static status hire(crew *c, int self, fault *f)
     return STATUS_OK;
 }
 
-/* Waits for its end, or ends it. Returns the status of waitpid. */
+/* Waits for the end of a process, or ends it. Returns the status of waitpid. */
 static int dismiss(crew *c, int self)
 {
     close(c->hand[self].from);
@@ -94,7 +94,7 @@ static void clean(const crew *c, int batch, int gone)
     batch_clean(c->todo.request->into, name, gone);
 }
 
-/* Handles one process that has written something, or has ended. */
+/* Handles one process that has sent a message or ended. */
 static status attend(crew *c, int self, fault *f)
 {
     labour_notice said;
@@ -181,7 +181,7 @@ static status make_folder(const char *into, fault *f)
                      strerror(errno));
 }
 
-/* Lists the batches of the shard that are not done, the most expensive first; mine[batches]. */
+/* Lists the batches of the shard that are not done yet, the most expensive first; mine[batches]. */
 static status make_list(crew *c, char mine[], fault *f)
 {
     const shard_work *w = c->todo.w;

@@ -81,7 +81,7 @@ status solution_plan(const solution_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Enters the changes of values that the choice of the mesh has found. */
+/* Enters the changes of values that were found while choosing the mesh. */
 static status tell_change(const solution_request *r, const solution_choice *why, solve_result *out,
                           fault *f)
 {
@@ -106,7 +106,7 @@ status solution_run(const solution_request *r, const solution_choice *why, sweep
     request.solve.systems = r->systems;
     request.solve.reduce = r->reduce;
     request.solve.keep_ends = r->keep_ends;
-    /* analyses that are drawn, written or continued are requested */
+    /* analyses are also run for shapes, matrices and stored final states */
     request.solve.all_analyses = r->shapes > 0 || r->systems || r->keep_ends;
     request.solve.looks = 1;
     request.solve.restarts = r->restarts;
@@ -128,7 +128,7 @@ static point_reference of_truth(const scene_quantity *q, const truth *t, rows_re
     return (point_reference){kind, t->value, t->uncertainty / scale_of(q, t->value)};
 }
 
-/* Does another formulation solve the same problem? Theories of shear in stability differ. */
+/* Does another formulation solve the same problem? Shear theories for stability differ. */
 static int same_physics(const sweep *s, int a, int b)
 {
     const series *one = &s->series[a], *other = &s->series[b];
@@ -190,7 +190,7 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
     point_reference found = {ROWS_NONE, NAN, NAN};
     if (row != NULL)
         found = of_truth(q, row, ROWS_STORED);
-    if (found.doubt <= tolerance / 2) /* NAN is not */
+    if (found.doubt <= tolerance / 2) /* false for NAN */
         return found;
     row = derived != NULL ? verdict_truth(derived, p, &one->formulation, quantity) : NULL;
     if (row != NULL)
@@ -198,7 +198,8 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
     return found.doubt <= tolerance / 2 ? found : of_limits(s, series_index, quantity, tolerance);
 }
 
-/* Rows of the request that apply at the point: a few of many, which every quantity searches. */
+/* Finds the rows of the request that apply at the point: a few of many, since every quantity
+ * searches them. */
 static status borrow(const truths *all, const sweep_point *p, known_truths *out, fault *f)
 {
     out->borrowed = 1;
@@ -222,12 +223,12 @@ static status find_stored(const parameter_ranges *r, const sweep_point *p, known
         return STATUS_OK;
     if (scene_truths_add(q->file, p->parameter, &out->stored, &why) == STATUS_OK)
         return STATUS_OK;
-    truths_free(&out->stored); /* expressions without a value here */
+    truths_free(&out->stored); /* reference values whose expressions have no value here */
     out->stored = (truths){0};
     return STATUS_OK;
 }
 
-/* Returns the theory of shear that the scene follows for critical loads. */
+/* Returns the shear theory that the scene follows for critical loads. */
 static const char *theory_of(const scene *s, const char *quantity)
 {
     const unsigned both = FEATURE_ENGESSER | FEATURE_HARINGX, needs = features_needed(s) & both;

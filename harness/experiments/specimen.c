@@ -74,7 +74,7 @@ void specimen_numbers(int count, unsigned seed, double out[])
         out[i] = number(&state);
 }
 
-/* Along the arc of its initial curvature. */
+/* Undeformed state: nodes along the arc of the initial curvature. */
 static void at_rest(const specimen *s, node_state x[])
 {
     static const double ahead[3] = {1, 0, 0};
@@ -162,7 +162,7 @@ const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS])
     return words;
 }
 
-/* Describes its special properties. */
+/* Describes the special properties of the specimen. */
 static void describe(const specimen_request *what, const formulation *chosen, specimen *s)
 {
     static const char *const section_words[] = {"", ", unsymmetric section",
@@ -174,16 +174,17 @@ static void describe(const specimen_request *what, const formulation *chosen, sp
              curved ? ", initially curved" : "");
 }
 
-/* One variant of it. */
+/* One variant of the specimen. */
 typedef struct way {
     const formulation *chosen;
     specimen_request made;
-    int usual; /* 1: it must be possible */
+    int usual; /* 1: the element must be possible */
 } way;
 
 static const char failure[] = "its functions return results";
 
-/* If the code of the formulation fails, this is the single cause of all deviations. */
+/* Does the element give results at all? If the code of the formulation fails, this is the only
+ * cause of all deviations. */
 static int gives_answers(const specimen *s, claims *c)
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -257,7 +258,7 @@ static void all_forms(const formulation *chosen, claims *c, specimens_check *che
     }
 }
 
-/* Each choice of an option, with the others unchanged. */
+/* Checks each choice of an option, with the other options unchanged. */
 static void other_choices(const formulation *chosen, int option, claims *c, specimens_check *check)
 {
     const assignment_list list = formulation_options(chosen->type);
@@ -283,7 +284,7 @@ void specimens_each(const formulation *chosen, claims *c, specimens_check *check
         other_choices(chosen, i, c, check);
 }
 
-/* Test elements of types that are defined by forces or an energy of their nodes. */
+/* Test elements for types that are defined by forces or an energy of their nodes. */
 
 enum { N = SPECIMEN_COORDINATES };
 
@@ -313,7 +314,7 @@ static int force_at(const void *context, int i, double si, int j, double sj, dou
     return (int)call(at->s, x, &(force_output){.F = values});
 }
 
-/* Forces times the units of their coordinates [J]; size: the largest. */
+/* Forces times the units of their coordinates [J]; returns the size: the largest. */
 static double works(const specimen *s, const double F[], double out[])
 {
     double largest = 0;
@@ -340,7 +341,7 @@ static void check_force(const specimen_place *at, const double F[], claim *one)
     }
 }
 
-/* Only the symmetric part of K counts: that of the exponential chart. */
+/* Checks the symmetric part of K only, which is that of the exponential chart. */
 static void check_stiffness(const specimen_place *at, const double K[], claim *one)
 {
     const specimen *s = at->s;

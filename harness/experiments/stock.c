@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Returns 1 when processor and BLAS are the same; hosts may differ. */
+/* Are processor and BLAS the same? Hosts may differ. */
 static int node_same_kind(const machine *, const machine *);
 
 static status path_of(const char *folder, const char *name, char out[PATH_MAX], fault *f)
@@ -39,7 +39,8 @@ static status add_kind(stock *s, const machine *of, fault *f)
     return STATUS_OK;
 }
 
-/* If there are two files of one batch, the label of the other one is read again. */
+/* Compares the label of a second file of a batch with that of the first file, which is read
+ * again. */
 static status hold_against(stock *s, const batch_label *label, const char *path, fault *f)
 {
     char other[PATH_MAX];
@@ -70,7 +71,7 @@ static status add(stock *s, const batch_label *label, const char *path, int fold
     return add_kind(s, &label->node, f);
 }
 
-/* Its name is that of a batch of this work. */
+/* Reads a file whose name is that of a batch of this work. */
 static status look_inside(stock *s, const shard_work *w, const char *path, int batch, int folder,
                           FILE *tell, fault *f)
 {
@@ -93,7 +94,7 @@ static status look_inside(stock *s, const shard_work *w, const char *path, int b
     return outcome;
 }
 
-/* Reports to which work it belongs: never to this one. */
+/* Reports the work to which a batch belongs, which is not this one. */
 static status refuse_other(const shard_work *w, const char *path, fault *f)
 {
     batch_label label;
@@ -164,7 +165,7 @@ void stock_free(stock *s)
     *s = (stock){.batches = 0};
 }
 
-/* The ranges of missing batches; a long list ends with dots. */
+/* Writes the ranges of missing batches; a long list ends with dots. */
 static void write_ranges(FILE *to, const stock *s)
 {
     enum { MOST = 20 };
@@ -186,7 +187,8 @@ static void write_ranges(FILE *to, const stock *s)
     }
 }
 
-/* The shards to which they belong, if all plans have the same number of shards. */
+/* Writes the shards to which missing batches belong, if all plans have the same number of
+ * shards. */
 static void write_shards(FILE *to, const stock *s, const shard_work *w)
 {
     int *shard = malloc(((size_t)s->batches + 1) * sizeof *shard);
@@ -289,7 +291,8 @@ void deal_order(int batches, const double cost[], int order[])
     qsort_r(order, (size_t)batches, sizeof *order, dearest, (void *)cost);
 }
 
-/* Work of a shard so far; a heap of these has the least one on top, the first of equal ones. */
+/* Work of a shard so far. In a heap of these the one with the lowest cost is on top; of equal ones,
+ * the first. */
 typedef struct hand {
     double sum;
     int shard;
@@ -300,7 +303,7 @@ static int is_before(const hand *a, const hand *b)
     return a->sum < b->sum || (a->sum == b->sum && a->shard < b->shard);
 }
 
-/* The top has changed. */
+/* Restores the heap after its top has changed. */
 static void sift(hand heap[], int count)
 {
     const hand moved = heap[0];
@@ -362,7 +365,7 @@ status merge_take(const shard_work *w, const stock *s, fault *f)
     return STATUS_OK;
 }
 
-/* A function without arguments that returns a text, if the library has it. */
+/* Calls a function without arguments that returns a string, if the library has it. */
 static const char *answer_of(const char *name)
 {
     char *(*function)(void);
@@ -373,7 +376,8 @@ static const char *answer_of(const char *name)
     return function();
 }
 
-/* OpenBLAS names itself; for another library the name of its file. */
+/* Gives the name of the BLAS library: OpenBLAS names itself; for other libraries, the name of the
+ * file. */
 static void name_blas(char *out, size_t size)
 {
     const char *config = answer_of("openblas_get_config"),

@@ -28,7 +28,7 @@ static status add_point(const parameter_ranges *r, long index, sweep *s, fault *
     return plan_extend(s, r->formulation, r->formulations, f);
 }
 
-/* A quantity of a scene that has one value. */
+/* Adds a quantity of a scene that has a single value. */
 static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *f)
 {
     for (int i = 0; i < r->quantities; i++)
@@ -86,7 +86,7 @@ static status check_words(const survey_wanted *w, const sweep_point *p, fault *f
                      word, near);
 }
 
-/* Formulations that are named run, or are refused; without names, those that cannot run are
+/* Rejects named formulations that cannot run. If none is named, those that cannot run are
  * omitted. */
 static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f)
 {
@@ -160,11 +160,11 @@ static void take_formulations(parameter_ranges *r)
             formulation_default(formulations_at(i), &r->formulation[r->formulations++]);
 }
 
-/* [s] for a point in addition to its cells: its scene; deriving a reference value for a case, for a
- * scene */
+/* [s] for a point in addition to its cells: for its scene; for computing a reference value for a
+ * case; for a scene */
 static const double scene_cost = 5e-5, derive_cost = 0.5, derive_scene_cost = 4;
 
-/* [s] about, of all cells. */
+/* [s] estimated cost of all cells. */
 static double cost_of(const sweep *s)
 {
     double all = scene_cost * s->points;
@@ -197,7 +197,7 @@ status survey(parameter_ranges *r, fault *f)
     return outcome;
 }
 
-/* Decimal fractions as in tables of reference values. */
+/* Rounds to decimal fractions as in tables of reference values. */
 static double to_15_digits(double value)
 {
     char text[32];
@@ -232,7 +232,8 @@ static scene_edit edit_of(const extreme *e, double x)
     return (scene_edit){SCENE_EDIT_NONE, 0};
 }
 
-/* Records the words of the selection that occur, whether it holds or not. */
+/* Does the selection include the formulation? Records the words of the selection that match in any
+ * case. */
 static int is_selected(const extreme_request *request, const extreme *e, const formulation *chosen,
                        select_words *words)
 {
@@ -270,7 +271,7 @@ static int quantity_index(const scene *s, const char *name)
     return -1;
 }
 
-/* One outcome for every quantity of the series just planned. */
+/* Adds one outcome for every quantity of the series just planned. */
 static status add_outcomes(extreme_sweep *out, int extreme_index, int value, int formulation_index,
                            fault *f)
 {

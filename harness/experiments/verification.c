@@ -15,7 +15,7 @@ typedef struct judging {
     truths *truths;
     judgement *judgement;
     const verification_reader *reader; /* NULL: none */
-    int judged;                        /* series that are */
+    int judged;                        /* number of evaluated series */
 } judging;
 
 static int doubts(void *context, const sweep *s, int series_index)
@@ -29,7 +29,7 @@ static const case_type *case_of(const sweep *s, int series_index)
     return s->point[s->series[series_index].point].type;
 }
 
-/* Passes on the case of a series if this is its last one. */
+/* Reports that a case is complete if this series is its last one. */
 static void hand_over(judging *v, const sweep *s, int series_index)
 {
     const case_type *type = case_of(s, series_index);
@@ -41,7 +41,7 @@ static void hand_over(judging *v, const sweep *s, int series_index)
     v->reader->judged(v->reader->context, type);
 }
 
-/* Evaluates the series up to that one, whose points are all complete. */
+/* Evaluates the series up to `end`; all their points are complete. */
 static status judge_to(judging *v, const sweep *s, int end, fault *f)
 {
     int of = -1;
@@ -62,7 +62,7 @@ static status whole(void *context, const sweep *s, int series_index, fault *f)
     judging *v = context;
     const int here = s->series[series_index].point;
     if (v->judged < series_index && s->series[v->judged].point != here)
-        TRY(judge_to(v, s, series_index, f)); /* the rest of that point was not run */
+        TRY(judge_to(v, s, series_index, f)); /* the rest of the previous point was not run */
     if (series_index + 1 < s->seriess && s->series[series_index + 1].point == here)
         return STATUS_OK;
     TRY(judge_to(v, s, series_index + 1, f));
@@ -72,7 +72,7 @@ static status whole(void *context, const sweep *s, int series_index, fault *f)
 
 enum { MOST_OWN = 64 };
 
-/* Formulations that were named or loaded, each once. */
+/* Finds the formulations that were named or loaded, each once. */
 static int find_own(const sweep *s, formulation out[MOST_OWN])
 {
     int count = 0;
@@ -99,8 +99,8 @@ static status add_breach(const certificate *c, judgement *out, fault *f)
     return memory_append(&out->breach, &out->breaches, &one, sizeof one, "broken contracts", f);
 }
 
-/* Checks them against the interface before anything is run, because their results are meaningless
- * if they violate it. */
+/* Checks these formulations against the interface before anything is run, because the results of a
+ * formulation that violates it are meaningless. */
 static status hold_contracts(const sweep *s, int jobs, int time_limit, judgement *out, fault *f)
 {
     formulation own[MOST_OWN];
@@ -187,7 +187,7 @@ static void files_case(void *files, const case_type *type)
         json_part_add(&to->part, to->sweep, to->judged);
 }
 
-/* Returns the destination of a file; for an interrupted run its name says so. */
+/* Gives the path of an output file; for an interrupted run its name says so. */
 static status name_place(const verification_files *files, const char *path, char out[PATH_MAX],
                          fault *f)
 {
@@ -248,7 +248,7 @@ static status write_texts(verification_files *to, const overview *o, const envir
     return to->propose != NULL ? write_proposal(to, f) : STATUS_OK;
 }
 
-/* The store is closed in any case. */
+/* Writes and closes the store; it is closed in any case. */
 static status write_store(verification_files *to, const environment *e, fault *f)
 {
     char where[PATH_MAX];
