@@ -9,8 +9,8 @@
 
 /* Position of corner k of n elements on 0 to 1, graded towards both ends. */
 static double face_graded(int k, int n);
-/* section: constants computed from the spec. REFUSED: tubes, given constants, walls oblique to y
- * and z. */
+/* Computes the face of a section; constants: computed from the spec. REFUSED: tubes, given
+ * constants, walls oblique to y and z. */
 static status face_of(const section_spec *spec, const section *constants, face *out, fault *f);
 
 enum { BRICK_NODES = 20, DECK_LINE = 10 };
@@ -171,7 +171,7 @@ enum { SHEET_RATIO = 4, SHEET_ACROSS = 8, ACROSS = 2, MOST_LINES = 2 * SECTION_M
 /* Coordinates of a section closer than this, relative to its size, are equal. */
 static const double same = 1e-9;
 
-/* A wall as a rectangle: its least and largest y and z in wall coordinates. */
+/* A wall as a rectangle: its smallest and largest y and z in wall coordinates. */
 typedef struct strip {
     double from[2], to[2];
 } strip;
@@ -262,7 +262,7 @@ static int lines_of(const strip strips[], int count, int axis, double line[MOST_
     return lines;
 }
 
-/* Corners between the lines, at most `step` apart: FACE_MOST has room for them. */
+/* Places corners between the lines, at most `step` apart; FACE_MOST is large enough for them. */
 static void divide(const double line[], int lines, double step, int axis, face *out)
 {
     int n = 0;
@@ -318,7 +318,7 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
     return STATUS_OK;
 }
 
-/* Do given constants replace those computed from the sizes? */
+/* Do given constants replace those computed from the dimensions? */
 static int is_overridden(const section_spec *spec)
 {
     double given[sizeof spec->given / sizeof(double)];

@@ -89,8 +89,8 @@ static int held_rotations(const scene_node *n)
     return held;
 }
 
-/* A rotation node has a rotation vector. Increments about fixed axes are the same only if no
- * rotation, all rotations, or all but one are fixed. */
+/* In CalculiX, a rotation node has a rotation vector. Increments about fixed axes are the same only
+ * if no rotation, all rotations, or all but one are fixed. */
 static status check_node(const scene *s, int node, fault *f)
 {
     const scene_node *n = &s->node[node];
@@ -224,8 +224,8 @@ static status check_component(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* CalculiX loses the state after a linear step about it, so that this step must come last: about
- * the end of the path. */
+/* Requires that a linear step is about the end of the path: CalculiX loses the state after such a
+ * step, which must therefore come last. */
 static status check_last(const scene *s, const scene_quantity *q, fault *f)
 {
     const int about = s->analysis[q->analysis].follows;
@@ -249,8 +249,8 @@ static status check_last(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* About a loaded state the stiffness of a rotation vector corresponds to no convention of moments.
- */
+/* About a loaded state the stiffness of a rotation vector corresponds to no convention for
+ * moments. */
 static status check_entry(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_entry *e = scene_entry_of(q);

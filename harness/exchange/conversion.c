@@ -91,7 +91,7 @@ static int read_sign(char c, int *side, int *depth)
     return 1;
 }
 
-/* 1: the text is a unit. */
+/* Reads a unit; returns 0 when the text is not a unit. */
 static int read_unit(const char *text, unit_measure *out)
 {
     int side = 1, depth = 0, symbols = 0;
@@ -167,7 +167,7 @@ int axes_parse(const char *text, axes *out)
     return text != NULL && text[strspn(text, " ")] == '\0';
 }
 
-/* 1, or -1 where the permutation is a reflection. */
+/* Returns 1, or -1 if the permutation is a reflection. */
 static int determinant(const axes *a)
 {
     const int even = (a->ours[1] - a->ours[0] + 3) % 3 == 1;

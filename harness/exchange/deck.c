@@ -11,15 +11,15 @@ static void body_write(const body_numbers *, const scene *s, const brick bricks[
 /* Writes the prescribed coordinates at `path`, below *BOUNDARY. */
 static void body_write_state(const body_numbers *, const scene *s, int acting, double path,
                              FILE *to);
-/* As body_write_state for a small motion, in which they do not move. released: components of `node`
- * (bit i) that are free. */
+/* As body_write_state, for a small motion in which the prescribed coordinates do not move.
+ * released: components of `node` (bit i) that are free. */
 static void body_write_held(const body_numbers *, const scene *s, int node, unsigned released,
                             FILE *to);
 /* Writes all steps: linear analyses and compliances of the undeformed structure, then the static
  * path, with one unit load about its last state. FAULT: out of memory. */
 static status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f);
 static status path_points_of(const scene *s, int analysis, path_points *out, fault *f);
-/* Does the quantity, of the path or an analysis about it, need its value at the point? */
+/* Is the value of the quantity, in the path or an analysis about it, needed at the point? */
 static int path_points_asked(const scene *s, int analysis, const scene_quantity *q, double point);
 
 status deck_check(const deck_request *r, fault *f)
@@ -35,7 +35,7 @@ status deck_check(const deck_request *r, fault *f)
     return carried_asked_check(r->scene, f);
 }
 
-/* Bricks of all members; numbers of bodies follow those of the bricks. */
+/* Makes the bricks of all members; numbers of bodies follow those of the bricks. */
 static status make_bricks(const deck_request *r, brick out[], body_numbers *bodies, fault *f)
 {
     int node = 1, element = 1;
@@ -57,7 +57,7 @@ static void write_deck_head(const deck_request *r, int elements, FILE *to)
             r->scene->name, r->of, elements);
 }
 
-/* Writes the convention of moments. Decks have moments only about the undeformed structure, where
+/* Writes the convention for moments. Decks have moments only about the undeformed structure, where
  * all conventions agree. */
 static void write_convention(const scene *s, FILE *to)
 {
@@ -93,8 +93,8 @@ static void write_mesh(const scene *s, const brick bricks[], const body_numbers 
     body_write(bodies, s, bricks, to);
 }
 
-/* Difference of the area of each solid from that of its beam, because walls overlap where they
- * meet. */
+/* Writes by how much the area of each solid differs from that of its beam, because walls overlap
+ * where they meet. */
 static status write_areas(const scene *s, const brick bricks[], FILE *to, fault *f)
 {
     for (int i = 0; i < s->members; i++) {
@@ -106,7 +106,7 @@ static status write_areas(const scene *s, const brick bricks[], FILE *to, fault 
     return STATUS_OK;
 }
 
-/* bricks: [members], room for them. */
+/* Writes the deck; bricks: [members], work space. */
 static status write_with(const deck_request *r, brick bricks[], FILE *to, fault *f)
 {
     const scene *s = r->scene;
@@ -145,7 +145,7 @@ typedef struct answers_writer {
     int steps; /* number of steps written so far */
 } answers_writer;
 
-/* Loads on the same coordinate are combined to one card. */
+/* Writes the loads on the structure; loads on the same coordinate are combined into one card. */
 static void write_structure_loads(const answers_writer *w, int acting, double path)
 {
     fputs("*CLOAD,OP=NEW\n", w->to);
@@ -164,7 +164,7 @@ static void write_structure_loads(const answers_writer *w, int acting, double pa
         }
 }
 
-/* increments: first trial of the step; 0: linear. */
+/* Writes a state; increments: size of the first increment of the step; 0: linear. */
 static void write_state(answers_writer *w, int acting, double path, int increments)
 {
     if (increments > 0)
@@ -178,7 +178,7 @@ static void write_state(answers_writer *w, int acting, double path, int incremen
     w->steps++;
 }
 
-/* A unit load on a component of the compliance's node, about the undeformed structure or the
+/* Writes a unit load on a component of the compliance's node, about the undeformed structure or the
  * previous state. */
 static void write_unit_load(answers_writer *w, const scene_analysis *a, int component)
 {
@@ -329,7 +329,7 @@ static void body_write(const body_numbers *b, const scene *s, const brick bricks
                 fprintf(to, "%d,\n", body_node(b, i, k));
 }
 
-/* SCENE_FREE, SCENE_HELD or a driver. */
+/* Returns SCENE_FREE, SCENE_HELD or a driver. */
 static int mover(const scene_node *n, int component)
 {
     const int axis = rigid_single_axis(n), turn = component - BODY_TRANSLATIONS;
@@ -340,7 +340,8 @@ static int mover(const scene_node *n, int component)
     return turn == axis ? n->angle[0] : SCENE_HELD;
 }
 
-/* path NULL: a small motion, in which prescribed coordinates do not move. */
+/* Writes the boundary conditions; path NULL: a small motion, in which prescribed coordinates do not
+ * move. */
 static void write_boundary(const body_numbers *b, const scene *s, int acting, const double *path,
                            int node, unsigned released, FILE *to)
 {

@@ -31,7 +31,7 @@ void import_block_free_set(import_set *set)
     set->scenes = 0;
 }
 
-/* The case of a scene file next to the imported file; NULL after an error. */
+/* Finds the case of a scene file next to the imported file; NULL after an error. */
 static const case_type *scene_case(import_block *b, const char *name, int line)
 {
     char path[IMPORT_TEXT + 4096];
@@ -65,7 +65,7 @@ static int ends_in(const char *name, const char *ending)
     return length > size && strcmp(name + length - size, ending) == 0;
 }
 
-/* The point of the sweep with these parameters, created if necessary; -1 after an error. */
+/* Finds the point of the sweep with these parameters, or creates it; -1 after an error. */
 static int point_of(import_block *b, const case_type *type, const double value[], int line)
 {
     sweep *s = &b->set->sweep;
@@ -112,7 +112,7 @@ static int find_point(import_block *b, const char *of, int line)
     return -1;
 }
 
-/* Convention of moments of the compliances of a scene; -1: none. */
+/* Convention for moments of the compliances of a scene; -1: none. */
 static int moments_of(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -198,7 +198,7 @@ static const scene_quantity *find_quantity(const import_block *b, const imported
     return NULL;
 }
 
-/* Does its value depend on the convention of moments on rotating nodes? */
+/* Does the value depend on the convention for moments on rotating nodes? */
 static int has_moments(const scene_quantity *q)
 {
     return (q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY) &&
@@ -242,7 +242,7 @@ static int convert(const import_block *b, const scene_quantity *q, imported_row 
     return 1;
 }
 
-/* Values are in the order of their cells, so that duplicates are adjacent. */
+/* Reports duplicates, which are adjacent because values are in the order of their cells. */
 static void check_again(const import_block *b)
 {
     const imported *all = b->found;
@@ -300,7 +300,7 @@ status import_block_close(import_block *b, fault *f)
     return outcome;
 }
 
-/* The order of another program is unknown. */
+/* Returns no order: the order of another program is unknown. */
 static element_order any_order(element_analysis analysis, const double options[])
 {
     (void)analysis;
@@ -380,7 +380,7 @@ static int take_row(const scene *s, series *one, const imported_row *row)
     if (s->quantity[index].reduction == SCENE_CURVE)
         return add_to_curve(&q->curve, row);
     q->value = row->value;
-    one->noise[index] = NAN; /* that of its finest mesh counts; rows ascend */
+    one->noise[index] = NAN; /* the uncertainty on the finest mesh counts; rows ascend */
     if (isfinite(row->uncertainty)) {
         const double size = fmax(fabs(row->value), s->quantity[index].near_zero);
         one->noise[index] = size > 0 ? row->uncertainty / size : NAN;

@@ -10,7 +10,7 @@
 
 /* Reports every key that is not in the NULL-terminated list. */
 static void map_keys_check(const document_node *map, const char *const known[], mistakes *m);
-/* A nonnegative integer. */
+/* Reads a nonnegative integer. */
 static int map_keys_count(mistakes *m, const document_node *map, const char *key, int otherwise);
 
 enum { WORDS = 128, LAST = -1, ALL = 0 };
@@ -317,7 +317,7 @@ static void map_keys_check(const document_node *map, const char *const known[], 
     }
 }
 
-/* Text of an entry; `otherwise` if it is missing. */
+/* String of an entry; `otherwise` if the entry is missing. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,
                           const char *otherwise)
 {

@@ -28,7 +28,7 @@ static const table_column value_columns[] = {
     TEXT(value_row, file_unit), INT(value_row, elements),     INT(value_row, line),
     INT(value_row, unknowns),   DOUBLE(value_row, factor),    DOUBLE(value_row, seconds),
     DOUBLE(value_row, x),       DOUBLE(value_row, value),     DOUBLE(value_row, uncertainty),
-    TEXT(value_row, version) /* last: older files have none */};
+    TEXT(value_row, version) /* last, because older files have none */};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
 /* Tables of one case. */

@@ -1,10 +1,10 @@
-"""Converts the output of CalculiX for a deck of `beamwork export`, as a file that `beamwork import` reads.
+"""Converts the output of CalculiX for a deck of `beamwork export` to a file that `beamwork import` reads.
 
     python3 harness/exchange/read_back.py DECK.inp... [-o VALUES.csv]
 
 DECK.dat is next to each deck. Decks of one scene with different meshes form one series, whose limit is that of the
-solid. Answers (lines `**Q`) are explained in exchange_impl.h. The uncertainty
-of a value is that of its 7 digits.
+solid. The lines `**Q` of a deck are explained in exchange_impl.h. The uncertainty of a value is that of its 7
+printed digits.
 """
 import argparse
 import csv
@@ -15,7 +15,7 @@ import sys
 HEAD = "# beamwork-import: 1\n# program: {}\n# case: {}\n# model: solid\n"
 COLUMNS = ("quantity", "unit", "elements", "unknowns", "seconds", "x", "value", "uncertainty")
 PROGRAM = "CalculiX C3D20R"
-DIGITS = 5e-7  # relative, of a printed number
+DIGITS = 5e-7  # relative error of a printed number
 
 
 class Incomplete(Exception):
@@ -23,7 +23,7 @@ class Incomplete(Exception):
 
 
 def printed(path):
-    """{what: [{node: vector [3]} of every step]}; what: 'displacements' or 'forces'."""
+    """Returns {what: [{node: vector [3]} of every step]}; what: 'displacements' or 'forces'."""
     blocks = {"displacements": [], "forces": []}
     current = None
     for line in path.read_text(encoding="utf-8").splitlines():
@@ -39,7 +39,7 @@ def printed(path):
 
 
 def value_of(answer, blocks):
-    """(value, uncertainty) in the unit of the quantity."""
+    """Returns (value, uncertainty) in the unit of the quantity."""
     what, step, node, direction, reciprocal, factor, offset = answer[2:9]
     steps = blocks[what]
     if int(step) > len(steps):
@@ -54,14 +54,14 @@ def value_of(answer, blocks):
 
 
 def unknowns(lines):
-    """Coordinates of the nodes of the solid, including held ones."""
+    """Counts the coordinates of the nodes of the solid, including fixed ones."""
     first = next(i for i, line in enumerate(lines) if line.startswith("*NODE,"))
     last = next(i for i in range(first + 1, len(lines)) if lines[i].startswith("*"))
     return 3 * (last - first - 1)
 
 
 def said(lines, card):
-    """Returns the words of a comment of the deck."""
+    """Returns the words of a comment in the deck."""
     for line in lines:
         if line.startswith(card):
             return line[len(card):].strip()
@@ -69,7 +69,7 @@ def said(lines, card):
 
 
 def head_of(lines):
-    """Head of the import of a deck."""
+    """Returns the header of the import of a deck."""
     head = HEAD.format(PROGRAM, said(lines, "**CASE "))
     if any(line.startswith("**CONVENTION ") for line in lines):
         head += f"# convention: {said(lines, '**CONVENTION ')}\n"
@@ -77,7 +77,7 @@ def head_of(lines):
 
 
 def rows(deck):
-    """Head of the import and the rows of one deck."""
+    """Returns the header of the import and the rows of one deck."""
     lines = deck.read_text(encoding="utf-8").splitlines()
     head = head_of(lines)
     elements, count = said(lines, "**ELEMENTS "), unknowns(lines)
@@ -93,7 +93,7 @@ def rows(deck):
 
 
 def series(decks):
-    """Header and rows of decks of one scene, each with a different mesh."""
+    """Returns header and rows of decks of one scene, each with a different mesh."""
     heads, out, meshes = set(), [], set()
     for deck in decks:
         head, found = rows(deck)

@@ -34,7 +34,7 @@ int stencil_first(stencil_function *f, const void *context, int count, int i, do
 
 int stencil_second(stencil_function *f, const void *context, int count, int i, int j, double out[])
 {
-    /* for differences with steps h, 2 h and 3 h, whose errors have even powers of h */
+    /* weights for differences with steps h, 2 h and 3 h, whose errors have even powers of h */
     static const double weight[] = {3. / 2, -3. / 5, 1. / 10};
     int outcome = 0;
     memset(out, 0, (size_t)count * sizeof *out);
@@ -105,7 +105,7 @@ void chart_dexp_inverse(const double psi[3], double T[9])
         quadratic(psi, -1. / 2, (1 - t / 2 / tan(t / 2)) / (t * t), T);
 }
 
-enum { ENOUGH = 1 << 24 }; /* no element is added above this number of bytes of answers */
+enum { ENOUGH = 1 << 24 }; /* above this number of bytes of answers, no element is added */
 
 static int make_room(gather *g)
 {
@@ -146,7 +146,8 @@ static int is_full(const gather *g)
     return g->failed || (size_t)g->count * g->size * sizeof *g->answer > ENOUGH;
 }
 
-/* start[i]: first state of element i. An element that fails may use fewer states. */
+/* Returns the answers to the elements; start[i]: first state of element i. An element that fails
+ * may use fewer states. */
 static void hand_out(gather *g, const int start[], int first, int end, gather_element *element,
                      gather_evaluate *evaluate, void *context)
 {
@@ -200,7 +201,7 @@ static void moved(const difference_place *at, int i, double si, int j, double sj
     chart_move(at->x, at->data->nodes, step, out);
 }
 
-/* Copies an answer, or zeros when there is none yet. */
+/* Copies an answer; writes zeros if there is no answer yet. */
 static void copy_answer(const double *answer, int count, double values[])
 {
     if (answer != NULL)
@@ -332,7 +333,7 @@ static strain_output given_part(const element_data *d, const strain_output *out)
     return asked;
 }
 
-/* The rest. */
+/* Computes the remaining derivatives by differences. */
 static void made_part(const element_data *d, const node_state x[], gather *together,
                       const strain_output *out)
 {

@@ -57,7 +57,7 @@ void formulations_accept(const char *name)
         accepted[count] = t;
 }
 
-/* Is the word reserved, so that no formulation can have it as a name? */
+/* Is the word reserved, so that it cannot be the name of a formulation? */
 static int is_reserved(const char *name)
 {
     static const char *const words[] = {"all", "cases", "formulations"};

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* *out: a table that the caller frees, also after a refusal; NULL when list is NULL or empty.
- * REFUSED: see handshake_read. */
+/* Reads the options to *out: a table that the caller frees, also after REFUSED; NULL when list is
+ * NULL or empty. REFUSED: see handshake_read. */
 static status handshake_options(const char *who, const json_t *list, const parameter_type **out,
                                 fault *f);
 static void handshake_options_free(const parameter_type *table); /* or NULL */
@@ -53,7 +53,7 @@ static status refuse(const handshake_reading *r, const char *key, const char *wh
                      what);
 }
 
-/* Copies a text, so that it outlives the JSON. */
+/* Copies a string, so that it outlives the JSON. */
 static status text_of(const handshake_reading *r, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(r->said, key));
@@ -98,7 +98,7 @@ static status no_such_word(const handshake_reading *r, const char *key, const wo
                      word != NULL ? word : "that is not text", words);
 }
 
-/* Combined bits of a list of words; known NULL: the words of feature.h. */
+/* Combined bits of a list of words; known NULL: the words in feature.h. */
 static status words_of(const handshake_reading *r, const char *key, const word_bit known[],
                        unsigned *out)
 {
@@ -116,7 +116,7 @@ static status words_of(const handshake_reading *r, const char *key, const word_b
     return STATUS_OK;
 }
 
-/* A whole number; `absent` if the member is missing. */
+/* Reads a whole number; `absent` if the member is missing. */
 static status number_of(const handshake_reading *r, const char *key, int least, int most,
                         int absent, int *out)
 {
@@ -166,7 +166,8 @@ static status gives_of(const handshake_reading *r, handshake *out)
     return refuse(r, "gives", "give one of e; e,J; e,J,H; energy; force; tangent");
 }
 
-/* Reads what the inertia of the process covers: vibration and rotating frames, or also dynamics. */
+/* Reads what the inertia of the process supports: vibration and rotating frames only, or also
+ * transient analysis. */
 static status inertia_of(const handshake_reading *r, handshake *out)
 {
     const json_t *given = json_object_get(r->said, "inertia");

@@ -37,7 +37,7 @@ static status check(const char *path, const element_type *t, fault *f)
     return why != NULL ? refuse(path, why, f) : STATUS_OK;
 }
 
-/* Copies the type; members that the interface gained after its compilation are zero. */
+/* Copies the type; members that were added to the interface after it was compiled are zero. */
 static status copy(const char *path, const element_type *loaded, const element_type **out, fault *f)
 {
     if (loaded->abi != ELEMENT_ABI)
@@ -117,7 +117,7 @@ static size_t data_size(const element_request *request)
     return sizeof(element_data) + m * m * sizeof(double);
 }
 
-/* Starts the process again, which must describe itself as the first time. */
+/* Starts the process again; it must describe itself as it did the first time. */
 static status start_again(process *p, fault *f)
 {
     char *line = malloc(HANDSHAKE_MOST + 1);
@@ -225,7 +225,7 @@ static const char *trouble(const element_data *d)
     return c->trouble;
 }
 
-/* Refuses another byte order: numbers are not converted. */
+/* Rejects machines with another byte order, because numbers are not converted. */
 static status check_machine(const char *command, fault *f)
 {
     const int64_t one = 1;

@@ -6,8 +6,8 @@
 
 #include "elements/shared/choice.h"
 
-/* Copies one word without its quotes; returns the text after it, or NULL when a quote does not end.
- */
+/* Copies one word without its quotes; returns the rest of the text, or NULL when a quote does not
+ * end. */
 static const char *take(const char *from, char **to)
 {
     char quote = '\0';
@@ -221,7 +221,7 @@ void assignment_text(const assignment_list *l, const double value[], char *text,
     }
 }
 
-/* Returns 1 for parameters that the program adds, which the source of a case does not have. */
+/* Is the parameter added by the program, so that the source of the case does not have it? */
 static int is_shared(const parameter_type *p)
 {
     return case_is_omit(p) || case_is_mass(p);
@@ -321,8 +321,8 @@ uint64_t parameters_hash_next(const case_type *c, const double value[], const in
     for (; (p = parameter_at(c->parameters, i)) != NULL; i++) {
         write_word(p, i, value[i], any != NULL && any[i], before);
         if (is_shared(p) && value[i] == 0)
-            continue; /* the default adds nothing, so that points keep the names from before this
-                         parameter existed */
+            continue; /* the default adds nothing, so that points keep the names that they had
+                         before this parameter existed */
         for (const char *at = before->text[i]; *at != '\0'; at++)
             hash = (hash ^ (unsigned char)*at) * 1099511628211ull;
     }

@@ -18,7 +18,7 @@ int places_strains_three(const double options[])
     return PLACES_MOST;
 }
 
-/* Distance of node k from the first one, undeformed [m]. */
+/* Undeformed distance of node k from the first one [m]. */
 static double distance(const element_data *d, int k)
 {
     return d->length * k / (d->nodes - 1);
@@ -67,7 +67,7 @@ static void strains_of(const element_data *d, const node_state x[], double e[])
         e[first_warping(d) + k] = l * l * x[k].a;
 }
 
-/* Rows of Q: derivatives of the strains of a place by the chord that leads there. */
+/* Rows of Q: derivatives of the strains of a node with respect to the chord to it. */
 static void direction_rows(double l, const double to[3], double Q[9])
 {
     const double size = vec3_norm(to);
@@ -80,7 +80,7 @@ static void direction_rows(double l, const double to[3], double Q[9])
     }
 }
 
-/* Rows of another node: derivatives of its relative position and rotation. */
+/* Rows of another node: derivatives of its position and rotation relative to the first one. */
 static void node_rows(const element_data *d, const node_state x[], int k, double J[])
 {
     const int n = NODE_COORDINATES * d->nodes;
@@ -160,7 +160,7 @@ void places_nodes(const element_data *d, const double e[], node_state x[])
     }
 }
 
-/* Derivatives of the relative position with respect to its three strains, rows of stride m. */
+/* Derivatives of the relative position with respect to its three strains, in rows of stride m. */
 static void direction_columns(double l, double undeformed, const double e[], int m, double rows[])
 {
     const double c = forward(l, e), size = undeformed + e[0];

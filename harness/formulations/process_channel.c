@@ -15,7 +15,7 @@
 
 /* Ends a child of this process: immediately (now 1), or after a short time in which it may exit by
  * itself. Returns its status from waitpid, or -1 if it was killed here. For a child of another
- * process only the channels are closed. */
+ * process it only closes the channels. */
 static int child_end(child *, int now);
 
 enum { TO_READ, TO_WRITE };
@@ -33,7 +33,7 @@ static void become(char *const words[], int in, int out, int why, pid_t parent)
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     signal(SIGPIPE, SIG_DFL);
-    setpgid(0, 0); /* Ctrl-C goes to beamwork only, which then ends the child */
+    setpgid(0, 0); /* Ctrl-C then reaches only beamwork, which ends the child */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() == parent && dup2(in, STDIN_FILENO) >= 0 && dup2(out, STDOUT_FILENO) >= 0)
         execvp(words[0], words);
@@ -66,7 +66,8 @@ static status no_process(const char *command, fault *f)
     return fault_set(f, STATUS_FAULT, "cannot start '%.100s': %s", command, strerror(errno));
 }
 
-/* REFUSED: no such command, which is named; FAULT: pipe or process could not be created. */
+/* REFUSED: the command does not exist, and is named; FAULT: the pipe or process could not be
+ * created. */
 static status child_start(char *const words[], child *out, fault *f)
 {
     int in[2], from[2], why[2], number = 0;
@@ -103,7 +104,7 @@ static status child_start(char *const words[], child *out, fault *f)
                      strerror(number));
 }
 
-/* Does it still run? */
+/* Is the child still running? */
 static int child_runs(const child *c)
 {
     siginfo_t how = {.si_pid = 0};
@@ -157,7 +158,7 @@ static double end_of(int limit)
     return limit > 0 ? clock_wall_seconds() + limit : 0;
 }
 
-/* write() that returns EPIPE and raises no signal. */
+/* As write(), but returns EPIPE without raising a signal. */
 static ssize_t write_quietly(int to, const void *bytes, size_t count)
 {
     sigset_t pipe_only, before, pending;
@@ -174,7 +175,7 @@ static ssize_t write_quietly(int to, const void *bytes, size_t count)
     return written;
 }
 
-/* limit: time limit [s]; 0: none. */
+/* Writes all bytes; limit: time limit [s]; 0: none. */
 static child_event child_write(const child *c, const void *bytes, size_t count, int limit)
 {
     const char *from = bytes;
@@ -260,7 +261,7 @@ void channel_note(channel *c, status outcome, const fault *why)
     c->told = 0;
 }
 
-/* Makes one line: replaces characters that are not printable by dots. */
+/* Replaces characters that are not printable by dots, so that the text is one line. */
 static void on_one_line(char text[])
 {
     for (; *text != '\0'; text++)
@@ -305,7 +306,7 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
     return channel_break(c, why, f);
 }
 
-/* Reads a line. If it is JSON, nothing may follow it. */
+/* Reads a line. If it is JSON, no output may follow. */
 static status first_line(channel *c, char line[], fault *f)
 {
     size_t count = 0;

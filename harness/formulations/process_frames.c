@@ -5,7 +5,7 @@
 #include "elements/math/dense.h"
 #include "harness/formulations/process_impl.h"
 
-enum { FRAME = 1 << 23 }; /* approximate bytes of an answer and its request */
+enum { FRAME = 1 << 23 }; /* approximate size of a request and its answer [bytes] */
 
 static channel *frame_channel(const frame_question *q)
 {
@@ -66,8 +66,8 @@ static status frame_ask(const frame_question *q, const char **body, fault *f)
     return channel_ask(frame_channel(q), q->what, q->mask, q->count, bytes, bytes, body, &count, f);
 }
 
-/* Returns the number of elements, of `each` bytes, that one request takes; larger sets are sent in
- * several requests. At least 1. */
+/* Number of elements, of `each` bytes, that fit into one request, at least 1; larger sets are sent
+ * in several requests. */
 static int frame_fitting(size_t each)
 {
     return (int)(FRAME / each) + 1;
@@ -211,7 +211,8 @@ static void stress_frames(int count, const element_data *const data[], const dou
     pthread_mutex_unlock(&data[0]->of->to.lock);
 }
 
-/* Stresses of many elements; those of constant stiffness are computed here, without the process. */
+/* Stresses of many elements; those with constant stiffness are computed here, without the
+ * process. */
 static void stress_many(int count, const element_data *const data[], const double *const e[],
                         const double *const inner[], stress_output out[], status outcome[])
 {
@@ -307,7 +308,7 @@ void frames_serve(process *p)
 
 enum { OUTPUTS = 8, TURNING = 1 << 8, RATE = 1 << 9, ACCELERATION = 1 << 10 };
 
-/* Outputs in the order of the mask. */
+/* Lists the outputs in the order of the mask. */
 static void outputs_of(const inertia_output *out, double *to[OUTPUTS])
 {
     double *const all[OUTPUTS] = {out->M, out->potential, out->force, out->N,

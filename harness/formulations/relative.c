@@ -1,6 +1,6 @@
-/* Stresses of an element defined by its force or energy: derivative of the energy with respect to
- * the relative positions of its nodes (formulations_impl.h), for the element with its first node at
- * rest. */
+/* Stresses of an element that is defined by its force or energy: derivatives of the energy with
+ * respect to the relative positions of its nodes (formulations_impl.h), for the element with its
+ * first node at rest. */
 #include "harness/formulations/formulations_impl.h"
 
 #include <math.h>

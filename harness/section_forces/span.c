@@ -14,8 +14,8 @@ static void span_grid_at(const span_grid *g, double x, double share[]);
 static void span_grid_integrate(const span_grid *g, int count, const double values[], double out[]);
 /* R' = R kappa~, r' = R (e_x + gamma) over [0, 1] with the length as unit; kappa[points x 3] and
  * gamma[points x 3] in section axes. Uses a Magnus series of order six between the points. The
- * curve meets both ends: its gap, which is a discretisation error, is distributed in proportion to
- * x. */
+ * curve ends at both frames: the gap at the end, which is a discretisation error, is distributed in
+ * proportion to x. */
 static void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
                                const double kappa[], const double gamma[], span_curve *out);
 /* Starts from x[n], n <= FIXED_POINT_MAX. Stops when no entry changes by more than `enough`, or
@@ -23,7 +23,8 @@ static void span_curve_between(const span_grid *g, const span_frame *p, const sp
  * failed. */
 static double fixed_point_find(int n, fixed_point_map map, void *context, double enough,
                                double x[]);
-/* Over [0, 1] with the length as unit. Returns 0, or 1 when the equations are singular. */
+/* Solves the torsion equations over [0, 1], with the length as unit. Returns 0, or 1 when the
+ * equations are singular. */
 static int span_twist_solve(const span_grid *g, const span_torsion *t, span_twist *out);
 
 enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
@@ -60,7 +61,7 @@ static void begin(span_work *w)
     }
 }
 
-/* Loads at the points: [points][force, moment about p]. */
+/* Integrals of the loads at the points: [points][force, moment about p]. */
 static void loads_of(span_work *w, double out[N][6])
 {
     memset(out, 0, N * sizeof *out);
@@ -140,7 +141,7 @@ static int twisted(span_work *w, const double strains[])
     return span_twist_solve(w->g, &t, &w->twist);
 }
 
-/* Strains of a section given by matrices, which has no torque of warping. */
+/* Strains of a section given by matrices, which has no torque due to warping. */
 static void strained_matrices(span_work *w, double out[])
 {
     for (int j = 0; j < N; j++) {
@@ -155,7 +156,7 @@ static void strained_matrices(span_work *w, double out[])
     }
 }
 
-/* New strains from the resultants on the line of the previous strains. */
+/* Computes new strains from the resultants along the line that belongs to the previous strains. */
 static int again(void *context, const double strains[], double out[])
 {
     span_work *w = context;
@@ -243,7 +244,7 @@ void span_at(const span_grid *g, const span_fields *fields, double x, double out
     }
 }
 
-/* Adds the difference at the end, in proportion to x. */
+/* Adds the gap at the end to all points, in proportion to x. */
 static void close_gap(const span_grid *g, const double end[3], double at[N][3])
 {
     double missing[3];
@@ -254,7 +255,8 @@ static void close_gap(const span_grid *g, const double end[3], double at[N][3])
             at[j][i] += g->x[j] * missing[i];
 }
 
-/* theta' = R kappa, u' = theta x R e_x + R gamma, in units of the length. */
+/* Displacements and rotations to first order: theta' = R kappa, u' = theta x R e_x + R gamma, in
+ * units of the length. */
 static void moved_linearly(const span_grid *g, double length, const span_fields *of,
                            const span_move end[2], double u[N][3], double turn[N][3])
 {
@@ -281,7 +283,8 @@ static void moved_linearly(const span_grid *g, double length, const span_fields 
     close_gap(g, end[1].displacement, u);
 }
 
-/* By the curve minus the undeformed one; rotations of the sections relative to that at p. */
+/* Displacements: the curve minus the undeformed one; rotations of the sections relative to that at
+ * p. */
 static void moved_far(const span_grid *g, double length, const span_fields *of,
                       const span_frame begin[2], const double curvature[3], const span_move end[2],
                       double u[N][3], double turn[N][3])

@@ -1,4 +1,4 @@
-"""Decks for other programs, and what those programs answer."""
+"""Decks for other programs, and the import of the results of those programs."""
 import collections
 import csv
 import re
@@ -15,11 +15,11 @@ from harness.exchange.test.export_case import (CHANNEL, ExportTest, HEIGHT, INER
 from harness.tools.kit.program import ROOT, run
 
 
-# export: decks are meshes that fill their members, what they do not carry is refused, and what
-# CalculiX prints is read.
+# export: decks are meshes that fill their members, unsupported scenes are rejected, and the output of CalculiX is read.
 class Decks(ExportTest):
     def test_bricks_fill_the_member(self):
-        """Right-handed, of its volume, between its ends; every node is used but those of bodies."""
+        """The elements are right-handed, fill the volume of the member and lie between its ends; all nodes are used,
+        except those of rigid bodies."""
         nodes, elements = mesh_of(self.deck(self.scene(cantilever(1.0)), "-n", "6"))
         self.assertEqual(elements.shape, (6 * 8 * 1, 20))
         corners = np.array([[nodes[n] for n in e[:8]] for e in elements])
@@ -43,8 +43,8 @@ class Decks(ExportTest):
                                            atol=1e-12)
 
     def test_walls(self):
-        """Bricks share their faces, and none is filled twice; the area is that of the walls but
-        for ends within another wall, and how far it is off is said."""
+        """Bricks share their faces, and none is filled twice. The area is that of the walls, except for ends within
+        another wall; the deck states the difference."""
         faces = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
         for section, (area, twice) in WALLS.items():
             deck = self.deck(self.scene(cantilever(1.0).replace(RECTANGLE, section)), "-n", "3")
@@ -66,7 +66,7 @@ class Decks(ExportTest):
             self.assertAlmostEqual(float(off), -100 * twice / area, delta=1e-2, msg=section)
 
     def test_walls_are_where_the_section_says(self):
-        """A channel, its y along x and its z along z; its web is b^2 tf/A from the centroid."""
+        """A channel with its y axis along x and its z axis along z: the web is b^2 tf/A from the centroid."""
         section = next(iter(WALLS))
         scene = self.scene(cantilever(1.0).replace(RECTANGLE, section))
         nodes, elements = mesh_of(self.deck(scene, "-n", "1"))
@@ -88,7 +88,7 @@ class Decks(ExportTest):
         self.assertIn("leaf_spring_guide.yaml; thickness=0.0004\n", deck)
 
     def test_one_turn(self):
-        """A sequence of one turn about z: driven there, held about x and y."""
+        """A sequence of one rotation about z is prescribed there and fixed about x and y."""
         deck = self.deck(self.scene(hinge()), "-n", "2").read_text(encoding="utf-8")
         moment = re.search(r"^\*\*Q moment\|N m\|forces\|4\|(\d+)\|3\|", deck, re.M)
         states = [step for step in deck.split("*STEP") if step.startswith(",NLGEOM")]
@@ -99,7 +99,7 @@ class Decks(ExportTest):
             self.assertAlmostEqual(float(cards["3"]) / np.deg2rad(20), angle, places=9)
 
     def test_what_is_not_carried(self):
-        """One line, which names what it is; no file is left."""
+        """An unsupported scene is rejected with one line that names the reason, and no file is written."""
         plain = cantilever(1.0)
         wrong = {
             "warp": plain.replace(", warping: fixed", ""),
@@ -145,10 +145,10 @@ class Decks(ExportTest):
 
 
 class Answers(ExportTest):
-    """Without CalculiX: what it would have printed is read."""
+    """Reads output that CalculiX would have printed, without running CalculiX."""
 
     def printed(self, *vectors):
-        """A deck with its .dat, in which every step prints the next pair (displacement, force)."""
+        """Writes a deck with its .dat, in which every step prints the next pair (displacement, force)."""
         deck = self.deck(self.scene(cantilever(1.0, PATH)), "-n", "1")
         answers = [line[4:].split("|") for line in deck.read_text(encoding="utf-8").splitlines()
                    if line.startswith("**Q ")]
@@ -169,7 +169,7 @@ class Answers(ExportTest):
         self.assertEqual(float(rows["deflection"][7]), 0.25 * read_back.DIGITS)
 
     def test_convention(self):
-        """Moments about the undeformed structure are those of the scene's convention: taken."""
+        """Moments about the undeformed structure agree with the scene's convention and are imported."""
         text = cantilever(1.0).replace("run: {linear: {}}", "run: {compliance: {node: tip}}")
         text = text[:text.index("  deflection:")] + (
             "  turn: {compliance: {analysis: run, row: rz, column: rz}, unit: rad/(N m)}\n")
@@ -183,7 +183,8 @@ class Answers(ExportTest):
         self.answered("import", out, "-o", self.folder / "values.h5")
 
     def test_meshes_of_one_scene(self):
-        """One series; decks of other scenes or of one mesh are refused."""
+        """Meshes of one scene form one series; decks of different scenes, or two decks with the same mesh, are
+        rejected."""
         scene, decks = self.scene(cantilever(1.0)), []
         for n in ("1", "2"):
             decks.append(self.deck(scene, "-n", n).rename(self.folder / f"deck{n}.inp"))
@@ -216,11 +217,11 @@ class Answers(ExportTest):
         self.assertIn("4 values, 1 mesh; another model: solid", told)
 
 
-# The answers of CalculiX, where it is there, are those of beams and plates.
+# The results of CalculiX, if it is installed, agree with those of beams and plates.
 @needs_ccx
 class Solved(ExportTest):
     def test_cantilever(self):
-        """F L^3/(3 E I) + 6 F L/(5 G A), F L^2/(2 E I)."""
+        """Tip deflection F L^3/(3 E I) + 6 F L/(5 G A), rotation F L^2/(2 E I)."""
         found = self.solved(self.scene(cantilever(2.0)), "-n", "10")
         bent = 2 * LENGTH**3 / (3 * YOUNG * INERTIA)
         sheared = 1.2 * 2 * LENGTH / (YOUNG / 2 * WIDTH * HEIGHT)
@@ -237,8 +238,8 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["held"] / -force, 1, delta=1e-5)
 
     def test_arc(self):
-        """The end turned by a: deflection (1 - cos a) L/a, shortening (1 - sin a/a) L; also
-        when the turn is about an axis of no coordinate, as the bar lies askew."""
+        """The end rotates by a: deflection (1 - cos a) L/a, shortening (1 - sin a/a) L. This also holds for an oblique
+        bar, whose rotation axis is not a coordinate axis."""
         angle, c, s = 1.2, 0.8, 0.6
         text = cantilever(0.0, PATH).replace(
             "tip:  {at: [0.02, 0.1, 0]", "tip:  {at: [0.02, 0.08, 0.06], rotation: {vector: [none, "
@@ -255,7 +256,7 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["turn"], -c * angle, delta=1e-6)
 
     def test_compliance(self):
-        """Of a beam's end, with moments: L/(E I), L^2/(2 E I), L/(E A)."""
+        """The compliance of a beam's end, with moments: L/(E I), L^2/(2 E I), L/(E A)."""
         text = cantilever(1.0).replace("run: {linear: {}}", "run: {compliance: {node: tip}}")
         entries = {"turn_turn": ("rz", "rz", "rad/(N m)", LENGTH / (YOUNG * INERTIA)),
                    "turn_move": ("rz", "ux", "rad/N", -LENGTH**2 / (2 * YOUNG * INERTIA)),
@@ -269,8 +270,8 @@ class Solved(ExportTest):
             self.assertAlmostEqual(found[name] / value, 1, delta=2e-3, msg=name)
 
     def test_channel(self):
-        """A channel of 2 m with rigid ends: so many percent more is each compliance of the solid,
-        and the twist by a force on the centroid."""
+        """A channel of 2 m with rigid ends: each compliance of the solid, and the twist due to a force on the centroid,
+        exceeds that of the beam by the given percentage."""
         head = cantilever(1.0).replace(RECTANGLE, CHANNEL).replace("at: [0.02, 0.1, 0]", TIP)
         text = head[:head.index("loads:")] + (
             "analyses:\n  run: {compliance: {node: tip}}\nquantities:\n" + "".join(
@@ -286,8 +287,8 @@ class Solved(ExportTest):
             self.assertAlmostEqual(more[name], percent, delta=0.1, msg=name)
 
     def test_wagner_moments(self):
-        """A channel of 4 m loaded at its centroid twists, and moves across its load: 12 % more than
-        beams without int y (y^2 + z^2) dA, 0.6 % less than those with it."""
+        """A channel of 4 m loaded at its centroid twists and moves transversely to its load: 12 % more than beams
+        without int y (y^2 + z^2) dA, 0.6 % less than beams with it."""
         text = cantilever(0.0, "{static: {stations: [1]}}").replace(RECTANGLE, CHANNEL).replace(
             "force: [0.0, 0, 0]", "force: [0, 0, -3e3]").replace("[0.02, 0.1, 0]", "[0.02, 4, 0]")
         text = text.replace("shear_modulus: 100e9", "shear_modulus: 80e9")
@@ -302,7 +303,8 @@ class Solved(ExportTest):
             self.assertLess(solid / beam, most)
 
     def test_leaf_spring_guide(self):
-        """Plates hold their anticlastic bending: stiffer than beams by what finer meshes keep."""
+        """Plates resist anticlastic bending: the solid is stiffer than beams by percentages that do not vanish on finer
+        meshes."""
         scene = EXAMPLES / "leaf_spring_guide.yaml"
         solid = self.solved(scene, "-n", "20")
         told = self.record("solve", "--scene", scene, "-f", "collocation", "-n", "4")

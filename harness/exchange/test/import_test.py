@@ -1,4 +1,4 @@
-"""import: names, units, parameters, axes; what is wrong is told at once; verify takes it beside."""
+"""import: names, units, parameters, axes; all errors are reported at once; verify compares the imported values."""
 import json
 import pathlib
 import unittest
@@ -114,14 +114,14 @@ class Import(ProgramTest):
         self.assertIn("given again", self.read(HEAD + COLUMNS + ROWS + ROWS, 2).stderr)
 
     def test_axes(self):
-        """Their x is our -y: what they call C_ux_Fx is C_uy_Fy of ours; a single row changes the sign."""
+        """The other program's x is our -y: its C_ux_Fx is our C_uy_Fy; an entry with only one such index changes sign."""
         self.read(HEAD + "# axes: x=-y y=x z=z\n" + COLUMNS +
                   "C_ux_Fx, m/N, 2,,,, 3,\nC_ux_Fy, m/N, 2,,,, 4,\n")
         found = {row["quantity"]: (row["value"], row["factor"]) for row in self.stored()}
         self.assertEqual(found, {b"C_uy_Fy": (3, 1), b"C_uy_Fx": (-4, -1)})
 
     def test_mirrored_axes(self):
-        """Seen in a mirror a turn about the normal that stays is the other way round."""
+        """In a reflection, a rotation about a normal that does not change has the opposite sign."""
         self.read(HEAD + "# axes: x=x y=-y z=z\n# convention: spatial\n" + COLUMNS +
                   "C_ux_Mz, 1/N, 2,,,, 3,\nC_uy_Mz, 1/N, 2,,,, 4,\nC_thz_Mz, rad/(N m), 2,,,, 5,\n")
         self.assertEqual({row["quantity"]: row["value"]
@@ -129,7 +129,7 @@ class Import(ProgramTest):
                          {b"C_ux_Mz": -3, b"C_uy_Mz": 4, b"C_thz_Mz": 5})
 
     def test_a_motion_in_other_axes(self):
-        """Rates, momenta, turns and energies of a motion, and largest values that become least ones."""
+        """Rates, momenta, rotations and energies of a motion are converted, and maxima that become minima."""
         (self.folder / "fly.yaml").write_text(FLYING, encoding="utf-8")
         rows = "".join(f"{name}, {unit}, 2,,,, {value},\n" for name, unit, value in (
             ("vx", "mm/s", 3), ("vy", "mm/s", 4), ("Ly", "kg m^2/s", 5), ("pz", "N s", 6),
@@ -180,14 +180,15 @@ class Import(ProgramTest):
         self.assertEqual(len(elsewhere.stderr.splitlines()), 1, elsewhere.stderr)
 
     def beside(self, text, name, *options):
-        """A run with these imported values."""
+        """Runs verify with these imported values."""
         self.read(text)
         given = ["--imported", self.folder / "theirs.h5"] if text else []
         return run("verify", "-k", "elastica and w_over_L and not shear", "-f", "collocation", *given, "-o",
                    self.folder / name, *options)
 
     def test_what_is_missing_is_gone(self):
-        """Another name, no import, a lost mesh: between two runs, against the short table, and in the run itself."""
+        """A missing series counts as gone: after a change of name, without the import, or without a mesh; between two runs, against the
+        short table, and in the run itself."""
         values = ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))
         text = "# beamwork-import: 1\n# program: {}\n# version: {}\n# case: elastica\nquantity, unit, elements, value\n"
         rows = [f"w_over_L, 1, {n}, {value}\n" for n, value in values]
@@ -207,7 +208,7 @@ class Import(ProgramTest):
                 self.assertEqual(done.returncode, code, (name, done.stdout))
                 self.assertIn(words, done.stdout)
                 self.assertEqual(done.stdout.count("gone     "), code, done.stdout)
-        # one mesh more hides no larger errors on the others
+        # an additional mesh does not hide larger errors on the others
         worse = [f"w_over_L, 1, {n}, {0.30172077577 + 1.1 * (value - 0.30172077577)}\n" for n, value in values]
         done = self.beside(text.format("mine", "4.2") + "".join(worse) + "w_over_L, 1, 64, 0.3017225\n", "new.h5",
                            "--imported-must-pass", "--not-worse-than", table)
@@ -225,7 +226,7 @@ class Import(ProgramTest):
                      "collocation", "--imported", self.folder / "theirs.h5", "--imported-must-pass")
 
     def test_quantities_on_their_own_meshes(self):
-        """One that is given on fewer meshes is judged by these; its finest mesh is its own."""
+        """A quantity given on fewer meshes is judged on those meshes; its own finest mesh counts as the finest."""
         self.read("# beamwork-import: 1\n# program: mine\n# case: elastica\nquantity, unit, elements, value\n" +
                   "".join(f"w_over_L, 1, {n}, {v}\n" for n, v in ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))) +
                   "".join(f"theta, rad, {n}, {0.46135195119 + 0.04 / n**2}\n" for n in (2, 4, 8, 16)))
@@ -244,7 +245,7 @@ class Import(ProgramTest):
         self.assertIn("finest mesh, n = 8: 0.4615", " ".join(done.stdout.split()))
 
     def test_several_beside(self):
-        """Each file once, each program once at a point; what a file has of other points is counted."""
+        """Each file is given once, and each program occurs once at a point; series at other points are counted in a message."""
         self.read(
             HEAD.replace("MBDyn 1.7.3, 3-node", "rival") + COLUMNS + ROWS +
             "# case: elastica\nw_over_L, 1, 2,,,, 1,\n")
@@ -268,7 +269,7 @@ class Import(ProgramTest):
                      self.folder / "theirs.h5", "-o", self.folder / "theirs.h5")
 
     def test_mistakes_as_json(self):
-        """Of each file, in one form with those of scenes; a file without any has an empty list."""
+        """Errors are listed for each file, in the same form as errors in scenes; a file without errors has an empty list."""
         files = {
             "good.csv": HEAD + COLUMNS + ROWS, "bad.csv": HEAD + "# modle: solid\n" + COLUMNS + ROWS
         }
@@ -304,7 +305,7 @@ class Import(ProgramTest):
                      "--format", "csv")
 
     def test_curves(self):
-        """Points in the order of their abscissa, whatever their order in the file, and the abscissa in SI is theirs."""
+        """The points of a curve are stored in the order of their abscissa, whatever their order in the file; the abscissa is in SI."""
         self.read(HEAD + COLUMNS +
                   "C_xx_curve, mm/N, 4,,, 0.01, 29,\nC_xx_curve, mm/N, 4,,, 0.005, 14,\n")
         with h5py.File(self.folder / "theirs.h5") as file:
@@ -331,7 +332,7 @@ class Import(ProgramTest):
                              code=status)
 
     def test_files_of_mbdyn(self):
-        """Written by MBDyn 1.7.3 from data/mbdyn_sheet.mbd: four 3-node beams, 0.06 % from the exact beam."""
+        """Reads files written by MBDyn 1.7.3 from data/mbdyn_sheet.mbd: four 3-node beams, 0.06 % from the exact beam."""
         self.mapped(MAPS / "mbdyn.yaml", DATA / "mbdyn_sheet.mov", DATA / "mbdyn_sheet.jnt")
         found = {row["quantity"].decode(): row["value"] for row in self.stored()}
         for name, value in (("u_x", 9.864219e-2 - 0.1), ("F_y", 3492.813), ("M_z", -172.2694)):

@@ -1,5 +1,5 @@
-/* What is left out and made by differences is what the formulations give themselves: for each of
- * them, with J, H, forces or tangents taken away. */
+/* Derivatives by differences agree with those that the formulations compute themselves: for each
+ * formulation, J, H, forces or tangents are removed and replaced. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -54,7 +54,7 @@ static status assemble(const adapters_subject *s, const node_state x[], double *
     return STATUS_OK;
 }
 
-/* The formulation that the force of the adapted one comes from. */
+/* The formulation that supplies the force of the adapted one. */
 static adapters_subject source;
 
 static status force_of_source(const element_data *d, const node_state x[], force_output *out)
@@ -72,8 +72,8 @@ static status force_of_source(const element_data *d, const node_state x[], force
     return STATUS_OK;
 }
 
-/* Of the difference, in the unit of each node's coordinates (force, moment, bimoment), beside the
- * largest entry. */
+/* Largest difference relative to the largest entry, in the unit of each node's coordinates (force,
+ * moment, bimoment). */
 static double departure(int n, const double a[], const double b[], const double unit[])
 {
     double apart = 0, most = 0;
@@ -94,7 +94,7 @@ static void units(int rows, int columns, double out[])
                                 (columns > 1 || rows == 1 ? power[j % NODE_COORDINATES] : 0));
 }
 
-/* A deformed element, turned as a whole. */
+/* A deformed element, rotated as a whole. */
 static void deformed(const adapters_subject *s, unsigned seed, node_state x[])
 {
     double d[N];
@@ -158,8 +158,8 @@ static double prestressed(const adapters_subject *s, const double v[], double K[
     return F[n - NODE_COORDINATES];
 }
 
-/* What an axial force does to the stiffness against twist [N m]: nothing but what the formulation
- * knows of fibres that lengthen. */
+/* Compares the effect of an axial force on the stiffness against twist [N m], which depends only on
+ * the formulation's terms for the stretching of fibres. */
 static void twists_as(const adapters_subject *whole, const adapters_subject *part, const char *what,
                       double bound)
 {
@@ -190,7 +190,7 @@ static void without(const element_type *given, const section *c, unsigned leaves
     free(part.data);
 }
 
-/* Of a uniform load along the undeformed element: stresses, and forces on its nodes. */
+/* Computes the stresses and nodal forces due to a uniform load along the undeformed element. */
 static void loaded(const adapters_subject *s, double out[M + ELEMENT_ALONG_COORDINATES])
 {
     const double none[N] = {0};
@@ -207,7 +207,7 @@ static void loaded(const adapters_subject *s, double out[M + ELEMENT_ALONG_COORD
     memcpy(out + M, load.ends, sizeof load.ends);
 }
 
-/* What is given beside strains and stresses finds the data of its own type. */
+/* Functions other than strain and stress receive the data of their own type. */
 static void passes_on(const element_type *given, const section *c)
 {
     const double sigma[M] = {2.385};
@@ -309,7 +309,7 @@ static void adapters_tests(void)
                  "%s: nothing is left out, nothing is made", given->name);
         passes_on(given, &c);
         if (element_inner(given, options) > 0)
-            continue; /* needs a solution of its own equations */
+            continue; /* requires a solution of its own equations */
         without(given, &c, LEAVES_H, "without second derivatives");
         without(given, &c, LEAVES_J, "without derivatives");
         forces_only(given, &c);
@@ -317,14 +317,14 @@ static void adapters_tests(void)
     refusals(registry_formulations[0]);
 }
 
-/* Types that take many elements at once: their differences are, to the bit, those of the same type
- * that takes one after the other, and of failing states too. */
+/* For types that take many elements at once, differences are bit-for-bit equal to those of the same
+ * type that takes one element after the other, also for failing states. */
 
 enum { ELEMENTS = 5, GATHER_M = ELEMENT_MAX_STRAINS, GATHER_N = ELEMENT_MAX_COORDINATES };
 
 static const element_type *gather_source;
 static double gather_options[ELEMENT_MAX_OPTIONS];
-static int requests, most; /* of many, and the largest */
+static int requests, most; /* requests for many elements, and the largest number in one */
 
 static void note(int count)
 {
@@ -341,7 +341,7 @@ static void strain_many(int count, const element_data *const data[], const node_
                               &out[i]);
 }
 
-/* An energy of the strains and its derivatives; none where the first node warps one way. */
+/* An energy of the strains and its derivatives; fails if the first node warps in one direction. */
 static status force(const element_data *d, const node_state x[], force_output *out)
 {
     double e[GATHER_M] = {0}, J[GATHER_M * GATHER_N], C[GATHER_M * GATHER_M] = {0},
@@ -440,7 +440,7 @@ static void same(const both *b, const char *what, const double mine[], const dou
              b->given[0].name, what);
 }
 
-/* J and H of all elements in one call, beside those of each. */
+/* Compares J and H of all elements in one call with those of each element alone. */
 static void strains(unsigned leaves)
 {
     both b;
@@ -469,7 +469,7 @@ static void strains(unsigned leaves)
     end(&b);
 }
 
-/* Energy, stresses and stiffness. */
+/* Compares energy, stresses and stiffness. */
 static void stresses(unsigned leaves)
 {
     both b;

@@ -1,4 +1,4 @@
-"""A formulation of another process judged like the same one in C."""
+"""Compares a formulation in another process with the same one in C."""
 import json
 
 from harness.cli.test.plugin import EXAMPLES, compile_shared
@@ -8,14 +8,14 @@ from harness.tools.kit.program import ProgramTest
 class BesideC(ProgramTest):
 
     def verdicts(self, element, name, cases):
-        """Of its default scenes."""
+        """Returns the verdicts for the default scenes of the cases."""
         record = self.folder / "v.json"
         self.answered("verify", "--element", element, "-f", name, "-k",
                       " or ".join(f"{case}/default" for case in cases), "--json", record)
         return json.loads(record.read_text(encoding="utf-8"))["verdicts"]
 
     def like_timoshenko(self, element, name, cases):
-        """The same verdicts as timoshenko.c, and its limits; the cases that it passes."""
+        """Requires the same verdicts and limits as timoshenko.c; returns the cases that pass."""
         there = compile_shared(EXAMPLES / "timoshenko.c", self.folder / "timoshenko.so")
         here = self.verdicts(element, name, cases)
         there = self.verdicts(there, "timoshenko", cases)

@@ -1,5 +1,5 @@
-"""Processes that mean harm, or are wrong: each ends as one line that names the formulation and what
-happened, in `solve` and in every cell of `verify`; nothing of them is left."""
+"""Malicious or faulty processes: each leads to one line that names the formulation and what happened, in `solve` and in
+every cell of `verify`; no process remains."""
 import json
 import textwrap
 
@@ -8,7 +8,7 @@ from harness.tools.kit.program import ROOT, run
 
 
 class Refused(Speaker):
-    """Before there is a formulation: status 2."""
+    """Errors before the formulation is known: exit status 2."""
 
     def test_no_such_command(self):
         self.refuse("exec:/no/such/command at all", "/no/such/command", "No such file")
@@ -60,13 +60,13 @@ class Refused(Speaker):
                     "more than an answer", "standard error")
 
     def test_own_words(self):
-        """What it refuses of a beam is told as it says it."""
+        """If the process rejects a beam, its message is printed unchanged."""
         self.refuse(self.speaker(at="answer(b'no sections\\nof wood', 3); continue"),
                     "formulation speaker: no sections.of wood")
 
 
 class Evaluated(Speaker):
-    """In the middle of a solution: status 1, and the reason of a cell."""
+    """Errors during a solution: exit status 1, and a reason in each cell."""
 
     def one_line(self, words, at, what=2):
         element = self.speaker(at=f"if what == {what}:\n" + textwrap.indent(at, "    "))
@@ -139,7 +139,7 @@ class Evaluated(Speaker):
         self.one_line(["too far"], "answer(b'too far', 3); continue")
 
     def test_others_go_on(self):
-        """A crash in every cell takes nothing from the cells of others."""
+        """A crash in every cell of a formulation does not affect the cells of others."""
         element = self.speaker(at="if what == 2: os._exit(7)")
         self.answered("verify", "-f", "speaker", "-f", "collocation", "--element", element, "-k",
                       "elastica/default", "-j", "2", code=1)

@@ -1,5 +1,5 @@
-/* The beam of timoshenko.c with the mass of own_mass.py, in C: velocities linear along the element,
- * rotary inertia by halves at the nodes.  No frames that turn. */
+/* The beam of timoshenko.c with the mass of own_mass.py, in C: velocities are linear along the
+ * element, and half of the rotary inertia is at each node. Rotating frames are not supported. */
 #define beamwork_element timoshenko
 #include "elements/examples/timoshenko.c"
 #undef beamwork_element
@@ -9,7 +9,7 @@ enum { N = 14 };
 typedef struct mass_massive {
     element_data beam;
     double mass;     /* [kg] */
-    double about[3]; /* half of the moments of inertia of the sections [kg m^2] */
+    double about[3]; /* half of the moments of inertia of the element's sections [kg m^2] */
 } mass_massive;
 
 static size_t massive_size(const element_request *request)
@@ -61,8 +61,8 @@ static void turned(const double R[9], const double about[3], double J[9])
     }
 }
 
-/* Of the sections at a node with the angular velocity w and its derivative a:
- * J a + w x J w and its derivatives. */
+/* Adds the force of the sections at a node with angular velocity w and angular acceleration a:
+ * J a + w x J w, and its derivatives. */
 static void add_node(const double J[9], int at, const double w[3], const double a[3],
                      inertia_output *out)
 {

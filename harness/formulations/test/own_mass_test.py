@@ -1,4 +1,5 @@
-"""A formulation of another process with inertia of its own: as the same one in C, and as its contract asks."""
+"""A formulation in another process with its own inertia agrees with the same one in C and satisfies the interface
+requirements."""
 import json
 import sys
 
@@ -25,7 +26,7 @@ quantities: {x: {displacement: {analysis: run, node: c, component: ux}},
 class OwnMass(Speaker):
 
     def python(self, before="", after="", name="own_mass.py"):
-        """exec: of the example with that change."""
+        """Returns exec: of the example with that change."""
         text = (EXAMPLES / name).read_text(encoding="utf-8")
         self.assertIn(before, text)
         path = self.folder / "mine.py"
@@ -46,7 +47,7 @@ class OwnMass(Speaker):
         return self.solved(made, "own_mass", case, n, point)[1]
 
     def test_frequencies(self):
-        """Those of the same element in C, and not those of the mass that all others have."""
+        """The frequencies are those of the same element in C, and differ from those with the default mass."""
         for case, point in FREQUENCIES:
             there = self.in_c(case, 4, point)
             _, here = self.solved(self.python(), "own_mass_py", case, 4, point)
@@ -62,7 +63,7 @@ class OwnMass(Speaker):
         return f"--scene {path}"
 
     def test_motions(self):
-        """Two leaves that swing by about their length."""
+        """Two leaves swing by about their length."""
         for how in HOW:
             there = self.in_c(self.swing(how), 1)
             cell, here = self.solved(self.python(), "own_mass_py", self.swing(how), 1)
@@ -72,7 +73,7 @@ class OwnMass(Speaker):
                 self.assertLessEqual(abs(here[q] - value), 1e-7, (how, q))
 
     def test_vibration_alone(self):
-        """Motions have the mass at the nodes then, and it is said."""
+        """If the inertia is for vibration only, motions have the mass at the nodes, and the output says so."""
         changed = ("mass=mass,", 'mass=mass, inertia="vibration",')
         cell, here = self.solved(self.python(*changed), "own_mass_py", self.swing(HOW[1]), 1)
         self.assertIn("mass and weight of analysis run: at nodes", cell["lumped"])
@@ -84,7 +85,7 @@ class OwnMass(Speaker):
         self.assertEqual(beam, self.solved(self.python(), "own_mass_py", "deep_beam", 4)[1])
 
     def contract(self, element, code=0):
-        """Outcomes of the parts about mass, and what is broken."""
+        """Returns the outcomes of the checks of mass, and the violated requirements."""
         out = self.answered("element-test", "own_mass_py", "--element", element, "--format", "json", code=code,
                             env=WITH_MODULES).stdout
         record = json.loads(out)
@@ -109,7 +110,7 @@ class OwnMass(Speaker):
             self.assertIn(words, self.contract(self.python(before, after), code=1)[1])
 
     def test_mistakes(self):
-        """A sentence each."""
+        """Each error of an author is reported in one sentence."""
         for before, after, words in (
                 ("    return M.reshape(-1, 14, 14)", "    return M", "mass returned (N, 2, 7, 2, 7), nodes=2 wants"),
                 ("    c, l = kind.section, kind.length\n    M", "    1 / 0\n    M", "ZeroDivisionError: division by"),
@@ -124,7 +125,7 @@ class OwnMass(Speaker):
         self.refuse(self.speaker(first="said.update(inertia='motion', nodes=3)"), "motion is for two nodes")
 
     def test_asked_only_where_it_is_brought(self):
-        """Request 5 does not reach who says nothing of it."""
+        """Request 5 is not sent to a process that does not declare inertia."""
         for first, asked in (("", False), ("said['inertia'] = 'vibration'", True)):
             done = run("solve", "deep_beam", "-f", "speaker", "-n", 2, "--element",
                        self.speaker(first=first, at="if what == 5: os._exit(3)"))

@@ -1,4 +1,4 @@
-"""Formulations in Python, in Octave and in a process, and many elements at once."""
+"""Formulations in Python and Octave in another process, and many elements at once."""
 import json
 import os
 import pathlib
@@ -11,8 +11,8 @@ from harness.formulations.test.beside_c import BesideC
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, broken, environment, run
 
 
-# Formulations in another process: the example in Python, judged like the built-in ones and beside
-# the same one in C.
+# Formulations in another process: the example in Python is judged like the built-in ones, and compared with the same
+# one in C.
 EXAMPLES = ROOT / "elements" / "examples"
 PYTHON = f"exec:'{sys.executable}' '{EXAMPLES / 'timoshenko.py'}'"
 CASES = ("tapered_cantilever", "deep_beam", "weighted_column", "tip_body", "sprung_beam",
@@ -49,7 +49,7 @@ serve(prepare, force=force, gives="energy", name="chord", family="example", sour
 
 
 class Energy(ProgramTest):
-    """An energy alone, with options."""
+    """A formulation that gives only an energy, with options."""
 
     def solve(self, *words, formulation="chord", code=0):
         path = self.folder / "chord.py"
@@ -66,7 +66,7 @@ class Energy(ProgramTest):
         self.assertAlmostEqual(self.value("chord"), 0.30172, delta=1e-3)  # 0.2 % from the reference value
 
     def test_options(self):
-        """A number and a choice reach the process as they are given."""
+        """A number and a choice reach the process as given."""
         self.assertLess(self.value("chord:times=2"), 0.6 * self.value("chord"))
         done = self.solve(formulation="chord:law=other,times=1.5", code=2)
         self.assertIn("chord: law other, times 1.5", done.stderr)
@@ -81,7 +81,7 @@ class Example(BesideC):
         self.assertLessEqual(len((EXAMPLES / "timoshenko.py").read_text("utf-8").splitlines()), 60)
 
     def test_judged_like_the_others(self):
-        """Ten cases: the verdicts of the same beam in C, and its limits."""
+        """Ten cases have the verdicts of the same beam in C, and its limits."""
         passed = self.like_timoshenko(PYTHON, "timoshenko_py", CASES)
         self.assertEqual(passed - {"shear_elastica"}, set(CASES))
 
@@ -93,7 +93,7 @@ class Example(BesideC):
                          r"geometrically_exact n = \d+ .*timoshenko_py n = \d+ \(in another proc")
 
     def test_every_verb(self):
-        """It is there in list, solve, bench and for several workers."""
+        """The formulation is available in list, solve and bench, and with several workers."""
         out = self.answered("list", "timoshenko_py", "--element", PYTHON).stdout
         self.assertIn("Reissner", out)
         for verb in (("solve", "-n", "2"), ("bench", "-n", "2"), ("converge", "-j", "2")):
@@ -102,7 +102,7 @@ class Example(BesideC):
             self.assertIn("timoshenko_py", out)
 
 
-# What the Python module for authors makes of mistakes: a sentence each.
+# The Python module reports each error of an author in one sentence.
 class InPython(ProgramTest):
 
     def example(self, before, after):
@@ -132,13 +132,13 @@ class InPython(ProgramTest):
         self.assertIn("timoshenko_py: only steel\n", done.stderr)
 
     def test_print(self):
-        """It is seen, and harms nothing."""
+        """Printed output is shown and does no harm."""
         done = self.solve(self.example("    chord = (", "    print('hello')\n    chord = ("))
         self.assertEqual(done.returncode, 0, done)
         self.assertIn("hello", done.stderr)
 
     def told(self, before, after, *words, code=1):
-        """The example with that change fails and says so."""
+        """The example with that change fails with a message that contains the words."""
         done = self.solve(self.example(before, after))
         self.assertEqual(done.returncode, code, done)
         for word in words:
@@ -146,7 +146,7 @@ class InPython(ProgramTest):
         return done
 
     def test_wrong_shapes(self):
-        """A sentence with both shapes, and no line of the module or of numpy."""
+        """The message gives both shapes, and no line of the module or of numpy."""
         back = "return np.hstack([e - [kind.length, 0, 0], kind.length * psi])"
         due = "strains=6 wants (N, 6)"
         for after, words in ((f"{back}[:, :5]", ("strain returned (N, 5)", due)),
@@ -164,7 +164,7 @@ class InPython(ProgramTest):
                   code=2)
 
     def stress(self, back):
-        """What is told of the example with this stress in place of a constant stiffness."""
+        """Solves the example with this stress function in place of a constant stiffness."""
         text = (ROOT / "elements/examples/timoshenko.py").read_text(encoding="utf-8")
         text = text.replace("    return np.diag(", "    kind.C = np.diag(").replace(
             "if __name__", f"def stress(kind, e):\n"
@@ -197,12 +197,12 @@ class InPython(ProgramTest):
                   code=2)
 
     def test_not_analytic(self):
-        """Also where value and derivative are right in the undeformed state."""
+        """An error is reported even if value and derivative are correct in the undeformed state."""
         self.told("np.sqrt((psi * psi).sum(1))", "np.linalg.norm(psi, axis=1)",
                   "strain is not analytic", "gives='e'")
 
     def test_no_words_of_numpy(self):
-        """States that are no numbers are asked too; what comes of them is no warning."""
+        """States with NaN are evaluated too; they cause no warnings of numpy."""
         element = self.example("chord = (", "np.float64(0) / np.zeros(1)\n    chord = (")
         done = self.solve(element)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done)
@@ -215,7 +215,7 @@ class InPython(ProgramTest):
         return " ".join(done.stdout.partition("measured:")[0].split())
 
     def test_one_cause_in_the_contract(self):
-        """What fails always is told as the cause of each family, and as nothing else."""
+        """A failure in every call is reported as the cause in each family of checks, without other messages."""
         out = self.contract("chord = (", "chord = 1 / 0 + (")
         self.assertRegex(out, r"derivatives of the strains \(1 compared\) ✘ formulation "
                               r"timoshenko_py: ZeroDivisionError: division by zero "
@@ -224,7 +224,7 @@ class InPython(ProgramTest):
         self.assertNotIn("crashed", out)
 
     def test_fails_for_some(self):
-        """An element that cannot be made again is told; what stood there before is used."""
+        """If an element cannot be prepared again, this is reported, and the element with the previous data is used."""
         out = self.contract(
             "    chord = (", "    longer = prepare.__dict__.setdefault('longer', set())\n"
             "    if kind.length > 0.4:\n        longer.add(id(kind))\n"
@@ -235,7 +235,7 @@ class InPython(ProgramTest):
         self.assertNotIn("crashed", out)
 
     def test_finds_the_module(self):
-        """From an empty folder, also behind a PYTHONPATH of the user's."""
+        """The module is found from an empty folder, also if the user's PYTHONPATH has other folders."""
         if pathlib.Path(PROGRAM).resolve().parents[1] != ROOT:
             self.skipTest("needs the program of build/, whose examples it is about")
         element = self.example("strains=6", "strains=6")
@@ -246,11 +246,11 @@ class InPython(ProgramTest):
             self.assertEqual(done.returncode, 0, done)
 
 
-# Formulations in Octave, in another process: the example beside the same one in C, what else its
-# module offers, and the mistakes of authors.
+# Formulations in Octave, in another process: the example is compared with the same one in C; other functions of its
+# module, and errors of authors, are tested.
 EXAMPLE = OCTAVE_EXAMPLES / "timoshenko.m"
 NAME = "timoshenko_m"
-# Some of the cases of process_test.py: 4 s of the processor, where all ten take 28 s.
+# Some of the cases of process_test.py: 4 s of processor time, where all ten take 28 s.
 OCTAVE_CASES = ("tapered_cantilever", "deep_beam", "sprung_beam", "bend_45")
 HERE = "addpath(fileparts(mfilename('fullpath')));"
 
@@ -263,7 +263,7 @@ def command(script):
 class OctaveTest(ProgramTest):
 
     def altered(self, *changes):
-        """The example with parts of its text replaced, each of which must be there."""
+        """Writes the example with parts of its text replaced; each part must exist."""
         text = EXAMPLE.read_text(encoding="utf-8")
         for before, after in ((HERE, f"addpath('{OCTAVE_EXAMPLES}');"), *changes):
             self.assertIn(before, text)
@@ -279,15 +279,16 @@ class OctaveExample(OctaveTest, BesideC):
         self.assertLessEqual(len(EXAMPLE.read_text("utf-8").splitlines()), 70)
 
     def test_judged_like_the_others(self):
-        """The verdicts of the same beam in C, and its limits."""
+        """The verdicts are those of the same beam in C, and so are the limits."""
         self.assertEqual(self.like_timoshenko(command(EXAMPLE), NAME, OCTAVE_CASES), set(OCTAVE_CASES))
 
     def test_keeps_the_contract(self):
-        """Its derivatives, in the rotation chart, are those of its strains; and all else."""
+        """The example satisfies all interface requirements; its derivatives are those of its strains in the rotation
+        chart."""
         self.answered("element-test", "--element", command(EXAMPLE))
 
     def test_from_an_empty_folder(self):
-        """The module is found beside the script."""
+        """The module is found next to the script."""
         done = self.answered("converge", "elastica", "-f", NAME, "--element", command(EXAMPLE),
                              cwd=self.folder)
         text = " ".join(done.stdout.split())
@@ -316,7 +317,7 @@ OPTIONS = """'options', {
 
 
 class Module(OctaveTest):
-    """What an author may give, on the same beam."""
+    """Functions that an author may supply, for the same beam."""
 
     def values(self, case, element):
         record = self.record("solve", case, "-f", NAME, "-n", "2", "--element", element)
@@ -335,13 +336,13 @@ class Module(OctaveTest):
         self.same(self.altered(("'strains', 6", "'strains', 6, 'gives', 'e,J'")), 1e-7)
 
     def test_stresses(self):
-        """In place of a constant stiffness; what prepare keeps in its kind is there."""
+        """A stress function replaces a constant stiffness; data that prepare stores in its kind are available."""
         element = self.altered(*KEPT, ("@strain,", "@strain, 'stress', @stress,"))
         self.same(element, 1e-10)
-        self.same(element, 1e-10, "tapered_cantilever")  # of several kinds
+        self.same(element, 1e-10, "tapered_cantilever")  # with several kinds of elements
 
     def test_energy(self):
-        """Of whole elements, all else differences."""
+        """The energy of whole elements is given, and all derivatives are differences."""
         self.same(self.altered(*KEPT, ("'strain', @strain, 'strains', 6,",
                                        "'force', @force, 'gives', 'energy',")), 1e-5)
 
@@ -355,7 +356,7 @@ class Module(OctaveTest):
 
 
 class Mistakes(OctaveTest):
-    """Each is one line that names the formulation and has Octave's own message."""
+    """Each error leads to one line that names the formulation and contains Octave's own message."""
 
     def told(self, code, words, *changes):
         self.refused(code, words, "solve", "elastica", "-f", NAME, "-n", "2", "--element",
@@ -392,14 +393,14 @@ class Mistakes(OctaveTest):
         self.told(2, ["'limitz' of its first line"], ("'limits'", "'limitz'"))
 
     def test_printed(self):
-        """What is printed while it answers is seen, and harms nothing."""
+        """Output printed during an answer is shown and does no harm."""
         done = self.answered("solve", "elastica", "-f", NAME, "-n", "2", "--element",
                              self.altered(("c = cos(angle / 2);", "1 + 1\nc = cos(angle / 2);")))
         self.assertIn("ans = 2", done.stderr)
         self.assertNotIn("ans", done.stdout)
 
     def test_printed_before(self):
-        """Before beamwork_element is called nothing can hold it back: it is named."""
+        """Output printed before beamwork_element is called cannot be diverted; the message quotes it."""
         self.told(2, ["began with 'x = 3', which is not a line of JSON"], ("1;", "x = 3"))
 
     def test_ends(self):
@@ -407,19 +408,19 @@ class Mistakes(OctaveTest):
                   ("c = cos(", "exit(3);\nc = cos("))
 
     def test_does_not_begin(self):
-        """Octave's message stands on standard error, before the line of beamwork."""
+        """Octave's message appears on standard error, before that of beamwork."""
         done = run("list", "--element", self.altered(("c = cos(angle / 2)", "c = (")))
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r"error: .*mine\.m")
         self.assertIn("ended with status 1 before its first line", done.stderr.splitlines()[-1])
 
 
-# `element-test` of a formulation in another process, which answers for many elements at once.
+# `element-test` of a formulation in another process that evaluates many elements at once.
 CONTRACT_EXAMPLES = ROOT / "elements" / "examples"
 
 
 class ManyAtOnce(ProgramTest):
-    """What the first element gives to all is told, and nothing where each has its own."""
+    """Using the first element's value for all elements is reported; no error is reported if each has its own value."""
 
     def test_one_value_for_all(self):
         text = (CONTRACT_EXAMPLES / "timoshenko.py").read_text(encoding="utf-8")

@@ -1,5 +1,5 @@
-/* A formulation of the program, served by this program as another process (its own first argument
- * names it), gives the same bits as in the process of the solver: nothing is lost on the way. */
+/* A formulation of this program, served by this program as another process (its first argument
+ * names the formulation), gives bit-for-bit the same results as in the process of the solver. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -44,7 +44,7 @@ static void learn(void)
 {
     int64_t head[3];
     double first[7], numbers[111], *at = numbers;
-    section *c = calloc(1, sizeof *c); /* kinds keep it */
+    section *c = calloc(1, sizeof *c); /* the kind stores it */
     get(head, sizeof *head, 3);
     get(first, sizeof *first, 7);
     get(numbers, sizeof *numbers, 111);
@@ -79,7 +79,7 @@ static void learn(void)
     served->prepare(&request, kind[head[0]], NULL);
 }
 
-/* Where they are wanted: strains e, J, H, or energy, sigma, C. */
+/* Writes the requested outputs: strains e, J, H, or energy, sigma, C. */
 static void evaluate(int64_t what, int64_t count, const int64_t number[], const double body[],
                      double *out[3])
 {

@@ -1,5 +1,5 @@
-/* Selections: random expressions against their own value, with and without brackets that change
- * nothing; words that name nothing. */
+/* Selections: the value of random expressions agrees with an independent evaluation, with and
+ * without redundant brackets; unknown words are reported. */
 #include "harness/formulations/formulations.h"
 
 #include <gsl/gsl_test.h>
@@ -12,7 +12,7 @@ enum { LONGEST = 4000, EXPRESSIONS = 4000 };
 static const char *const words[] = {"hexapod", "c_column/default", "beamw", "and_or"};
 static const char text[] = "c_column/default/beamw/buckling_load";
 
-/* An expression with the brackets that it needs, the same with more, and its value. */
+/* An expression with the necessary brackets, the same with additional ones, and its value. */
 typedef struct sample {
     char bare[LONGEST], bracketed[LONGEST];
     int value;
@@ -31,7 +31,7 @@ static void add_bracket(sample *s, const char *piece, int needed)
     strncat(s->bracketed, piece, LONGEST - 1 - strlen(s->bracketed));
 }
 
-/* Binding of the operator around: 0 or, 1 and, 2 not. */
+/* around: precedence of the enclosing operator: 0 or, 1 and, 2 not. */
 static int grow(sample *s, uint64_t *seed, int depth, int around)
 {
     enum { OR, AND, NOT, WORD };
@@ -60,7 +60,7 @@ static int grow(sample *s, uint64_t *seed, int depth, int around)
     return value;
 }
 
-/* The expression without its k-th bracket; 0: it has no such. */
+/* Removes the k-th bracket from the expression; returns 0 if there is none. */
 static int without_bracket(const char *expression, int k, char out[LONGEST])
 {
     const char *at = expression - 1;
@@ -109,7 +109,7 @@ static void expressions(void)
         gsl_test_int(select_matches(malformed[i], text), -1, "malformed: %s", malformed[i]);
 }
 
-/* count times the piece, then the word. */
+/* Evaluates the piece, repeated `count` times, followed by the word. */
 static int repeated(const char *piece, int count, const char *end)
 {
     static char long_one[LONGEST];
@@ -139,7 +139,7 @@ static status all_met(const char *expression, fault *f)
     return select_all_met(expression, &met, f);
 }
 
-/* Of every text with the name of a case in it. */
+/* Does the expression hold for every text that contains the name of the case? */
 static void covered(void)
 {
     const struct {
@@ -185,7 +185,7 @@ static void unknown_words(void)
     gsl_test_int(all_met(NULL, &f), STATUS_OK, "no selection");
 }
 
-/* "=NAME" is a whole part. */
+/* "=NAME" matches a whole part. */
 static void exact(void)
 {
     const char *const one = "shear_elastica/GA=10/beamw:mass=lumped/u";

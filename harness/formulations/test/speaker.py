@@ -1,4 +1,4 @@
-"""A process that speaks the protocol, with lines of a test in three places."""
+"""A process that speaks the protocol, with lines inserted by a test in three places."""
 import pathlib
 import sys
 import textwrap
@@ -45,15 +45,15 @@ while True:
 class Speaker(ProgramTest):
 
     def speaker(self, first="", then="", at=""):
-        """exec: of a process with these lines before its first line, behind it, before an
-        answer."""
+        """Returns exec: of a process with these lines inserted before its first line, after its first line, and before
+        an answer."""
         path = self.folder / "speaker.py"
         path.write_text(SPEAKER.format(pids=str(self.folder / "pids"), first=first, then=then,
                                        at=textwrap.indent(at, "    ").strip()), encoding="utf-8")
         return f"exec:'{sys.executable}' '{path}'"
 
     def nothing_left(self):
-        """Every process that was started is gone, within a moment."""
+        """Requires that every process that was started ends within a few seconds."""
         pids = [int(line) for line in (self.folder / "pids").read_text("utf-8").split()]
         self.assertTrue(pids)
         end = time.monotonic() + 20

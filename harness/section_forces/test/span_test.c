@@ -1,6 +1,6 @@
-/* A rod integrated from one end as an initial value problem (GSL, 1e-13) gives what both ends are,
- * and what is between: what is recovered from the ends must be that, whatever bends, shears, warps
- * and loads it. */
+/* A rod is integrated from one end as an initial value problem (GSL, 1e-13), which gives the frames
+ * and forces at both ends and the values in between. Values recovered from the ends must agree with
+ * them, whatever bends, shears, warps and loads the rod. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <gsl/gsl_test.h>
@@ -29,7 +29,8 @@ static int has(const rod *b, unsigned bit)
     return (b->features & bit) != 0;
 }
 
-/* Resultants in section axes and the twist rate, from the state: the section's law. */
+/* Resultants in section axes, and the twist rate, from the state by the constitutive law of the
+ * section. */
 static void law(const rod *b, const double y[], double N[3], double M[3], double *rate, double *Mw,
                 double *wagner)
 {
@@ -48,7 +49,8 @@ static void law(const rod *b, const double y[], double N[3], double M[3], double
         fibres += M[1] * c->wagner_z / c->Iy - M[2] * c->wagner_y / c->Iz;
     fibres += -2 * zs * M[1] + 2 * ys * M[2];
     *rate = 0;
-    for (int i = 0; i < 200; i++) { /* Newton-free: contracts for the torques of the tests */
+    for (int i = 0; i < 200; i++) { /* without Newton's method: contracts for the torques of the
+                                       tests */
         const double cubic =
             has(b, FEATURE_WAGNER_TORQUE) ? 4 * E * c->wagner_torque * *rate * *rate : 0;
         const double K = G * c->It + fibres + cubic;
