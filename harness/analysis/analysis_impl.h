@@ -337,7 +337,7 @@ status modal_analysis(analysis_context *, int analysis, analysis_outcome *, faul
 /* Number of modes that the quantities of an analysis request. */
 int modal_wanted(const analysis_context *, int analysis);
 
-/* Steady vibration by frequency: D(w) x = f with the dynamic stiffness D (harmonic.c). */
+/* Steady vibration by frequency: D(w) x = f with the dynamic stiffness D (harmonic_matrices.c). */
 
 typedef struct harmonic_modes harmonic_modes;
 
@@ -363,6 +363,34 @@ typedef struct vibration {
 
 /* Entry k of K, M, ... in D. */
 double complex harmonic_dynamic(const vibration *, double w, int k);
+/* K, M, C, B; whole: also of driven coordinates. */
+status harmonic_matrices(vibration *, int whole, fault *);
+/* The free block as a full matrix: v->first, row, source. */
+status harmonic_pattern(vibration *, fault *);
+/* The matrix of a direct solution. */
+status harmonic_matrix(vibration *, fault *);
+/* Factors it at a circular frequency. */
+status harmonic_factor(vibration *, double w, fault *);
+/* Modes with a damping ratio in a direct solution: one unknown y = i w U^T (x - r) for each, so
+ * that D x + U y = f; r: static displacements due to driven coordinates. */
+int harmonic_border(const vibration *);
+
+/* Inputs and outputs (harmonic_inputs.c). */
+
+enum { HARMONIC_SHAPES_OF_MOTION = 4, HARMONIC_SHAPES = 2 * HARMONIC_SHAPES_OF_MOTION };
+
+/* Right-hand side of an input; a prescribed motion is 1 in x[all]. */
+status harmonic_input(const vibration *, const scene_response *, double w, double complex x[],
+                      fault *);
+/* y[border] of the direct solution, U^T r of the driven coordinate of an input; 0: of a force. */
+int harmonic_carried(const vibration *, const scene_response *, double y[]);
+/* The linear form o of a quantity's displacements: o^T x. */
+void harmonic_output(vibration *, const scene_response *, double w, double complex o[]);
+/* The part of the force of 1 that the motion bears whose reaction is read. */
+double harmonic_force_at(const vibration *, const scene_response *);
+/* The forces of a quantity's input at any frequency, and its output as forces: out[n each]. Returns
+ * their number, at most HARMONIC_SHAPES. */
+int harmonic_shapes(vibration *, const scene_response *, double out[]);
 
 /* Largest and least amplitudes, real and imaginary parts between the frequencies of the analysis; a
  * phase turns over (harmonic_extremes.c). */
@@ -372,8 +400,34 @@ typedef status harmonic_value(vibration *, int quantity, double sign, double her
                               fault *);
 status harmonic_extremes_refine(vibration *, harmonic_value *, outcome_harmonic *, fault *);
 
-/* Modes without damping, of the free coordinates, and the solution by them (harmonic_modes.c). */
+/* Modes without damping, of the free coordinates (harmonic_modes.c), and the solution by them
+ * (harmonic_reduced.c). */
 
+struct harmonic_modes {
+    int n, kept, count; /* of free coordinates; modes, and columns of V */
+    int complete;       /* 1: V is complete */
+    int damped;         /* modes with a damping ratio */
+    sparse K, M, C, B;  /* free block, K shifted */
+    matrix_factor *factor;
+    double shift, least, inner; /* [1/s^2]; `least` shifted; b */
+    double *square;             /* [kept] squares of circular frequencies, shifted */
+    double *V;                  /* [count x n] K-orthonormal */
+    double *U, *carried;        /* [damped x n]; [damped] factor of V^T K in U^T ... */
+    int *of;                    /* [damped] ... for this mode */
+    double *Kp, *Mp, *Cp, *Bp;  /* [count x count] V^T K V, ... */
+    double *coupling[3];        /* [kept x kept] of C with C, C with B, B with B */
+    double complex *D, *entry;  /* [count x count] scaled and factored; of D by v->first */
+    double *scale;              /* [count] */
+    int *pivot;
+    double complex *y, *inverse, *half; /* [count]; [kept x kept] */
+    double *work;                       /* [2 n] */
+    double w, positive;                 /* the real part above */
+};
+
+/* Free blocks of K, M, C, B. */
+status harmonic_modes_blocks(vibration *, harmonic_modes *, fault *);
+/* The first modes; wanted 0: all. */
+status harmonic_modes_lowest(vibration *, harmonic_modes *, int wanted, fault *);
 status harmonic_modes_find(vibration *, fault *);
 void harmonic_modes_free(harmonic_modes *);
 /* Natural frequencies [Hz], at least those below a frequency, ascending; the caller frees *hertz.

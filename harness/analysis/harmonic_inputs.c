@@ -1,0 +1,212 @@
+/* Inputs of a harmonic analysis as forces, and its outputs as linear forms of displacements. */
+#include "harness/analysis/analysis_impl.h"
+
+#include <complex.h>
+#include <math.h>
+#include <string.h>
+
+#include "harness/model/model.h"
+
+status harmonic_check_motion(const vibration *v, int driver, fault *f)
+{
+    const model *m = v->c->model;
+    for (int i = 0; i < model_scene(m)->nodes; i++)
+        for (int k = 0; k < 3; k++)
+            if (model_vertex(m, i)->vector_driver[k] == driver)
+                return fault_set(f, STATUS_REFUSED,
+                                 "motion %s is a component of a rotation vector: drive an angle, "
+                                 "or a translation",
+                                 model_scene(m)->driver[driver].name);
+    return STATUS_OK;
+}
+
+status harmonic_input(const vibration *v, const scene_response *r, double w, double complex x[],
+                      fault *f)
+{
+    const model *m = v->c->model;
+    int index[KINEMATICS_MOST], moves = 0;
+    double T[6 * KINEMATICS_MOST];
+    memset(x, 0, (size_t)v->all * sizeof *x);
+    if (r->driver != SCENE_NONE) {
+        const int c = model_driver_coordinate(m, r->driver);
+        TRY(harmonic_check_motion(v, r->driver, f));
+        for (int k = v->K.column[c]; k < v->K.column[c + 1]; k++)
+            if (v->K.row[k] < v->free)
+                x[v->K.row[k]] = -harmonic_dynamic(v, w, k);
+        x[c] = 1;
+        return STATUS_OK;
+    }
+    const int count = kinematics_node_jacobian(m, v->state, r->forced, KINEMATICS_MOST, index, T);
+    for (int k = 0; k < count; k++)
+        if (index[k] < v->free) {
+            x[index[k]] = T[r->forced_along * count + k];
+            moves |= T[r->forced_along * count + k] != 0;
+        }
+    return moves ? STATUS_OK
+                 : fault_set(f, STATUS_REFUSED,
+                             "%s is held or driven against the force, which therefore moves "
+                             "nothing; name another component, or a motion with 'drive'",
+                             scene_called(model_scene(m), SCENE_NODES, r->forced).text);
+}
+
+int harmonic_carried(const vibration *v, const scene_response *r, double y[])
+{
+    if (r->driver == SCENE_NONE)
+        return 0;
+    harmonic_modes_carried(v, model_driver_coordinate(v->c->model, r->driver), y);
+    return 1;
+}
+
+/* o[all] += times the small motion of a component of a node, in all coordinates. */
+static void add_motion(const vibration *v, int node, int component, double times,
+                       double complex o[])
+{
+    int index[KINEMATICS_MOST];
+    double T[6 * KINEMATICS_MOST];
+    const int count =
+        kinematics_node_jacobian(v->c->model, v->state, node, KINEMATICS_MOST, index, T);
+    for (int k = 0; k < count; k++)
+        o[index[k]] += times * T[component * count + k];
+}
+
+status harmonic_reacting(const vibration *v, const scene_response *r, int *out, fault *f)
+{
+    const scene *s = v->c->scene;
+    int index[KINEMATICS_MOST], driver = SCENE_NONE, nodes = 0;
+    double T[6 * KINEMATICS_MOST];
+    const int count =
+        kinematics_node_jacobian(v->c->model, v->state, r->node, KINEMATICS_MOST, index, T);
+    const int first = r->component - r->component % 3;
+    const double rounding = 1e-12;
+    double R[9];
+    scene_node_axes(&s->node[r->node], R);
+    *out = -1;
+    for (int k = 0; k < count; k++) {
+        double moved = 0; /* along the axes of its supports */
+        for (int i = 0; i < 3; i++)
+            moved += R[3 * i + r->component % 3] * T[(first + i) * count + k];
+        if (fabs(moved) > rounding)
+            *out = *out == -1 && index[k] >= v->free ? index[k] : -2;
+    }
+    for (int i = 0; i < s->drivers && *out >= 0; i++)
+        if (model_driver_coordinate(v->c->model, i) == *out)
+            driver = i;
+    for (int i = 0; i < s->nodes && driver != SCENE_NONE; i++)
+        for (int k = 0; k < 3; k++)
+            nodes += (s->node[i].translation[k] == driver) + (s->node[i].angle[k] == driver) +
+                     2 * (model_vertex(v->c->model, i)->vector_driver[k] == driver);
+    for (int i = 0; i < 6 * s->nodes && driver != SCENE_NONE; i++) /* what follows it */
+        nodes += model_tie(v->c->model, i / 6, i % 6) != NULL &&
+                 model_vertex(v->c->model, i / 6)->coordinate[i % 6] == *out;
+    if (driver == SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED,
+                         "a reaction of %s requires a motion that drives this component alone, and "
+                         "there is none; replace 'hold' at the node by a motion with value: [0, 0]",
+                         scene_called(s, SCENE_NODES, r->node).text);
+    return nodes == 1
+               ? STATUS_OK
+               : fault_set(
+                     f, STATUS_REFUSED,
+                     "motion %s drives more than the component whose reaction is requested; give "
+                     "each component its own motion, or attach the nodes to one driven node",
+                     s->driver[driver].name);
+}
+
+/* o[all] += row c of D at w. */
+static void add_row(const vibration *v, int c, double w, double complex o[])
+{
+    for (int j = 0; j < v->all; j++)
+        for (int k = v->K.column[j]; k < v->K.column[j + 1]; k++) {
+            if (v->K.row[k] == c)
+                o[j] += harmonic_dynamic(v, w, k);
+            else if (j == c && v->K.symmetric)
+                o[v->K.row[k]] += harmonic_dynamic(v, w, k);
+        }
+}
+
+/* What the damping of modes adds to the reaction of a driven coordinate: forces -i w r^T U U^T (x -
+ * r of the input). */
+static void add_carried(vibration *v, const scene_response *r, int c, double w, double complex o[])
+{
+    const double *U;
+    const int more = harmonic_modes_damped(v->modes, &U), n = v->free;
+    double *own = v->x, *input = v->x + n;
+    if (more == 0)
+        return;
+    harmonic_modes_carried(v, c, own);
+    for (int i = 0; i < more; i++)
+        for (int k = 0; k < n; k++)
+            o[k] -= I * w * own[i] * U[(size_t)i * (size_t)n + (size_t)k];
+    if (!harmonic_carried(v, r, input))
+        return;
+    for (int i = 0; i < more; i++)
+        o[model_driver_coordinate(v->c->model, r->driver)] += I * w * own[i] * input[i];
+}
+
+void harmonic_output(vibration *v, const scene_response *r, double w, double complex o[])
+{
+    int c = 0;
+    fault unused = {""};
+    memset(o, 0, (size_t)v->all * sizeof *o);
+    if (r->of == SCENE_REACTING) {
+        if (harmonic_reacting(v, r, &c, &unused) == STATUS_OK) {
+            add_row(v, c, w, o);
+            add_carried(v, r, c, w, o);
+        }
+        return;
+    }
+    add_motion(v, r->node, r->component, 1, o);
+    if (r->from != SCENE_NONE)
+        add_motion(v, r->from, r->component, -1, o);
+}
+
+double harmonic_force_at(const vibration *v, const scene_response *r)
+{
+    int index[KINEMATICS_MOST], c = 0;
+    double T[6 * KINEMATICS_MOST], sum = 0;
+    fault unused = {""};
+    if (r->of != SCENE_REACTING || r->driver != SCENE_NONE ||
+        harmonic_reacting(v, r, &c, &unused) != STATUS_OK)
+        return 0;
+    const int count =
+        kinematics_node_jacobian(v->c->model, v->state, r->forced, KINEMATICS_MOST, index, T);
+    for (int k = 0; k < count; k++)
+        sum += index[k] == c ? T[r->forced_along * count + k] : 0;
+    return sum;
+}
+
+/* Those of a driven coordinate. */
+static int shapes_of_motion(const vibration *v, int c, double out[])
+{
+    const sparse *const by_motion[HARMONIC_SHAPES_OF_MOTION] = {&v->K, &v->M, &v->C, &v->B};
+    for (int i = 0; i < HARMONIC_SHAPES_OF_MOTION; i++)
+        for (int k = v->K.column[c]; k < v->K.column[c + 1]; k++)
+            if (v->K.row[k] < v->free)
+                out[(size_t)i * (size_t)v->free + (size_t)v->K.row[k]] = by_motion[i]->value[k];
+    return HARMONIC_SHAPES_OF_MOTION;
+}
+
+int harmonic_shapes(vibration *v, const scene_response *r, double out[])
+{
+    const size_t n = (size_t)v->free;
+    fault unused = {""};
+    int c, count = 0;
+    if (r->driver != SCENE_NONE)
+        count += shapes_of_motion(v, model_driver_coordinate(v->c->model, r->driver), out);
+    for (int output = r->driver != SCENE_NONE; output < 2; output++) {
+        if (output && r->of == SCENE_REACTING) {
+            if (harmonic_reacting(v, r, &c, &unused) == STATUS_OK)
+                count += shapes_of_motion(v, c, out + (size_t)count * n);
+            continue;
+        }
+        memset(v->output, 0, (size_t)v->all * sizeof *v->output);
+        if (output)
+            harmonic_output(v, r, 0, v->output);
+        else
+            add_motion(v, r->forced, r->forced_along, 1, v->output);
+        for (size_t k = 0; k < n; k++)
+            out[(size_t)count * n + k] = creal(v->output[k]);
+        count++;
+    }
+    return count;
+}

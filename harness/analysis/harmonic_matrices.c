@@ -1,0 +1,270 @@
+/* Steady small vibration about a state, at each frequency by one solution with the dynamic
+ * stiffness
+ *   D(w) = K + i w C - w^2 M - (w^2 - i a w)^2/(1 + i b w) B,
+ * with proportional damping a M + b K in C, and B the inertia of internal motions of elements of an
+ * unstressed structure (field/field.h). In real numbers
+ *   [Re D, -Im D; Im D, Re D] [Re x; Im x] = [Re f; Im f].
+ * Damped modes are the eigenvectors of D at s = i w. */
+#include "harness/analysis/analysis_impl.h"
+
+#include <complex.h>
+#include <stdlib.h>
+
+#include "elements/math/scalar.h"
+#include "harness/model/model.h"
+#include "harness/time/time.h"
+
+static status no_memory(fault *f)
+{
+    return fault_set(f, STATUS_FAULT, "out of memory for a harmonic analysis");
+}
+
+double complex harmonic_dynamic(const vibration *v, double w, int k)
+{
+    double complex D = v->K.value[k] - w * w * v->M.value[k];
+    if (v->inside) {
+        const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;
+        const double complex moves = w * (w - I * damping->mass);
+        D -= moves * moves / (1 + I * w * damping->stiffness) * v->B.value[k];
+    }
+    return v->damped ? D + I * w * v->C.value[k] : D;
+}
+
+/* K of the undeformed structure, or with the stresses of a linear solution. */
+static status linear_system_of(vibration *v, const double displaced[], fault *f)
+{
+    const equations *eq = &v->c->eq;
+    TRY(linear_stiffness(eq, &v->K, f));
+    if (displaced == NULL) {
+        v->inside = !v->plain && rotating_frame_inner_matrix(eq, &v->B);
+        return STATUS_OK;
+    }
+    TRY(linear_whole_stresses(eq, displaced, 1, v->room, f));
+    TRY(linear_geometric_stiffness(eq, v->room, 1, &v->C, f));
+    for (int i = 0; i < v->K.column[v->K.n]; i++)
+        v->K.value[i] += v->C.value[i];
+    return STATUS_OK;
+}
+
+/* The end of the static path. */
+static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
+{
+    analysis_context *c = v->c;
+    const outcome_path *path = outcome_path_of(o);
+    if (path->stations == 0 || path->reached < path->stations)
+        return fault_set(f, o->status != STATUS_OK ? o->status : STATUS_REFUSED,
+                         "the base state was not reached: %.150s", o->reason);
+    v->state = path->state[path->reached - 1];
+    const double at = kinematics_state_path(v->state);
+    const step_stability stands =
+        history_stability_at(c->result, c->scene->analysis[v->analysis].follows, at);
+    if (stands == STEP_UNSTABLE || stands == STEP_GROWS)
+        return fault_set(f, STATUS_REFUSED,
+                         "the state at path %g is unstable: nothing vibrates steadily about it; "
+                         "end the path before it",
+                         at);
+    model_linearisation lin = {.path = at, .K = &v->K, .residual = v->room};
+    return linearise_state(&c->eq, &c->run->memory, v->state, &lin, f);
+}
+
+status harmonic_matrices(vibration *v, int whole, fault *f)
+{
+    analysis_context *c = v->c;
+    const int follows = c->scene->analysis[v->analysis].follows;
+    const sparse *pattern;
+    TRY(follows != SCENE_NONE
+            ? assemble_pattern_of_states(c->model, c->run->patterns, whole, &pattern, f)
+            : assemble_pattern_at_rest(c->model, c->run->patterns, 1, whole, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &v->K, f));
+    TRY(sparse_alloc_like(pattern, &v->M, f));
+    TRY(sparse_alloc_like(pattern, &v->C, f));
+    TRY(sparse_alloc_like(pattern, &v->B, f));
+    if (follows == SCENE_NONE) {
+        if (linear_initial(c->model) > 0)
+            return fault_set(f, STATUS_REFUSED,
+                             "members have initial strains, whose stresses the undeformed state "
+                             "lacks; name a static analysis with 'about'");
+        TRY(linear_system_of(v, NULL, f));
+    } else if (c->scene->analysis[follows].kind == SCENE_LINEAR) {
+        const analysis_outcome *o = &c->outcomes[follows];
+        if (o->status != STATUS_OK)
+            return fault_set(f, o->status, "its base analysis: %.150s", o->reason);
+        TRY(linear_system_of(v, outcome_displacements(o, c->eq.loading.acting), f));
+    } else {
+        TRY(tangent_of(v, &c->outcomes[follows], f));
+    }
+    TRY(rotating_frame_inertia(&c->eq, v->state, kinematics_state_path(v->state), &v->M, NULL, f));
+    const scene_proportional *damping = &c->scene->analysis[v->analysis].damping;
+    v->damped = damping_acts(c->scene) || damping->mass > 0 || damping->stiffness > 0;
+    if (!v->damped) {
+        sparse_zero(&v->C);
+        return STATUS_OK;
+    }
+    TRY(damping_matrix(&c->eq, v->state, damping->stiffness, &v->C, f));
+    for (int i = 0; i < v->C.column[v->C.n]; i++)
+        v->C.value[i] += damping->mass * v->M.value[i];
+    return STATUS_OK;
+}
+
+static void append(vibration *v, int column, int row, int source)
+{
+    const int at = v->first[column + 1]++;
+    if (v->row == NULL)
+        return;
+    v->row[at] = row;
+    v->source[at] = source;
+}
+
+/* The free block as a full matrix: first[free + 1] from counts, or its entries. */
+static void unfold(vibration *v)
+{
+    for (int j = 0; j < v->free; j++)
+        for (int k = v->K.column[j]; k < v->K.column[j + 1]; k++) {
+            const int i = v->K.row[k];
+            if (i >= v->free)
+                continue;
+            append(v, j, i, k);
+            if (v->K.symmetric && i != j)
+                append(v, i, j, k);
+        }
+}
+
+int harmonic_border(const vibration *v)
+{
+    const double *U;
+    return v->c->scene->analysis[v->analysis].by_modes ? 0 : harmonic_modes_damped(v->modes, &U);
+}
+
+/* The entries of column j of one half: rows and, unless z is NULL, their values at w. */
+static int column_of(const vibration *v, int j, double w, int row[], double complex z[])
+{
+    const int n = v->free, more = harmonic_border(v);
+    const double *U;
+    int count = 0;
+    harmonic_modes_damped(v->modes, &U);
+    for (int k = j < n ? v->first[j] : 0; j < n && k < v->first[j + 1]; k++) {
+        row[count] = v->row[k];
+        z[count++] = harmonic_dynamic(v, w, v->source[k]);
+    }
+    for (int i = 0; j < n && i < more; i++) {
+        row[count] = n + i;
+        z[count++] = I * w * U[(size_t)i * (size_t)n + (size_t)j];
+    }
+    for (int i = 0; j >= n && i < n; i++) {
+        row[count] = i;
+        z[count++] = U[(size_t)(j - n) * (size_t)n + (size_t)i];
+    }
+    if (j >= n) {
+        row[count] = j;
+        z[count++] = -1;
+    }
+    return count;
+}
+
+/* D at the frequency; w = 0 also sets its pattern. */
+static void fill(vibration *v, double w)
+{
+    const int n = v->free + harmonic_border(v);
+    int at = 0;
+    for (int j = 0; j < 2 * n; j++) {
+        const int imaginary = j >= n, count = column_of(v, j % n, w, v->rows, v->column);
+        v->D.column[j] = at;
+        for (int half = 0; half < 2; half++)
+            for (int k = 0; k < count; k++) {
+                const double complex z = v->column[k];
+                v->D.row[at] = half * n + v->rows[k];
+                v->D.value[at++] = half == imaginary ? creal(z) : half ? cimag(z) : -cimag(z);
+            }
+    }
+    v->D.column[2 * n] = at;
+}
+
+status harmonic_pattern(vibration *v, fault *f)
+{
+    const int n = v->free;
+    v->first = calloc((size_t)n + 2, sizeof *v->first);
+    if (v->first == NULL)
+        return no_memory(f);
+    unfold(v);
+    int entries = 0;
+    for (int j = 0; j < n; j++) {
+        const int count = v->first[j + 1];
+        v->first[j + 1] = entries;
+        entries += count;
+    }
+    v->row = calloc((size_t)entries + 1, sizeof *v->row);
+    v->source = calloc((size_t)entries + 1, sizeof *v->source);
+    if (v->row == NULL || v->source == NULL)
+        return no_memory(f);
+    unfold(v);
+    return STATUS_OK;
+}
+
+status harmonic_matrix(vibration *v, fault *f)
+{
+    const int more = harmonic_border(v), n = v->free + more;
+    const size_t entries =
+        (size_t)v->first[v->free] + 2 * (size_t)more * (size_t)v->free + (size_t)more;
+    v->D = (sparse){.n = 2 * n,
+                    .column = calloc(2 * (size_t)n + 1, sizeof(int)),
+                    .row = calloc(4 * entries + 1, sizeof(int)),
+                    .value = calloc(4 * entries + 1, sizeof(double))};
+    v->rows = calloc((size_t)n + 1, sizeof *v->rows);
+    v->column = calloc((size_t)n + 1, sizeof *v->column);
+    if (v->D.column == NULL || v->D.row == NULL || v->D.value == NULL || v->rows == NULL ||
+        v->column == NULL)
+        return no_memory(f);
+    fill(v, 0);
+    return factor_alloc(&v->D, &v->factor, f);
+}
+
+status harmonic_factor(vibration *v, double w, fault *f)
+{
+    fill(v, w);
+    v->c->run->counters.factorisations++;
+    return factor_numeric(v->factor, &v->D, f);
+}
+
+void harmonic_release(vibration *v)
+{
+    factor_free(v->factor);
+    sparse_free_values(&v->K);
+    sparse_free_values(&v->M);
+    sparse_free_values(&v->C);
+    sparse_free_values(&v->B);
+    free(v->D.column);
+    free(v->D.row);
+    free(v->D.value);
+    free(v->first);
+    free(v->row);
+    free(v->source);
+    free(v->rows);
+    free(v->column);
+    free(v->x);
+    free(v->found);
+    free(v->left);
+    free(v->output);
+    free(v->dual);
+    free(v->room);
+    harmonic_modes_free(v->modes);
+}
+
+static status system_of(vibration *v, fault *f)
+{
+    const model_size size = model_sizes(v->c->model);
+    v->free = size.free;
+    v->all = size.free + size.driven;
+    v->state = kinematics_rest(v->c->model);
+    v->room = calloc((size_t)model_stresses(v->c->model) + (size_t)v->all + 1, sizeof *v->room);
+    if (v->room == NULL)
+        return no_memory(f);
+    TRY(harmonic_matrices(v, 1, f));
+    return scene_has_ratios(&v->c->scene->analysis[v->analysis]) ? harmonic_modes_find(v, f)
+                                                                 : STATUS_OK;
+}
+
+status harmonic_system(analysis_context *c, int analysis, vibration *out, fault *f)
+{
+    *out = (vibration){.c = c, .analysis = analysis};
+    return system_of(out, f);
+}
