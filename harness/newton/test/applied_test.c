@@ -1,5 +1,5 @@
-/* Loads along members and at offsets: force and moment of all of them, in member axes of any
- * section; an offset is a rigid arm. */
+/* Loads along members and at offsets have the right total force and moment, in the axes of members
+ * with any section; an offset acts as a rigid arm. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@
 enum { MOST = 120 };
 static const double along[3] = {0.6, 0.8, 0}, across[3] = {-0.8, 0.6, 0};
 
-/* A leg longer than the other: principal axes off the walls. */
+/* An angle with unequal legs, whose principal axes are oblique to the walls. */
 static int add_angle(scene *s)
 {
     static const double point[3][2] = {{0, 0}, {0.1, 0}, {0, 0.05}}, thickness[2] = {0.01, 0.01};
@@ -33,8 +33,8 @@ static void to_fixed(const double v[3], double out[3])
         out[i] = along[i] * v[0] + across[i] * v[1] + (i == 2 ? v[2] : 0);
 }
 
-/* Force of the loads on a member of length 2 at rest, and their moment about its middle.
- */
+/* Total force of the loads on an undeformed member of length 2, and their moment about its
+ * middle. */
 static void sums_of(const scene_load *load, const char *name, double force[3], double moment[3])
 {
     const double end = 1;
@@ -117,7 +117,7 @@ static void along_a_member(const char *name)
     }
 }
 
-/* A load that varies along a part of a member: q = (v + w)/2 + s (w - v), x = c + h s. */
+/* Checks a load that varies along a part of a member: q = (v + w)/2 + s (w - v), x = c + h s. */
 static void along_a_part(const char *name, int lumped)
 {
     static const double v[3] = {1, -2, 3}, w[3] = {-0.5, 1, 2}, range[2] = {0.15, 0.72};
@@ -138,7 +138,7 @@ static void along_a_part(const char *name, int lumped)
     }
 }
 
-/* A load at an offset of a bent cantilever's tip: force and reacting moment. */
+/* A load at an offset from the tip of a bent cantilever: gives the reaction force and moment. */
 static void cantilever(const element_type *type, int attached, int follower, double out[6])
 {
     static const double P[3] = {0.2, -0.3, 0.4}, edge[3] = {0.1, 0.2, -0.3};
@@ -199,12 +199,13 @@ static void applied_tests(void)
         offset_is_an_arm(registry_formulations[i]);
 }
 
-/* Elements in lanes: members of two sections by turns have the answers of one element at a time,
- * and what cannot be evaluated is named. */
+/* Elements evaluated in lanes, with members of two alternating sections, give the results of one
+ * element at a time; an element that cannot be evaluated is named. */
 
 enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };
 
-/* Three members in a line, the first and the last of one section, bent by a force at the end. */
+/* Three members in a line, the first and the last with the same section, bent by a force at the
+ * end. */
 static void set_up(scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -260,11 +261,11 @@ static void same_answers(const element_type *type)
 }
 
 static const element_type *inner;
-static int asked; /* processors without AVX2 evaluate one at a time */
+static int asked; /* processors without AVX2 evaluate one element at a time */
 static const double failing =
-    0.4 + 0.2 * 3 / ELEMENTS; /* [m] where the fourth of the last begins */
+    0.4 + 0.2 * 3 / ELEMENTS; /* [m] start of the fourth element of the last member */
 
-/* One element cannot be evaluated. */
+/* Makes the evaluation of one element fail. */
 static void fail(int count, const node_state x[], int nodes, status outcome[])
 {
     for (int k = 0; k < count; k++)
@@ -333,10 +334,10 @@ static void chunk_tests(void)
     gsl_test(found == 0, "a formulation with equations in lanes");
 }
 
-/* Reactions at the foot of an arm, of every formulation. */
+/* Reactions at the foot of an arm, for every formulation. */
 
-/* A beam on an arm: what the body at its foot carries is the tip's force, and its moment about the
- * body. */
+/* For a beam on an arm, the reactions of the body at the foot are the force at the tip and its
+ * moment about the body. */
 static void foot_of_an_arm(const element_type *type)
 {
     const double y[3] = {0, 1, 0}, end = 1, P[3] = {0.01, -0.02, 0.03};
@@ -352,7 +353,7 @@ static void foot_of_an_arm(const element_type *type)
     scene_hold_all(&s, foot);
     scene_add_member(&s, arm, tip, scene_add_section(&s, &spec), y);
     scene_add_load(&s, SCENE_FORCE, tip, P[0], P[1], P[2]);
-    scene_add_load(&s, SCENE_FORCE, foot, 5, 6, 7); /* into the ground at once */
+    scene_add_load(&s, SCENE_FORCE, foot, 5, 6, 7); /* acts directly on the support */
     scene_add_static(&s, 1, &end, 1);
     for (int k = 0; k < 9; k++) {
         char name[8];

@@ -1,5 +1,5 @@
-/* Links and chains against dense matrices of all coordinates, and a long chain against the beam
- * that it is. */
+/* Links and chains agree with dense matrices of all coordinates, and a long chain with the beam
+ * that it represents. */
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
 #include <math.h>
@@ -16,9 +16,9 @@
 
 enum { LINKS = 5, STRAINS = 18, MOST = CHAIN_JOINT * (2 * LINKS + 1) };
 
-/* Elements of random numbers; indefinite: H makes some of their eigenvalues negative. */
+/* Elements with random matrices; indefinite: H makes some of their eigenvalues negative. */
 typedef struct chain_row {
-    int nodes, joint, joints, all; /* of the whole: joints x joint coordinates */
+    int nodes, joint, joints, all; /* of the whole row: joints x joint coordinates */
     double J[LINKS][STRAINS * ELEMENT_MAX_COORDINATES], C[LINKS][STRAINS * STRAINS],
         H[LINKS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[LINKS][9];
 } chain_row;
@@ -94,7 +94,8 @@ static double largest(int n, const double a[], const double b[])
     return most;
 }
 
-/* The ends come first and last: what is inside, of the dense matrix and of the chain. */
+/* The coordinates of the ends come first and last. Compares the number of negative eigenvalues of
+ * the coordinates in between, in the dense matrix and in the chain. */
 static int held_inside(const chain_row *of, const double K[], const chain *s)
 {
     const int inside = of->all - 2 * of->joint;
@@ -108,7 +109,8 @@ static int held_inside(const chain_row *of, const double K[], const chain *s)
     return negative;
 }
 
-/* Loads on all coordinates, both ends on springs: solved densely, and by way of the ends. */
+/* Solves for loads on all coordinates, with both ends on springs: densely, and from the condensed
+ * ends. */
 static void solutions(const chain_row *of, double K[], chain *s, uint64_t *seed)
 {
     const int c = of->joint, n = of->all;
@@ -130,7 +132,7 @@ static void solutions(const chain_row *of, double K[], chain *s, uint64_t *seed)
     chain_expand(s, b + c, ends, b + c);
     memcpy(b, ends, (size_t)c * sizeof *b);
     const double error = largest(n, b, x) / largest(n, x, NULL),
-                 most = of->H[0][0] == 0 ? 1e-10 : 1e-4; /* near critical states digits go */
+                 most = of->H[0][0] == 0 ? 1e-10 : 1e-4; /* digits are lost near critical states */
     gsl_test(!(error < most), "%d nodes, %d coordinates: solution by way of the ends, off by %.1e",
              of->nodes, c, error);
 }
@@ -164,8 +166,8 @@ static void random_rows(void)
     gsl_test(negative < 20, "%d negative eigenvalues were there to be counted", negative);
 }
 
-/* Links of a clamped beam of unit length and stiffnesses: by the motion of the far joint beside the
- * near one. */
+/* A link of a clamped beam with unit length and unit stiffnesses; strains are the motion of the
+ * second joint relative to the first. */
 static void uniform_link(double l, double J[], double C[], double H[], double r[])
 {
     const int n = 2 * NODE_COORDINATES;
@@ -185,7 +187,7 @@ static void uniform_link(double l, double J[], double C[], double H[], double r[
     C[2 * 6 + 4] = C[4 * 6 + 2] = 6 / (l * l);
 }
 
-/* 12, 6, 4 and 2: of stiffnesses that are 1e15 times as large. */
+/* The coefficients are 12, 6, 4 and 2, from link stiffnesses that are 1e15 times larger. */
 static void long_chain(void)
 {
     enum { MANY = 100000 };
@@ -220,12 +222,13 @@ static void chain_tests(void)
     long_chain();
 }
 
-/* The guess of the next state of a path: exact for as smooth a path as the states that are kept
- * allow, and no longer than they do. */
+/* The guess of the next state of a path is exact for paths as smooth as the number of stored states
+ * allows, and extrapolates no further than the states support. */
 
 enum { MOST_DEGREE = MODEL_EXTRAPOLATED };
 
-/* A path of that degree in its parameter; every vertex turns about an axis of its own. */
+/* Fills a state of a path that is a polynomial of the given degree in its parameter; every vertex
+ * rotates about its own axis. */
 static void extrapolate_fill(const model *m, int degree, double path, model_state *s)
 {
     uint64_t seed = 42;
@@ -248,7 +251,7 @@ static void extrapolate_fill(const model *m, int degree, double path, model_stat
     }
 }
 
-/* Largest difference in what has coordinates of its own. */
+/* Largest difference in vertices that have their own coordinates. */
 static double apart(const model *m, const model_state *a, const model_state *b)
 {
     double worst = 0;
@@ -265,8 +268,8 @@ static double apart(const model *m, const model_state *a, const model_state *b)
     return worst;
 }
 
-/* Error of the guess at `to` after states at path[count] of a path of that degree, which turns back
- * at a kink. */
+/* Error of the guess at `to` after states at path[count], for a path of the given degree that
+ * reverses at a kink. */
 static double error_of_guess(const model *m, int degree, double kink, int count,
                              const double path[], double to)
 {
@@ -295,7 +298,7 @@ static double error_of_guess(const model *m, int degree, double kink, int count,
     return error;
 }
 
-/* Steps of different lengths, more of them than are kept. */
+/* Uses steps of different lengths, more than are stored. */
 static void smooth_paths(const model *m)
 {
     static const double path[] = {0.04, 0.09, 0.15, 0.2,  0.26, 0.33, 0.39, 0.46,
@@ -312,7 +315,7 @@ static void smooth_paths(const model *m)
         }
 }
 
-/* A step half as long again as the last one is the longest that is guessed. */
+/* The longest extrapolated step is one and a half times the last one. */
 static void long_steps(const model *m)
 {
     static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5};
@@ -322,7 +325,7 @@ static void long_steps(const model *m)
     gsl_test(!(beyond > 1e-3), "a much longer one starts where the last ended (%.1e)", beyond);
 }
 
-/* Two states behind a kink a line goes on from them, whatever came before. */
+/* From two states after a kink, the path is extrapolated linearly, whatever came before. */
 static void kinks(const model *m)
 {
     static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};

@@ -1,4 +1,4 @@
-/* Loads along a member and centrifugal forces: what they come to at the vertices. */
+/* Loads along a member and centrifugal forces have the right resultants at the vertices. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -9,8 +9,8 @@
 enum { MOST = 40 };
 enum { LINE, SPIN };
 
-/* Forces of one component on the vertices of a member of length 2 along x: of a load along it, or
- * of a frame that turns about z. The ends come first. */
+/* Forces of one component on the vertices of a member of length 2 along x, due to a load along it
+ * or to a frame that rotates about z. The ends come first. */
 static void forces_along(int what, const char *name, double path, int follows, int nodes,
                          double out[])
 {
@@ -49,8 +49,8 @@ static void forces_along(int what, const char *name, double path, int follows, i
     scene_free(&s);
 }
 
-/* A load along a member: all of it, with its first moment; the second moment is that of the rule
- * (trapezoids; Simpson, exact). */
+/* The whole load along a member is applied, with its first moment; the second moment is that of the
+ * rule (trapezoidal; Simpson's, which is exact). */
 static void along_a_member(const char *name, int nodes)
 {
     double F[MOST], sum[3] = {0};
@@ -66,8 +66,8 @@ static void along_a_member(const char *name, int nodes)
     gsl_test_rel(sum[2], nodes == 2 ? 3 * 4 : 3 * 8 / 3.0, 1e-14, "%s: its second moment", name);
 }
 
-/* Centrifugal forces grow with the square of the angular velocity, and that with the path where it
- * follows it. */
+/* Centrifugal forces are proportional to the square of the angular velocity, which is proportional
+ * to the path parameter if it follows the path. */
 static void turning_faster(void)
 {
     static const char name[] = "geometrically_exact:nodes=2";

@@ -1,5 +1,5 @@
-/* Loads on nodes of a rigid body in a turned state, against the work they do, and along the path.
- */
+/* Loads on nodes of a rigid body in a rotated state agree with their work, and with their factors
+ * along the path. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "harness/newton/test/turned_body.h"
 #include "harness/tools/kit/scenes.h"
 
-/* Five points: the error is of the fourth order. */
+/* Five-point difference, with an error of fourth order. */
 static double slope(const turned_body *s, int k)
 {
     return (8 * (turned_body_work_at(s, k, turned_body_step, -1, 0) -
@@ -61,8 +61,8 @@ static void follow_stations(scene_load *load, const double path[3], const double
     memcpy(load->factor, value, 3 * sizeof *value);
 }
 
-/* Factor 0, 2, 1 at path 0, 1, 3: the rate at a station is that of what follows, and nothing
- * changes outside. */
+/* Factors 0, 2, 1 at path 0, 1, 3: the rate at a station is that of the next piece, and is zero
+ * outside. */
 static void rates(void)
 {
     static const double path[] = {0, 1, 3}, value[] = {0, 2, 1};
@@ -91,7 +91,7 @@ static void rates(void)
     turned_body_release(&s);
 }
 
-/* The load between its stations: on straight lines, and constant outside. */
+/* The load is linear between its stations and constant outside. */
 static void factors(void)
 {
     static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
@@ -118,7 +118,7 @@ static void factors(void)
     turned_body_release(&s);
 }
 
-/* Each load has its own factor: along x proportional to the path, along y by stations. */
+/* Each load has its own factor: along x proportional to the path, along y given at stations. */
 static void reference(void)
 {
     static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
@@ -165,10 +165,10 @@ static void loads_tests(void)
     reference();
 }
 
-/* Stiffness of loads on nodes of a rigid body in a turned state: the second derivative of their
- * work, or what the loads change by. */
+/* Stiffness of loads on nodes of a rigid body in a rotated state: the second derivative of their
+ * work, or the derivative of the loads. */
 
-/* A dead force has a potential: its stiffness is the second derivative of the work, with the sign
+/* A dead force has a potential: its stiffness is the second derivative of its work, with the sign
  * of K. */
 static void stiffness(int body)
 {
@@ -204,8 +204,8 @@ static void stiffness(int body)
     turned_body_release(&s);
 }
 
-/* Where the coordinates are angles, the stiffness is what the generalised loads change by, also of
- * a moment or of a load that follows, which have no potential. at [m]: beside the node. */
+/* If the coordinates are angles, the stiffness is the derivative of the generalised loads, also for
+ * moments and follower loads, which have no potential. at [m]: offset from the node. */
 static void stiffness_of_angles(int body, scene_load_kind kind, int follower, const double at[3])
 {
     turned_body s;

@@ -1,6 +1,6 @@
-/* Released ends in a turned state: a tangent that is the derivative of the forces, whatever is
- * released, wherever the node is and whatever acts on the member; Newton's method converges as it
- * does with a true tangent. */
+/* Released ends in a rotated state: the tangent is the derivative of the forces, whatever is
+ * released, wherever the node is and whatever acts on the member, and Newton's method converges
+ * accordingly. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <signal.h>
@@ -40,8 +40,8 @@ static void soft_spring(scene *s, int node, double k)
     scene_add_spring(s, SCENE_NONE, node, K);
 }
 
-/* A clamped member to a body, a member from there to a node on a spring; loads of every kind on the
- * second one. */
+/* A clamped member to a body, and a member from there to a node on a spring; loads of every kind
+ * act on the second member. */
 static void bent(int place, const char *const set[2], scene *s)
 {
     static const double sequence[3][3] = {{0, 0, 1}, {0.6, 0.8, 0}, {1, 0, 0}};
@@ -135,7 +135,8 @@ static void linearised(release_subject *t, const model_state *s, double path)
             t->A[t->K.row[k] * t->n + j] = t->K.value[k];
 }
 
-/* Equilibrium under a part of the load: 1 when the corrections fall as with a true tangent. */
+/* Finds equilibrium under a fraction of the load; returns 1 when the corrections decrease as with
+ * an exact tangent. */
 static int solve(release_subject *t, double path, const char *what)
 {
     int pivot[MOST];
@@ -163,7 +164,7 @@ static void residual_at(release_subject *t, int k, double h, double out[])
     model_linearisation lin = {.path = 1, .residual = out};
     kinematics_state_copy(t->m, t->s, t->moved);
     dx[k] = h;
-    linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f); /* what advance_state works on */
+    linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f); /* memory for advance_state */
     advance_state(&t->eq, &t->run.memory, t->moved, dx, 1, NULL);
     linearise_make_compatible(&t->eq, t->moved, &f);
     linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f);
@@ -229,13 +230,13 @@ static void release_tests(void)
                 check(formulation_name[i], place, sets[k]);
 }
 
-/* The size of a correction sees every coordinate: translations by the size of the scene, turns
- * in radians, amplitudes of warping times that size; and the rigid motion that is left loose is
- * one that the supports allow. */
+/* The size of a correction includes every coordinate: translations relative to the size of the
+ * scene, rotations in radians, warping amplitudes times that size. The rigid motion that is
+ * reported is one that the supports allow. */
 
 static const double length = 2;
 
-/* A member along x that warps; what holds its far end. */
+/* A member along x with warping; components first to last of its far end are fixed. */
 static int warping_member(const element_type *type, int first, int last, scene *s, model **m)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -253,7 +254,7 @@ static int warping_member(const element_type *type, int first, int last, scene *
     return made == STATUS_OK;
 }
 
-/* Size of a correction of one coordinate alone. */
+/* Size of a correction that changes only one coordinate. */
 static double size_of(model *m, int coordinate, double step)
 {
     const model_size size = model_sizes(m);
@@ -289,7 +290,7 @@ static void corrections(const element_type *type)
             const double size = size_of(m, k, step) / step;
             const int translation = fabs(size * length - 1) < 1e-9, turn = fabs(size - 1) < 1e-9,
                       warp = fabs(size - length) < 1e-9;
-            /* what is inside an element counts too */
+            /* inner unknowns of an element count too */
             gsl_test(type->inner != NULL ? !(size > 0.4 / length) : translation + turn + warp != 1,
                      "%s: coordinate %d counts as %g", type->name, k, size);
             gsl_test(!isnan(size_of(m, k, NAN)), "%s: coordinate %d may be no number", type->name,
@@ -307,7 +308,7 @@ static void corrections(const element_type *type)
     scene_free(&s);
 }
 
-/* Held at the far end in its translations: what is left turns about it. */
+/* With the translations of the far end fixed, the remaining motion is a rotation about that end. */
 static void loose_about_the_far_end(const element_type *type)
 {
     scene s;
@@ -335,14 +336,15 @@ static void advance_tests(void)
     loose_about_the_far_end(registry_formulations[0]);
 }
 
-/* Condensed members give the same answers as the assembled tangent: every case, and released ends,
- * with formulations of each family; and beyond what an assembled tangent has digits for. */
+/* Condensed members give the same results as the assembled tangent, for every case and for released
+ * ends, with formulations of each family. They also give results where an assembled tangent has no
+ * digits left. */
 
 static const char *const formulations[] = {"beamw", "sheet_third", "geometrically_exact",
                                            "collocation"};
 enum { FORMULATIONS = sizeof formulations / sizeof formulations[0], NEVER = 1000000 };
 
-/* A fifth of a motion is solved by the same steps as all of it. */
+/* A fifth of a motion is solved with the same steps as the whole. */
 static void shorten(const case_type *type, double parameter[])
 {
     const int time = parameter_index(type->parameters, "time");
@@ -360,7 +362,7 @@ static status test_condensation_solve(const case_type *type, const char *of, int
     return cell_run(&request, out, &f);
 }
 
-/* Values of quantities beside those of the same kind of unit, which zeros are measured by. */
+/* Largest value of quantities with the same unit, as a scale for zeros. */
 static double scale_of(const cell_result *r, const char *unit)
 {
     double largest = 0;
@@ -371,7 +373,7 @@ static double scale_of(const cell_result *r, const char *unit)
     return largest;
 }
 
-/* How many values were compared. */
+/* Compares all values and returns their number. */
 static int compare(const char *name, const char *of, const cell_result *a, const cell_result *b)
 {
     int compared = 0;
@@ -413,7 +415,8 @@ static void cases(void)
     gsl_test(compared < 500, "%d values of cases were compared", compared);
 }
 
-/* Two leaves, joined by a hinge, the second one from a body; the tip slides in its holder. */
+/* Two leaves joined by a hinge, the second one starting from a body; the tip slides in its
+ * holder. */
 static status hinged(const double value[], scene *s, fault *f)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -453,8 +456,8 @@ static void released(void)
     gsl_test(compared < 12, "%d values with released ends were compared", compared);
 }
 
-/* With 4000 elements, condition 1e16 of the assembled tangent, Newton's method converges as with
- * few. */
+/* With 4000 elements and condition 1e16 of the assembled tangent, Newton's method converges as with
+ * few elements. */
 static void many(const case_type *type)
 {
     cell_result few, more;
@@ -484,8 +487,8 @@ static void condensation_tests(void)
     gsl_test(!found, "c_cantilever is there");
 }
 
-/* What an analysis hands over of eigenvalues: all of it, and why there are no more; what one kind
- * leaves cannot be read from another. */
+/* An analysis passes on all eigenvalues, and the reason why there are no more; results of one kind
+ * of analysis cannot be read as those of another. */
 
 static void handed_over(status outcome, int rounding, const char *reason, const char *said)
 {
@@ -546,7 +549,7 @@ static void by_kind(void)
     static const struct {
         const char *name;
         void (*read)(const void *);
-        unsigned kinds; /* that leave it */
+        unsigned kinds; /* kinds of analyses that produce it */
     } row[] = {
         {"displacements", read_displacements, 1 << SCENE_LINEAR},
         {"spectrum", read_spectrum, 1 << SCENE_BUCKLING | 1 << SCENE_MODAL},

@@ -1,5 +1,5 @@
-/* A beam that ends at a rigid body, in a state that is turned about no special axis, with a load
- * beside the body's own node, and the work which that load does. */
+/* A beam that ends at a rigid body, in a state rotated about a general axis, with a load at a
+ * distance from the body's own node, and the work of that load. */
 #ifndef BEAMWORK_TEST_TURNED_BODY_H
 #define BEAMWORK_TEST_TURNED_BODY_H
 
@@ -22,7 +22,7 @@ enum { FREE_TURNS, THREE_ANGLES, TWO_ANGLES, FORK, BODIES };
 static const char *const turned_body_name[] = {"free turns", "three angles", "two angles",
                                                "a fork"};
 
-/* A beam from a clamp to a body, which a load acts on beside its own node. */
+/* A beam from a clamp to a body, with a load at a distance from the body's node. */
 static inline void beam_and_body(int body, scene_load_kind kind, scene *s)
 {
     const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1}, end = 1;
@@ -65,7 +65,7 @@ static inline void turned_body_move(const turned_body *s, const model_state *fro
     run_state_end(&run);
 }
 
-/* A state far from rest, turned about no special axis. */
+/* A state far from the undeformed one, rotated about a general axis. */
 static inline void turned_body_prepare(int body, scene_load_kind kind, turned_body *s)
 {
     fault f = {""};
@@ -93,7 +93,7 @@ static inline void turned_body_release(turned_body *s)
     scene_free(&s->scene);
 }
 
-/* Generalised loads of the path's end. */
+/* Generalised loads at the end of the path. */
 static inline void turned_body_loads(const turned_body *s, double out[])
 {
     double without[MOST];
@@ -110,7 +110,7 @@ static inline void turned_body_loads(const turned_body *s, double out[])
         out[k] -= without[k];
 }
 
-/* Displacement of the loaded node less that of the turned state, and its turn since. */
+/* Displacement and rotation of the loaded node since the rotated state. */
 static inline void turned_body_motion(const turned_body *s, const double dx[], double d[3],
                                       double turn[3])
 {
@@ -123,7 +123,7 @@ static inline void turned_body_motion(const turned_body *s, const double dx[], d
     rotation_between(from, q, turn);
 }
 
-/* Work of the load's first order: of a force all of it. */
+/* Work of the load to first order; for a force, the exact work. */
 static inline double turned_body_work(const turned_body *s, const double dx[])
 {
     const scene_load *load = &s->scene.load[0];

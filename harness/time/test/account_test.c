@@ -1,5 +1,5 @@
-/* The balance of energy is a verdict: what is allowed is, what is not ends a motion with one line;
- * what acts from outside is in it, whatever the kind, with every integrator. */
+/* The energy balance is checked: an allowed error passes, and a larger one ends the motion with one
+ * line. Work of external loads of every kind is included, with every integrator. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -26,7 +26,8 @@ static const struct {
                     {"goes on", "parts=2;middle=0.6"}};
 enum { DAMPED = 3, FOLLOWER = 6, KINDS = sizeof account_kind / sizeof account_kind[0] };
 
-/* What is missing at most of the last motion, by account_size; *turned: the work by the energy. */
+/* Largest energy-balance error of the motion, relative to account_size; *turned: work relative to
+ * the energy. */
 static double missing(const solve_result *r, double *turned)
 {
     account of = {.largest = 0};
@@ -39,7 +40,7 @@ static double missing(const solve_result *r, double *turned)
     return most / account_size(&of);
 }
 
-/* Of steps as they are; with a tolerance as good at least as that. */
+/* Checks fixed steps; adaptive steps with a tolerance must be at least as accurate. */
 static void balanced(scene_scheme by, double step, double most)
 {
     for (int k = 0; k < KINDS; k++) {
@@ -65,11 +66,11 @@ static void balanced(scene_scheme by, double step, double most)
     }
 }
 
-/* Energy 10 J, work 2 J back and forth and as many as `turned` says; what is missing by it. */
+/* Energy 10 J and work 2 J that alternates `turned` times; `drift` of it is unexplained. */
 static const struct {
     double drift, turned, rounding, rho, tolerance;
     scene_scheme by;
-    const char *words; /* NULL: it is allowed */
+    const char *words; /* NULL: allowed */
 } row[] = {
     {0.09, 0, 0, 0.9, 1e-4, SCENE_ALPHA, NULL},
     {0.11, 0, 0, 0.9, 1e-4, SCENE_ALPHA, "more energy than work was done, 1.1 % of 10 J"},
@@ -117,7 +118,7 @@ static void judged(void)
     }
 }
 
-/* A case by parameters "name=value;...", as `solve` runs it. */
+/* Solves a case at parameters "name=value;...", as `solve` does. */
 static status run(const case_type *type, const char *parameters, int elements, cell_result *out)
 {
     cell_request request = {.type = type, .elements = elements};
@@ -131,7 +132,8 @@ static status run(const case_type *type, const char *parameters, int elements, c
     return cell_run(&request, out, &f);
 }
 
-/* Steps that do not resolve axial waves make energy: a motion ends there, or takes shorter ones. */
+/* Steps that do not resolve axial waves gain energy: the motion ends there, or takes shorter
+ * steps. */
 static void made(void)
 {
     cell_result r;
@@ -164,13 +166,13 @@ static void account_tests(void)
 }
 
 /* Strains from stresses: a member that is a million times stiffer in elongation than in bending
- * takes the stresses it is given, also where Newton does not find them at once; elements that have
- * them already keep their bits; and types whose stresses are linear are left alone. */
+ * gets strains that match its stresses, also if Newton's method does not find them at once.
+ * Elements that already agree keep all bits, and types with linear stresses do not change. */
 
 extern const element_type element_beamw_consistent, element_beamw, element_geometrically_exact,
     element_collocation;
 
-enum { ELEMENTS = 9, MOST = ELEMENT_MAX_STRAINS }; /* more than go in one go */
+enum { ELEMENTS = 9, MOST = ELEMENT_MAX_STRAINS }; /* more elements than are evaluated at once */
 
 /* A long thin leaf along x. */
 static model *leaf(const element_type *type, scene *s)
@@ -203,8 +205,8 @@ static double largest(int n, const double a[], const double b[])
     return out;
 }
 
-/* Stresses of element i: bending by `angle`, a little twist, hardly any elongation; and the strains
- * that a linear law has for them. */
+/* Stresses of element i: bending by `angle`, a small twist, hardly any elongation; and the
+ * corresponding strains by a linear law. */
 static void load(const model *m, int i, double angle, double sigma[], double e[])
 {
     const double l = model_kind_of(m, i)->length;
@@ -224,7 +226,8 @@ static long looks(const equations *eq, complement *c, model_state *s, int iterat
     return eq->run->counters.stress_evaluations - before;
 }
 
-/* All elements agree: looked at again after larger corrections and in a new step alone. */
+/* Once all elements agree, they are evaluated again only after larger corrections and in a new
+ * step. */
 static void again(const equations *eq, complement *c, model_state *s)
 {
     gsl_test(looks(eq, c, s, 2, 0.5) != ELEMENTS, "some did not agree before: all are looked at");
@@ -281,7 +284,7 @@ static void take(const element_type *type, double angle)
     scene_free(&s);
 }
 
-/* What cannot be found stays. */
+/* Strains do not change if none with the given stresses are found. */
 static void keep(void)
 {
     scene s;
@@ -340,11 +343,11 @@ static void complement_tests(void)
     leave(&element_collocation, "it has unknowns of its own");
 }
 
-/* What of forces works on what has no inertia: warping amplitudes with and without mass. */
+/* Work of forces on coordinates without inertia: warping amplitudes with and without mass. */
 
 enum { MASSLESS_MOST = 80 };
 
-/* An I free in space; omit: physics that is left out. */
+/* An I-section member free in space; omit: omitted physics. */
 static void warps(unsigned omit, int heavy)
 {
     static const double y[3] = {0, 1, 0}, point[][2] = {{-0.03, 0.05},  {0, 0.05},  {0.03, 0.05},

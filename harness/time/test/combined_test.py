@@ -1,4 +1,4 @@
-"""Keys of scene files together: what each of them does is known from its own tests, here they meet in one structure."""
+"""Combinations of keys of scene files in one structure; each key alone has its own tests."""
 from cases.format.test.scene_case import SceneCase, values
 
 HEAD = """beamwork: 1
@@ -45,7 +45,7 @@ class CombinedTest(SceneCase):
         return values(self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", 8, *more))
 
     def test_formulations_agree(self):
-        """Of second order in chords and lumped foundations: to a part in a thousand."""
+        """Formulations agree to a part in a thousand; chords and lumped foundations have errors of second order."""
         text = HEAD + STATIC + "omit: [wagner_torque]\n"
         one = self.solve(text, "collocation")
         self.assertGreater(abs(one["uz"]), 1e-3)
@@ -55,7 +55,7 @@ class CombinedTest(SceneCase):
                 self.assertAlmostEqual(other[name] / value, 1, delta=3e-3, msg=(formulation, name))
 
     def test_integrators_agree(self):
-        """Motions from the heated, pretensioned state; no energy is lost but by the dashpot."""
+        """Motions from the heated, pretensioned state agree; energy is lost only by the dashpot."""
         runs = {"radau": "tolerance: 1e-6", "alpha": "step: 2.5e-4", "conserving": "step: 2.5e-4"}
         got = {name: self.solve(MOVED + MOTION.format(integrator=name, steps=steps), "collocation")
                for name, steps in runs.items()}
@@ -68,12 +68,12 @@ class CombinedTest(SceneCase):
             self.assertLess(abs(got[name]["drift"]), bound * abs(got[name]["energy"]), name)
 
     def test_explicit(self):
-        """It refuses an offset by its member, with what to write instead."""
+        """The explicit integrator rejects an offset by its member, with a remedy."""
         text = MOVED.replace(", pretension: 3e3", "") + MOTION.format(integrator="explicit", steps="step: 1e-5")
         self.refused(2, ["member second has an offset", "part_of"], "solve", "--scene", self.scene(text), "-n", 1)
 
     def test_another_order_of_ends(self):
-        """Members from the other end: what is at one end is at the other, y turns round."""
+        """Members given in the reverse direction, with y reversed too, give the same results at exchanged ends."""
         there = HEAD.replace(
             "from: foot, to: middle, section: ipe, y: [0, 1, 0], warping: free, imperfection: {amplitude: [4e-3, 0]}",
             "from: middle, to: foot, section: ipe, y: [0, -1, 0], warping: free, imperfection: {amplitude: [-4e-3, 0]}"

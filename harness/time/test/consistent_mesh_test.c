@@ -1,5 +1,5 @@
-/* Meshes with consistent and with lumped mass go to the same limit; of what is let go and swings,
- * coarse ones are nearer to it with consistent mass, and it has a higher order. */
+/* Meshes with consistent and with lumped mass converge to the same limit. For a released structure
+ * that oscillates, coarse meshes are more accurate with consistent mass, whose order is higher. */
 #include <math.h>
 
 #include "harness/time/test/moving.h"
@@ -7,7 +7,7 @@
 extern const element_type element_beamw_consistent;
 extern const case_type case_release, case_leaf_guide;
 
-/* A quantity of a case of motion. */
+/* Value of a quantity of a motion. */
 static double value_of(const case_type *type, const char *parameters, const char *quantity,
                        scene_mass mass, int elements)
 {
@@ -28,8 +28,9 @@ static double value_of(const case_type *type, const char *parameters, const char
     return answer_of(&a, quantity);
 }
 
-/* Errors against the finest mesh, of the coarsest and the third: of order `order` between them; not
- * more than `part` of those of lumped mass, which goes to the same limit, within near. */
+/* Errors of the coarsest and the third mesh with respect to the finest: their order is `order`, and
+ * they are at most `part` of the errors with lumped mass, which converges to the same limit within
+ * `near`. */
 static void meshes(const case_type *type, const char *parameters, const char *quantity,
                    double order, double part, double near)
 {

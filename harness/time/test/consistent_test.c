@@ -1,7 +1,7 @@
-/* Motions with consistent mass: momenta and energy of what flies freely, with the order of the
- * scheme; what holds and drives a base takes the rate of the momentum, also over rigid offsets,
- * bodies and released ends; Newton costs what it does with lumped mass, whatever is stiff; what
- * does not go with it is refused by name. */
+/* Motions with consistent mass: momenta and energy of free flights are conserved with the order of
+ * the scheme. Reactions at a fixed or driven base equal the rate of momentum, also over rigid
+ * offsets, bodies and released ends. Newton's method takes as many iterations as with lumped mass,
+ * whatever is stiff. Unsupported combinations are rejected by name. */
 #include <math.h>
 
 #include "harness/analysis/analysis.h"
@@ -43,7 +43,7 @@ static void ask_momenta(scene *s, int motion)
         scene_add_quantity(s, name[i], "1", motion, scene_balance_of(SCENE_PX + i));
 }
 
-/* A rod that a static force has bent, let go with a velocity and a spin. */
+/* A rod bent by a static force and released with a velocity and a spin. */
 static void add_free(scene *s, double stiffening, scene_mass mass, scene_scheme scheme, double step,
                      double end)
 {
@@ -76,8 +76,8 @@ static void end_of(const element_type *type, scene_scheme scheme, double step, d
     gsl_test(out->outcome != ASK_ANSWERED, "%s flies freely (%s)", type->name, out->reason);
 }
 
-/* The most that the momenta change behind 0.5 s, to and fro, where nothing acts; the energy that is
- * missing in parts of all. */
+/* Largest changes of the momenta after 0.5 s, when no load acts, and the energy-balance error
+ * relative to the energy. */
 static consistent_flight fly(const element_type *type, scene_scheme scheme, double step)
 {
     static const double end[] = {0.8, 1.1, 1.4, 2};
@@ -116,8 +116,8 @@ static void free_flight(const element_type *type)
              "what is missing by radau: %.1e, %.1e, %.1e", d.momentum, d.angular, d.energy);
 }
 
-/* A base that is driven along and about two axes; at it, over an offset, a rod with a body at its
- * end, and a second rod to an attached node of that body. */
+/* A base that is driven along and about two axes; attached to it over an offset a rod with a body
+ * at its end, and a second rod to an attached node of that body. */
 static void add_driven(scene *s, int released, double step, double end)
 {
     scene_init(s, "driven base");
@@ -219,7 +219,7 @@ static double iterations_of(double stiffening, scene_mass mass, scene_scheme sch
     return mean;
 }
 
-/* As cheap as with lumped mass, however stiff. */
+/* Newton's method takes as many iterations as with lumped mass, whatever is stiff. */
 static void iterations(void)
 {
     for (int k = 0; k < 2; k++) {
@@ -268,13 +268,13 @@ static void consistent_tests(void)
     refuse();
 }
 
-/* Energy gained against work done: of loads that come and go, of gravity, of a drive. What is
- * missing shrinks with the order of the scheme, and for the conserving one there is nothing. */
+/* Energy gained equals work done, for loads that rise and end, gravity, and a drive. The difference
+ * decreases with the order of the scheme; for the conserving scheme it is zero. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_spin_up, case_elbow, case_pendulum;
 
-/* Largest of all stations, by the largest energy. */
+/* Largest difference over all stations, relative to the largest energy. */
 static double drift(const case_type *type, scene_scheme scheme, double step, double end)
 {
     scene s;
@@ -292,7 +292,7 @@ static double drift(const case_type *type, scene_scheme scheme, double step, dou
     return moving_largest(&a, "drift") / energy;
 }
 
-/* radau: of the shortest step; conserving: of the first two. */
+/* radau: with the shortest step; conserving: with the first two steps */
 static const struct {
     const case_type *type;
     double step, end, conserving;
@@ -322,17 +322,17 @@ static void drift_tests(void)
     }
 }
 
-/* Momentum of what flies freely is the integral of the load over time, to round-off, whatever the
- * integrator: the loads are linear in pieces. (Generalized-alpha averages accelerations over two
- * steps: while a load rises it is late by a part of h^2, which goes when the load has gone.) What
- * cases of motion refuse. */
+/* The momentum in free flight is the time integral of the load, to round-off, with every
+ * integrator, since the loads are piecewise linear. (Generalized-alpha averages accelerations over
+ * two steps: while a load rises, the momentum lags by a fraction of h^2, which vanishes when the
+ * load has ended.) Unsupported options of motion cases are rejected. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_free_flight_plane, case_release,
     case_leaf_guide, case_rigid_body, case_pendulum;
 
-/* Of the force along x: of the triangle, 8 N m s^-1 for 2.5 s and back; of the step, 8 N for as
- * long. */
+/* Impulse of the force along x: triangle, 8 N m s^-1 for 2.5 s and back; step, 8 N for the same
+ * time. */
 static double impulse_of_triangle(double t)
 {
     const double rise = fmin(t, 2.5), fall = fmin(fmax(t - 2.5, 0), 2.5);
@@ -404,8 +404,8 @@ static void flight_tests(void)
     refused(&case_release, "tolerance=1", "tolerance");
 }
 
-/* Members that are stiff in elongation cost no iterations, whatever the formulation: a swing of the
- * pendulum with EA times 1, 1e3 and 1e6, in long steps, of which none is halved. */
+/* Members that are stiff in elongation need no additional iterations, with any formulation: a swing
+ * of the pendulum with EA times 1, 1e3 and 1e6, in long steps, none of which is halved. */
 
 extern const case_type case_pendulum;
 extern const element_type element_collocation;
@@ -413,7 +413,7 @@ extern const element_type element_collocation;
 enum { ELEMENTS = 4 };
 
 typedef struct swing {
-    double iterations; /* of a step; NAN: the formulation is not for it */
+    double iterations; /* iterations per step; NAN: the formulation does not support it */
     long steps;
 } swing;
 
@@ -464,7 +464,8 @@ static void compare(const element_type *type, scene_scheme by, double step, doub
     }
 }
 
-/* One element, whose forces have no more digits than eps EA leaves, while its moments do. */
+/* Solves with one element, whose forces have no more digits than eps EA allows, while its moments
+ * do. */
 static void one_element(void)
 {
     const int steps = 60;

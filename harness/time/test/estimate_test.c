@@ -1,6 +1,6 @@
-/* What integrators say of the error of a step, which sets the length of the next one, in
- * milliseconds: a mass on a spring, whose step is known in closed form, and the order of the
- * estimate where masses are driven, turn and are damped. */
+/* Error estimates of integrators for one step, which determine the next step size, in milliseconds:
+ * a mass on a spring, whose step is known in closed form, and the order of the estimate for driven,
+ * rotating and damped masses. */
 #include <math.h>
 
 #include "elements/math/dense.h"
@@ -56,8 +56,8 @@ static void begin(const scene *s, flying *f)
     gsl_test(outcome != STATUS_OK, "begins: %s", f->why.text);
 }
 
-/* The radius of RADAU5 for y = (x, v), y' = J y + (0, F/m) (Hairer & Wanner II, IV.8, eq. 8.19):
- * (1 - h c J)^-1 [c h y'(0) + e . z], c the inverse of the real eigenvalue of A^-1. */
+/* The error estimate of RADAU5 for y = (x, v), y' = J y + (0, F/m) (Hairer & Wanner II, IV.8, eq.
+ * 8.19): (1 - h c J)^-1 [c h y'(0) + e . z], c the inverse of the real eigenvalue of A^-1. */
 static double radau_of(double x, double v, double eta, double F0, double F1, double h)
 {
     const double s = sqrt(6), c0 = 0.2748888295956773677478286,
@@ -112,7 +112,7 @@ static void radau_errors(double eta)
     scene_free(&s);
 }
 
-/* Against the motion that is exact from where the step begins. */
+/* Compares one step with the exact motion from the start of the step. */
 static void of_second_order(scene_scheme by, const char *name, const scene_alpha *alpha,
                             double tolerance)
 {
@@ -152,7 +152,8 @@ static void explicit_one(void)
     gsl_test(!(log2(error[0] / error[1]) > 7.5), "explicit: estimates %g, %g", error[0], error[1]);
 }
 
-/* A rod behind a body that is lifted, beside which its centre is, and turns freely. */
+/* A rod on a body that is lifted and rotates freely; its centre of mass is at a distance from the
+ * lifted point. */
 static double of_lifted(double eta, double h)
 {
     const section_spec spec = timed_profile(&(timed_section){
@@ -206,10 +207,10 @@ static void estimate_tests(void)
     explicit_one();
 }
 
-/* Bending turns without inertia where the twist has some: its gyroscopic moment loads them. Rods
- * that spin obliquely come into balance with it and are integrated from there, with the orders of
- * the integrators; they are what less and less inertia of the bending turns goes to; and where they
- * are in balance, another start changes nothing. */
+/* Bending rotations without inertia, while the twist has inertia: the gyroscopic moment of the
+ * twist loads them. Rods with an oblique spin start in equilibrium with that moment and are
+ * integrated with the order of each integrator. They are the limit of rods whose bending inertia
+ * decreases; and a restart in equilibrium changes nothing. */
 
 extern const element_type element_geometrically_exact;
 
@@ -222,8 +223,8 @@ static struct {
     int joint, thrown;
 } how;
 
-/* Oblique to all axes; with a joint another rod at its end, which turns about one axis of its own.
- * Thrown: from rest, by a force and a moment that come and go. */
+/* A rod oblique to all axes; with a joint, another rod at its end that rotates about a single axis.
+ * Thrown: starts at rest, under a force and a moment that rise and end. */
 static void build(scene *s, scene_scheme by, double step)
 {
     scenes_read(s, RODS,
@@ -233,7 +234,7 @@ static void build(scene *s, scene_scheme by, double step)
                 how.thrown);
 }
 
-/* Where B is after 0.8 s. */
+/* Integrates to 0.8 s and gives the position of node B. */
 static void fly(scene_scheme by, double step, double place[PLACES])
 {
     scene s;
@@ -263,7 +264,7 @@ static double error_of(scene_scheme by, double step)
     return distance(place, exact);
 }
 
-/* The error of time, and that with half the step. */
+/* Compares the time-integration error with that of half the step size. */
 static void converge(scene_scheme by, double step, double ratio)
 {
     const double first = error_of(by, step), second = error_of(by, step / 2);
@@ -277,7 +278,7 @@ static void agree(scene_scheme by, double step, double most)
     gsl_test(!(error < most), "integrator %d, spin %g, joint: error %g m", by, how.spin, error);
 }
 
-/* Explicit steps, which need inertia, with less and less of it. */
+/* Compares with explicit steps, which require inertia, with decreasing inertia. */
 static void limit(void)
 {
     double place[3][PLACES], without[PLACES];
@@ -293,7 +294,7 @@ static void limit(void)
              "less inertia of bending turns: %g, %g, then %g m from none", coarse, fine, rest);
 }
 
-/* In the middle of a motion everything is where and as fast as it belongs. */
+/* A restart in the middle of a motion changes neither positions nor inertia forces. */
 static void start_again(void)
 {
     scene s;
@@ -333,7 +334,7 @@ static void start_again(void)
     scene_free(&s);
 }
 
-/* So much spin that bending does not hold the gyroscopic moments. */
+/* The spin is so fast that bending cannot balance the gyroscopic moments. */
 static void refuse(void)
 {
     scene s;
@@ -352,7 +353,7 @@ static void motion_massless_tests(void)
     for (how.joint = 0; how.joint < 2; how.joint++)
         for (int i = 0; i < 2; i++) {
             how.spin = spins[i];
-            if (how.joint) { /* whose modes these steps do not resolve */
+            if (how.joint) { /* its modes are not resolved by these steps */
                 agree(SCENE_ALPHA, 0.01, 3e-3);
             } else {
                 converge(SCENE_ALPHA, 0.02, 4);
@@ -369,14 +370,13 @@ static void motion_massless_tests(void)
     limit();
 }
 
-/* Steps of all integrators: the trapezoidal rule runs back to where it came from, a rigid body that
- * no torque acts on keeps to its exact motion with the order of the scheme, and kinks of loads are
- * hit. */
+/* Steps of all integrators: the trapezoidal rule is reversible, a rigid body without torque follows
+ * its exact motion with the order of the scheme, and steps end at kinks of loads. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space;
 
-/* A free rod on its way. */
+/* A free rod in motion. */
 static void throw_rod(scene *s, scene_scheme by, const scene_alpha *alpha)
 {
     moving_case(&case_free_flight_space, "", s);
@@ -438,7 +438,7 @@ static double turn_body(scene_scheme by, double h)
                                                              .polar = 2e-11,
                                                              .rotary = 1e-11});
     const int profile = scene_add_section(&s, &spec), body = scene_add_node(&s, 0, 0, 0);
-    /* with a rod that weighs nothing: something must be joined to it */
+    /* with a massless rod, because a member must be attached */
     scene_add_member(&s, body, scene_add_node(&s, 1, 0, 0), profile, y_axis);
     scene_node_at(&s, body)->body = (scene_body){.mass = 1, .inertia = {1, 2, 3}};
     const int motion = scene_add_motion(&s, SCENE_NONE, 1, at,
@@ -468,7 +468,7 @@ static void check_body(scene_scheme by, double h, double order, double least)
              log2(first / second));
 }
 
-/* The impulse of 50 N s is exact, though no step but those that are cut ends at a kink. */
+/* The impulse of 50 N s is exact, although only shortened steps end at a kink. */
 static void impulse(scene_scheme by)
 {
     scene s;

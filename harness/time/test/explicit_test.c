@@ -1,5 +1,5 @@
-/* The explicit integrator: the exact motion of a body without torque, its order, the same motions
- * as the implicit one of order 5 finds, and what it refuses. */
+/* The explicit integrator: the exact motion of a body without torque, its order, agreement with the
+ * implicit integrator of order 5, and the models that it rejects. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sf_ellint.h>
 #include <gsl/gsl_sf_elljac.h>
@@ -35,7 +35,7 @@ static int add_motion(scene *s)
     return scene_add_motion(s, SCENE_NONE, 1, &how.time, m);
 }
 
-/* J = diag(1, 2, 3): a body, and a rod between two points of it. */
+/* J = diag(1, 2, 3): a body, with a rod between two points of it. */
 static status body(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0, 1, 0};
@@ -72,7 +72,7 @@ static void exact_rates(double t, double w[3])
                  m = (J[1] - J[0]) * (energy * J[2] - square) /
                      ((J[2] - J[1]) * (square - energy * J[0])),
                  begin = gsl_sf_ellint_F(asin(start[1] / y), sqrt(m), GSL_PREC_DOUBLE);
-    /* J_y w_y' = (J_z - J_x) w_z w_x > 0 at the begin */
+    /* J_y w_y' = (J_z - J_x) w_z w_x > 0 at the start */
     gsl_sf_elljac_e(begin + rate * t, m, &sn, &cn, &dn);
     w[0] = x * cn;
     w[1] = y * sn;
@@ -109,7 +109,7 @@ static void free_body(void)
              half, order);
 }
 
-/* A soft rod, hinged at one end, which is lifted. */
+/* A soft rod, hinged at one end and lifted there. */
 static status rod(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0.1, 1, 0.2};
@@ -142,7 +142,7 @@ static status rod(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Two integrators that share neither order nor Newton. */
+/* Compares two integrators that have neither the order nor Newton's method in common. */
 static void against_radau(const char *chosen)
 {
     cell_result one, other;
@@ -196,8 +196,8 @@ static void explicit_tests(void)
     refused("geometrically_exact", "released ends");
 }
 
-/* The tangent operator of turns, its inverse and its derivative, against differences of the
- * rotations themselves: on both sides of where series take over. */
+/* The tangent operator of rotations, its inverse and its derivative agree with differences of the
+ * rotations, on both sides of the angle below which series are used. */
 
 static const double along[3] = {0.48, -0.6, 0.64}, other[3] = {0.7, 0.4, -0.9}, step = 1e-4;
 
@@ -212,7 +212,7 @@ static void between(const double t[3], const double s[3], double out[3])
     rotation_log(q, out);
 }
 
-/* What f(t + x d) is over x at 0, of fourth order: out[3]. */
+/* Derivative of f along d at t, from differences of fourth order: out[3]. */
 static void differ(void (*f)(const double t[3], double out[3]), const double t[3],
                    const double d[3], double out[3])
 {
@@ -275,7 +275,7 @@ static void turn(double angle)
     check("one turn behind another", angle, back, other);
 }
 
-/* Where series take over they are exact to rounding: nothing jumps there. */
+/* The series are exact to rounding at the angle where they take over; there is no jump. */
 static void seam(double angle)
 {
     static const char *const what[] = {"Jr", "its inverse", "its derivative"};

@@ -1,4 +1,4 @@
-"""Loads with feedback: two masses and a bar with a controller, against the exponential of their matrix."""
+"""Loads with feedback: two masses and a bar with a controller, compared with the matrix exponential."""
 import json
 import unittest
 
@@ -8,7 +8,7 @@ from scipy.linalg import expm
 
 from harness.tools.kit.program import ProgramTest, run
 
-M1, M2, K = 1.0, 0.5, 100.0  # of the cart and the tool [kg], of the bar [N/m]
+M1, M2, K = 1.0, 0.5, 100.0  # [kg] of the cart and of the tool; [N/m] of the bar
 SCENE = """beamwork: 1
 sections:
   bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}
@@ -32,7 +32,7 @@ MOTION = "  last: {motion: {stations: [1.5], step: %g, integrator: %s}}"
 
 
 def exact(kp, kd, ki, damping, place, end, measured=2):
-    """Displacements of tool and cart: states x1, v1, x2, v2, integral, 1."""
+    """Displacements of tool and cart from the states x1, v1, x2, v2, integral, 1."""
     A = np.zeros((6, 6))
     A[0, 1] = A[2, 3] = 1
     A[1] = [-K / M1, -damping / M1, K / M1, damping / M1, ki / M1, kp * place / M1]
@@ -58,7 +58,8 @@ class Feedback(ProgramTest):
         return values, steps
 
     def test_exponential(self):
-        """Proportional, derivative and integral gains, at the cart and across the bar, stable and not; few iterations."""
+        """Proportional, derivative and integral gains, at the cart and across the bar, stable and unstable, take few
+        iterations."""
         for scheme, step, near in (("radau", 0.01, 1e-6), ("alpha", 1e-3, 2e-3),
                                    ("explicit", 0.02, 1e-9)):
             for kp, kd, ki, node in ((20, 3, 5, 2), (20, 0, 0, 2), (300, -4, 0, 2), (50, 8, 90, 1)):
@@ -75,7 +76,7 @@ class Feedback(ProgramTest):
                     self.assertLess(np.mean(steps), 2.1)
 
     def test_order(self):
-        """Generalized-alpha keeps order two with all gains."""
+        """Generalized-alpha has order two with all gains."""
         errors = []
         for step in (2e-3, 1e-3):
             found, _ = self.solved(
@@ -85,7 +86,7 @@ class Feedback(ProgramTest):
         self.assertAlmostEqual(errors[0] / errors[1], 4, 1)
 
     def test_limit(self):
-        """As long as the limit is reached the force is constant."""
+        """The force is constant while it is at its limit."""
         for scheme in ("radau", "alpha", "explicit"):
             found, _ = self.solved(
                 "node: tool, component: ux, proportional: 1e6, derivative: 20, limit: 3",
@@ -94,7 +95,7 @@ class Feedback(ProgramTest):
             self.assertAlmostEqual(centre / (3 * 1.5**2 / 2 / (M1 + M2)), 1, 5)
 
     def test_continued(self):
-        """The integral goes on in a motion that continues another; a jump of the reference."""
+        """The integral continues in a motion that continues another one; the reference value jumps."""
         gains = "node: tool, component: ux, proportional: 20, derivative: 3, integral: 40"
         jump = "pieces: [{until: 0.5, is: 0.01}, {is: 0.03 + 0.01*t}],"
         for scheme in ("radau", "alpha", "explicit"):
@@ -106,7 +107,7 @@ class Feedback(ProgramTest):
             self.assertAlmostEqual(whole["tool"] / parts["tool"], 1, 8)
 
     def test_units(self):
-        """In mm, N, MPa with gains in N/mm."""
+        """The scene gives the same results in mm, N and MPa, with gains in N/mm."""
         gains = "node: tool, component: ux, proportional: %g, derivative: %g, integral: %g"
         found, _ = self.solved(gains % (20, 3, 5), MOTION % (0.01, "radau"))
         text = SCENE % {"gains": gains % (20e-3, 3e-3, 5e-3), "more": "time: 10,", "eta": 0,
@@ -165,7 +166,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
 
 class Elongation(ProgramTest):
-    """A member of driven length, with the stiffness 50 N/m and a mass of 0.5 kg at its end."""
+    """A member with prescribed length, stiffness 50 N/m, and a mass of 0.5 kg at its end."""
 
     def solved(self, *words, code=0):
         path = self.folder / "bar.yaml"
@@ -228,7 +229,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
 
 class Tension(ProgramTest):
-    """A rigid boom on a spring, pulled towards a fixed point: one degree of freedom."""
+    """A rigid boom on a spring is pulled towards a fixed point: one degree of freedom."""
 
     def solved(self, *words, code=0):
         path = self.folder / "boom.yaml"
@@ -241,7 +242,7 @@ class Tension(ProgramTest):
 
     @staticmethod
     def lever(angle):
-        """Minus the derivative of the distance between lug and top."""
+        """Returns minus the derivative of the distance between lug and top."""
         return np.cos(angle) / np.sqrt(2 - 2 * np.sin(angle))
 
     def test_static(self):
@@ -252,7 +253,8 @@ class Tension(ProgramTest):
             2 - 2 * np.sin(angle)), 5)
 
     def test_motion(self):
-        """A function of time, and feedback of the angle, against an integrator of ordinary equations."""
+        """A load as a function of time, and feedback of the angle, agree with an integrator of ordinary differential
+        equations."""
         for words, force in (
                 (", time: 1 + 0.2*sin(3*t)", lambda t, y: 800 * (1 + 0.2 * np.sin(3 * t))),
                 (", time: 0.5, feedback: {node: hinge, component: rz, proportional: 3, derivative: 1, "

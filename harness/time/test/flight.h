@@ -31,7 +31,7 @@ typedef struct flight {
     fault why;
 } flight;
 
-/* The scene's only analysis is the motion; REFUSED and the like: see `why`. */
+/* Prepares the scene, whose only analysis is the motion. REFUSED and other failures: see `why`. */
 static inline status flight_prepare(flight *f, const char *with, int elements)
 {
     model_request request = {&f->scene, NULL, f->chosen.option, elements, 0, 0};
@@ -54,7 +54,8 @@ static inline status flight_prepare(flight *f, const char *with, int elements)
     return instant_alloc(f->m, &f->next, &f->why);
 }
 
-/* build: of a case without parameters. At rest, as it is built. */
+/* build: function of a case without parameters. The flight starts at rest, in the state as
+ * built. */
 static inline status flight_ready(flight *f,
                                   status (*build)(const double value[], scene *, fault *),
                                   const char *with, int elements)
@@ -65,7 +66,7 @@ static inline status flight_ready(flight *f,
     return flight_prepare(f, with, elements);
 }
 
-/* With the start that its motion has. */
+/* Starts with the initial conditions of the motion in the scene. */
 static inline status flight_begin(flight *f,
                                   status (*build)(const double value[], scene *, fault *),
                                   const char *with, int elements)
@@ -87,7 +88,7 @@ static inline void flight_end(flight *f)
     scene_free(&f->scene);
 }
 
-/* One step, negative backwards. */
+/* Makes one step; h < 0: backwards. */
 static inline status flight_step(flight *f, double h)
 {
     double error;
@@ -128,7 +129,7 @@ static inline double flight_strain_energy(const flight *f)
     return sum;
 }
 
-/* Kinetic energy, momenta. */
+/* Kinetic energy and momenta. */
 static inline inertia_balance flight_inertia(const flight *f)
 {
     inertia_balance b;

@@ -24,11 +24,11 @@ typedef struct flying {
     run_damping damping;
     motion_scheme *scheme;
     instant now, next;
-    double error; /* that the last step has estimated */
+    double error; /* estimated error of the last step */
     fault why;
 } flying;
 
-/* At the begin of the first motion of the scene. */
+/* Starts the first motion of the scene. */
 static inline status flying_begin(const scene *s, const element_type *type, int elements, flying *f)
 {
     memset(f, 0, sizeof *f);
@@ -80,7 +80,7 @@ static inline status flying_try(flying *f, double h)
     return outcome;
 }
 
-/* The same, and `now` becomes `next` unless it fails. */
+/* As flying_try; `now` becomes `next` unless the step fails. */
 static inline status flying_step(flying *f, double h)
 {
     const status outcome = flying_try(f, h);
@@ -89,7 +89,7 @@ static inline status flying_step(flying *f, double h)
     return outcome;
 }
 
-/* All numbers of an instant; returns their number, numbers NULL: only that. */
+/* Copies all numbers of an instant; returns how many there are; numbers NULL: only counts. */
 static inline size_t flying_numbers(const flying *f, const instant *at, double *numbers)
 {
     const size_t n = (size_t)model_all_coordinates(f->m), size = at->state->size,
@@ -116,7 +116,7 @@ static inline size_t flying_numbers(const flying *f, const instant *at, double *
     return 3 * n + size + 6 + rates + ends;
 }
 
-/* All numbers of where it is, to be freed. */
+/* All numbers of the present instant; the caller frees them. */
 static inline double *flying_all(const flying *f)
 {
     double *all = malloc(flying_numbers(f, &f->now, NULL) * sizeof *all);

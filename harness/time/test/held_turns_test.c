@@ -1,5 +1,6 @@
-/* Turns of a node that are held, with their rows kept or left out: the same motion, and the same
- * refusal where two turns about fixed axes are left, which do not say how the node lies. */
+/* Fixed rotations of a node, with their rows kept or eliminated: the motion is the same. The model
+ * is also rejected in both ways if two rotations about fixed axes remain free, which do not
+ * determine the orientation of the node. */
 #include <math.h>
 #include <stdio.h>
 
@@ -99,8 +100,8 @@ static void kept(int held, int released, int integrator)
                  integrator, released, plain.name[i], plain.value[i], all.value[i]);
 }
 
-/* Driven about y, then about z, and back by both, with the turn about x held: where it lies then.
- */
+/* Rotates the node about y, then about z, and back about both, with the rotation about x fixed, and
+ * checks its orientation. */
 static void way(void)
 {
     static const double angle = 0.5, path[] = {0, 1, 2, 3, 4}, first[] = {0, angle, angle, 0, 0},

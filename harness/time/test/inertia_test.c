@@ -1,13 +1,13 @@
-/* Forces of inertia of everything that carries mass (off-centre bodies, beams beside their nodes,
- * sequences of angles, released ends, warping) are the change of momenta and of kinetic energy
- * along a motion; kinetic energy is that of all masses one by one. */
+/* Inertia forces of everything with mass (off-centre bodies, beams at offsets from their nodes,
+ * sequences of angles, released ends, warping) are the rates of momenta and of kinetic energy along
+ * a motion; kinetic energy is the sum over all masses. */
 #include "elements/math/rotation.h"
 #include "elements/test/kit.h"
 #include "harness/model/model.h"
 #include "harness/time/test/masses.h"
 #include "harness/time/time_impl.h"
 
-/* Rates of the coordinates as increments in fixed axes. */
+/* Rates of the coordinates as increments about fixed axes. */
 static void in_space(const moving_one *o, const double v[], double out[])
 {
     memcpy(out, v, (size_t)o->all * sizeof *out);
@@ -26,7 +26,7 @@ static void in_space(const moving_one *o, const double v[], double out[])
     }
 }
 
-/* Momenta and kinetic energy a moment later; the third derivatives do not matter. */
+/* Momenta and kinetic energy after a short time dt; the third derivatives do not matter. */
 static void later(const moving_one *o, double dt, inertia_balance *out)
 {
     fault f = {""};
@@ -76,7 +76,8 @@ static void forces(const moving_one *o)
     near("power", power, (after.kinetic - before.kinetic) / (2 * dt), 4e-7);
 }
 
-/* What moves the coordinates of a virtual velocity works on the frames as on the coordinates. */
+/* For any virtual velocity, the inertia forces do the same work on the frames as on the
+ * coordinates. */
 static void virtual_work(const moving_one *o)
 {
     double other[MOST], spatial[MOST], out[MOST] = {0}, given = 0, found = 0;
@@ -100,7 +101,8 @@ static void virtual_work(const moving_one *o)
     near("virtual work", given, found, 1e-11);
 }
 
-/* Of a mass whose centre is beside the frame, by the motion of that; J about the centre. */
+/* Energy of a mass whose centre is at a distance from the frame, from the motion of the frame; J
+ * about the centre. */
 static double energy_of(double of, const double beside[3], const double J[9], const double W[3],
                         const double v[3])
 {
@@ -130,7 +132,7 @@ static void own_rates(const moving_one *o, int vertex, double v[3], double W[3])
     mat3_transpose_mul_vec(r.R, r.w, W);
 }
 
-/* The sum over bodies and the shares of elements, each by itself. */
+/* Compares the kinetic energy with the sum over bodies and the shares of elements. */
 static void kinetic_energy(const moving_one *o)
 {
     inertia_balance all;
@@ -180,8 +182,8 @@ static void inertia_tests(void)
     }
 }
 
-/* What runs between two instants comes to both of them: places, shifts, angles, warping, rates and
- * accelerations, of bodies, sequences of angles and released ends, turned by half a radian. */
+/* Interpolation between two instants reproduces both: positions, shifts, angles, warping, rates and
+ * accelerations, for bodies, sequences of angles and released ends that rotate by half a radian. */
 
 static void rates_of(const moving_one *o, uint64_t seed, instant *at)
 {
@@ -197,7 +199,7 @@ static double apart(size_t count, const double a[], const double b[])
     return largest;
 }
 
-/* Ends that turn freely have no rates inside a step. */
+/* Ends that rotate freely have no rates inside a step. */
 static double rates_apart(const model *m, const double a[], const double b[])
 {
     double largest = 0;
@@ -288,10 +290,10 @@ static void between_tests(void)
     }
 }
 
-/* The tangent of forces of inertia is their derivative, in the exponential chart, with rates that
- * follow the increments of a step of finite turns. */
+/* The tangent of inertia forces is their derivative, in the exponential chart, with rates that
+ * follow the increments of a step with finite rotations. */
 
-/* Rates follow the increments. */
+/* Rates follow the increments: v = g inc, a = b inc. */
 static const double b = 7, g = 3;
 
 static void force_at(const moving_one *o, const double inc[], const double from[], double out[])
@@ -310,7 +312,7 @@ static void force_at(const moving_one *o, const double inc[], const double from[
     kinematics_state_free(s);
 }
 
-/* Moments in the exponential chart: half of their product with the increment comes on top. */
+/* Moments in the exponential chart: adds half of their vector product with the increment. */
 static void add_chart(const moving_one *o, const double out[], int column, double slope[])
 {
     for (int i = 0; i < model_first_release(o->m); i++) {
@@ -383,8 +385,8 @@ static void tangent_tests(void)
     }
 }
 
-/* A rotation that is driven by its vector along any path: increments lead to it, rates and their
- * derivatives are those of the frame, from any state. */
+/* A rotation prescribed by its vector along any path: increments lead to the prescribed
+ * orientation, and rates and their derivatives are those of the frame, from any state. */
 
 static void build_driven(scene *s)
 {
@@ -407,7 +409,7 @@ static void build_driven(scene *s)
     scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
 }
 
-/* From a state to a time. */
+/* Moves from a state to a time. */
 static void go(const equations *eq, const model_state *from, double time, model_state *to,
                frame_rates *r)
 {
@@ -418,7 +420,7 @@ static void go(const equations *eq, const model_state *from, double time, model_
     forms_rates(m, to, 0, v, a, r);
 }
 
-/* What is driven at a time, from a state. */
+/* Checks the prescribed rotation at a time, starting from a state. */
 static void check(const equations *eq, const model_state *from, double t, model_state *to)
 {
     const double dt = 1e-4;

@@ -1,6 +1,6 @@
-/* Two bars joined in every way that a scene knows, thrown by a force that follows and a moment that
- * does not, and then left alone: energy is the work of these, and stays, and so do both momenta
- * where nothing is held. */
+/* Two bars with every kind of joint are loaded by a follower force and a moment with fixed axes,
+ * and then left alone: the energy gained is the work of the loads and remains constant, and so do
+ * both momenta if nothing is fixed. */
 #include <stdio.h>
 
 #include "harness/model/model.h"
@@ -9,10 +9,10 @@
 
 static const double y_axis[] = {0, 1, 0};
 
-/* What joins the second bar to the first. */
+/* The connection of the second bar to the first. */
 typedef struct tested_joint {
     const char *name;
-    int released, component[SCENE_RELEASED]; /* at the second bar's begin */
+    int released, component[SCENE_RELEASED]; /* at the start of the second bar */
     int offset, spring, ground, hinge;       /* hinge 2: driven */
 } tested_joint;
 
@@ -113,7 +113,7 @@ static status build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Largest changes behind the loads, relative. */
+/* Largest relative changes after the loads have ended. */
 typedef struct joints_changes {
     double energy, angular, momentum;
 } joints_changes;
@@ -177,14 +177,14 @@ static void joints_tests(void)
     }
 }
 
-/* Bodies without torque with the conserving scheme: one node, two bodies that a stiff rod joins,
- * and a flexible rod between two bodies beside its ends. */
+/* Bodies without torque with the conserving scheme: one node, two bodies connected by a stiff rod,
+ * and a flexible rod between two bodies at offsets from its ends. */
 
 static const double bodies_y_axis[] = {0, 1, 0};
 
 static struct {
     double stiffness;
-    int rod; /* 0: one body; 1: two that make up the same one; 2: on offsets */
+    int rod; /* 0: one body; 1: two bodies that form the same one; 2: at offsets */
 } how;
 
 static int profile_of(scene *s, double E, double mass)
@@ -209,7 +209,7 @@ static void bodies_add_motion(scene *s, const double spin[3])
     scene_add_motion(s, SCENE_NONE, 1, &end, motion);
 }
 
-/* J = diag(1, 2, 3) about the middle, which stays. The rod's own mass is none. */
+/* J = diag(1, 2, 3) about the middle, which does not move; the rod is massless. */
 static status free_body(const double value[], scene *s, fault *f)
 {
     static const double spin[] = {0.5, 0.2, 2};
@@ -261,7 +261,7 @@ static void bodies_fly(flight *f, int steps, double h, double *drift, double *an
     gsl_test(outcome != STATUS_OK, "steps of %g s: %s", h, f->why.text);
 }
 
-/* Of R at 10 s, whose exact value is by quadrature of the precession: largest entry. */
+/* Error of R at 10 s, whose exact value comes from quadrature of the precession: largest entry. */
 static double error_of_body(double h)
 {
     static const double exact[9] = {0.1439879275647, -0.9562925632996, 0.2545034579204,
@@ -338,9 +338,10 @@ static void bodies_tests(void)
     offsets();
 }
 
-/* Rotations without inertia with the conserving scheme: what is kept is kept, their rates follow
- * the motion instead of changing their signs, a node turns by several angles; a scene where nothing
- * that turns has inertia is refused, as is a node that turns by two free angles. */
+/* Rotations without inertia with the conserving scheme: conserved quantities remain constant, the
+ * rates follow the motion without changing sign in every step, and a node rotates by several
+ * angles. A scene in which no rotation has inertia is rejected, and so is a node that rotates by
+ * two free angles. */
 
 static const double massless_y_axis[] = {0, 1, 0};
 
@@ -349,7 +350,7 @@ static struct {
     int angles;
 } massless_how = {20, 0};
 
-/* A rod thrown by a force and a moment that come and go. */
+/* A rod thrown by a force and a moment that rise and end. */
 static status massless_build(const double value[], scene *s, fault *f)
 {
     static const double end = 10;
@@ -382,7 +383,7 @@ static status massless_build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Largest change of a rate of rotation from one step to the next [rad/s]. */
+/* Largest change of an angular velocity from one step to the next [rad/s]. */
 static double roughest(double h)
 {
     flight f;
@@ -421,7 +422,7 @@ static void refused(const char *words)
     flight_end(&f);
 }
 
-/* A node that turns by three angles, which carry each other, keeps energy. */
+/* A node that rotates by three successive angles conserves energy. */
 static void by_angles(void)
 {
     flight f;

@@ -20,7 +20,7 @@ quantities:
   drift: {energy: {analysis: go, of: drift}}
 omit: [trapeze, wagner_moments, wagner_torque]
 """
-# Two masses and a bar without mass on a spring of 200 N/m.
+# Two masses and a massless bar on a spring of 200 N/m.
 MASS = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes:
@@ -35,7 +35,7 @@ quantities:
   between: {internal: {analysis: go, member: m, end: to, resultant: N}}
 omit: [trapeze, wagner_moments, wagner_torque]
 """
-# A node without mass between springs, of which one has a light dashpot beside it.
+# A massless node between springs, one of which has a light dashpot in parallel.
 LIGHT = """beamwork: 1
 sections:
   tube: {tube: {diameter: 20e-3, thickness: 1e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
@@ -77,7 +77,7 @@ class MassDampingTest(ProgramTest):
         return {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_free(self):
-        """Momenta decay as exp(-a t), whatever the structure does; the energy is accounted for."""
+        """Momenta decay as exp(-a t), whatever the structure does; the lost energy is accounted for."""
         for how, most in HOW:
             for formulation in ("collocation", "sheet_third") if how[12] != "e" else ("sheet_third",):
                 plain, damped = (self.values(FREE % (how, a), formulation) for a in (0, 3))
@@ -105,7 +105,7 @@ class MassDampingTest(ProgramTest):
         self.assertRegex(done.stdout + done.stderr, "conserving does not support damping of masses")
 
     def test_light_dashpot(self):
-        """A dashpot beside a spring by a table settles at the start as beside the same stiffness."""
+        """A dashpot in parallel with a spring given by a table settles at the start as with a spring of equal stiffness."""
         for damping in ("1e-6", "1e-4"):
             for integrator in ("alpha", "radau"):
                 both = []

@@ -1,6 +1,6 @@
-/* Rods and bodies on their way, for tests of what carries mass: bodies beside their nodes, sections
- * whose centre is beside the line, a channel that warps, and where it is asked for a sequence of
- * angles and ends that are released. */
+/* Rods and bodies in motion, for tests of masses: bodies at offsets from their nodes, sections with
+ * eccentric centre of mass, a channel with warping, and on request a sequence of angles and
+ * released ends. */
 #ifndef BEAMWORK_TEST_MASSES_H
 #define BEAMWORK_TEST_MASSES_H
 
@@ -28,7 +28,8 @@ static inline void turn_in_sequence(scene *s, int node)
     memcpy(scene_node_at(s, node)->axis, axis, sizeof axis);
 }
 
-/* Of a metre of the rods: mass, its centre beside the line, and inertia about that. */
+/* Per metre of the rods: mass, position of its centre relative to the line, and inertia about that
+ * centre. */
 static const double mass = 1.5, centre[3] = {0, 0.06, -0.1}, about[3] = {0.04, 0.025, 0.015};
 
 static inline section_spec heavy(void)
@@ -47,7 +48,7 @@ static inline section_spec heavy(void)
     return spec;
 }
 
-/* It warps. */
+/* A section with warping. */
 static inline section_spec channel(void)
 {
     static const double point[4][2] = {{0.1, 0.14}, {0, 0.14}, {0, -0.14}, {0.1, -0.14}},
@@ -89,7 +90,7 @@ static inline void build(scene *s, int warps, int released)
                       (warps ? FEATURE_SHEAR : 0));
 }
 
-/* A structure on its way. */
+/* A structure in motion. */
 typedef struct moving_one {
     scene scene;
     model *m;

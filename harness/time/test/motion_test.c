@@ -1,6 +1,6 @@
-/* Motions of all formulations, and what must not change their answers: the way a member runs, the
- * axes of the scene, a base that moves or a field of inertia in its place, the stiffness of what is
- * not looked at; a small motion has the frequency of its mode. */
+/* Motions of all formulations. The results must not depend on the direction of a member, the axes
+ * of the scene, whether the base moves or the equivalent inertia field acts, or the stiffness of
+ * modes that are not examined. A small motion has the frequency of its mode. */
 #include <math.h>
 
 #include "elements/math/scalar.h"
@@ -13,9 +13,10 @@ extern const case_type case_free_flight_space;
 
 static const double length = 1;
 
-/* Bent by a small force that is dropped at 0 s: the motion of a cantilever along x, or along an
- * inclined axis (turn 1: x, y, z become y, z, x), from its root to its tip or (back 1) the other
- * way. tip: its displacement along what was y, at a sixteenth and two periods; period: by modal. */
+/* Motion of a cantilever after a small static force ends at 0 s. The cantilever is along x or along
+ * another axis (turn 1: x, y, z become y, z, x), from its root to its tip or (back 1) in the
+ * opposite direction. early, late: deflection of the tip at a sixteenth of a period and at two
+ * periods; f: frequency from a modal analysis. */
 static void swing(const element_type *type, scene_scheme by, int turn, int back, answer *a)
 {
     const double one[1] = {1}, first = 1.875104 * 1.875104 * sqrt(EI / mass);
@@ -81,7 +82,7 @@ static void check_same(scene_scheme by)
              answer_of(&plain, "late"));
 }
 
-/* A rod along x, held at its root. */
+/* A rod along x, fixed at its root. */
 typedef struct motion_rod {
     int profile, root, tip, member;
 } motion_rod;
@@ -99,8 +100,8 @@ static motion_rod add_rod(scene *s, const char *name)
     return out;
 }
 
-/* A body at the tip of a rod that weighs next to nothing: one mode, whose frequency `modal` knows.
- */
+/* A body at the tip of a nearly massless rod: one mode, whose frequency is known from a modal
+ * analysis. */
 static void check_frequency(scene_scheme by, double step, double tolerance)
 {
     const double one[1] = {1}, first = sqrt(3 * EI / 50);
@@ -130,7 +131,7 @@ static void check_frequency(scene_scheme by, double step, double tolerance)
              u, a.reason);
 }
 
-/* The base moves by t^3, or the field of its inertia acts. */
+/* The base moves as t^3, or the equivalent inertia field acts. */
 static double base(scene_scheme by, int moves)
 {
     const double at[1] = {0.7};
@@ -159,7 +160,7 @@ static void check_base(scene_scheme by, double tolerance)
              "scheme %d: the base moves or its inertia acts: %.12g, %.12g", by, moves, acts);
 }
 
-/* Iterations a step. */
+/* Iterations per step. */
 static double work_at(const char *integrator, const char *stiffening, double *A_x)
 {
     char how[64], much[64];
@@ -191,7 +192,7 @@ static void check_stiffness(const char *integrator)
              integrator, stiff, rigid);
 }
 
-/* Without rotary inertia the trapezoidal rule has no bound. */
+/* Without rotary inertia, accelerations with the trapezoidal rule are unbounded. */
 static void check_massless(void)
 {
     const double at[1] = {0.1};

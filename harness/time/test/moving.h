@@ -1,4 +1,4 @@
-/* Motions of tests: a case's structure with an integration of its own. */
+/* Motions for tests: the structure of a case with a separate integration. */
 #ifndef BEAMWORK_TEST_MOVING_H
 #define BEAMWORK_TEST_MOVING_H
 
@@ -12,7 +12,7 @@
 
 enum { MOVING_STATIONS = 20 };
 
-/* The structure of a case at the parameters "name=value;...", without what it asks for. */
+/* The structure of a case at parameters "name=value;...", without its analyses and quantities. */
 static inline void moving_case(const case_type *type, const char *parameters, scene *s)
 {
     double value[CASE_MAX_PARAMETERS];
@@ -28,7 +28,7 @@ static inline void moving_case(const case_type *type, const char *parameters, sc
     s->analyses = s->quantities = 0;
 }
 
-/* Without its loads. */
+/* Removes the loads. */
 static inline void moving_unload(scene *s)
 {
     for (int i = 0; i < s->loads; i++) {
@@ -49,10 +49,11 @@ static inline int motion_added(scene *s, scene_scheme by, double step, double en
                             (scene_motion){.scheme = by,
                                            .alpha = scene_alpha_of_radius(0.9),
                                            .step = step,
-                                           .mass = SCENE_LUMPED}); /* as all integrators have it */
+                                           .mass = SCENE_LUMPED}); /* supported by all
+                                                                      integrators */
 }
 
-/* NAME_max and NAME_min of the stations. */
+/* Adds NAME_max and NAME_min over the stations. */
 static inline void moving_range(scene *s, const char *name, int motion, scene_balance what)
 {
     char full[SCENE_NAME];
@@ -63,7 +64,7 @@ static inline void moving_range(scene *s, const char *name, int motion, scene_ba
     }
 }
 
-/* The larger of both in size. */
+/* The larger magnitude of the two. */
 static inline double moving_largest(const answer *a, const char *name)
 {
     char full[SCENE_NAME];

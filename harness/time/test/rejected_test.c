@@ -1,6 +1,6 @@
-/* A step that is rejected leaves no trace: not in the instant that it began from, to the bit, nor
- * in the steps that follow it, with inner unknowns, springs, damping and what is driven; nor in
- * what a motion passes through, its stations and its records. */
+/* A rejected step leaves no trace: it changes no bit of the instant that it started from, nor the
+ * following steps, with inner unknowns, springs, damping and prescribed motions; nor does it affect
+ * watched quantities, stations and records. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -18,7 +18,7 @@
 extern const element_type element_geometrically_exact, element_collocation;
 extern const case_type case_free_flight_space;
 
-/* A free rod on its way, bent by its load. */
+/* A free rod in motion, bent by its load. */
 static void throw_rod(scene *s, scene_scheme by)
 {
     moving_case(&case_free_flight_space, "", s);
@@ -31,7 +31,7 @@ static void shake_rods(scene *s, scene_scheme by)
 {
     scenes_read(s, REJECTED_SWUNG, "base=shaken;second=%s;integrator=%s;step=0.02",
                 by == SCENE_EXPLICIT ? "joined" : "slides", scenes_integrator[by]);
-    /* which the reader refuses: no body is like that */
+    /* not accepted by the reader, since no such body exists */
     scene_set_body(s, scenes_find(s, SCENE_NODES, "tip_free"),
                    (scene_body){0.3, {0, 0.1, 0.1}, {0.1, 0.2, 0.3, 0, 0.01, 0}});
 }
@@ -41,8 +41,8 @@ static int same(const flying *f, const double a[], const double b[])
     return memcmp(a, b, flying_numbers(f, &f->now, NULL) * sizeof *a) == 0;
 }
 
-/* Pivots of an unsymmetric tangent are kept from step to step, and those of a step that was
- * rejected may be others. */
+/* Pivots of an unsymmetric tangent are kept from step to step; those of a rejected step may
+ * differ. */
 static int is_close(const flying *f, const double a[], const double b[])
 {
     const double rounding = 1e-11;
@@ -52,7 +52,8 @@ static int is_close(const flying *f, const double a[], const double b[])
     return 1;
 }
 
-/* Too long for Newton, at last, and some that succeed and are not taken. */
+/* Tries steps of which the last are too long for Newton's method; the successful ones are not
+ * accepted. */
 static int try_in_vain(flying *f, double h)
 {
     int failed = 0;
@@ -101,7 +102,7 @@ static void reject(const char *name, void (*build)(scene *, scene_scheme), const
 
 enum { STATIONS = 60, CROSSINGS = 4, PERIOD = CROSSINGS, MEAN, WAY, TIP };
 
-/* Watched at the base, whose way is known: 0.3 sin 5 t; and the tip at many stations. */
+/* Watches the base, whose motion 0.3 sin 5 t is known, and the tip at many stations. */
 static void watch(int by, double step, double tolerance, cell_result *out)
 {
     scenes_solve(REJECTED_SWUNG, "collocation", 1, out,
@@ -115,8 +116,8 @@ static void near(int by, const char *what, double found, double expected)
              found, expected);
 }
 
-/* What is passed is passed once, whatever was tried before, and stations are those of the
- * steps that are taken: `close` [m] to the tip's way by short ones. */
+/* Each crossing is counted once, whatever steps were tried before, and stations are those of the
+ * accepted steps: within `close` [m] of the motion of the tip with short steps. */
 static void pass(int by, double step, double tolerance, double close, const cell_result *exact)
 {
     cell_result r;
@@ -166,8 +167,9 @@ static void rejected_tests(void)
     cell_result_free(&exact);
 }
 
-/* A damped leaf without rotary inertia, bent far by a kick or turned by a moment that is there at
- * once: energies, reactions and resultants of all integrators, of linear and of other stresses. */
+/* A damped leaf without rotary inertia, bent far by an impulse or rotated by a moment that acts at
+ * once: energies, reactions and resultants of all integrators, for linear and nonlinear
+ * stresses. */
 
 extern const element_type element_geometrically_exact, element_beamw, element_beamw_consistent,
     element_collocation;
@@ -175,7 +177,7 @@ extern const element_type element_geometrically_exact, element_beamw, element_be
 static const double y_axis[3] = {0, 1, 0};
 
 typedef struct blow {
-    double force[3], moment[3]; /* at the tip [N, N m]; one of them */
+    double force[3], moment[3]; /* at the tip [N, N m]; only one of them is nonzero */
     const char *first;          /* factor until 0.0205 s */
     const char *then;
 } blow;
@@ -255,7 +257,7 @@ static double middle(double step)
     return answer_of(&a, "middle");
 }
 
-/* Forces on what has no inertia [N m], the largest of them. */
+/* Largest unbalanced force on coordinates without inertia [N m]. */
 static double out_of_balance(flying *f)
 {
     const size_t all = (size_t)model_all_coordinates(f->m) + 1;
@@ -270,7 +272,7 @@ static double out_of_balance(flying *f)
     return outcome == STATUS_OK ? most : NAN;
 }
 
-/* The largest of the rates less those of before, by the largest of them. */
+/* Largest change of the rates, relative to the largest rate before. */
 static double changed(const flying *f, const double before[])
 {
     double most = 0, size = 0;
@@ -281,8 +283,8 @@ static double changed(const flying *f, const double before[])
     return most / size;
 }
 
-/* A moment that turns round in an instant finds rates that balance it, and moves nothing; one that
- * goes on changes nothing. */
+/* After a moment reverses instantly, the rates balance it and nothing has moved; a moment that
+ * continues changes nothing. */
 static void launch_there(const char *then, double least, double most)
 {
     const blow back = {{0}, {0.1, 0.3, 0.1}, "1", then};
@@ -295,7 +297,8 @@ static void launch_there(const char *then, double least, double most)
     motion_added(&s, SCENE_RADAU, 0.0005, 0.1);
     gsl_test(flying_begin(&s, &element_geometrically_exact, 4, &f) != STATUS_OK, "begins: %s",
              f.why.text);
-    for (int i = 0; i < steps; i++) /* on the instant, or the load is that behind it */
+    for (int i = 0; i < steps; i++) /* ends exactly at the jump; otherwise the load after it would
+                                       act */
         gsl_test(flying_step(&f, (0.0205 - f.now.time) / (steps - i)) != STATUS_OK, "step %d: %s",
                  i, f.why.text);
     for (int k = 0; k < model_elements(f.m) * model_strains(f.m); k++)
@@ -343,8 +346,8 @@ static void damped_kick_tests(void)
              ratio);
 }
 
-/* Rates of strains of a beam that has turned far: those that its strains have in time, also as
- * generalized-alpha carries them along; and what a step loses is their power. */
+/* Strain rates of a beam after a large rotation are the time derivatives of its strains, also those
+ * that generalized-alpha carries along; the energy lost in a step is their power. */
 
 #define RATES_SWUNG "harness/time/test/swung.yaml"
 
@@ -357,7 +360,7 @@ static double *strains_in(flying *f, double h)
     return out;
 }
 
-/* The largest difference of a and b by the largest of b. */
+/* Largest difference of a and b relative to the largest value of b. */
 static double apart(int n, const double a[], const double b[])
 {
     double most = 0, size = 0;
@@ -400,14 +403,15 @@ static void damped_rates_tests(void)
     scene_free(&s);
 }
 
-/* Rates that a motion begins with: those of the field that is asked for, about its centre, at all
- * frames; angles of a sequence, whose axes are askew, take what is left beside a driven one. */
+/* Initial rates of a motion are those of the requested velocity field about its centre, at all
+ * frames. If the first angle of a sequence with oblique axes is driven, the other angles take the
+ * remaining components. */
 
 #define LAUNCH_SWUNG "harness/time/test/swung.yaml"
 
 static const double driven_rate = 0.4, none = 1e-10;
 
-/* A beam whose tip turns by angles about axes askew. driven: the first of them is driven. */
+/* A beam whose tip rotates by angles about oblique axes. driven: the first angle is driven. */
 static void launched(int driven)
 {
     scene s;
@@ -447,7 +451,7 @@ static void launched(int driven)
     scene_free(&s);
 }
 
-/* Axes that turn about a place, where a node is held: the state is at rest in them. */
+/* Axes that rotate about a point where a node is fixed: the state is at rest in these axes. */
 static void turning(double beside)
 {
     scene_rotating_frame frame = {.omega = {0.8, -1.5, 1.1}, .centre = {0.3, 0.5, beside}};

@@ -1,6 +1,6 @@
 /* Steady spin of a rod that is stretched by 2 %, bent by 0.8 rad and twisted by 0.6 rad between
- * ends that are driven round: the shape that is in balance at the rate w = (2/h) tan(turn/2) stays,
- * for every formulation, about any axis, up to 3 rad a step. */
+ * driven ends. The shape in equilibrium at the rate w = (2/h) tan(turn/2) remains constant, for
+ * every formulation, about any axis, up to 3 rad per step. */
 #include <stdio.h>
 
 #include "cases/scene/scene.h"
@@ -19,11 +19,11 @@ enum { STEPS = 30, SPIN_STAGES = 4, ITERATIONS = 40 };
 static const double rate = 3, stretch = 0.02, first[3] = {0.5, 0.2, 0.1}, along[3] = {1, 0, 0};
 
 static struct {
-    double axis[3], turn; /* unit vector; a step [rad] */
+    double axis[3], turn; /* unit vector; rotation per step [rad] */
     double h;             /* rate = (2/h) tan(turn/2) */
 } present;
 
-/* A node at r, with its end displaced by d at the begin, goes round the origin. */
+/* A node at r, whose end is displaced by d at the start, moves around the origin. */
 static void drive(scene *s, int node, const int vector[3], const double r[3], const double d[3])
 {
     const double *n = present.axis, spin = present.turn / present.h;
@@ -74,7 +74,7 @@ static status build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Rates of a steady turn, and their derivatives. */
+/* Rates of a steady rotation, and their derivatives. */
 static void turn_rates(const flight *f)
 {
     const model *m = f->m;
@@ -104,7 +104,8 @@ static void turn_rates(const flight *f)
     }
 }
 
-/* The state in balance with the inertia of that turn; the largest last correction. */
+/* Finds the state in equilibrium with the inertia forces of that rotation; returns the largest last
+ * correction. */
 static double settle_flight(flight *f)
 {
     model *m = f->m;
@@ -142,7 +143,7 @@ static double settle_flight(flight *f)
     return correction;
 }
 
-/* What is driven goes to where it is at the begin. */
+/* Moves driven coordinates to their initial values. */
 static void pull(flight *f)
 {
     model *m = f->m;
@@ -157,7 +158,7 @@ static void pull(flight *f)
     free(dx);
 }
 
-/* Largest change of a strain over the steps, by the largest strain. */
+/* Largest change of a strain over the steps, relative to the largest strain. */
 static double spin_change(flight *f, const double begin[], int *iterations)
 {
     const int count = model_elements(f->m) * model_strains(f->m);
@@ -221,15 +222,15 @@ static void spin_tests(void)
                 check(registry_formulations[i]->name, axes[a], turns[t]);
 }
 
-/* Free flights with the conserving scheme: energy and momenta over 40 s however stiff the rod is in
- * tension and shear, order 2, time reversal, and answers that neither the axes nor the direction of
- * the member change. */
+/* Free flights with the conserving scheme: energy and momenta over 40 s for any stiffness of the
+ * rod in tension and shear, order 2, time reversal, and results that depend neither on the axes nor
+ * on the direction of the member. */
 
 static struct {
-    double stiffening, turn[4]; /* the scene's axes, a quaternion */
+    double stiffening, turn[4]; /* axes of the scene, a quaternion */
 } how = {1, {1, 0, 0, 0}};
 
-static const double flights_h = 0.05, thrown = 5; /* [s] a step; until then the loads act */
+static const double flights_h = 0.05, thrown = 5; /* [s] step size; end of the loads */
 
 /* The rod of free_flight_space. */
 static status flights_build(const double value[], scene *s, fault *f)
@@ -272,7 +273,7 @@ static status reversed(const double value[], scene *s, fault *f)
     return scene_edit_apply(s, &edit, f);
 }
 
-/* So many steps; a failure fails the test. */
+/* Makes the given number of steps; a failure fails the test. */
 static void fly(flight *f, int steps, double step)
 {
     status outcome = STATUS_OK;
@@ -281,7 +282,7 @@ static void fly(flight *f, int steps, double step)
     gsl_test(outcome != STATUS_OK, "EA x %g, steps of %g s: %s", how.stiffening, step, f->why.text);
 }
 
-/* Places of both ends, in the axes of the scene that is not turned. */
+/* Positions of both ends, in the axes of the scene without rotation. */
 static void ends_of(const flight *f, double r[6])
 {
     double back[4];
@@ -300,7 +301,7 @@ static double apart(const double a[6], const double b[6])
     return largest;
 }
 
-/* Mean iterations of a step. */
+/* Mean number of iterations per step. */
 static double long_flight(const char *with)
 {
     flight f;
@@ -346,7 +347,7 @@ static void stiff_flights(const char *with)
              least, most);
 }
 
-/* Errors fall by 4 while steps are halved: of their differences. */
+/* Differences of results decrease by a factor of 4 when steps are halved. */
 static void order(const char *with)
 {
     double r[4][6];
@@ -417,19 +418,19 @@ static void flights_tests(void)
     }
 }
 
-/* Every formulation flies freely with the conserving scheme: sheets, thin-walled sections that warp
- * and whose shear centre is beside the centroid, curved members, members of two sections, spinning
- * and swinging. Energy and both momenta stay; steps go back to where they came from. */
+/* Every formulation flies freely with the conserving scheme: sheets, thin-walled sections with
+ * warping and an eccentric shear centre, curved members, members of two sections, spinning and
+ * swinging. Energy and both momenta are constant, and steps are reversible. */
 
 enum { FORMULATIONS_STEPS = 60 };
 
-/* How a rod of the test looks. */
+/* Shape and motion of a rod in the test. */
 typedef struct look {
     const char *name;
     section_kind kind;
     double curvature[3]; /* [1/m] */
     int tapers;
-    double h, speed, spin; /* [s], [m/s] of the swing, [rad/s] */
+    double h, speed, spin; /* [s]; [m/s] velocity of the swing; [rad/s] */
 } look;
 
 static const look looks[] = {
@@ -459,7 +460,7 @@ static section_spec profile_of(double thickness)
     return spec;
 }
 
-/* Unit: along the member of unit length, initial axes those of the scene. */
+/* A member of unit length; the initial axes are those of the scene. */
 static status formulations_build(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0, 1, 0}, axis[] = {0.36, 0.48, -0.8}, end = 1;
@@ -482,7 +483,7 @@ static status formulations_build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* The rod begins to bend: velocities across it, with no momentum on a straight one. */
+/* Starts bending: transverse velocities, without momentum for a straight rod. */
 static void swing(flight *f)
 {
     const model *m = f->m;

@@ -1,6 +1,6 @@
-/* What a motion starts from, and what it reads: a beam that turns steadily keeps its shape in the
- * motion that follows it; what holds it takes what the steady rotation says; sections carry what is
- * beyond them; a state at rest rings when its load is dropped. */
+/* Initial states of motions, and quantities read from them: a beam in steady rotation keeps its
+ * shape in the motion that follows; reactions are those of the steady rotation; sections carry the
+ * inertia beyond them; a state at rest oscillates when its load ends. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -21,8 +21,8 @@ static void check(const answer *a, const char *name, double expected, double tol
              expected);
 }
 
-/* In time as in the steady rotation, at the nodes and between them. tolerance [m]; force: in parts
- * of the largest */
+/* Compares the motion with the steady rotation, at nodes and between them. tolerance [m]; force:
+ * tolerance relative to the largest force. */
 static void keep_turning(scene_scheme scheme, double step, double tolerance, double force)
 {
     static const char *const place[] = {"ux", "uy", "uz"}, *const inside[] = {"inside_N",
@@ -58,7 +58,7 @@ static void refuse_otherwise(void)
              "a drive beside the axes is refused (%s)", a.reason);
 }
 
-/* Bent by a force that stays, or that is dropped. */
+/* A beam bent by a force that remains or ends. */
 static void release(const char *then, int rings)
 {
     answer a;
@@ -80,10 +80,10 @@ static void start_tests(void)
     release("0", 1);
 }
 
-/* Resultants between the nodes of a motion, against a closed form: of a rod along x that is spun
- * about z through its end, r = sin(k X)/(k cos(k L)), N = EA (cos(k X)/cos(k L) - 1), k^2 = m
- * w^2/EA, which for small strains is m w^2 (L^2 - X^2)/2. Order 2, at nodes and between them, as
- * the lumped masses. */
+/* Resultants between nodes in a motion agree with a closed form: for a rod along x that spins about
+ * z through its end, r = sin(k X)/(k cos(k L)), N = EA (cos(k X)/cos(k L) - 1), k^2 = m w^2/EA,
+ * which for small strains is m w^2 (L^2 - X^2)/2. The order is 2 at nodes and between them, like
+ * that of the lumped masses. */
 
 extern const element_type element_geometrically_exact, element_collocation;
 
@@ -99,7 +99,7 @@ static double expected(int i)
     return EA * (cos(k * place[i] * length) / cos(k * length) - 1);
 }
 
-/* order: least one between the two finest meshes; of 2 also the highest. */
+/* order: minimum order between the two finest meshes; if 2, also the maximum. */
 static void spin(const element_type *type, scene_scheme scheme, double order)
 {
     double error[MESHES][PLACES];
@@ -127,12 +127,12 @@ static void between_nodes_tests(void)
 {
     spin(&element_collocation, SCENE_CONSERVING, 2);
     spin(&element_collocation, SCENE_RADAU, 2);
-    spin(&element_geometrically_exact, SCENE_CONSERVING, 3); /* three nodes: at nodes 4 */
+    spin(&element_geometrically_exact, SCENE_CONSERVING, 3); /* with three nodes, at nodes 4 */
     spin(&element_geometrically_exact, SCENE_RADAU, 3);
 }
 
-/* Two rods that swing on a ball in space, joined by what lets turns or shifts through: inertia of
- * released ends moves with them, or energy would be made from nothing. */
+/* Two rods that swing on a ball joint in space, with released rotations or shifts between them: the
+ * inertia of released ends moves with them; otherwise energy would be gained. */
 
 extern const element_type element_geometrically_exact;
 
@@ -174,8 +174,8 @@ static void linked_tests(void)
     }
 }
 
-/* Ends of members that are released from their nodes have their inertia where they are, with every
- * integrator: all come to one motion and one reaction, with errors of second order or less. */
+/* Ends that are released from their nodes have their inertia at their own position, with every
+ * integrator: all give the same motion and reaction, with errors of second order or less. */
 
 extern const element_type element_geometrically_exact;
 
@@ -185,7 +185,8 @@ enum { COMPONENTS = 3, ASKED = COMPONENTS + 2 };
 
 static const char *const ends_joints[] = {"hinge", "universal", "ball", "slide", "sliding_hinge"};
 
-/* Places of the tip, reaction of the node that the other rod is released from, drift. */
+/* Gives the position of the tip, the reaction of the node that the other rod is released from, and
+ * the drift. */
 static void ends_solve(const char *of, scene_scheme by, double step, double found[ASKED])
 {
     static const char *const name[] = {"C_ux", "C_uy", "C_uz", "held", "drift"};
@@ -231,8 +232,8 @@ static void ends_tests(void)
     }
 }
 
-/* Damping in proportion to stiffness: a slow mode decays by eta w/2, what turns as a whole does not
- * decay, and what is lost is accounted for. */
+/* Stiffness-proportional damping: a slow mode decays at the rate eta w/2, a rigid rotation does not
+ * decay, and the lost energy is accounted for. */
 
 extern const element_type element_geometrically_exact;
 
@@ -262,8 +263,7 @@ static void decay(scene_scheme scheme, double h, double drift)
              moving_largest(&a, "drift"), moving_largest(&a, "energy"));
 }
 
-/* A free rod turns, bent by nothing but its inertia: what is lost stays small. Returns the drift.
- */
+/* A free rod rotates, bent only by its inertia: the loss remains small. Returns the drift. */
 static double turn(scene_scheme scheme, double eta, double h)
 {
     answer a;

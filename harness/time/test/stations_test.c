@@ -1,5 +1,5 @@
-/* Stations wherever they lie: inside steps as exact as at their ends, any number in one step, at
- * the begin too; and the motion does not notice them. */
+/* Stations at any times: values inside steps are as accurate as at their ends, with any number of
+ * stations in one step, also at the start; and stations do not affect the motion. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 #define STATIONS_SWUNG "harness/time/test/swung.yaml"
 
-/* Stations that are asked for, by the parameter. */
+/* Positions of the requested stations in the steps, by the parameter. */
 enum { ODD, ENDS, BOTH, ASKED_KINDS };
 
 static const char *const asked_for[ASKED_KINDS] = {
@@ -22,7 +22,7 @@ static void solve(int scheme, double step, int asked, cell_result *out)
                  scenes_integrator[scheme], step, asked_for[asked]);
 }
 
-/* Largest difference of the curves, each by the largest value of it. */
+/* Largest difference of the curves, each relative to its largest value. */
 static double apart(const cell_result *a, const cell_result *b, int first, int last)
 {
     double largest = 0;
@@ -41,7 +41,7 @@ static double apart(const cell_result *a, const cell_result *b, int first, int l
     return largest;
 }
 
-/* Errors of two step sizes against a far smaller one. */
+/* Errors with two step sizes, compared with a much smaller step. */
 static void errors_of(int scheme, double step, int asked, int last, double out[2])
 {
     cell_result exact, r;
@@ -54,8 +54,8 @@ static void errors_of(int scheme, double step, int asked, int last, double out[2
     cell_result_free(&exact);
 }
 
-/* Order of the scheme in and at the ends of steps, and no larger errors there: but of order 8, of
- * which the polynomial of order 6 loses some. */
+/* Results inside and at the ends of steps have the order of the scheme, and the errors inside are
+ * no larger. Order 8 is an exception: the polynomial of order 6 loses some of it. */
 static void orders(const char *name, int scheme, double step, double order)
 {
     double inside[2], at_ends[2], forces[2];
@@ -73,8 +73,8 @@ static void orders(const char *name, int scheme, double step, double order)
     gsl_test(!(inside[0] > 1e-9), "%s: nothing to be seen, %.1e", name, inside[0]);
 }
 
-/* The steps are what they are without stations, bit for bit; what is read by a step of its own is
- * near what the polynomial gives. */
+/* The steps are bit-for-bit the same as without stations, and values from a side step are close to
+ * those of the polynomial. */
 static void undisturbed(const char *name, int scheme, double step)
 {
     cell_result with[ASKED_KINDS];
@@ -107,8 +107,8 @@ static void stations_tests(void)
     undisturbed("explicit", SCENE_EXPLICIT, 0.04);
 }
 
-/* How long steps are: halved where one fails and twice as long behind those that do not, at most
- * what was asked for; by estimates of errors where a tolerance says so. */
+/* Step sizes: halved when a step fails, and doubled after successful steps up to the requested
+ * size; chosen by error estimates if a tolerance is given. */
 
 #define CONTROL_SWUNG "harness/time/test/swung.yaml"
 
@@ -119,7 +119,8 @@ static void turn(scene_scheme by, double step, double tolerance, double spin, ce
                  scenes_integrator[by], step, tolerance, spin);
 }
 
-/* A radian is the most of a step: of 3 rad/s a step of 0.5 s is halved whenever it is tried. */
+/* A step rotates by at most one radian: at 3 rad/s, a step of 0.5 s is halved whenever it is
+ * tried. */
 static void halve(void)
 {
     cell_result r;
@@ -133,8 +134,8 @@ static void halve(void)
     cell_result_free(&r);
 }
 
-/* By the order of the estimate of one step: a sixteenth of the tolerance takes twice the steps, and
- * hardly a step is rejected. */
+/* Step sizes follow the order of the estimate: a sixteenth of the tolerance takes twice the steps,
+ * and hardly any step is rejected. */
 static void follow(scene_scheme by, double order, double tolerance)
 {
     int steps[2], rejected = 0;
@@ -156,8 +157,8 @@ static void follow(scene_scheme by, double order, double tolerance)
     gsl_test(rejected > steps[1] / 20, "scheme %d: %d longer steps rejected", by, rejected);
 }
 
-/* Where errors of steps add up: each step has its share by its length, all together the tolerance,
- * and hardly less. */
+/* If errors of steps add up, each step has a share proportional to its size; the total is below the
+ * tolerance, but not by more than a factor of ten. */
 static void share(scene_scheme by, double tolerance)
 {
     cell_result r;
@@ -183,12 +184,13 @@ static void control_tests(void)
     follow(SCENE_RADAU, 4, 1e-8);
 }
 
-/* Motions that go on from each other are one motion, bit for bit; where the error of steps is
- * estimated too, but for the round-off of a factorisation that pivots anew. */
+/* Motions that continue each other equal one motion, bit for bit; if errors are estimated, up to
+ * the round-off of a factorisation with new pivots. */
 
 #define RESUME_SWUNG "harness/time/test/swung.yaml"
 
-/* A load that jumps at 0.5 s: there steps end, whoever walks across. joint: of a rod at the tip. */
+/* A load jumps at 0.5 s; steps end there, whether or not a motion ends there too. joint: of a rod
+ * at the tip. */
 static void same_linked(const char *name, int scheme, double tolerance, int parts, int joint)
 {
     cell_result one, more;
@@ -233,12 +235,12 @@ static void resume_tests(void)
     same_linked("conserving with a joint", SCENE_CONSERVING, 0, 3, 1);
 }
 
-/* A load that is no number for a moment ends a motion where it is so: no step is one whose state is
- * none. */
+/* If a load is not finite for a while, the motion ends there: every accepted step has a finite
+ * state. */
 
 #define FINITE_SWUNG "harness/time/test/swung.yaml"
 
-/* Steps of 1/512 s end inside. */
+/* Steps of 1/512 s end inside the interval in which the load is not finite. */
 static void stop(int scheme)
 {
     cell_result r;
@@ -267,12 +269,13 @@ static void not_finite_tests(void)
     stop(SCENE_EXPLICIT);
 }
 
-/* Largest and least values of what a motion has where its steps end: a peak between stations is
- * found, and between steps with the order of the cubic; a window; a jump of what acts. */
+/* Largest and smallest values of quantities that are known at the ends of steps: a peak between
+ * stations is found, and between steps with the order of the cubic; in a time window; at a jump of
+ * the loads. */
 
 #define PEAKS_SWUNG "harness/time/test/swung.yaml"
 
-/* One station at the end: all that rises and falls before is between stations. */
+/* There is one station at the end, so that all earlier extrema are between stations. */
 static void peaks_tests(void)
 {
     static const double step[] = {0.04, 0.02, 0.00125};
@@ -300,16 +303,16 @@ static void peaks_tests(void)
     }
 }
 
-/* Largest and least values, crossings, periods and means of a motion that is known, a driven one,
- * to round-off; and of one that is not, with the order of the scheme and an estimate of what the
- * polynomial inside steps adds. */
+/* Extrema, crossings, periods and means: exact to round-off for a known, driven motion; for a free
+ * motion with the order of the scheme, with an estimate of the error of the polynomial inside
+ * steps. */
 
 #define WATCHES_SWUNG "harness/time/test/swung.yaml"
 
-/* Of the base, 0.3 sin 5 t until 3 s. */
+/* The base moves as 0.3 sin 5 t until 3 s. */
 static const struct {
     const char *name;
-    double expected, at, tolerance; /* at < 0: of no value */
+    double expected, at, tolerance; /* at < 0: there is no value */
 } known[] = {{"largest", 0.3, PI / 10, 1e-12},
              {"known_least", -0.3, 3 * PI / 10, 1e-12},
              {"largest_behind_1_5_s", 0.3, -1, 1e-12},
@@ -357,7 +360,8 @@ static void fly(int scheme, double step, int watched, cell_result *out)
                  watched ? "crossings" : "way", scenes_integrator[scheme], step);
 }
 
-/* Errors fall with the order of the scheme, estimates of what lies between steps as fast. */
+/* Errors decrease with the order of the scheme, and estimates of the interpolation error decrease
+ * as fast. */
 static void freely(const char *name, int scheme, double step, double order)
 {
     cell_result exact, r[2], unwatched;
