@@ -26,6 +26,10 @@
 #include "elements/shared/parameter.h"
 #include "elements/shared/status.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { ELEMENT_ABI = 3 };
 enum {
     ELEMENT_MAX_NODES = 3,
@@ -106,7 +110,7 @@ typedef struct element_order {
 
 /* Input of the preparation of an element. */
 typedef struct element_request {
-    const section *section;          /* its constants */
+    const struct section *section;   /* its constants */
     double length;                   /* l0 [m] */
     unsigned features;               /* exactly the features that must be active */
     const double *options;           /* values in the order of type->options */
@@ -266,6 +270,18 @@ typedef struct element_type {
                        element_data *out);
 } element_type;
 
+/* Makes a symbol visible outside its shared object, also with -fvisibility=hidden. */
+#if defined(__GNUC__)
+#define ELEMENT_EXPORT __attribute__((visibility("default")))
+#else
+#define ELEMENT_EXPORT
+#endif
+/* The formulation of a shared object, to be defined after this header, in C or C++. */
+ELEMENT_EXPORT extern const element_type beamwork_element;
+/* Instead of it, for languages whose constants cannot contain addresses of functions (Fortran): a
+ * function that returns the formulation, which exists until the program ends. */
+ELEMENT_EXPORT const element_type *beamwork_element_type(void);
+
 static inline element_order element_order_in(const element_type *t, element_analysis a,
                                              const double options[])
 {
@@ -278,7 +294,8 @@ static inline element_order element_order_in(const element_type *t, element_anal
  * stretch and twist; with mass lumped at two nodes two. */
 static inline element_order element_order_of_motion(void)
 {
-    return (element_order){2, 4};
+    const element_order usual = {2, 4};
+    return usual;
 }
 static inline unsigned element_judged(const element_type *t, int option)
 {
@@ -310,5 +327,9 @@ static inline int element_memory(const element_type *t, const double options[])
 {
     return t->memory ? t->memory(options) : 0;
 }
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -8,6 +8,10 @@
 
 #include "elements/shared/status.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { SECTION_MAX_POINTS = 32, SECTION_MAX_WALLS = 32 };
 
 /* Constants about the centroid and principal axes; all SI. */
@@ -161,5 +165,9 @@ status section_taper_check(const section_spec *p, const section_spec *q,
 
 /* The description at x in [0, 1] from p to q. */
 void section_taper_at(const section_spec *p, const section_spec *q, double x, section_spec *out);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -3,6 +3,10 @@
 #ifndef BEAMWORK_PARAMETER_H
 #define BEAMWORK_PARAMETER_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* An entry. */
 typedef struct parameter_type {
     const char *name;    /* NULL ends the table */
@@ -26,5 +30,9 @@ int parameter_index(const parameter_type *const part[PARAMETER_PARTS], const cha
 void parameter_defaults(const parameter_type *const part[PARAMETER_PARTS], double value[]);
 /* Number of choices; 0: the parameter is a number. */
 int parameter_choices(const parameter_type *);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

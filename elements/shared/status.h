@@ -6,6 +6,10 @@
 #ifndef BEAMWORK_STATUS_H
 #define BEAMWORK_STATUS_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Outcome of a call. */
 typedef enum status {
     STATUS_OK,
@@ -33,6 +37,8 @@ __attribute__((format(printf, 3, 4)))
 status
 fault_set(fault *f, status s, const char *format, ...);
 
+/* Not in C++, where other headers may have the name. */
+#ifndef __cplusplus
 /* Returns from the function when a call failed; for functions that have nothing to free. */
 #define TRY(call)                                                                                  \
     do {                                                                                           \
@@ -40,9 +46,14 @@ fault_set(fault *f, status s, const char *format, ...);
         if (try_ != STATUS_OK)                                                                     \
             return try_;                                                                           \
     } while (0)
+#endif
 
 /* "ok", "not_converged", "singular", "refused", "fault", "time_limit", "no_value": the words used
  * in result files. */
 const char *status_name(status s);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

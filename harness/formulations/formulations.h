@@ -197,8 +197,8 @@ typedef struct parameters_words {
 uint64_t parameters_hash_next(const case_type *c, const double value[], const int any[],
                               parameters_words *before);
 
-/* External formulations: a shared object with the symbol beamwork_element, or a process
- * (exec:COMMAND). */
+/* External formulations: a shared object with the symbol beamwork_element or the function
+ * beamwork_element_type (element.h), or a process (exec:COMMAND). */
 
 /* Loads a formulation, which stays until the program ends. REFUSED, with one line that names the
  * file and the remedy: not a shared object, no such symbol, not a command, another interface

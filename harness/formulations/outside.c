@@ -67,6 +67,17 @@ static status copy(const char *path, const element_type *loaded, const element_t
     return outcome;
 }
 
+/* Returns the exported formulation; NULL: there is none. */
+static const element_type *find_type(void *file)
+{
+    const element_type *(*returned)(void) = NULL;
+    const element_type *defined = dlsym(file, "beamwork_element");
+    if (defined != NULL)
+        return defined;
+    *(void **)&returned = dlsym(file, "beamwork_element_type");
+    return returned != NULL ? returned() : NULL;
+}
+
 status plugin_load(const char *path, const element_type **out, fault *f)
 {
     static const char exec[] = "exec:";
@@ -79,10 +90,12 @@ status plugin_load(const char *path, const element_type **out, fault *f)
             "cannot load %.200s: is it a shared object? A path has a '/': ./mine.so; a "
             "command 'exec:' before it",
             dlerror());
-    const element_type *loaded = dlsym(file, "beamwork_element");
+    const element_type *loaded = find_type(file);
     if (loaded == NULL)
-        return refuse(
-            path, "no symbol 'beamwork_element'; define 'const element_type beamwork_element'", f);
+        return refuse(path,
+                      "no symbol 'beamwork_element'; define 'const element_type beamwork_element', "
+                      "or a function beamwork_element_type() that returns the formulation",
+                      f);
     return copy(path, loaded, out, f);
 }
 

@@ -104,6 +104,8 @@ class Refused(Loaded):
 
     def test_no_symbol(self):
         self.refuse(self.compiled("int other;"), "beamwork_element")
+        self.refuse(self.compiled("void *beamwork_element_type(void)\n{\n    return 0;\n}\n"),
+                    "beamwork_element_type() that returns the formulation")
 
     def test_other_interface(self):
         self.refuse(self.example((".abi = ELEMENT_ABI", ".abi = ELEMENT_ABI + 1")), "version")

@@ -5,16 +5,36 @@ import subprocess
 import unittest
 
 from harness.cli.test.plugin import EXAMPLES, WARNINGS, PluginTest, compile_shared
-from harness.tools.kit.program import read_json
+from harness.tools.kit.program import ROOT, read_json
 
 STATICS_AND_FREQUENCIES = ("tapered_cantilever", "deep_beam", "tip_body", "sprung_beam",
                            "loaded_cantilever", "elastica", "snap_through", "right_angle_frame")
 
 
+# A short cantilever of 1 m: E Iz = 5e5 N m2, G A k = 1e7 N.
+SHORT = """
+beamwork: 1
+sections:
+  bar: {constants: {A: 0.01, Iy: 1e-5, Iz: 5e-6, It: 1e-5, D: [2e-4, 0, 0, 0, 1e-4, 0, 0, 0, 0]},
+        young: 1e11, shear_modulus: 5e10}
+nodes:
+  wall: {at: [0, 0, 0], hold: all}
+  tip: {at: [1, 0, 0]}
+members:
+  bar: {from: wall, to: tip, section: bar, y: [0, 1, 0]}
+loads:
+  push: {force: [0, 100, 0], on: tip}
+analyses:
+  bent: {linear: {}}
+quantities:
+  tip: {displacement: {analysis: bent, node: tip, component: uy}, unit: m}
+"""
+
+
 class Judged:
     """What holds for each: limits that are right, and no more lines than the table says."""
 
-    cases = ()
+    cases, ending, most = (), "c", 200
 
     @classmethod
     def setUpClass(cls):
@@ -22,13 +42,14 @@ class Judged:
                                     cls.class_folder() / f"{cls.example}.so", *WARNINGS)
 
     def test_short(self):
-        lines = (EXAMPLES / f"{self.example}.c").read_text(encoding="utf-8").splitlines()
+        name = f"{self.example}.{self.ending}"
+        lines = (EXAMPLES / name).read_text(encoding="utf-8").splitlines()
         table = (EXAMPLES / "README.md").read_text(encoding="utf-8")
-        promised = re.search(rf"^\| `{self.example}\.c` \| (\d+) \|", table, re.MULTILINE)
+        promised = re.search(rf"^\| `{re.escape(name)}` \| (\d+) \|", table, re.MULTILINE)
         self.assertLessEqual(len(lines), int(promised[1]))
-        self.assertLessEqual(len(lines), 200)
+        self.assertLessEqual(len(lines), self.most)
         self.assertEqual([line for line in lines if line.startswith('#include "')],
-                         ['#include "elements/element.h"'])
+                         [] if self.ending == "f90" else ['#include "elements/element.h"'])
 
     def test_keeps_the_contract(self):
         self.answered("element-test", "--element", self.object)
@@ -37,12 +58,34 @@ class Judged:
         """Ten cases, statics, vibration and buckling."""
         record = self.folder / "v.json"
         self.assertEqual(len(self.cases), 10)
-        self.answered("verify", "--element", self.object, "-f", self.example, "-k",
+        self.answered("verify", "--element", self.object, "-f", self.name(), "-k",
                       " or ".join(f"{case}/default" for case in self.cases), "--json", record)
         found = [v for v in read_json(record)["verdicts"]
                  if v["verdict"] not in ("skip", "no truth", "other model")]
         self.assertEqual({v["case"] for v in found} - {"shear_elastica"}, set(self.cases))
         self.assertEqual([v for v in found if v["verdict"] != "pass"], [])
+
+    def name(self):
+        return getattr(self, "loaded", self.example)
+
+    def values(self, made, name, *arguments):
+        """What `solve` finds with this element."""
+        record = self.record("solve", *arguments, "--element", made, "-f", name)
+        return [q["value"] for q in record["quantities"] if q["value"] is not None]
+
+    def same_values(self, other, name, case):
+        """As another element, which shares no code with it."""
+        own, theirs = (self.values(*of, case, "-n", "4")
+                       for of in ((self.object, self.name()), (other, name)))
+        self.assertGreater(len(own), 2)
+        for one, same in zip(own, theirs, strict=True):
+            self.assertAlmostEqual(one / same, 1, delta=1e-9)
+
+    def short_cantilever(self):
+        (self.folder / "short.yaml").write_text(SHORT, encoding="utf-8")
+        (tip,), force, shear, bending = self.values(
+            self.object, self.name(), "--scene", self.folder / "short.yaml", "-n", "1"), 100, 1e7, 5e5
+        self.assertAlmostEqual(tip, force / (3 * bending) + force / shear, delta=1e-12 * tip)
 
 
 class Timoshenko(Judged, PluginTest):
@@ -92,15 +135,66 @@ class Uel(Judged, PluginTest):
 
     def test_the_beam_of_the_other_example(self):
         other = compile_shared(EXAMPLES / "corotational.c", self.folder / "other.so")
-        values = [
-            [q["value"] for q in self.record(
-                "solve", "lee_frame", "--element", made, "-f", name, "-n", "4")["quantities"]
-             if q["value"] is not None]
-            for name, made in ((self.example, self.object), ("corotational", other))
-        ]
-        self.assertGreater(len(values[0]), 3)
-        for one, same in zip(*values, strict=True):
-            self.assertAlmostEqual(one / same, 1, delta=1e-9)
+        self.same_values(other, "corotational", "lee_frame")
+
+
+@unittest.skipUnless(shutil.which("g++"), "needs g++")
+class Frame(Judged, PluginTest):
+    """In C++, with exact derivatives; the same beam as that of corotational.c."""
+
+    example, ending, most = "frame", "cpp", 240
+    cases = Corotational.cases
+
+    @classmethod
+    def setUpClass(cls):
+        cls.object = cls.class_folder() / "frame.so"
+        cls.compile("g++", cls.object)
+
+    @classmethod
+    def compile(cls, compiler, made):
+        subprocess.run([compiler, "-std=c++17", "-O1", *WARNINGS, "-Wpedantic",
+                        "-fvisibility=hidden", "-shared", "-fPIC", "-I", ROOT,
+                        EXAMPLES / "frame.cpp", "-o", made], check=True)
+
+    def test_clang(self):
+        if shutil.which("clang++-19") is None:
+            self.skipTest("needs clang++-19")
+        made = self.folder / "frame.so"
+        self.compile("clang++-19", made)
+        self.same_values(made, "frame", "lee_frame")
+
+    def test_the_beam_of_the_other_example(self):
+        other = compile_shared(EXAMPLES / "corotational.c", self.folder / "other.so")
+        for case in ("lee_frame", "bend_45"):
+            self.same_values(other, "corotational", case)
+
+    def test_closed_form(self):
+        """Timoshenko's cantilever, exact with one element: F L^3/(3 E I) + F L/(G A k)."""
+        self.short_cantilever()
+
+
+@unittest.skipUnless(shutil.which("gfortran"), "needs gfortran")
+class Fortran(Judged, PluginTest):
+    """In Fortran; the same beam as that of timoshenko.c."""
+
+    example, ending, most = "timoshenko", "f90", 240
+    loaded, cases = "timoshenko_f90", Timoshenko.cases
+
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.class_folder()
+        cls.object = folder / "timoshenko_f90.so"
+        subprocess.run(["gfortran", "-std=f2018", "-O1", *WARNINGS, "-Wno-unused-dummy-argument",
+                        "-shared", "-fPIC", "-J", folder, EXAMPLES / "timoshenko.f90", "-o",
+                        cls.object], check=True)
+
+    def test_the_beam_of_the_other_example(self):
+        other = compile_shared(EXAMPLES / "timoshenko.c", self.folder / "other.so")
+        for case in ("lee_frame", "bend_45"):
+            self.same_values(other, "timoshenko", case)
+
+    def test_closed_form(self):
+        self.short_cantilever()
 
 
 class Planted(PluginTest):
