@@ -1,5 +1,5 @@
-/* What a benchmark says of times: decided only where the noise allows it; work is counted the same
- * every time. */
+/* Conclusions of a benchmark about times: decided only if the noise allows it; the counted work is
+ * the same every time. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -14,7 +14,8 @@
 
 enum { PAIRS = 101, TRIALS = 300 };
 
-/* A lap of 1.7 ms with the noise of a shared machine: mostly small, at times long, and drifting. */
+/* A lap of 1.7 ms with the noise of a shared machine: mostly small, sometimes large, and
+ * drifting. */
 static double noisy(const gsl_rng *random, double drift)
 {
     const double tail =
@@ -95,8 +96,8 @@ static void test_compare(void)
     gsl_test_int(rounds_compare(&even, &even), 0, "times that are equal do not differ");
 }
 
-/* Errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %: what counts is the coarsest mesh from which on all are
- * within. */
+/* Errors 20 %, 0.5 %, 3 %, 0.2 %, 0.05 %: the answer is the coarsest mesh from which all finer ones
+ * are within the level. */
 static void test_reach(void)
 {
     const double error[5] = {0.2, -0.005, 0.03, 0.002, -0.0005};
@@ -140,7 +141,7 @@ static void test_counts(void)
                      "the same work is counted again");
         cell_result_free(&cell);
     }
-    request.solve.steps_between = 20; /* planted work */
+    request.solve.steps_between = 20; /* artificial additional work */
     cell_result more;
     gsl_test(cell_run(&request, &more, &f) != STATUS_OK, "run with more steps %s", f.text);
     gsl_test(more.counters.strain_evaluations <= first.strain_evaluations,
@@ -171,10 +172,10 @@ static void bench_tests(void)
     test_rounds();
 }
 
-/* The published algorithm as a baseline: how large its system is, when it is timed, and what its
- * time is taken for. */
+/* The published algorithm as a baseline: the size of its system, when it is timed, and how its time
+ * is used. */
 
-/* The order of the matrix that is eliminated. */
+/* Order of the matrix that is eliminated. */
 static int order_of(const cell_request *request)
 {
     scene s;
@@ -228,7 +229,7 @@ static void unknowns(void)
     gsl_test(measured < 24, "%d cells were measured", measured);
 }
 
-/* Nothing iterates, or the matrix is too large. */
+/* Problems without iterations, or with too large a matrix, are not measured. */
 static void not_measured(void)
 {
     const cell_request linear = cells_of(case_find("warping_torsion", NULL), "beamw_consistent", 4),
@@ -256,11 +257,12 @@ static void dense_tests(void)
     seconds();
 }
 
-/* What the sweep of extremes expects, counts and exits with, on outcomes that are made up. */
+/* Expectations, counts and exit status of the sweep of extremes, with artificial outcomes. */
 
 static char all[] = "*", word[32];
 
-/* Cells of one quantity, all of one kind, and a finding that speaks of another one or of this. */
+/* Counts for one outcome of the given kind, with a known deviation that expects this or another
+ * outcome. */
 static extreme_count judged(outcome_kind kind, const char *expected, int whole, int *unexpected,
                             int *code)
 {
@@ -308,7 +310,7 @@ static void kinds(void)
     }
 }
 
-/* One outcome, and one finding of whatever `word` says for x from 2 to 3. */
+/* One outcome, and one known deviation that expects the outcome in `word` for x from 2 to 3. */
 typedef struct expectation {
     extreme_outcome o;
     extreme_finding row;
@@ -336,7 +338,7 @@ static void one_outcome(outcome_kind kind, double x, expectation *out)
                              .count = &out->count};
 }
 
-/* A finding that no outcome shows fails a whole run, and only that. */
+/* A known deviation that no outcome shows fails a whole run, but not a selection. */
 static void unobserved(void)
 {
     for (int whole = 0; whole < 2; whole++) {
@@ -349,7 +351,8 @@ static void unobserved(void)
     }
 }
 
-/* Two outcomes of one cell (0: of two cells), in either order: a cell is as bad as its worst. */
+/* Two outcomes, of one cell or (one_cell 0) of two cells, in either order: a cell is as bad as its
+ * worst outcome. */
 static void cells(void)
 {
     for (int good = 0; good < OUTCOME_KINDS; good++)
@@ -380,7 +383,7 @@ static void cells(void)
             }
 }
 
-/* A finding speaks of its range, both ends included but for their last digits. */
+/* A known deviation applies to its range, including both ends up to their last digits. */
 static void ranges(void)
 {
     static const struct {
@@ -412,8 +415,9 @@ static void expect_tests(void)
     unobserved();
 }
 
-/* A value that is off is coarse where its error falls with more elements, and wrong elsewhere: on
- * neighbouring meshes that are made up, finer or coarser than its own, with and without values. */
+/* An inaccurate value is classified as coarse if its error decreases with more elements, otherwise
+ * as wrong: with artificial neighbouring meshes, finer or coarser than its own, with and without
+ * values. */
 
 enum { MESHES = 1 + OUTCOME_NEIGHBOURS };
 static const double exact = 7;
@@ -433,7 +437,7 @@ typedef struct neighbours_bench {
 
 static char words[][16] = {"", "exact", "same", "m"};
 
-/* An extreme of the table that has exact values. */
+/* Index of an extreme with exact values. */
 static int exact_extreme(void)
 {
     int i = 0;
@@ -442,7 +446,7 @@ static int exact_extreme(void)
     return i;
 }
 
-/* own: elements of the mesh that is judged; error[0] is its relative error, the others are those of
+/* own: elements of the mesh that is evaluated. error[0]: its relative error; the others: errors of
  * its neighbours; NAN: no value. */
 static void make(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error[MESHES],
                  neighbours_bench *b)

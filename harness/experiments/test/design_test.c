@@ -14,14 +14,14 @@ static const parameter_type table[] = {
 };
 static const case_type box = {.name = "box", .parameters = {table}};
 
-/* Of the unit box, without parts. */
+/* Three axes of the unit box, without division. */
 static void unit_axes(sweep_axis out[3])
 {
     for (int i = 0; i < 3; i++)
         out[i] = (sweep_axis){.of = &table[i], .index = i, .kind = AXIS_LINEAR, .from = 0, .to = 1};
 }
 
-/* The last axis changes first. */
+/* The last axis changes fastest. */
 static void grid(void)
 {
     static const double right[] = {0, 1, 0, 2, 0, 3, 5, 1, 5, 2, 5, 3};
@@ -40,7 +40,7 @@ static void grid(void)
     axis_free(&a[1]);
 }
 
-/* The manual of GSL, quasi-random sequences, prints these five. */
+/* The GSL manual (quasi-random sequences) prints these five points. */
 static void sobol(void)
 {
     static const double right[] = {0.5, 0.5, 0.75, 0.25, 0.25, 0.75, 0.375, 0.375, 0.875, 0.875};
@@ -54,7 +54,7 @@ static void sobol(void)
     design_free(&d);
 }
 
-/* The digits of n in a base, mirrored at the point. */
+/* The digits of n in a base, reflected at the point. */
 static double mirrored(int n, int base)
 {
     double out = 0, digit = 1.0 / base;
@@ -79,7 +79,7 @@ static void halton(void)
     design_free(&d);
 }
 
-/* However points are asked for, they are the same: across the marks too. */
+/* Points are the same wherever a request starts, also across marks. */
 static void anywhere(design_kind kind)
 {
     enum { POINTS = 2 * DESIGN_STRIDE + 100 };
@@ -103,7 +103,7 @@ static void anywhere(design_kind kind)
     free(all);
 }
 
-/* Another seed, other points; the same, the same. */
+/* Different seeds give different points; equal seeds give equal points. */
 static void seeds(void)
 {
     sweep_axis a[3];
@@ -144,11 +144,11 @@ static void design_tests(void)
     is_refused(DESIGN_SOBOL, &parted, 10, "'/4' is for a grid; remove it");
 }
 
-/* Orders and what an error costs, of runs whose errors are made up. */
+/* Orders and the cost of an error, from runs with artificial errors. */
 
 enum { RUNS = 5 };
 
-/* Steps 0.1, 0.05, ... of one integrator. */
+/* Runs of one integrator with steps 0.1, 0.05, ... */
 static void fill(pace *p, pace_group *g, pace_run run[RUNS], const char *method, int nominal,
                  const double error[RUNS])
 {
@@ -205,7 +205,8 @@ static void order_of_each(void)
     gsl_test_rel(run[2].order, 1, 1e-14, "against the run before");
 }
 
-/* Errors and costs are powers of the step: a level between two runs costs what that power says. */
+/* Errors and costs are powers of the step: a level between two runs has the cost given by that
+ * power. */
 static void cost_of_a_level(void)
 {
     pace p;
@@ -224,7 +225,7 @@ static void cost_of_a_level(void)
     gsl_test(r.run != NULL, "a shorter step is not within it");
 }
 
-/* Errors of a quantity, beside those of places. */
+/* Errors of a quantity, in addition to those of positions. */
 static int stands(const double error[RUNS], double floor)
 {
     pace p;

@@ -1,4 +1,4 @@
-"""One file of results for all experiments, through the program: several at a time, old files, damage."""
+"""One results file for all experiments, through the program: several at a time, old files, damaged files."""
 import fcntl
 import shutil
 import subprocess
@@ -24,7 +24,7 @@ SAYS = ("schema", "schema_version", "program_version", "commit", "clock")
 
 
 def content(group):
-    """All that is in a group, as bytes."""
+    """Returns all contents of a group, as bytes."""
     found = {"": sorted((name, str(value)) for name, value in group.attrs.items())}
 
     def take(name, one):
@@ -36,7 +36,7 @@ def content(group):
 
 
 def contents(path):
-    """{group: what is in it}; verify: all else."""
+    """Returns {group: contents}; verify: everything outside of the groups."""
     with h5py.File(path) as file:
         groups = {name: content(group) for name, group in file["experiments"].items()}
         own = {name: value for name, value in content(file).items()
@@ -48,7 +48,7 @@ class Experiments(ProgramTest):
 
     @classmethod
     def setUpClass(cls):
-        """All of them at once, into a file that is not there yet."""
+        """Runs all experiments at once, into a file that does not exist yet."""
         cls.stored = cls.class_folder() / "results.h5"
         jobs = [subprocess.Popen([PROGRAM, *words, "-o", cls.stored], stdout=subprocess.DEVNULL,
                                  stderr=subprocess.PIPE, text=True)
@@ -72,7 +72,7 @@ class Experiments(ProgramTest):
                          ["results.h5", "results.worst"])
 
     def test_replaced_whole(self):
-        """By a run that leaves less; what others have left is the same to the byte."""
+        """A run replaces its whole group, even if it writes less; other groups remain the same to the byte."""
         before = contents(self.path)
         self.answered("element-test", "beamw", "-o", self.path)
         self.answered("motion", "pendulum", "-f", "beamw", "-n", "1", "--set", "time=0.1",
@@ -89,7 +89,7 @@ class Experiments(ProgramTest):
             self.assertEqual(list(file["cases"]), ["elbow"])
 
     def test_an_old_file(self):
-        """Of version 2: it is compared, and reported, and experiments are added to it."""
+        """A file of version 2 can be compared and reported, and experiments can be added to it."""
         def old(file):
             del file["experiments"]
             file.attrs.modify("schema_version", 2)
@@ -106,13 +106,13 @@ class Experiments(ProgramTest):
         self.assertTrue((self.folder / "site" / "stability.html").exists())
 
     def test_times_alone(self):
-        """What bench leaves can be compared where verify has left nothing."""
+        """Results of bench can be compared in a file without results of verify."""
         path = self.folder / "times.h5"
         self.answered(*ASKED["bench"], "-o", path)
         self.assertIn(SAME, self.answered("compare", path, path).stdout)
 
     def test_report(self):
-        """Says of each group of which commit it is."""
+        """The report states the commit of each group."""
         def other(file):
             file["experiments/stress"].attrs["commit"] = b"another one"
 
@@ -126,7 +126,7 @@ class Experiments(ProgramTest):
         self.assertIn("measured by <code>make bench</code>", page)
 
     def test_what_would_be_lost(self):
-        """Is refused before the work, and left alone."""
+        """If a file would be lost, the run is rejected before the work, and the file does not change."""
         damaged, other = self.folder / "damaged.h5", self.folder / "other.h5"
         damaged.write_bytes(self.path.read_bytes()[:-100])
         with h5py.File(other, "w") as file:
@@ -138,7 +138,7 @@ class Experiments(ProgramTest):
             self.assertEqual(path.read_bytes(), before)
 
     def test_a_sweep_alone(self):
-        """That had a file for itself is compared, reported, replaced, and makes room for others."""
+        """An old file of a sweep alone can be compared, reported and replaced, and other experiments can be added."""
         def old(file):
             group = file["experiments/sweep"]
             for name in group:
@@ -164,7 +164,7 @@ class Experiments(ProgramTest):
         self.assertEqual(set(contents(path)), {"verify", "stress", "sweep"})
 
     def test_held(self):
-        """By another run, or by a program that writes there: noticed before the work."""
+        """A file in use by another run, or by a program that writes to it, is reported before the work."""
         with open(f"{self.path}.lock", "w", encoding="ascii") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             self.refused(2, "another run is using", *ASKED["sweep"], "-o", self.path)
@@ -176,7 +176,7 @@ class Experiments(ProgramTest):
         self.refused(4, "cannot be locked", *ASKED["stress"], "-o", self.path)
 
     def test_text_still(self):
-        """By the name of the file."""
+        """The name of the file selects text output."""
         path = self.folder / "stress.csv"
         self.answered(*ASKED["stress"], "--format", "csv", "-o", path)
         self.assertEqual(path.read_text(encoding="utf-8"),

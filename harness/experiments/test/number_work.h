@@ -1,4 +1,4 @@
-/* A work for tests: each batch is some numbers, which are gathered in canonical order. */
+/* A work for tests: each batch consists of some numbers, which are added in canonical order. */
 #ifndef BEAMWORK_TEST_NUMBER_WORK_H
 #define BEAMWORK_TEST_NUMBER_WORK_H
 
@@ -16,10 +16,10 @@ enum { NUMBERS_BATCHES = 40 };
 
 typedef struct numbers {
     int crashes; /* batch whose process ends itself, or -1 */
-    int fails;   /* batch that cannot be done, or -1 */
-    int wait;    /* [us] that a batch takes */
-    double busy; /* [s] of the processor that it takes */
-    double sign; /* other answers: -1 */
+    int fails;   /* batch whose computation fails, or -1 */
+    int wait;    /* [us] duration of a batch */
+    double busy; /* [s] processor time of a batch */
+    double sign; /* -1: different results */
     int taken, next;
     double sum;
 } numbers;
@@ -49,7 +49,7 @@ static inline status numbers_run(void *context, int batch, FILE *to, digest *con
     return STATUS_OK;
 }
 
-/* The order counts: each sum is turned before the next number is added. */
+/* The result depends on the order: each sum is changed before the next number is added. */
 static inline status numbers_take(void *context, int batch, FILE *from, fault *f)
 {
     numbers *n = context;
@@ -71,7 +71,7 @@ typedef struct numbers_work {
     shard_work w;
 } numbers_work;
 
-/* It points to itself: it is not copied. */
+/* The structure contains a pointer to itself and must not be copied. */
 static inline void numbers_begin(numbers_work *out)
 {
     out->n = (numbers){.crashes = -1, .fails = -1, .sign = 1};
@@ -89,7 +89,7 @@ static inline void numbers_begin(numbers_work *out)
                           .take = numbers_take};
 }
 
-/* What all batches come to, in this process. */
+/* Result of all batches, computed in this process. */
 static inline double numbers_alone(void)
 {
     numbers_work here;
@@ -108,7 +108,7 @@ static inline status numbers_shard(const numbers_work *of, const char *into, int
     return shard_run(&of->w, &request, out, f);
 }
 
-/* Every batch of the folders once, and their sum. */
+/* Merges every batch of the folders once, and gives their sum. */
 static inline status numbers_merge(numbers_work *of, const char *const folder[], int folders,
                                    stock *s, fault *f)
 {

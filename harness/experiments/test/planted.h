@@ -1,4 +1,4 @@
-/* Faults planted into formulations that have none. */
+/* Faults injected into formulations that have none. */
 #ifndef BEAMWORK_TEST_PLANTED_H
 #define BEAMWORK_TEST_PLANTED_H
 
@@ -7,9 +7,9 @@
 
 #include "harness/experiments/experiments.h"
 
-static const element_type *base; /* what the fault is planted into */
+static const element_type *base; /* the formulation into which the fault is injected */
 
-/* What is changed of the type, the family that must notice, and words of its sentence. */
+/* The type with the fault, the family that must detect it, and words of its sentence. */
 static inline void planted(const char *family, const element_type *fault_type, const char *first,
                            const char *second)
 {

@@ -1,5 +1,5 @@
-/* Faults planted into formulations that have none: each is noticed, with a sentence that names the
- * right thing. A fault changes what one of their functions gives. */
+/* Faults injected into formulations that have none: each is detected, with a sentence that names
+ * the cause. A fault changes the output of one function. */
 #include "harness/experiments/experiments_impl.h"
 #include <math.h>
 
@@ -12,7 +12,7 @@ static void strain_changed(const element_data *d, const node_state x[], strain_o
     change(out);
 }
 
-/* A strain function whose outputs are changed. */
+/* Defines a strain function whose outputs are changed. */
 #define STRAIN(name, statement)                                                                    \
     static void name##_change(strain_output *out)                                                  \
     {                                                                                              \
@@ -59,7 +59,7 @@ static status half_energy(const element_data *d, const double e[], const double 
     return outcome;
 }
 
-/* What is no number is taken for a node at rest: its position, its rotation. */
+/* Replaces a position or rotation with NaN by that of a node at rest. */
 static void deaf(const node_state x[], int node, int turn, node_state out[2])
 {
     memcpy(out, x, 2 * sizeof *out);
@@ -94,7 +94,7 @@ static status deaf_to_strains(const element_data *d, const double e[], const dou
     return base->stress(d, f, inner, out);
 }
 
-/* Bending about z is softer than the constants of the section say. */
+/* Bending about z is softer than the constants of the section require. */
 static status soft_about_z(const element_data *d, const double e[], const double inner[],
                            stress_output *out)
 {
@@ -108,7 +108,7 @@ static status soft_about_z(const element_data *d, const double e[], const double
     return outcome;
 }
 
-/* What is not claimed says by how much the element misses. */
+/* If exactness is not claimed, the sentence gives the error of the element. */
 static void not_exact(void)
 {
     static claims c;
@@ -193,7 +193,7 @@ static status no_reason(const element_request *request, element_data *out, fault
     return request->features & FEATURE_SHEAR ? base->prepare(request, out, f) : STATUS_REFUSED;
 }
 
-/* Of many elements at once, the energy of one for all. */
+/* In a call for many elements, returns the energy of the first for all of them. */
 static void one_energy(int count, const element_data *const data[], const double *const e[],
                        const double *const inner[], stress_output out[], status outcome[])
 {
@@ -214,7 +214,7 @@ static void one_strain(int count, const element_data *const data[], const node_s
     }
 }
 
-/* The features that are asked for, but some. */
+/* Prepares an element without some of the requested features. */
 static status without(const element_request *request, unsigned features, element_data *out,
                       fault *f)
 {
@@ -296,10 +296,10 @@ static void planted_tests(void)
     the_rest();
 }
 
-/* Faults planted into the inertia of formulations: each is noticed, with a sentence that names the
- * right thing. */
+/* Faults injected into the inertia of formulations: each is detected, with a sentence that names
+ * the cause. */
 
-/* An inertia whose outputs are changed. */
+/* Defines an inertia function whose outputs are changed. */
 #define INERTIA(name, statement)                                                                   \
     static status name(const element_data *d, const node_state x[],                                \
                        const element_rotating_frame *frame, inertia_output *out)                   \
@@ -320,7 +320,8 @@ INERTIA(half_potential, if (out->potential != NULL) *out->potential /= 2)
 INERTIA(wrong_force, if (out->force != NULL) out->force[8] *= -1)
 INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
 INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
-/* Of a radian more than of a length, in units of the specimen's length [m]. */
+/* The error is larger for rotations than for translations, in units of the specimen's length
+ * [m]. */
 INERTIA(
     unsymmetric_turns, if (out->N != NULL) {
         out->N[14 * 5 + 4] += 0.03 * 0.2385 * 0.2385 * out->N[0];

@@ -1,4 +1,5 @@
-/* Shards into folders and merged: the same as in one process, whatever ends them. */
+/* Shards computed into folders and merged give the same results as one process, however they
+ * end. */
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -32,7 +33,8 @@ static void one_folder(void)
     folder_remove(&of);
 }
 
-/* Shards of different numbers meet: what both have is taken once. */
+/* Batches of works with different numbers of shards are combined; a batch in both folders is used
+ * once. */
 static void two_folders(void)
 {
     const test_folder a = folder_make(), b = folder_make();
@@ -61,7 +63,7 @@ static void two_folders(void)
     folder_remove(&other);
 }
 
-/* A batch whose process ends is lost alone, and done when started again. */
+/* If the process of a batch ends, only this batch is lost, and it is computed after a restart. */
 static void lost(void)
 {
     const test_folder of = folder_make();
@@ -81,8 +83,8 @@ static void lost(void)
     folder_remove(&of);
 }
 
-/* A batch that cannot be done ends all with its line; a disk that is full, too. What is there
- * stays. */
+/* A batch that fails ends the run with its message, and so does a full disk; existing batches are
+ * kept. */
 static void failures(void)
 {
     const test_folder of = folder_make();
@@ -114,7 +116,7 @@ static void failures(void)
     folder_remove(&of);
 }
 
-/* Killed at twenty random moments, the last time left alone. */
+/* The run is killed at twenty random moments, and then completes undisturbed. */
 static void killed(void)
 {
     const test_folder of = folder_make();
@@ -134,7 +136,7 @@ static void killed(void)
         }
         setpgid(child, child);
         usleep((useconds_t)random_below(&seed, 4000));
-        kill(i % 2 == 0 ? -child : child, SIGKILL); /* all of them, or the first alone */
+        kill(i % 2 == 0 ? -child : child, SIGKILL); /* all processes, or only the first one */
         waitpid(child, NULL, 0);
     }
     gsl_test(numbers_shard(&w, of.path, 0, 1, &done, &f) != STATUS_OK, "%s", f.text);
@@ -143,7 +145,7 @@ static void killed(void)
     folder_remove(&of);
 }
 
-/* Somebody asks to end: what is done stays, nothing is half-written. */
+/* On a request to stop, completed batches are kept, and no partly written file remains. */
 static void interrupted(void)
 {
     const test_folder of = folder_make();

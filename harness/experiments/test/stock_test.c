@@ -1,4 +1,4 @@
-/* Folders with files that are not what they should be: each is told in one line, none is taken. */
+/* Folders with invalid files: each file is reported in one line, and none is used. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "harness/experiments/test/number_work.h"
 #include "harness/records/records.h"
 
-/* A folder with all batches of the work, to be spoilt. */
+/* A folder with all batches of the work, one of which will be damaged. */
 typedef struct filled {
     test_folder of;
     const char *folder[1];
@@ -31,7 +31,7 @@ static void fill(filled *out)
     out->path = folder_path(&out->of, out->name);
 }
 
-/* What is taken of it, and what is said. */
+/* Reads the folder; said: the messages. */
 static status take(filled *of, stock *s, char said[400], fault *f)
 {
     memset(said, 0, 400);
@@ -47,7 +47,7 @@ static long size_of(const char *path)
     return stat(path, &there) == 0 ? (long)there.st_size : -1;
 }
 
-/* It counts as missing, is named once, and is done again. */
+/* The batch counts as missing, is named once, and is computed again. */
 static void is_done_again(filled *of, const char *what)
 {
     stock s;
@@ -92,7 +92,7 @@ static void damaged(void)
     folder_remove(&of.of);
 }
 
-/* Refused in a merge and as a place to go on; the line has these words. */
+/* The folder is rejected by a merge and by a restart; the message contains these words. */
 static void is_refused(filled *of, const char *words)
 {
     stock s;
@@ -138,7 +138,7 @@ static void foreign(void)
     folder_remove(&of.of);
 }
 
-/* What the killed left, and what is none of ours. */
+/* Files left by killed processes, and files that are no batches. */
 static void others(void)
 {
     filled of;
@@ -182,7 +182,8 @@ static void nowhere(void)
     folder_remove(&of);
 }
 
-/* A batch of another processor, and one of another BLAS: machines are told, hosts alone are not. */
+/* Batches from another processor or with another BLAS are reported; a different host alone is
+ * not. */
 static void machines(void)
 {
     filled of;
@@ -233,9 +234,9 @@ static void stock_tests(void)
     nowhere();
 }
 
-/* Digests, and work cut and dealt. */
+/* Digests, and division of work into batches and shards. */
 
-/* The examples of FIPS 180-4. */
+/* The examples in FIPS 180-4. */
 static void known_digests(void)
 {
     static const struct {
@@ -290,7 +291,8 @@ static void cut(void)
     gsl_test_int(deal_cut(0, cost, 0.5, first), 0, "of nothing no batch");
 }
 
-/* Each batch to one shard, none much longer than another, the same each time. */
+/* Each batch is assigned to one shard, the costs of the shards are nearly equal, and the result is
+ * reproducible. */
 static void dealt(void)
 {
     enum { BATCHES = 500, SHARDS = 7 };
@@ -313,14 +315,15 @@ static void dealt(void)
     gsl_test(most > 1.01 * least, "shards end together: %g to %g", least, most);
 }
 
-/* As by the rule itself: the dearest that is left to the first of the shards that have least. */
+/* The result agrees with the rule: the most expensive remaining batch goes to the first of the
+ * shards with the lowest cost. */
 static void dealt_by_the_rule(void)
 {
     enum { BATCHES = 300, MOST = 40 };
     double cost[BATCHES];
     int shard[BATCHES], order[BATCHES];
     for (int i = 0; i < BATCHES; i++)
-        cost[i] = 1 + i * 7 % 4; /* many cost the same */
+        cost[i] = 1 + i * 7 % 4; /* many costs are equal */
     deal_order(BATCHES, cost, order);
     for (int shards = 1; shards <= MOST; shards++) {
         double sum[MOST] = {0};
@@ -345,7 +348,7 @@ static void deal_tests(void)
     dealt();
 }
 
-/* Integrators, steps and tolerances as a command line has them. */
+/* Integrators, steps and tolerances in command-line form. */
 
 static void list_is(const char *text, double ratio, int count, const double right[])
 {

@@ -1,4 +1,4 @@
-"""Extremes of cases, and what stress says of them."""
+"""Extremes of cases, and their results in `beamwork stress`."""
 import csv
 import io
 import json
@@ -11,8 +11,7 @@ from harness.tools.kit import program
 from harness.tools.kit.program import ProgramTest, ROOT
 
 
-# beamwork stress: exit codes, what its outputs agree on, and that a wrong number is never
-# silent.
+# beamwork stress: exit status, agreement of the output forms, and that a wrong number is never silent.
 SMALL = "decay_free or soft_square or twist_wagner"
 
 
@@ -28,7 +27,7 @@ class Stress(ProgramTest):
         cls.code, cls.record = done.returncode, json.loads(done.stdout)
 
     def altered(self, change):
-        """Packed truths of a copy of reference/ that `change` was applied to."""
+        """Packs the reference values of a copy of reference/ to which `change` was applied."""
         copy = self.folder / "reference"
         left_out = shutil.ignore_patterns("__pycache__", "derive", "test")
         shutil.copytree(ROOT / "reference", copy, ignore=left_out)
@@ -105,7 +104,7 @@ class Stress(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stdout)
 
     def test_motions(self):
-        """Steps stay as long as they are; turns that a step does not take are named."""
+        """Step sizes do not change; rotations too large for a step are reported by name."""
         done = run("-k", "(turn_alpha or long_steps_radau) and collocation", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stdout)
         record = json.loads(done.stdout)
@@ -142,10 +141,10 @@ class Stress(ProgramTest):
             self.refused(code, "", "stress", *arguments, silent=False)
 
 
-# Motions at extremes: each integrator with a value and its error, or a failure that is named.
+# Motions at extremes: each integrator gives a value with its error, or a named failure.
 STEEL = 200e9, 7800.0
 
-# A sheet whose length is a thousand times its thickness, held aside and released.
+# A sheet whose length is a thousand times its thickness is held in a deflected position and released.
 SHEET = """beamwork: 1
 sections:
   sheet: {rectangle: {width: 0.05, thickness: 1e-4}, young: 200e9, shear_modulus: 77e9,
@@ -166,7 +165,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
 SHEET_PERIOD = 0.1**2 * 2 * math.pi / 1.8751041**2 / math.sqrt(STEEL[0] * 1e-8 / 12 / STEEL[1])
 
-# A rod with a body at one end flies freely; MASS: of the body in masses of the rod.
+# A rod with a body at one end flies freely; MASS: mass of the body in masses of the rod.
 BODY = """beamwork: 1
 sections:
   rod: {rectangle: {width: 0.02, thickness: 0.02}, young: 5e6, shear_modulus: 2e6, density: DENSITY}
@@ -187,7 +186,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torqueOMIT]
 class Extremes(ProgramTest):
 
     def runs(self, scene, formulation, step, *options, **words):
-        """Each integrator: its run."""
+        """Returns {integrator: run}."""
         for word, value in words.items():
             scene = scene.replace(word, value if isinstance(value, str) else f"{value:.17g}")
         path = self.folder / "extreme.yaml"
@@ -199,7 +198,7 @@ class Extremes(ProgramTest):
         return {r["integrator"]: r for r in json.loads(done.stdout)["runs"]}
 
     def is_named(self, run):
-        """A motion that fails says how and when."""
+        """A motion that fails states the reason and the time."""
         self.assertEqual(run["status"], "not_converged")
         self.assertIn(" s: ", run["reason"] + " s: ")
         self.assertIsNotNone(run["stopped"])
@@ -230,7 +229,7 @@ class Extremes(ProgramTest):
             self.assertLess(found[integrator]["error"], most, integrator)
 
     def test_nearly_massless_nodes(self):
-        """With and without inertia of turns: a value that is right, or a failure with its name."""
+        """With and without rotary inertia, the result is a correct value or a named failure."""
         for omit in ("", ", rotary_inertia"):
             found = self.runs(BODY, "collocation", 0.01, "--conservation-only", TIME=1, DENSITY=1e-6,
                               MASS=1, INERTIA=0.1, OMIT=omit)

@@ -1,4 +1,4 @@
-/* What a sweep comes to, of rows made by hand: shares, the map, the worst points. */
+/* Summary of a sweep, from artificial rows: percentages, the map, the worst points. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -36,11 +36,11 @@ static void make(parameter_ranges *r)
 
 /* Errors of both quantities with 4 and 8 elements at each point. */
 static const double errors[POINTS][MESHES][2] = {
-    {{0.001, 0.002}, {0.0001, 0.0002}}, /* within from 4 on */
-    {{0.02, 0.002}, {0.003, 0.0002}},   /* the first from 8 on */
-    {{0.001, 0.002}, {0.05, 0.0002}},   /* the first never: the finer mesh is off */
-    {{NAN, NAN}, {NAN, NAN}},           /* no solution with 8 */
-    {{NAN, 0.004}, {NAN, -0.0004}},     /* the first has no reference */
+    {{0.001, 0.002}, {0.0001, 0.0002}}, /* within the tolerance from 4 elements on */
+    {{0.02, 0.002}, {0.003, 0.0002}},   /* the first quantity from 8 elements on */
+    {{0.001, 0.002}, {0.05, 0.0002}},   /* the first quantity never: the finer mesh is inaccurate */
+    {{NAN, NAN}, {NAN, NAN}},           /* no solution with 8 elements */
+    {{NAN, 0.004}, {NAN, -0.0004}},     /* the first quantity has no reference */
     {{NAN, NAN}, {NAN, NAN}},           /* no scene */
 };
 static const int least[POINTS][2] = {{4, 4}, {8, 4}, {0, 4}, {0, 0}, {0, 4}, {0, 0}};
@@ -109,7 +109,8 @@ static void map_is(const tally *t)
     gsl_test_rel(tally_edge(t, 1, 1), 20, 0, "second line");
 }
 
-/* No solution first, then by size whatever the sign, of the finest mesh. */
+/* Points without a solution come first, then the others by the magnitude of the error on the finest
+ * mesh. */
 static void worst_are(const tally *t)
 {
     gsl_test_int(t->worsts[0], 3, "worst points");
@@ -124,7 +125,7 @@ static void worst_are(const tally *t)
     gsl_test_rel(t->doubt[1], 4e-4, 1e-15, "the largest doubt");
 }
 
-/* Whether points come together or one by one. */
+/* The summary is the same whether points are added together or one by one. */
 static void same_in_pieces(const parameter_ranges *r, const rows *whole, const tally *right)
 {
     tally t;
@@ -172,7 +173,7 @@ static void tally_tests(void)
     ranges_free(&r);
 }
 
-/* What --vary says: values, limits, refusals. */
+/* --vary: values, limits, rejected arguments. */
 
 static const parameter_type axis_table[] = {
     {"width", "m", 0.05, 1e-3, 10, NULL, "of a strip"},
@@ -201,7 +202,7 @@ static void values_are(const char *text, axis_kind kind, int count, const double
     axis_free(&a);
 }
 
-/* The ends are the numbers that stand there, not sums. */
+/* The ends are exactly the given numbers, not sums. */
 static void ends_are_exact(void)
 {
     sweep_axis a = read_good("width=0.2..0.9/7"), b = read_good("width=0.2..0.9/7:log");
@@ -211,7 +212,7 @@ static void ends_are_exact(void)
     axis_free(&b);
 }
 
-/* Where a share of the way is: ends, middles, the share that falls on each word. */
+/* Values at fractions of an axis: ends, midpoints, and the word at each fraction. */
 static void shares(void)
 {
     sweep_axis a = read_good("turn=-1..1"), b = read_good("width=0.01..1:log"),
@@ -264,7 +265,7 @@ static void axis_tests(void)
     is_refused("ends=fixd", "unknown choice");
 }
 
-/* Every formulation keeps every claim that it makes; and it makes enough of them. */
+/* Every formulation satisfies every claim that it makes, and makes enough claims. */
 
 static void tell(const char *key, const checks_family *family, const claims *c)
 {
@@ -294,14 +295,14 @@ static void contract_tests(void)
     gsl_test(by_matrices < 1, "%d formulations carry sections by their matrices", by_matrices);
 }
 
-/* What stands in the fields of a sweep's map: one of each kind. */
+/* Contents of the fields of a sweep's map: one field of each kind. */
 
 enum { PLACES = 8 };
 
 static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
 static const case_type map_box = {.name = "box", .parameters = {map_table}};
 
-/* With a reference value at some points, and elsewhere with none. */
+/* With reference values at some points only, and without. */
 static const struct {
     tally_place place;
     const char *mixed, *alike;

@@ -1,4 +1,4 @@
-/* A series that is made up, its truths and the judgement of it, for tests of the judge. */
+/* An artificial series with its reference values and its evaluation, for tests of verdicts. */
 #ifndef BEAMWORK_TEST_BENCH_H
 #define BEAMWORK_TEST_BENCH_H
 
@@ -28,7 +28,7 @@ static const case_type made_up = {.name = "made_up",
 static const element_type element = {.name = "element", .abi = ELEMENT_ABI};
 
 /* One point, one series of five meshes, one quantity; the reference value is 3, tolerance 1e-4,
- * least order 2. */
+ * minimum order 2. */
 typedef struct judge_bench {
     sweep s;
     sweep_point p;
@@ -99,7 +99,7 @@ static inline void bench_make(judge_bench *b)
     b->t = (truths){.rows = 1, .row = b->row};
 }
 
-/* A second row, like the first one but for its value and what the caller changes. */
+/* Adds a second row, equal to the first one except for its value and the caller's changes. */
 static inline truth *bench_add_row(judge_bench *b, double value)
 {
     b->row[1] = b->row[0];
@@ -108,7 +108,7 @@ static inline truth *bench_add_row(judge_bench *b, double value)
     return &b->row[1];
 }
 
-/* A second row: the limit that was derived for the formulation. */
+/* Adds a second row: the limit derived for the formulation. */
 static inline truth *bench_add_prediction(judge_bench *b, double limit)
 {
     truth *row = bench_add_row(b, limit);
@@ -117,14 +117,14 @@ static inline truth *bench_add_prediction(judge_bench *b, double limit)
     return row;
 }
 
-/* limit + size n^-order */
+/* Sets the values limit + size n^-order. */
 static inline void bench_fill(judge_bench *b, double limit, double size, double order)
 {
     for (int i = 0; i < MESHES; i++)
         b->quantity[i].value = limit + size * pow(mesh[i], -order);
 }
 
-/* Made with a series that converges to the truth. */
+/* Makes a bench with a series that converges to the reference value. */
 static inline void bench_converge(judge_bench *b)
 {
     bench_make(b);
@@ -153,7 +153,7 @@ static inline void bench_expect(judge_bench *b, verdict_kind kind, int code, con
     gsl_test_int(judgement_exit(&b->j), code, "%s: exit code", what);
 }
 
-/* The verdict in words. */
+/* Checks the verdict in words. */
 static inline void bench_says(const judge_bench *b, const char *words_of_it)
 {
     char sentence[2 * FAULT_TEXT];

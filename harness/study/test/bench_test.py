@@ -1,5 +1,5 @@
-"""The verb bench: rows, refusals, comparison of two contestants. Times themselves are not
-asserted: see make lab L=bench-check."""
+"""The verb bench: rows, rejected input, comparison of two programs or formulations. Times themselves are not asserted; see
+make lab L=bench-check."""
 import csv
 import io
 import re
@@ -31,7 +31,7 @@ class Bench(ProgramTest):
         self.assertIn("twist_ratio within 10, 1, 0.1, 0.01 %: ", text)
 
     def test_errors_of_one_quantity(self):
-        """A table of errors names its quantity, and has no error of another one."""
+        """A table of errors names its quantity and contains no errors of other quantities."""
         work = ("bench", "c_column", "-f", "beamw", "-f", "collocation", "-n", "2")
         text = self.answered(*work, "-k", "buckling_load").stdout
         self.assertIn("\n  errors of buckling_load\n", text)
@@ -43,7 +43,7 @@ class Bench(ProgramTest):
         self.assertRegex(other, r"(?m)^  collocation +2 +\+0\.189\d* %$")
 
     def test_selection(self):
-        """Of quantities and of formulations, as in converge; all formats."""
+        """Selection of quantities and formulations, as in converge, in all formats."""
         work = ("bench", "c_column", "-n", "2", "-k", "=frequency_3 and (beamw or collocation)", "--format", "csv")
         rows = list(csv.DictReader(io.StringIO(self.answered(*work).stdout)))
         self.assertEqual({r["quantity"] for r in rows}, {"frequency_3"})
@@ -53,14 +53,14 @@ class Bench(ProgramTest):
         self.refused(2, "selects no quantity of elastica", "bench", "warping_torsion", "elastica", "-k", "warping_torsion")
 
     def test_ranks_as_converge(self):
-        """What converge ranks without a reference value: errors against the agreement, and a formulation that
-        lacks physics without effect."""
+        """bench ranks as converge does without a reference value: errors with respect to the agreement, and a formulation
+        that lacks physics without effect."""
         text = self.answered("bench", "--scene", LEAF, "--set", "stroke=0.009", "-n", "1,2,4").stdout
         self.assertNotIn("no reference value", text)
         self.assertRegex(text, r"(?m)^  collocation +4 .* %$")
 
     def test_none_that_passes(self):
-        """Within the error with a limit of its own; lines that say the same are one."""
+        """A formulation within the error may have a different limit; equal lines for several quantities are joined."""
         done = self.answered("bench", "shear_elastica", "-f", "beamw", "-f", "sheet_third", "-n",
                              "2,4,8,16")
         text = " ".join(done.stdout.split())
@@ -119,7 +119,7 @@ class Bench(ProgramTest):
         self.refused(2, "leaves one formulation", *work, "1%", "-k", "beamw")
 
     def least(self, case, formulation, level):
-        """Elements from which on every error is within the level, from converge."""
+        """Returns the number of elements from which every error is within the level, from converge."""
         series = self.record("converge", *case, "-f", formulation)["series"][0]
         meshes = [m["elements"] for m in series["quantities"][0]["meshes"]]
         bad = [k for q in series["quantities"] for k, m in enumerate(q["meshes"])
@@ -128,7 +128,7 @@ class Bench(ProgramTest):
         return meshes[first] if first < len(meshes) else None
 
     def test_equal_error(self):
-        """Meshes by the rule, times of these meshes."""
+        """The meshes follow the rule of equal error, and the times belong to these meshes."""
         answer = self.record("bench", "elastica", "-f", "collocation", "--against", "beamw",
                              "--error", "0.15%,0.001%")
         self.assertEqual(answer["quantities"], ["w_over_L", "u_over_L", "theta"])
@@ -147,14 +147,15 @@ class Bench(ProgramTest):
         self.assertIsNone(missed["elements_b"])
 
     def test_equal_error_of_a_scene(self):
-        """By default errors that both reach; where one converges to something else, it says so."""
+        """By default, the compared errors are those that both formulations reach; if one of them converges to a different
+        limit, this is stated."""
         text = self.answered("bench", "--scene", LEAF, "-f", "sheet_third", "--against",
                              "collocation", "-k", "k_pushed").stdout
         self.assertEqual(re.findall(r"(?m)^at ([\d.]+) %: ", text), ["10", "1", "0.1"])
         self.assertRegex(text, r"(?m)^sheet_third, k_pushed: converges to its derived limit")
 
     def test_another_build(self):
-        """A case and a scene, at equal n; formulation and elements are chosen where not given."""
+        """Compares a case and a scene with another build, at equal n; formulation and elements are chosen if not given."""
         answer = self.record("bench", "--scene", LEAF, "-f", "collocation", "-n", "1", "--against",
                              PROGRAM)
         self.assertEqual({w["a"] for w in answer["work"]}, {w["b"] for w in answer["work"]})

@@ -1,6 +1,7 @@
-/* reference/defaults.csv, which the deriving programs read, beside the tables of the cases: the
- * same parameters in the same order, the same numbers and words. The last ones, which physics is
- * left out and where mass lies, are none of theirs: they derive what the source has. */
+/* reference/defaults.csv, which the programs of reference/derive read, agrees with the parameter
+ * tables of the cases: the same parameters in the same order, the same numbers and words. It
+ * excludes the last parameters, for omitted physics and the position of mass, which the original
+ * source does not have. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -27,7 +28,7 @@ static const case_type *case_of(const char *name)
     return NULL;
 }
 
-/* at: of the parameter within its case. */
+/* at: index of the parameter within its case. */
 static void check_row(const char *line, const case_type *type, int at, const char *name,
                       const char *number, const char *choices)
 {
@@ -44,7 +45,7 @@ static void check_row(const char *line, const case_type *type, int at, const cha
              "defaults.csv: %s: its words", line);
 }
 
-/* Rows checked. */
+/* Checks all rows; returns their number. */
 static int check_table(FILE *table)
 {
     char line[LINE], before[LINE] = "";

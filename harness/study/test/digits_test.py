@@ -1,12 +1,12 @@
-"""Predicted limits that the judged meshes meet with fewer than four digits, on finer meshes.
+"""Predicted limits of which the usual meshes give fewer than four digits, computed on finer meshes.
 
-The judged meshes cannot resolve them: a compliance that shear all but cancels, elements longer than
-the sheet is thick, a fast channel, a high mode.  More elements show the predicted limit."""
+The usual meshes cannot resolve them: a compliance nearly cancelled by shear, elements longer than the sheet is
+thick, a rapidly rotating channel, a high mode. More elements show the predicted limit."""
 import unittest
 
 from harness.tools.kit.program import ProgramTest
 
-DIGITS = 1e-4  # of a limit, relative: four digits
+DIGITS = 1e-4  # relative error of a limit: four digits
 FINE = "32,64,128,256,512"
 CANCELLED = "warping=0", "trapeze=0", "shear_factor=0.8333333333333334"
 POINTS = (
@@ -24,17 +24,17 @@ POINTS = (
     ("bend_45", "sheet_third", ("force=300", ), "u_tangent", "8,16,32,64,128"),
     ("bend_45", "sheet_third_printed", ("force=300", ), "u_tangent", "8,16,32,64,128"),
 )
-# 64 elements of these sheets are as long as the sheet is thick and show orders of 3.2 and 3.7, which
-# are none: the limit seems known better than it is
+# 64 elements of these sheets are as long as the sheet is thick. They show orders of 3.2 and 3.7, which are not true
+# orders: the limit seems more accurate than it is.
 AS_THICK = (("tip_deflection=0.05", ), ("tip_warping=1", ))
-# undecided or biased on the judged meshes (rules meshes-hexapod, meshes-roll-up), a pass on these
+# undecided or biased on the usual meshes (rules meshes-hexapod, meshes-roll-up); these meshes pass
 PASSES = (
     ("hexapod", "beamw_consistent", ("wagner=0", ), "support_stiffness_8", "2,4,8,16,32"),
     ("hexapod", "beamw_consistent", ("wagner=0", ), "support_stiffness_11", "2,4,8,16,32"),
     *(("roll_up", formulation, ("turns=2", ), "tip_gap", "32,64,128,256,512")
       for formulation in ("beamw", "beamw_first", "beamw_vlasov")),
 )
-# frequencies of flexure and torsion that 16 to 128 elements approach with orders of 1.1 to 1.3
+# frequencies of bending and torsion with orders of 1.1 to 1.3 from 16 to 128 elements
 SLOW = (("frequency_3", ()), ("frequency_6", ()))
 JOINT = "fold_warping=free", "wagner=0", "tilt=0.1", "steps=10"
 FOLDS = "1,2,4,8,16,32,64,128"
@@ -44,7 +44,7 @@ PRINTED = ("beamw", "sheet_second", "sheet_third", "sheet_third_printed", "sheet
 class Digits(ProgramTest):
 
     def limit(self, case, formulation, given, quantity, meshes):
-        """What the series shows of one quantity."""
+        """Returns the result of the series for one quantity."""
         words = [word for one in given for word in ("--set", one)]
         series, = self.record("converge", case, "-f", formulation, "-n", meshes, "-j", 1,
                               *words)["series"]
@@ -66,8 +66,8 @@ class Digits(ProgramTest):
                 self.assertGreater(found["order"], 1.9)
 
     def test_orders_that_rise(self):
-        """Two of them agree on less than the least order with 128 elements: no verdict of a low
-        order, for the one before does not; 1024 elements show the second order."""
+        """With 128 elements, two orders agree on a value below the minimum, but the order before them does not: the
+        verdict is not a low order. 1024 elements show second order."""
         for quantity, given in SLOW:
             with self.subTest(quantity=quantity, given=given):
                 what = "unsymmetric_column", "beamw", given, quantity
@@ -85,8 +85,8 @@ class Digits(ProgramTest):
             self.assertEqual(fine["verdict"], "wrong limit, as predicted")
 
     def test_shorter_than_the_sheet_is_thick(self):
-        """C_uz_My alike: orders of 4.5 and 4.7 agree up to 128 elements, where none is above four:
-        the limit is doubted accordingly; 1024 meet the prediction."""
+        """C_uz_My: orders of 4.5 and 4.7 agree up to 128 elements, although four is the highest possible. The limit has
+        a correspondingly larger uncertainty; 1024 elements meet the prediction."""
         what = "sheet_cantilever", "sheet_second", ("tip_warping=1", ), "C_uz_My"
         coarse = self.limit(*what, "1,2,3,4,8,16,32,64,128")
         self.assertGreater(coarse["order"], 4.4)
@@ -96,7 +96,7 @@ class Digits(ProgramTest):
         self.assertLess(abs(fine["limit"] / fine["predicted"] - 1), 1e-7)
 
     def from_prediction(self, case, formulation, given, quantity, meshes):
-        """{elements: distance of a stiffness from the predicted limit, relative}"""
+        """Returns {elements: relative distance of a stiffness from the predicted limit}."""
         found = self.limit(case, formulation, given, quantity, meshes)
         return {
             mesh["elements"]: abs(mesh["value"] / found["predicted"] - 1)
@@ -104,8 +104,8 @@ class Digits(ProgramTest):
         }
 
     def test_joints(self):
-        """From 32 elements a sheet on they are shorter than it is thick: the distance from the
-        prediction falls with every mesh, in proportion at least."""
+        """From 32 elements per sheet on, elements are shorter than the sheet is thick: the distance from the prediction
+        decreases with every mesh, at least in proportion."""
         for formulation in PRINTED:
             with self.subTest(formulation=formulation):
                 apart = self.from_prediction("spherical_joint", formulation, JOINT,
@@ -115,7 +115,7 @@ class Digits(ProgramTest):
                 self.assertLess(apart[128], 0.6 * apart[64])
 
     def test_hexapod(self):
-        """The same of its twelve joints at the end of the stroke."""
+        """The same holds for the twelve joints of the hexapod at the end of the stroke."""
         for formulation in PRINTED:
             with self.subTest(formulation=formulation):
                 apart = self.from_prediction("hexapod", formulation, ("wagner=0", ),

@@ -1,4 +1,4 @@
-/* A formulation whose cells end as a test wants it. */
+/* A formulation whose cells end in a given way. */
 #ifndef BEAMWORK_TEST_ENDING_H
 #define BEAMWORK_TEST_ENDING_H
 
@@ -19,7 +19,7 @@ static inline void never_end(int says)
         pause();
 }
 
-/* The formulation that runs on the first case. */
+/* A formulation that runs on the first case. */
 static inline formulation ending_good(void)
 {
     formulation chosen;
@@ -38,11 +38,11 @@ static inline formulation ending_good(void)
     return chosen;
 }
 
-/* The same with another end of the process that sets up its elements: that of a cell. */
+/* The same formulation, but preparing an element ends the process of the cell in the given way. */
 static struct {
     element_type type;
     status (*prepare)(const element_request *, element_data *, fault *);
-    int end, says; /* says: where a cell that never ends says its process */
+    int end, says; /* says: descriptor to which an endless cell writes its process number */
 } ending;
 
 static inline status prepare_end(const element_request *request, element_data *data, fault *f)
@@ -53,7 +53,7 @@ static inline status prepare_end(const element_request *request, element_data *d
         _exit(3);
     if (ending.end == HANGING)
         never_end(ending.says);
-    if (ending.end == STOPPED) /* its own alarm has to wait */
+    if (ending.end == STOPPED) /* its own alarm has no effect while it is stopped */
         raise(SIGSTOP);
     return ending.prepare(request, data, f);
 }

@@ -1,4 +1,5 @@
-/* The limit on which families agree: how many it takes, which one it is, and when there is none. */
+/* Cross-formulation agreement: how many families it requires, which limit it gives, and when there
+ * is none. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ static const element_type type[] = {
     {.name = "misprinted", .family = "grey", .misprint = "Eq. 1", .abi = ELEMENT_ABI}};
 enum { RED_ONE, RED_TWO, BLUE_ONE, GREEN_ONE, BLUE_TWO, MISPRINTED };
 
-/* A sweep of one point and quantity, its series added one by one. */
+/* A sweep of one point and quantity, to which series are added one by one. */
 typedef struct families_bench {
     sweep s;
     sweep_point p;
@@ -43,7 +44,7 @@ static void make(families_bench *b)
     b->s = (sweep){.points = 1, .point = &b->p, .series = b->one};
 }
 
-/* A formulation whose values are limit (1 + size n^-2). */
+/* Adds a formulation with the values limit (1 + size n^-2). */
 static void add(families_bench *b, int which, double limit, double size)
 {
     const int i = b->s.seriess++;
@@ -58,7 +59,7 @@ static void add(families_bench *b, int which, double limit, double size)
     }
 }
 
-/* A red and a blue one agree on 3. */
+/* Adds formulations of the red and the blue family, which agree on 3. */
 static void make_two(families_bench *b)
 {
     make(b);
@@ -113,13 +114,13 @@ static void two_families(void)
     finish(&b);
 }
 
-/* What a third family hardly knows makes neither the limit nor its uncertainty worse. */
+/* A third family whose limit is poorly known makes neither the limit nor its uncertainty worse. */
 static void known_badly(void)
 {
     families_bench b;
     make(&b);
     add(&b, GREEN_ONE, 3, 0.1);
-    for (int k = 0; k < MESHES; k++) /* it goes up and down by 1e-4 */
+    for (int k = 0; k < MESHES; k++) /* its values alternate by 1e-4 */
         b.quantity[0][k].value = 3 * (1 + (k % 2 ? 1e-4 : -1e-4));
     add(&b, RED_ONE, 3, 0.1);
     add(&b, BLUE_ONE, 3.000003, 0.1);
@@ -131,7 +132,7 @@ static void known_badly(void)
     finish(&b);
 }
 
-/* Two against two: nobody knows. Three against two: the three. */
+/* Two families against two give no agreement; of three against two, the three count. */
 static void disputes(void)
 {
     families_bench b;
@@ -149,7 +150,8 @@ static void disputes(void)
     finish(&b);
 }
 
-/* Who knows it best is the centre; who is off by more than it is uncertain by is named. */
+/* The most accurate formulation is the centre; a formulation whose distance exceeds its uncertainty
+ * is named. */
 static void known_best(void)
 {
     families_bench b;
@@ -169,7 +171,8 @@ static void known_best(void)
     finish(&b);
 }
 
-/* Who is kept with its misprint, or is known to be wrong in what the scene has, does not vote. */
+/* A formulation with an uncorrected misprint, or with a known deviation for a feature of the scene,
+ * is excluded. */
 static void known_wrong(void)
 {
     char formulations[] = "red_one", condition[] = "shear", verdicts[] = "wrong limit|undecided";
@@ -191,7 +194,7 @@ static void known_wrong(void)
     finish(&b);
 }
 
-/* Who is not known well agrees with nobody. */
+/* A formulation whose limit is uncertain agrees with no other. */
 static void uncertain(void)
 {
     families_bench b;
@@ -204,7 +207,7 @@ static void uncertain(void)
     finish(&b);
 }
 
-/* Index of the mesh from which on a series is within 1 % of everything, or -1. */
+/* Index of the mesh from which a series is within 1 % in all quantities, or -1. */
 static int every(const families_bench *b, int series_index)
 {
     reach_question q = {.s = &b->s, .quantity = REACH_EVERY, .level = 0.01};
@@ -219,7 +222,8 @@ static int every(const families_bench *b, int series_index)
     return found;
 }
 
-/* The least mesh from which on everything is within 1 %, by agreement where there is no truth. */
+/* Finds the coarsest mesh from which all quantities are within 1 %, with respect to the agreement
+ * if there is no reference value. */
 static void reach(void)
 {
     families_bench b;
@@ -250,7 +254,7 @@ static void families_tests(void)
     reach();
 }
 
-/* Counted work at prices: which rows hold for a formulation, and what a cell costs. */
+/* Cost of counted work: which rows apply to a formulation, and the cost of a cell. */
 
 static const price_row rows[] = {
     {"", PRICE_one, PRICE_one, 1},
@@ -298,7 +302,7 @@ static void who_has_prices(void)
     gsl_test_int(price_own(rows, &f), 1, "prices of its own");
 }
 
-/* The committed table: what a cell costs, of a new formulation too. */
+/* The committed table gives the cost of a cell, also for a new formulation. */
 static void committed(void)
 {
     const cell_result cell = counted();
@@ -323,8 +327,9 @@ static void price_tests(void)
     committed();
 }
 
-/* Which formulation reaches an error: by counted work, never by a clock; what is known to be wrong
- * stands behind; costs nearer than prices are known tie. */
+/* Formulations that reach an error are ranked by counted work, never by measured time. Those known
+ * to be wrong come last, and costs that differ by less than the uncertainty of the cost
+ * coefficients tie. */
 
 enum { SERIES = 4, REACH_MESHES = 4, QUANTITIES = 2 };
 enum { CHEAP, DEAR, OTHER, LAST };
@@ -342,8 +347,8 @@ typedef struct reach_bench {
     int count;
 } reach_bench;
 
-/* Four formulations without prices of their own, exact on every mesh; the reference value is 1. The
- * work of each is ten times that of the one before it. */
+/* Four formulations without cost coefficients of their own, exact on every mesh; the reference
+ * value is 1. The work of each is ten times that of the previous one. */
 static void reach_make(reach_bench *b)
 {
     static const char *const key[SERIES] = {"cheap", "dear", "other", "last"};
@@ -390,14 +395,15 @@ static void by_work(void)
     expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "by work");
     gsl_test_int(reach_ties(b.list, b.count), 1, "one is the cheapest");
     gsl_test_int(b.list[0].mesh, 0, "on the least mesh");
-    for (int i = 0; i < SERIES; i++) /* the first one took longest */
+    for (int i = 0; i < SERIES; i++) /* the first one took the longest time */
         for (int k = 0; k < REACH_MESHES; k++)
             b.cell[i][k].solve.seconds_solve = 1.0 / (1 + i) + k;
     ask(&b, 0, 0.01);
     expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "whatever the clock says");
 }
 
-/* Within 1 % on the coarsest mesh, not on the next: from the third on it counts, with its work. */
+/* A formulation within 1 % on the coarsest mesh, but not on the next one, counts from the third
+ * mesh on, with the work of that mesh. */
 static void by_accident(void)
 {
     reach_bench b;
@@ -456,7 +462,8 @@ static void ties(void)
     gsl_test_int(reach_ties(b.list, 0), 0, "nothing ties");
 }
 
-/* Who has no truth of its theory in one of them, or does not run, is not asked about all. */
+/* A formulation without a reference value of its theory for some quantity, or that does not run, is
+ * excluded from the ranking over all quantities. */
 static void not_asked(void)
 {
     reach_bench b;

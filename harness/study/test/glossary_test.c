@@ -1,4 +1,4 @@
-/* The glossary as packed: damaged ones are refused, words are found however they are written. */
+/* The packed glossary: damaged files are rejected, and words are found whatever their spelling. */
 #include "harness/study/test/truths_file.h"
 
 #include <ctype.h>
@@ -34,7 +34,7 @@ static void a_file_without_one_is_refused(const char *path)
              "no glossary: %s", f.text);
 }
 
-/* Ends of sentences, which initials and "Eq. 7" are not. */
+/* Counts the ends of sentences; initials and "Eq. 7" do not count. */
 static int sentences_of(const char *text)
 {
     int count = 0;

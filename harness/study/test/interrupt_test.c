@@ -1,6 +1,6 @@
-/* No process outlives the one that started it, and who asks to end keeps what is finished. Nothing
- * here depends on the machine's speed: every step waits for an event, and END and WAIT only bound a
- * test that would never end. */
+/* No process outlives the one that started it, and an interrupted run keeps its finished results.
+ * Nothing here depends on the machine's speed: every step waits for an event, and END and WAIT only
+ * bound a test that would never end. */
 #include <gsl/gsl_test.h>
 #include <poll.h>
 #include <signal.h>
@@ -14,14 +14,14 @@
 
 enum { END = 900, WAIT = 120 }; /* [s] */
 
-/* A process that runs a sweep of cells that never end, and what they say of themselves. */
+/* A process that runs a sweep of endless cells, and a descriptor on which they report. */
 typedef struct family {
     pid_t parent;
     int says;
 } family;
 
-/* Child: its exit code is 0 when `sound` cells, then endless ones, gave what the request asks for.
- */
+/* Runs in the child: exits with 0 if `sound` cells, followed by endless ones, gave the expected
+ * results. */
 static int run_endless(const sweep_request *request, int sound, int says)
 {
     static const int mesh[] = {1, 2, 3};
@@ -63,7 +63,8 @@ static family begin_family(const sweep_request *request, int sound)
     return out;
 }
 
-/* The process of a cell that has begun; 0: all who could say so are gone; -1: nothing happens. */
+/* Returns the process of a cell that has started; 0: no process can report any more; -1: nothing
+ * happens. */
 static pid_t next_cell(const family *of)
 {
     struct pollfd end = {.fd = of->says, .events = POLLIN};
@@ -79,7 +80,7 @@ static int exit_code(pid_t process)
     return waitpid(process, &how, 0) == process && WIFEXITED(how) ? WEXITSTATUS(how) : -1;
 }
 
-/* Whoever is killed takes his workers along. */
+/* If a process is killed, its workers end too. */
 static void orphans(void)
 {
     const sweep_request request = {.jobs = 2};
@@ -109,7 +110,7 @@ static char state_of(pid_t process)
     return state;
 }
 
-/* A worker keeps the limit when nobody looks at it. */
+/* A worker enforces its own time limit while its parent is stopped. */
 static void own_limit(void)
 {
     const sweep_request request = {.jobs = 1, .time_limit = 1};
@@ -130,7 +131,7 @@ static void own_limit(void)
     close(of.says);
 }
 
-/* Asked to end, a run keeps the series that are finished, and only those. */
+/* On a request to stop, a run keeps the finished series, and only those. */
 static void interrupted(int number)
 {
     const sweep_request request = {.jobs = 1, .interruptible = 1};
@@ -149,7 +150,7 @@ static int is_asked(const interrupt *i)
     return poll(&end, 1, 0) > 0;
 }
 
-/* What is ignored (nohup) is no request; afterwards everything is as before. */
+/* An ignored signal (nohup) is no request; afterwards the signal mask is restored. */
 static void requests(void)
 {
     interrupt i;
@@ -172,7 +173,8 @@ static void requests(void)
 
 int main(void)
 {
-    signal(SIGINT, SIG_DFL); /* a shell's background job ignores it, and what is ignored stays so */
+    signal(SIGINT, SIG_DFL); /* a background job of a shell ignores it, and an ignored signal stays
+                                ignored */
     alarm(END);
     orphans();
     own_limit();

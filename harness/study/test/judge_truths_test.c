@@ -1,5 +1,5 @@
-/* Which truth judges a made-up series, what of it was expected, stored values of meshes, and what
- * the gate says. */
+/* Reference values in verdicts on an artificial series: which one is used, expected verdicts,
+ * stored values of meshes, and the exit status. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -35,8 +35,8 @@ static void predictions(void)
     bench_free(&b);
 }
 
-/* A formulation is judged by the reference value of its own theory of shear, whatever the scene
- * asks for. */
+/* A formulation is evaluated with the reference value of its own shear theory, whatever the scene
+ * requests. */
 static void theories(void)
 {
     judge_bench b;
@@ -79,8 +79,8 @@ static void publications(void)
     bench_free(&b);
 }
 
-/* Where a limit was derived, a rule is bound by the distance from it, however far the reference
- * value is. */
+/* If a limit was derived, the distance from that limit must be within the range of the rule,
+ * however far the reference value is. */
 static void bound_by_the_derived_limit(void)
 {
     static char kind[] = "wrong limit, as predicted|undecided";
@@ -193,8 +193,8 @@ static void expectations(void)
     bench_free(&b);
 }
 
-/* A reference value of a motion at an instant that the run does not read is not judged by, and is
- * not missed; of a case at rest it is. */
+/* A reference value of a motion at an instant that the run does not evaluate is not used and does
+ * not count as unmet; for a case without a motion it does. */
 static void other_instants(void)
 {
     static const parameter_type both[] = {{"length", "m", 2, 1, 9, NULL, "some length"},
@@ -258,7 +258,8 @@ static void stored_values(void)
     bench_free(&b);
 }
 
-/* Behind the series of another formulation, which has other values on its meshes. */
+/* Stored values are compared with their own series, after that of another formulation with other
+ * values on its meshes. */
 static void of_its_own_series(void)
 {
     judge_bench b;
@@ -304,7 +305,7 @@ static void judge_truths_tests(void)
     of_its_own_series();
 }
 
-/* The judge on made-up series: every kind of verdict, and what of it counts. */
+/* Verdicts on artificial series: every kind, and whether it counts. */
 
 static void limits(void)
 {
@@ -353,7 +354,7 @@ static void orders(void)
     bench_expect(&b, VERDICT_PASS, 0,
                  "changes that the reference value's own uncertainty hides show no order");
     b.row[0].uncertainty = 0;
-    /* changes, from the finest mesh on: orders 1.2, 1.2 and then `earlier` */
+    /* changes, starting with the finest mesh: orders 1.2, 1.2 and then `earlier` */
     const double earlier[] = {1.2, 2.2};
     for (int k = 0; k < 2; k++) {
         double change = 1e-5, value = 3 + change / (pow(2, 1.2) - 1);
@@ -441,8 +442,8 @@ static void failures(void)
     bench_free(&b);
 }
 
-/* Noise is worth measuring where the last change is tiny or the verdict open, and there is a truth.
- */
+/* Measuring noise is useful if the last change is tiny or the verdict is open, and if there is a
+ * reference value. */
 static void doubtful_noise(void)
 {
     judge_bench b;
@@ -459,8 +460,8 @@ static void doubtful_noise(void)
     bench_free(&b);
 }
 
-/* How many limits of exact reference values lie within their uncertainty, also without the finest
- * meshes. */
+/* Counts how many limits lie within their uncertainty of exact reference values, also without the
+ * finest meshes. */
 static void coverages(void)
 {
     judge_bench b;

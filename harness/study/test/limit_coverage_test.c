@@ -1,5 +1,5 @@
-/* How often the limit of a sequence lies within its own uncertainty: in families of convergence
- * whose limit is known, and under noise. Seeds are fixed. */
+/* How often the limit of a sequence lies within its own uncertainty: for families of sequences with
+ * a known limit, and under noise. Seeds are fixed. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_test.h>
@@ -14,14 +14,15 @@ static const double value = 3; /* the limit of all families */
 static const int grid[GRIDS][MOST] = {{1, 2, 4, 8, 16, 32, 64},
                                       {2, 4, 8, 16, 32, 64, 128},
                                       {5, 10, 20, 40, 80, 160, 320},
-                                      {1, 2, 3, 4, 8, 16, 32}, /* loses 3 where it goes beyond */
+                                      {1, 2, 3, 4, 8, 16, 32}, /* 3 is dropped by thinning if 4 is
+                                                                  used */
                                       {2, 4, 8, 16, 30, 32, 64}};
 
-/* What one sequence is made of. */
+/* Parameters of one random sequence. */
 typedef struct draw {
     double order, order_2, order_3;
     double ratio,
-        ratio_3; /* of the second and third term to the first, on the coarsest mesh; signed */
+        ratio_3; /* signed ratios of the second and third term to the first, on the coarsest mesh */
     double bend; /* elements at which the behaviour changes */
     double phase;
     int first, last; /* meshes */
@@ -42,7 +43,7 @@ static double sign(gsl_rng *r)
     return gsl_rng_uniform(r) < 0.5 ? -1 : 1;
 }
 
-/* Errors of mesh i with n elements, before they are scaled. */
+/* Error of mesh i with n elements, before scaling. */
 static double power(const draw *d, int i, double n)
 {
     (void)i;
@@ -76,15 +77,15 @@ static double sine(const draw *d, int i, double n)
     return power(d, i, n) * (1 + d->ratio * sin(d->phase + n));
 }
 
-/* Nothing happens before the mesh resolves something of size 1/bend. */
+/* The error is constant until the mesh resolves a length of 1/bend. */
 static double plateau(const draw *d, int i, double n)
 {
     (void)i;
     return 1 / (1 + pow(n / d->bend, d->order));
 }
 
-/* The mean of what decays from an end over 1/bend of the length: first order before it is resolved,
- * then second. */
+/* Mean of a function that decays from an end over 1/bend of the length: first order before this is
+ * resolved, then second order. */
 static double layer(const draw *d, int i, double n)
 {
     (void)i;
@@ -112,7 +113,7 @@ typedef struct coverage_family {
     error_function *error;
     mixture mixture;
     double order;   /* 0: any of 1, 1.5, 2, 3, 4 */
-    double covered; /* part of the limits that must lie within their uncertainty */
+    double covered; /* fraction of the limits that must lie within their uncertainty */
 } coverage_family;
 
 static const coverage_family families[] = {
@@ -185,7 +186,7 @@ static draw draw_from(gsl_rng *r, const coverage_family *f, const int n[], int m
     return d;
 }
 
-/* What one random sequence of the family shows. */
+/* Result for one random sequence of the family. */
 static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const int *n = grid[gsl_rng_uniform_int(r, GRIDS)];
@@ -193,9 +194,8 @@ static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
     const double round_off = 1e-14,
                  first = sign(r) * between_log(r, 1e-3, 0.3) * value / f->error(&d, 0, n[0]);
     const double usual =
-        fmin(first,
-             0.3 * value /
-                 fabs(f->error(&d, 1, n[1]))); /* where the first two cancel on the coarsest mesh */
+        fmin(first, 0.3 * value / fabs(f->error(&d, 1, n[1]))); /* where the first two terms cancel
+                                                                   on the coarsest mesh */
     double v[MOST];
     for (int i = 0; i < meshes; i++)
         v[i] = value + usual * f->error(&d, i, n[i]) + value * gsl_ran_gaussian(r, round_off);
@@ -203,7 +203,7 @@ static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
     return limit_of(&s);
 }
 
-/* 1: the limit lies within its uncertainty. */
+/* Does the limit lie within its uncertainty? */
 static int is_covered(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const mesh_limit l = shown(r, f, meshes);
@@ -226,7 +226,7 @@ static void coverage_of_families(void)
     gsl_rng_free(r);
 }
 
-/* Noise of every size, known within a factor of three: more or less than what is there. */
+/* Noise of any size, known within a factor of three: more or less than the actual noise. */
 static void coverage_under_noise(void)
 {
     static const coverage_family noisy[] = {{"n^-2", power, ONE_TERM, 2, 0.95},
@@ -257,15 +257,15 @@ static void coverage_under_noise(void)
     gsl_rng_free(r);
 }
 
-/* A low order takes two orders below the least, and one below the nominal before them from
- * which they go one way (study/verdict.c). In families whose order is low that is all that two
- * orders find; where terms of two signs cross, most of it: of those it cannot be told from an
- * accident. Of all passes of verify with 0 to 3 meshes left out two orders alone call four low.
- * Their orders with more elements, each of twice the ones before: bend_45 force=300
- * sheet_third_printed u_tangent 0.88 1.71 1.90 1.98 2.04 (512); sheet_wagner wagner=0
- * sheet_second_consistent C_thy_My 0.98 0.80 1.43 1.82 1.95 (512); unsymmetric_column beamw
- * frequency_1, lumped mass, 1.03 1.08 0.48 1.00 1.63 (256), and frequency_2, averaged
- * mass, 1.29 1.19 0.60 1.04 1.64 (256): above the least, 1.5, not yet 2. */
+/* The verdict "low order" requires two orders below the minimum and, before them, an order below
+ * the nominal one, and the three must be monotonic (study/verdict.c). In families with a low order
+ * this criterion finds as many as two orders alone. Where terms of opposite sign cancel it still
+ * finds most of them, since these cannot be distinguished from an accident. Of all passes of verify
+ * with the 0 to 3 finest meshes omitted, two orders alone would call four low. Their orders with
+ * more elements, each time doubled: bend_45 force=300 sheet_third_printed u_tangent 0.88 1.71 1.90
+ * 1.98 2.04 (512); sheet_wagner wagner=0 sheet_second_consistent C_thy_My 0.98 0.80 1.43 1.82 1.95
+ * (512); unsymmetric_column beamw frequency_1, lumped mass, 1.03 1.08 0.48 1.00 1.63 (256), and
+ * frequency_2, averaged mass, 1.29 1.19 0.60 1.04 1.64 (256): above the least, 1.5, not yet 2. */
 static void low_orders(void)
 {
     static const coverage_family low[] = {
@@ -299,13 +299,13 @@ static void limit_coverage_tests(void)
     coverage_under_noise();
 }
 
-/* The limit of a sequence against sequences worked out by hand, and what happens at the edges. */
+/* Limits of sequences agree with results worked out by hand, including special cases. */
 
 enum { LIMIT_MOST = 7, DOUBLED = 6 };
-static const double limit_value = 3; /* the limit of all sequences of one term */
+static const double limit_value = 3; /* the limit of all one-term sequences */
 static const int mesh[LIMIT_MOST] = {1, 2, 4, 8, 16, 32, 64};
 
-/* Values on 1, 2, 4, ... elements; round-off not measured, nominal order 2. */
+/* Limit from values on 1, 2, 4, ... elements; round-off not measured, nominal order 2. */
 static mesh_limit doubled(int count, const double v[])
 {
     return limit_of(&(limit_sequence){count, mesh, v, NAN, 2, 4, 0});
@@ -316,7 +316,7 @@ static void is_kind(mesh_limit l, limit_kind kind, const char *what)
     gsl_test(l.kind != kind, "%s: %s", what, limit_kind_name(l.kind));
 }
 
-/* limit + size n^-order on meshes n. */
+/* Sets v = limit + size n^-order on meshes n. */
 static void fill(int count, const int n[], double size, double order, double v[])
 {
     for (int i = 0; i < count; i++)
@@ -350,7 +350,7 @@ static mesh_limit of_changes(int changes, const double change[], double noise)
     return limit_of(&(limit_sequence){changes + 1, mesh, v, noise, 2, 4, 0});
 }
 
-/* Sequences worked out by hand on meshes that double: with a ratio r of two changes the limit is
+/* Sequences worked out by hand on meshes that double: with the ratio r of two changes, the limit is
  * change/(r - 1) beyond the last value. */
 static void worked(void)
 {
@@ -360,8 +360,8 @@ static void worked(void)
     gsl_test_abs(of_changes(3, pure, 0).limit_uncertainty, 0, 1e-12, "are of one term");
     gsl_test_rel(of_changes(3, pure, NAN).limit_uncertainty, 1.25 * 0.02 / 3, 1e-6,
                  "2 % of a step is doubted without a measure of noise");
-    /* Ratios 5, 4, 4: the limits are -24 - 4/4 = -25, then twice -25.3333: 1/3 of former change,
-     * reduced by order 2 + 2. */
+    /* Ratios 5, 4, 4: the limits are -24 - 4/4 = -25, then twice -25.3333. The uncertainty is 1/3
+     * of the former change, reduced by orders 2 + 2. */
     gsl_test_rel(of_changes(4, agreeing_by_accident, 0).limit_uncertainty,
                  1.25 * (1.0 / 3 - 0) / 16, 1e-9,
                  "a change of the limit that is small by accident");
@@ -379,8 +379,8 @@ static void worked(void)
     gsl_test(isfinite(slow.order), "is not believed");
 }
 
-/* Two values say no order: first order is assumed, three times the change and four noises. Three
- * values never say two. */
+/* Two values show no order: first order is assumed, and the uncertainty is three times the change
+ * plus four times the noise. Three values never show two orders. */
 static void few_meshes(void)
 {
     const double v[] = {1, 1.5, 1.75};
@@ -427,8 +427,8 @@ static void settled(void)
     gsl_test_rel(l.order, 8, 0.02, "shows its order above it");
 }
 
-/* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]: from 64 elements on the trace
- * of another term comes into sight, orders of 4.5 and 4.7 agree where four is the highest, and the
+/* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]: from 64 elements on another
+ * term contributes, orders of 4.5 and 4.7 agree although four is the highest possible, and the
  * limits seem to settle. 1024 elements show the limit. */
 static void orders_beyond_the_highest(void)
 {
@@ -465,7 +465,8 @@ static void out_of_order(void)
     is_kind(doubled(DOUBLED, v), LIMIT_SETTLED, "alternating beyond interest");
 }
 
-/* Failed meshes, meshes too close, any order of them. */
+/* Failed meshes and meshes too close to each other are ignored; the order of the meshes does not
+ * matter. */
 static void gaps(void)
 {
     const int n[] = {32, 1, 2, 4, 8, 16, 31, 3};
@@ -478,7 +479,7 @@ static void gaps(void)
     mesh_limit l = limit_of(&(limit_sequence){8, n, v, NAN, 2, 4, 0});
     gsl_test_int(l.meshes, 4, "meshes without a value or too close are left out");
     gsl_test_rel(l.limit, limit_value, 1e-9, "the others have a limit");
-    v[4] = NAN; /* 4, 16, 32 are left */
+    v[4] = NAN; /* 4, 16, 32 remain */
     l = limit_of(&(limit_sequence){8, n, v, NAN, 2, 4, 0});
     gsl_test_rel(l.order, 2, 1e-6, "a gap in the middle changes the ratio only");
     const int close[] = {1, 2, 3, 4};

@@ -1,8 +1,7 @@
-/* Memory that runs out: every allocation of a few small cells, of the reference values and of a
- * result file is refused once. Each time the answer is a fault with one line that says so, or the
- * right answer when the memory was not essential, and nothing leaks. Linked with --wrap: calls of
- * our own code.
- */
+/* Memory exhaustion: every allocation of a few small cells, of the reference values and of a
+ * results file fails once. Each time the result is FAULT with a one-line message, or the correct
+ * result if the memory was not essential, and nothing leaks. Linked with --wrap, which intercepts
+ * calls in this program's code. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,7 +27,7 @@ char *__wrap_strdup(const char *text);
 FILE *__wrap_open_memstream(char **text, size_t *size);
 char *__wrap_strndup(const char *text, size_t size);
 
-static long calls, refused_call, live; /* refused_call: 0 none */
+static long calls, refused_call, live; /* refused_call: number of the call that fails; 0: none */
 
 static int refuse(void)
 {
@@ -78,7 +77,7 @@ char *__wrap_strdup(const char *text)
     return __wrap_strndup(text, strlen(text));
 }
 
-/* What it writes is freed by us. */
+/* The caller frees what the stream writes. */
 FILE *__wrap_open_memstream(char **text, size_t *size)
 {
     FILE *file = refuse() ? NULL : __real_open_memstream(text, size);
@@ -86,10 +85,11 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
     return file;
 }
 
-/* What is tried: 0 after `value` (a sum of what came out) was set. */
+/* A tested operation; *value: a sum over its results. Returns STATUS_OK after *value was set. */
 typedef status memory_attempt(const void *what, double *value, fault *f);
 
-/* Once whole, then with the k-th allocation refused, k = 1, 1 + step, ... */
+/* Runs the operation once with enough memory, then with the k-th allocation failing, k = 1, 1 +
+ * step, ... */
 static void exhaust(const char *name, memory_attempt *run, const void *what, int most)
 {
     double right = NAN;
@@ -165,7 +165,8 @@ static status read_truths(const void *what, double *value, fault *f)
     return outcome;
 }
 
-/* A scene file, its scene and its truths: how many of them, and where its nodes are. */
+/* Reads a scene file, its scene and its reference values; value: number of the latter plus
+ * positions of nodes. */
 static status read_scene(const void *what, double *value, fault *f)
 {
     scene_file *file = NULL;
@@ -208,7 +209,8 @@ static status write_results(const void *what, double *value, fault *f)
         outcome = store_write(what, NULL, &s, &j, &e, f);
     *value = access(what, F_OK) == 0;
     if (outcome != STATUS_OK && *value != 0)
-        fault_set(f, STATUS_OK, "a file\nwas left"); /* seen as a failure without a line */
+        fault_set(f, STATUS_OK, "a file\nwas left"); /* reported as a failure whose message is not
+                                                        one line */
     unlink(what);
     judgement_free(&j);
     sweep_free(&s);

@@ -1,11 +1,11 @@
-"""Modes that cross between coarse meshes (rule meshes-high-modes): at the place of a high mode they
-have another one, so that the limit is not known well; one mesh more passes."""
+"""Modes that cross between coarse meshes (rule meshes-high-modes): on the coarse meshes another mode takes the number
+of a high mode, so that the limit is uncertain; with one more mesh, the verdict is a pass."""
 import unittest
 
 from harness.tools.kit.program import ProgramTest
 
-# case, formulation, parameters, quantity, its other place on the coarsest mesh that counts; meshes:
-# that one, the next one, those of the verdict, one more
+# case, formulation, parameters, quantity, the quantity that has the mode on the coarsest mesh used; meshes: this one,
+# the next one, those of the verdict, one more
 CROSSINGS = (
     ("c_column", "beamw:mass=lumped", (), "frequency_12", "frequency_11",
      (8, 16, 32, 64, 128, 256)),
@@ -25,7 +25,7 @@ COARSE = (
 
 class Modes(ProgramTest):
     def series(self, case, formulation, given, meshes):
-        """{quantity: record} of a series."""
+        """Returns {quantity: record} of a series."""
         words = [word for one in given for word in ("--set", one)]
         found, = self.record("converge", case, "-f", formulation, "-j", 1, "-n",
                              ",".join(map(str, meshes)), *words)["series"]
@@ -42,8 +42,8 @@ class Modes(ProgramTest):
                 self.assertLess(abs(found["order"] - 2), 0.01)
 
     def test_modes_cross(self):
-        """Order 2 from the finer meshes says where the mode is on the coarsest one: at the other
-        place, and not at its own."""
+        """Extrapolation with order 2 from the finer meshes gives the frequency of the mode on the coarsest mesh: it is
+        that of the other quantity, not of its own."""
         for case, formulation, given, quantity, other, meshes in CROSSINGS:
             with self.subTest(case=case, formulation=formulation, quantity=quantity):
                 found = self.series(case, formulation, given, meshes)

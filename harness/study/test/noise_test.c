@@ -1,5 +1,5 @@
-/* Noise of a finest mesh: measured where it is wanted, twice the larger difference, and nothing but
- * rounding. */
+/* Noise of a finest mesh: measured on request, twice the larger difference, and due to rounding
+ * only. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -10,8 +10,8 @@
 
 static const sweep_request request = {.jobs = 2};
 
-/* All formulations on one case, meshes of one and two elements, run with that follower; the series
- * of formulations that do not run stay empty. */
+/* Runs all formulations on one case, with meshes of one and two elements and the given follower;
+ * series of formulations that do not run stay empty. */
 static int measure(const case_type *type, const sweep_follower *follower, sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -39,7 +39,7 @@ static int all_but_the_first(void *context, const sweep *s, int series_index)
     return series_index > 0;
 }
 
-/* Rounding only, also of formulations that answer to the order of nodes. */
+/* Noise is due to rounding only, also for formulations that depend on the order of nodes. */
 static void rounding(const case_type *type)
 {
     sweep s;
@@ -62,7 +62,7 @@ static void rounding(const case_type *type)
     sweep_free(&s);
 }
 
-/* What the finest mesh has by accident. */
+/* A change of the value on the finest mesh. */
 typedef struct accident {
     sweep *of;
     double factor;
@@ -76,7 +76,7 @@ static int change(void *context, const sweep *s, int series_index)
     return 1;
 }
 
-/* A value that was changed by hand differs from both repetitions by that much. */
+/* A changed value differs from both repetitions by the change. */
 static void size_of_it(const case_type *type)
 {
     for (int k = 0; k < 2; k++) {
@@ -96,7 +96,7 @@ static void size_of_it(const case_type *type)
     }
 }
 
-/* One value of a case and formulation, its scene in other words. */
+/* One value of a case and formulation, with an equivalent scene. */
 static double in_other_words(const case_type *type, const formulation *chosen, scene_edit edit,
                              int quantity)
 {
@@ -114,7 +114,7 @@ static double in_other_words(const case_type *type, const formulation *chosen, s
     return out;
 }
 
-/* Both repetitions count, whichever is the worse. */
+/* The larger of the two differences counts, whichever repetition it belongs to. */
 static void larger_of_two(const case_type *type)
 {
     sweep s;
@@ -141,7 +141,7 @@ static void larger_of_two(const case_type *type)
     sweep_free(&s);
 }
 
-/* One mesh of a point of a case. */
+/* Runs one mesh at a point of a case. */
 static void run_values(const char *name, const char *text, int values_only, sweep *s)
 {
     static const int mesh[] = {2};
@@ -156,7 +156,8 @@ static void run_values(const char *name, const char *text, int values_only, swee
     gsl_test(run_sweep(&request, s, &f) != STATUS_OK, "run %s", f.text);
 }
 
-/* What only curves and matrices show costs nothing, and the values have the same bits. */
+/* Values needed only for curves and matrices are not computed, and the other values are bit-for-bit
+ * equal. */
 static void values_only(const char *name, const char *text)
 {
     sweep whole, some;
@@ -193,12 +194,12 @@ static void noise_tests(void)
     larger_of_two(case_find("elastica", &f));
 }
 
-/* Every cell is a task once; those of the dearest series come first, then the others in order, and
- * of a series the finest. */
+/* Every cell occurs once among the tasks; those of the most expensive series come first, then the
+ * others in order, and within a series the finest mesh first. */
 
 static const int mesh[] = {1, 2, 4};
 
-/* All formulations on a case. */
+/* Adds all formulations on a case. */
 static void add(const char *name, sweep *s)
 {
     formulation all[64];
@@ -222,7 +223,7 @@ static double expense_of(const sweep *s, int index)
     return all;
 }
 
-/* Is what goes into the series less than a hundredth of the work of one process? */
+/* Is the cost of the series less than a hundredth of the work of one process? */
 static int is_small(const sweep *s, int jobs, int index)
 {
     double all = 0;
@@ -273,7 +274,7 @@ static void order(int jobs)
     sweep_free(&s);
 }
 
-/* What the analyses of a case at its defaults do. */
+/* Checks the counted work of the analyses of a case at its defaults. */
 static void counted(const char *name, expense_kind kind, double wanted)
 {
     fault f = {""};
@@ -291,7 +292,8 @@ static void counted(const char *name, expense_kind kind, double wanted)
     scene_free(&s);
 }
 
-/* Steps that adapt are counted by the tolerance: more by a power of it, each of Radau's longer. */
+/* Adaptive steps are counted from the tolerance: their number is a power of it, and Radau's steps
+ * are longer. */
 static void adapts(void)
 {
     const double instant = 3;
@@ -314,7 +316,7 @@ static void adapts(void)
     scene_free(&s);
 }
 
-/* Every price is known, and some formulation has a row of its own. */
+/* Every cost coefficient is known, and at least one formulation has a row of its own. */
 static void prices(void)
 {
     double all = 0;

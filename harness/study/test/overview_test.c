@@ -1,5 +1,5 @@
-/* The overview: of each case and formulation the worst, what is unexpected before all; the sentence
- * that closes a run. */
+/* The overview: the worst verdict of each case and formulation, with unexpected verdicts first; and
+ * the sentence that ends a run. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 
 enum { VERDICTS = 40 };
 
-/* Two cases, three formulations; the verdicts are made up. */
+/* Two cases, three formulations; the verdicts are artificial. */
 typedef struct run {
     sweep s;
     sweep_point point[2];
@@ -59,7 +59,7 @@ static void shows(const run *r, int row, int column, const char *ascii, const ch
     overview_free(&o);
 }
 
-/* Each kind alone, and each before those that are calmer, in any order. */
+/* Each kind of verdict is shown alone, and in preference to less severe ones, in any order. */
 static void the_worst(void)
 {
     static const verdict_kind rising[] = {VERDICT_SKIP,
@@ -85,7 +85,7 @@ static void the_worst(void)
         }
 }
 
-/* One that nobody expected comes before ten that are worse. */
+/* One unexpected verdict is shown in preference to ten worse ones. */
 static void the_unexpected(void)
 {
     run r;
@@ -150,7 +150,7 @@ static void sentences(void)
     says(&r, "");
 }
 
-/* One is told as one. */
+/* A count of one is written in the singular. */
 static void single_ones(void)
 {
     run r;
@@ -200,7 +200,7 @@ static void single_ones(void)
              "none needs a known deviation.");
 }
 
-/* Formulations with options share columns where they are many. */
+/* Formulations with options share columns if there are many of them. */
 static void columns(void)
 {
     enum { MANY = 30 };
@@ -222,7 +222,7 @@ static void columns(void)
     }
 }
 
-/* They stand behind the others, whatever their order in the run. */
+/* New formulations are listed after the others, whatever their order in the run. */
 static void new_ones(void)
 {
     static const element_type mine = {.name = "mine"};
@@ -260,16 +260,16 @@ static void overview_tests(void)
     new_ones();
 }
 
-/* What the gate says of its counts, and the tables of "reached with n elements", both against what
- * they should be by their definition. */
+/* The exit status depends on the counts as defined, and so do the tables of "reached with n
+ * elements". */
 
-/* Counts of which each alone fails the gate. */
+/* Counts each of which makes the run fail. */
 static const size_t failing[] = {
     offsetof(judgement, unexpected), offsetof(judgement, disagreements),
     offsetof(judgement, unobserved), offsetof(judgement, unmet),
     offsetof(judgement, flaws),      offsetof(judgement, breaches),
     offsetof(judgement, regressions)};
-/* Counts of what was checked: with none of these there is no answer. */
+/* Counts of checks: if all of these are zero, nothing was evaluated. */
 static const size_t checking[] = {offsetof(judgement, judged), offsetof(judgement, agreements)};
 enum {
     FAILING = sizeof failing / sizeof failing[0],
@@ -301,7 +301,7 @@ static void set(judgement *j, size_t offset, int value)
     memcpy((char *)j + offset, &value, sizeof value);
 }
 
-/* Every count of the judgement, one by one: a new one is walked too. */
+/* Changes every count of the judgement, one by one, including new ones. */
 static void exit_codes(void)
 {
     int walked = 0;
@@ -322,7 +322,8 @@ static void exit_codes(void)
         judgement none = {0};
         set(&none, at, 1);
         const int broken = at == offsetof(judgement, breaches) ||
-                           at == offsetof(judgement, regressions); /* fail without a verdict */
+                           at == offsetof(judgement, regressions); /* these fail even without a
+                                                                      verdict */
         gsl_test_int(judgement_exit(&none),
                      is_among(at, CHECKING, checking) ? 0
                      : broken                         ? 1
@@ -345,7 +346,7 @@ static void failures_together(void)
 
 static const double truth_value = -4;
 
-/* A series with times, and the verdict that reach is asked of. */
+/* A series with times, and the verdict used for the mesh that reaches an error. */
 typedef struct timed {
     judge_bench b;
     cell_timing timing[MESHES];
@@ -368,7 +369,7 @@ static double uniform(void)
     return rand() / (RAND_MAX + 1.0);
 }
 
-/* Errors of every size and sign, also exactly at a level, also none. */
+/* Random errors of every size and sign, some exactly at a level, some missing. */
 static void throw_errors(double error[MESHES])
 {
     for (int i = 0; i < MESHES; i++) {
@@ -380,13 +381,13 @@ static void throw_errors(double error[MESHES])
     }
 }
 
-/* From which mesh on is every error within the level?  Tried one by one. */
+/* From which mesh on is every error within the level? Tests each mesh in turn. */
 static int by_definition(const double error[MESHES], double level)
 {
     for (int first = 0; first < MESHES; first++) {
         int all = 1;
         for (int i = first; i < MESHES; i++)
-            all = all && fabs(error[i]) <= level; /* NAN is not */
+            all = all && fabs(error[i]) <= level; /* false for NAN */
         if (all)
             return first;
     }
@@ -404,7 +405,7 @@ static void meshes_reached(void)
         for (int i = 0; i < MESHES; i++) {
             t.b.quantity[i].value = truth_value + error[i] * fabs(truth_value);
             error[i] = verdict_error(&t.b.p.scene.quantity[0], t.b.quantity[i].value, truth_value);
-            t.timing[i].as_is.round[0] = uniform(); /* which has no say */
+            t.timing[i].as_is.round[0] = uniform(); /* without effect */
         }
         for (int k = 0; k < REACH_LEVELS; k++) {
             const int right = by_definition(error, reach_level[k]);
@@ -419,15 +420,15 @@ static void meshes_reached(void)
     bench_free(&t.b);
 }
 
-/* Levels as they are named in every table. */
+/* The levels are those named in every table. */
 static void levels(void)
 {
     for (int k = 0; k < REACH_LEVELS; k++)
         gsl_test_rel(reach_level[k], pow(10, -1 - k), 1e-15, "level %d", k);
 }
 
-/* Nothing is reached without a reference value, without the formulation, or by a value that is not
- * there. */
+/* Nothing is reached without a reference value, without the formulation, or with a missing
+ * value. */
 static void unreached(void)
 {
     timed t;
@@ -458,19 +459,20 @@ static void gate_tests(void)
     unreached();
 }
 
-/* When a limit is the one that was derived: at the edges of what is known of both, on either side
- * of the reference value, and wherever the uncertainty comes from. */
+/* When a limit counts as the derived one: at the edges given by the uncertainties, on either side
+ * of the reference value, and whatever the source of the uncertainty. */
 
-static const double just = 3e-3; /* inside or outside of an edge, in parts of its distance */
+static const double just = 3e-3; /* distance inside or outside an edge, relative to the distance of
+                                    the edge */
 
-/* The verdict with a prediction that is so far above the limit (below: negative). */
+/* Verdict with a prediction at the distance `apart` above the limit (negative: below). */
 static verdict_kind judged(judge_bench *b, double limit, double apart)
 {
     b->row[1].value = limit + apart;
     return bench_judge(b)->kind;
 }
 
-/* The prediction is met up to the distance `edge` from the limit, and no farther. */
+/* The prediction is met up to the distance `edge` from the limit, but not beyond. */
 static void edges(judge_bench *b, double edge, verdict_kind beyond, const char *what)
 {
     const double limit = bench_judge(b)->fit.limit;
@@ -490,13 +492,13 @@ static void with_prediction(judge_bench *b, double limit)
 {
     static double none[1] = {0};
     bench_make(b);
-    b->one.noise = none; /* it was measured */
+    b->one.noise = none; /* measured: zero */
     bench_fill(b, limit, 0.7, 2);
     bench_add_prediction(b, limit);
 }
 
-/* A limit that is known well: the prediction's own uncertainty, whatever the error's size and sign;
- * a part of the error, small as it is, explains nothing. */
+/* For an accurately known limit, the uncertainty of the prediction decides, whatever the size and
+ * sign of the error; even a small fraction of the error is too far. */
 static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};
@@ -519,7 +521,7 @@ static void sharp_limits(void)
     }
 }
 
-/* Three uncertainties of a limit that is not known well. */
+/* For an uncertain limit, three times its uncertainty decides. */
 static void uncertain_limits(void)
 {
     judge_bench b;
@@ -534,7 +536,8 @@ static void uncertain_limits(void)
     bench_free(&b);
 }
 
-/* Within the tolerance a sharp limit of its own is biased, unless it is the derived one. */
+/* An accurately known, different limit within the tolerance is biased, unless it is the derived
+ * one. */
 static void biases(void)
 {
     static const double error[] = {2e-4, -2e-4};
@@ -558,7 +561,7 @@ static void biases(void)
     }
 }
 
-/* A limit that is not settled is not what was derived, even if both agree. */
+/* A limit that has not settled does not count as the derived one, even if both agree. */
 static void undecided(void)
 {
     judge_bench b;
@@ -585,6 +588,7 @@ int main(void)
 {
     gate_tests();
     predicted_tests();
-    overview_tests(); /* last: it loads a formulation, after which verdicts of others count less */
+    overview_tests(); /* last, because it loads a formulation, after which verdicts of others do not
+                         affect the exit status */
     return gsl_test_summary();
 }

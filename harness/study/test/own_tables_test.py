@@ -1,4 +1,4 @@
-"""Studies with tables of one's own, and modes followed over a parameter."""
+"""Verification with user tables, and modes followed over a parameter."""
 import csv
 import io
 import subprocess
@@ -7,7 +7,8 @@ import unittest
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT
 
 
-# Findings and truths of one's own project beside ours: a private repository can gate by them.
+# Known deviations and reference values of a user's project, in addition to the built-in ones: a private repository can
+# use them in its CI.
 EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
 RULES = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof"
 ROWS = ("case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,"
@@ -60,13 +61,13 @@ class Own(ProgramTest):
 
     @staticmethod
     def dip(factor):
-        """A row with the deflection of a slender cantilever, or a multiple of it."""
+        """Returns a row with the deflection of a slender cantilever, or a multiple of it."""
         value = 0.1 * 0.1**3 / 3 / (210e9 * 50e-3 * 0.5e-3**3 / 12)
         return f"leaf,,,,,dip,,{factor * value:.12g},m,{1e-4 * value},exact,same,,beam theory"
 
     @staticmethod
     def explained(needed):
-        """Each rule that was proposed gets its cause and proof."""
+        """Gives each proposed rule a cause and a proof."""
         text = needed.read_text(encoding="utf-8")
         needed.write_text(text.replace('"to be found: why is this not a pass?",', "planted,test"),
                           encoding="utf-8")
@@ -81,7 +82,7 @@ class Own(ProgramTest):
 class Findings(Own):
 
     def test_what_is_proposed_explains(self):
-        """A fault is red by an empty table, and explained by the rules that were proposed."""
+        """A fault is unexpected with an empty table, and explained by the proposed rules."""
         empty = self.write("empty.csv", RULES)
         self.verified("right", "--deviations", empty)
         out = self.verified("wrong", "--deviations", empty, code=1).stdout
@@ -103,20 +104,21 @@ class Findings(Own):
         self.assertIn("of known deviation", self.verified("wrong", "--deviations", small, code=1).stdout)
 
     def test_a_rule_nobody_shows(self):
-        """Told where all that it speaks of was run, with its place in the file."""
+        """A rule that is not observed is reported, with its position in the file, if everything that it applies to was
+        run."""
         rule = "old,collocation,leaf,,*,wrong limit,0.1,,once,paper"
         truths = self.write("t.csv", ROWS, self.dip(1))
         run = ("verify", "-f", "collocation", "--scene", self.scene(), "--truths", truths)
         path = self.write("f.csv", RULES, rule)
-        self.answered(*run, "--deviations", path, "-k", "dip")  # of a part: it may lie outside
+        self.answered(*run, "--deviations", path, "-k", "dip")  # with a selection, the deviation may lie outside it
         out = self.answered(*run, "--deviations", path, code=1).stdout
         self.assertIn(f"known deviation old ({path}:2) was not observed", " ".join(out.split()))
         for change in (("collocation", "collocation beamw"), ("leaf", "leaf elastica")):
-            other = self.write("o.csv", RULES, rule.replace(*change))  # others may show it
+            other = self.write("o.csv", RULES, rule.replace(*change))  # other formulations or cases may show it
             self.answered(*run, "--deviations", other)
 
     def test_a_rule_nobody_shows_of_a_selected_case(self):
-        """A case that is selected by its name alone is run as a whole."""
+        """A case that is selected only by its name is run completely."""
         path = self.write("f.csv", RULES,
                           "old,timoshenko,tapered_cantilever,,*,undecided,0.1,,once,paper")
         for select, code in (("tapered_cantilever", 1), ("elastica or tapered_cantilever", 1),
@@ -161,7 +163,7 @@ class Findings(Own):
 
 
 class Repository(Own):
-    """The lines of a page, in a folder of a project."""
+    """The commands of a documentation page, run in the folder of a project."""
 
     def test_gate_of_a_repository(self):
         page = (ROOT / "docs" / "tutorials" / "element_in_c.md").read_text(encoding="utf-8")
@@ -184,7 +186,7 @@ class Repository(Own):
         self.assertEqual(codes, [0, 0, 0, 0, 1])
 
     def called(self, words):
-        """A line with the places of this clone; two cases are enough."""
+        """Runs a command with the paths of this clone; two cases are enough."""
         program = [str(ROOT) if w == "beamwork" else w for w in words]
         if program[0].endswith("/beamwork"):
             program = [PROGRAM, *program[1:], "-k", "elastica or tapered_cantilever/default"]
@@ -195,7 +197,7 @@ class Truths(Own):
     row = "elastica,{at},,,,w_over_L,,{value},1,1e-9,independent,same,,my program"
 
     def test_beside(self):
-        """A point of one's own is run, and judged by its value alone."""
+        """A user-defined point is run and evaluated only with the user's value."""
         for value, code in ((0.5, 1), (0.1923502802, 0)):
             path = self.write("t.csv", ROWS, self.row.format(at="load=0.6", value=value))
             out = self.answered("verify", "-k", "elastica/load=0.6 and w_over_L", "-f",
@@ -241,12 +243,13 @@ class Truths(Own):
         self.refused(2, "packed reference values", "verify", "--truths", "a.h5", "--truths", "b.h5")
 
 
-# Modes followed over a parameter: numbers that stay where frequencies cross, exact laws along each
-# curve, and frequencies that avoid each other.
+# Modes followed over a parameter: numbers that do not change where frequencies cross, exact laws along each curve, and
+# frequencies that avoid each other.
 FORMULATIONS = ("beamw", "beamw_vlasov", "beamw_consistent", "sheet_second", "sheet_third",
                 "geometrically_exact", "collocation")
 
-# Bending in both planes, f ~ thickness and f ~ width: they cross where the section is square.
+# Bending in both planes: f is proportional to the thickness and to the width; the frequencies cross where the section
+# is square.
 CANTILEVER = """beamwork: 1
 parameters:
   width: {value: 5e-3, unit: m, min: 1e-4, max: 1, about: "across"}
@@ -272,7 +275,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 PLAIN = CANTILEVER.replace("MASS", "").replace("WANTED", "4")
 COUPLED = CANTILEVER.replace("WANTED", "2").replace(
     "MASS", ", mass: 1e-3, inertia: [2e-5, 2e-5, 2e-5, 0, coupling, 0]")
-# Torsion falls as 1/length, bending as its square: no tie between them.
+# Torsional frequencies are proportional to 1/length, bending frequencies to 1/length^2; the modes are not coupled.
 TWIST = PLAIN.replace("It: 1e-3*width*thickness", "It: 1e-12").replace("1..4", "1..6").replace(
     "wanted: 4", "wanted: 6")
 
@@ -288,8 +291,8 @@ class Follow(ProgramTest):
         self.assertLess(max(curve) / min(curve) - 1, tolerance, what)
 
     def test_crossing(self):
-        """Every formulation: the modes cross at the square section and obey their laws before and
-        behind it, also where a value is the crossing itself."""
+        """With every formulation, the modes cross at the square section and obey their laws before and after it, also
+        if the crossing itself is one of the values."""
         for formulation in FORMULATIONS:
             for over in ("width=5e-3..12e-3/7", "width=12e-3..4.5e-3/3"):
                 got = self.follow(PLAIN, formulation, over)
@@ -308,7 +311,7 @@ class Follow(ProgramTest):
                 self.assertEqual([e for e in got["events"] if e["kind"] == "veering"], [])
 
     def test_torsion(self):
-        """Torsion and bending over the length; a crossing where the two laws say."""
+        """Torsion and bending over the length cross where the two laws are equal."""
         got = self.follow(TWIST, "collocation", "length=0.3..1.5/12")
         values, curves = got["values"], [c["frequency"] for c in got["curves"]]
         powers = {1: [], 2: []}
@@ -327,8 +330,8 @@ class Follow(ProgramTest):
             self.assertLess(abs(found[0] / known[0] - 1), 1e-8)
 
     def test_veering(self):
-        """A body whose axes lie askew ties the two planes: they no longer cross, however coarse the
-        values that are asked for, and come closest near the square."""
+        """A body with oblique axes couples the two planes: the frequencies no longer cross, however coarse the
+        requested values, and are closest near the square section."""
         for parts in (1, 2, 9):
             got = self.follow(COUPLED, "collocation", f"width=6e-3..10e-3/{parts}", "--set",
                               "coupling=1e-5")

@@ -1,6 +1,5 @@
-/* Which cells a verification consists of: the points of the reference values, each once, and their
- * meshes. A row that holds at any value of a parameter (*) makes no point of its own, and speaks of
- * all. */
+/* The cells of a verification: the points of the reference values, each once, and their meshes. A
+ * row that is valid for any value of a parameter (*) adds no point and applies to all. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +12,7 @@
 enum { ROWS = 4, OWN_MESH = 37 };
 static char plan_words[][32] = {"", "exact", "same", "m", "geometrically_exact"};
 
-/* The first two parameters of a case that are plain numbers. */
+/* Finds the first two numeric parameters of a case. */
 static int numbers_of(const case_type *type, int out[2])
 {
     int count = 0;
@@ -37,7 +36,8 @@ static truth row_of(const case_type *type)
     return row;
 }
 
-/* Of one case; *own: those of its series of that formulation that have the mesh of a row. */
+/* Counts the points of one case; *own: number of its series of that formulation that contain the
+ * mesh of a row. */
 static int count_points(const sweep *s, const case_type *type, int *own)
 {
     int points = 0;
@@ -90,8 +90,8 @@ static void points(const case_type *type, const int number[2])
     expect(type, 3, row, 2, 0, "of one that holds at none of them");
 }
 
-/* Each series has so many meshes more, the last one of 2^n times the elements; the others as
- * before. */
+/* Each series has the given number of additional meshes, the last one with 2^n times the elements;
+ * the other meshes do not change. */
 static void doublings(void)
 {
     const truths none = {.rows = 0};
@@ -114,8 +114,8 @@ static void doublings(void)
     sweep_free(&two);
 }
 
-/* The first case of the registry with as many meshes as a scene can have, or with one of so many
- * elements. */
+/* The first case of the registry, with as many meshes as a scene can have, or with the given number
+ * of elements. */
 static status with_meshes(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};
@@ -148,7 +148,7 @@ static void refuses(double elements, int doublings, const char *refusal)
     sweep_free(&s);
 }
 
-/* What does not fit is refused: no mesh is left out. */
+/* Too many meshes or elements are rejected; no mesh is omitted. */
 static void too_many(void)
 {
     refuses(0, 0, NULL);
@@ -174,8 +174,9 @@ static void plan_tests(void)
     gsl_test(cases < 10, "%d cases have two numbers", cases);
 }
 
-/* What physics that is left out changes: bounds against fine meshes, on beams of any thickness
- * under any load, and on every case at its defaults; what cannot be bounded is another model. */
+/* Effect of omitted physics: bounds agree with fine meshes, for beams of any thickness under any
+ * load, and for every case at its defaults; if there is no bound, the model counts as another
+ * one. */
 
 static const double length = 0.1, young = 2e11, shear_modulus = 8e10;
 
@@ -189,7 +190,7 @@ typedef enum omission_acting {
 } omission_acting;
 static const char *const names[LOADINGS] = {"no load", "bent", "twisted", "buckled", "vibrating"};
 
-/* A clamped leaf of that thickness. */
+/* A clamped leaf of the given thickness. */
 static void leaf(scene *s, double thickness, omission_acting how, int held)
 {
     const double y_axis[3] = {0, 1, 0}, end = 1;
@@ -221,7 +222,7 @@ static void leaf(scene *s, double thickness, omission_acting how, int held)
     }
 }
 
-/* A formulation without shear that can do the rest. */
+/* A formulation without shear that supports everything else. */
 static const element_type *rigid_one(const scene *s)
 {
     for (int i = 0; registry_formulations[i] != NULL; i++)
@@ -252,7 +253,7 @@ static void of_leaf(double thickness, omission_acting how)
     scene_free(&s);
 }
 
-/* Bounds of a case, against its own meshes. */
+/* Compares the bounds for a case with its own meshes. */
 static int of_case(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -286,7 +287,7 @@ static int of_case(const case_type *type)
     return seen;
 }
 
-/* Nothing holds it: no solution, no bound. */
+/* Without supports there is no solution and no bound. */
 static void loose(void)
 {
     scene s;

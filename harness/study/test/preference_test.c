@@ -1,4 +1,4 @@
-/* The choice of a formulation and of a mesh, where nobody chose. */
+/* The default choice of a formulation and of a mesh. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -27,7 +27,7 @@ static preference_chosen choose(const scene *s, const case_type *type, const dou
     return out;
 }
 
-/* A ledger of one rule. */
+/* A list of known deviations with one rule. */
 static rule made_up(char *formulations, char *cases, char *verdicts)
 {
     static char any[] = "*", none[] = "";
@@ -43,7 +43,7 @@ static rule made_up(char *formulations, char *cases, char *verdicts)
                   .largest_error = 1};
 }
 
-/* What is chosen offers all, and gives way to the ledger. */
+/* The chosen formulation supports the whole scene, and a known deviation changes the choice. */
 static void of_case(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -74,8 +74,8 @@ static void of_case(const case_type *type)
     scene_free(&s);
 }
 
-/* The mesh is one of the scene's, or the finest of them doubled, and settled where nothing else is
- * said. */
+/* The chosen mesh is one of the scene's or the finest of them doubled, and it has converged unless
+ * stated otherwise. */
 static void of_meshes(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -120,12 +120,12 @@ static void nothing_offers_all(void)
     const case_type *type = registry_cases[0];
     parameters_default(type, value);
     cell_scene(type, value, NULL, &s, &f);
-    scene_demand(&s, FEATURE_END); /* which nobody has, and nobody can leave out */
+    scene_demand(&s, FEATURE_END); /* no formulation has this feature, and none can omit it */
     gsl_test(choose(&s, type, value, NULL, 0).outcome != STATUS_REFUSED, "refused");
     scene_free(&s);
 }
 
-/* Only one is accepted: it is chosen, or nothing is. */
+/* If only one formulation is accepted, it is chosen or none is. */
 static void no_new_one(void)
 {
     const element_type *accepted = registry_formulations[0];
@@ -157,8 +157,8 @@ static void preference_tests(void)
     no_new_one();
 }
 
-/* A cell's result on its way between processes: everything arrives as it was sent, bit for bit, and
- * nothing that is cut short is believed. */
+/* Transfer of a cell's results between processes: everything arrives bit for bit as it was sent,
+ * and truncated data are rejected. */
 
 static void round_trips(dice *d)
 {
@@ -173,7 +173,7 @@ static void round_trips(dice *d)
             unwritten += serialise_write(file, &sent[i]) != 0;
         }
     rewind(file);
-    for (int i = 0; i < CELLS; i++) { /* one behind the other, as a worker sends them */
+    for (int i = 0; i < CELLS; i++) { /* one after the other, as a worker sends them */
         cell_result got;
         unread += serialise_read(file, &got) != 0;
         const difference here = compare_cells(&sent[i], &got);
@@ -190,7 +190,7 @@ static void round_trips(dice *d)
     fclose(file);
 }
 
-/* The least there is: a cell that failed before it had anything. */
+/* The smallest content: a cell that failed before it had results. */
 static void empty_cell(void)
 {
     const cell_result sent = {.solve = {.status = STATUS_SINGULAR, .reason = "nothing"}};
@@ -212,7 +212,7 @@ static int is_empty(const cell_result *c)
            s->shapes.state == NULL && s->shapes.point == NULL && s->shapes.node == NULL;
 }
 
-/* Every truncation is noticed and leaves nothing behind, whichever part comes last. */
+/* Every truncation is detected and leaves no data, whichever part comes last. */
 static void truncated(dice *d, int pictured)
 {
     cell_result sent = random_cell(d), got;
@@ -250,10 +250,10 @@ static void serialise_tests(void)
         truncated(&d, i % 2);
 }
 
-/* Cells with the same answers are solved once, others by themselves: nothing but times differs from
- * solving all. */
+/* Cells with equal results are solved once, others separately: only times differ from solving
+ * all. */
 
-/* All formulations at two points of a case, on meshes of one and two elements. */
+/* Runs all formulations at two points of a case, on meshes of one and two elements. */
 static void run(const case_type *type, const char *const text[2], int share, sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -279,7 +279,8 @@ static double seconds(const cell_result *c)
     return c->solve.seconds_setup + c->solve.seconds_solve;
 }
 
-/* Cells that took, to the bit, as long as another: so they have its answers. */
+/* Number of cells whose time is bit-for-bit equal to that of another cell, so that they share its
+ * results. */
 static int shared(const sweep *s)
 {
     int out = 0;

@@ -1,4 +1,4 @@
-/* Cells with any content: every member is filled, odd numbers and bytes among them. */
+/* Cells with random contents: every member is filled, including special numbers and bytes. */
 #ifndef BEAMWORK_TEST_RANDOM_CELL_H
 #define BEAMWORK_TEST_RANDOM_CELL_H
 
@@ -27,7 +27,7 @@ static inline int whole(dice *d, int most)
     return (int)(roll(d) % (uint64_t)(most + 1));
 }
 
-/* Any number, the odd ones among them. */
+/* Returns a random number, sometimes a special one. */
 static inline double number(dice *d)
 {
     static const double odd[] = {0, -0.0, INFINITY, -INFINITY, NAN, 5e-324, 1.7e308};
@@ -48,7 +48,7 @@ static inline double *numbers(dice *d, size_t count)
     return out;
 }
 
-/* No zero byte before the end, of any length. */
+/* Random text of any length, without a zero byte before its end. */
 static inline void fill_text(dice *d, size_t size, char text[])
 {
     const size_t length = (size_t)whole(d, (int)size - 1);
@@ -190,7 +190,7 @@ static inline void fill_left_out(dice *d, cell_result *c)
     }
 }
 
-/* Owned by cell_result_free. */
+/* The caller frees it with cell_result_free. */
 static inline cell_result random_cell(dice *d)
 {
     cell_result c = {.size = {0}};
@@ -211,8 +211,8 @@ static inline cell_result random_cell(dice *d)
     return c;
 }
 
-/* Everything that could be forgotten must be filled: a struct that has grown (padding included)
- * needs its new member here. */
+/* Requires that every member is filled: if a struct has grown (padding included), its new member
+ * must be added here. */
 static inline void random_cell_complete(void)
 {
     gsl_test_int((int)(sizeof(counters) % sizeof(uint64_t)), 0, "counters are filled by words");

@@ -1,4 +1,4 @@
-/* Parameters, names, selection, truths. */
+/* Parameters, names, selection, reference values. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 
-/* Points one behind the other have the hash that each has alone. */
+/* Points hashed one after the other have the same hash as each point alone. */
 static void hashes_of_neighbours(void)
 {
     fault f;
@@ -76,7 +76,8 @@ static void parameters(void)
              "refused: %s", f.text);
 }
 
-/* Any value comes back from its text; so do names of formulations with every option changed. */
+/* Any value is recovered from its text, and so are names of formulations with every option
+ * changed. */
 static void texts(void)
 {
     static const double value[] = {1.0 / 3, 0.1 + 0.2, 1e-300, 123456789.123456789,
@@ -100,7 +101,7 @@ static void texts(void)
     }
 }
 
-/* Meshes of a series are in order, each once, however they are given. */
+/* Meshes of a series are sorted, without duplicates, in whatever order they are given. */
 static void meshes(void)
 {
     static const int given[] = {8, 1, 4, 8, 2, 1}, right[] = {1, 2, 4, 8};
@@ -117,8 +118,8 @@ static void meshes(void)
     sweep_free(&s);
 }
 
-/* Pieces of right input put together at random: answered or refused in one line, never a crash or
- * another status. */
+/* Random combinations of pieces of valid input are accepted, or rejected in one line; there is
+ * never a crash or another status. */
 static void random_input(void)
 {
     static const char *const piece[] = {"length",
@@ -217,7 +218,7 @@ static void run_tests(void)
     truth_files();
 }
 
-/* Below which size changes of a value are round-off: of every kind of quantity, in its unit. */
+/* Scales below which changes of a value are round-off: for every kind of quantity, in its unit. */
 
 /* Size 5 m, E = 2e11 Pa, A = 0.02 m^2. */
 static void make(scene *s)
@@ -262,21 +263,21 @@ static void change_tests(void)
     make(&s);
     for (int i = 0; i < ROWS; i++) {
         char unit[8];
-        snprintf(unit, sizeof unit, "%d", i); /* beside none of the same unit */
+        snprintf(unit, sizeof unit, "%d", i); /* unlike any other unit */
         scene_add_quantity(&s, row[i].name, unit, 0, row[i].what)->factor = i % 2 ? -1 : 10;
     }
     const solve_result r = {.quantities = ROWS, .quantity = value};
     for (int i = 0; i < ROWS; i++)
         gsl_test_rel(change_scale(&s, i, &r), (i % 2 ? 1 : 10) * row[i].scale, 1e-13, "%s",
                      row[i].name);
-    value[0].value = -3; /* large beside it */
+    value[0].value = -3; /* a large value in the same unit */
     gsl_test_rel(change_scale(&s, 0, &r), 3e-9, 1e-13, "beside a value of its unit");
     s.quantity[0].near_zero = 7;
     gsl_test_rel(change_scale(&s, 0, &r), 7, 1e-13, "beside what the case says");
     scene_free(&s);
 }
 
-/* Numbers show what is known of them: values to the second digit of their uncertainty, errors in
+/* Numbers are shown to their accuracy: values to the second digit of their uncertainty, errors in
  * percent. */
 
 static void says(const char *text, const char *expected, const char *what)
@@ -299,7 +300,7 @@ static void percent(double error, const char *expected)
     gsl_test(strlen(text) > 11, "'%s' is no wider than its column", text);
 }
 
-/* Of any number: what is shown is the value as far as it is known, and no more is shown. */
+/* For any number, the text is the value up to its uncertainty, without further digits. */
 static void every_size(void)
 {
     for (int size = -12; size <= 12; size++)
@@ -342,10 +343,10 @@ static void rounding_tests(void)
     every_size();
 }
 
-/* The line that says how far a run is: the time left follows the work, not the count; nothing of it
- * is left. */
+/* The progress line: the remaining time follows the work, not the count; the line is removed at the
+ * end. */
 
-/* What a run shows; the caller frees it. */
+/* Output of a run; the caller frees it. */
 static char *shown(double now, int done, double share, int ends)
 {
     char *text = NULL;

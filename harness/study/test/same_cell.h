@@ -1,4 +1,4 @@
-/* Are two cells the same, field by field, whatever the bytes between look like? */
+/* Compares two cells field by field, ignoring padding bytes. */
 #ifndef BEAMWORK_TEST_SAME_CELL_H
 #define BEAMWORK_TEST_SAME_CELL_H
 
@@ -6,7 +6,7 @@
 
 #include "harness/study/study.h"
 
-/* What differs, by name; the first one is kept. */
+/* Name of the first member that differs. */
 typedef struct difference {
     const char *name;
 } difference;
@@ -163,7 +163,7 @@ static inline void compare_solution(difference *out, const solve_result *a, cons
     SAME(seconds_setup);
     SAME(seconds_solve);
     SAME(phase);
-    if (out->name != NULL) /* without the same counts there is nothing to walk along */
+    if (out->name != NULL) /* with different counts, arrays cannot be compared */
         return;
     for (int i = 0; i < a->quantities; i++)
         compare_quantity(out, &a->quantity[i], &b->quantity[i]);

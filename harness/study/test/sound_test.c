@@ -1,6 +1,6 @@
-/* What a cell says of its own work: a made-up cell that is right, each number in it wrong by
- * itself; and real cells, of every kind of analysis and form of Newton, whose elements count for
- * themselves how often they are asked. */
+/* The run record of a cell: an artificial consistent cell, with each number changed separately; and
+ * real cells, with every kind of analysis and form of Newton's method, whose elements count their
+ * own evaluations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ static void add_analysis(scene_analysis_kind kind, scene *s)
         scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){{0}, {0}});
 }
 
-/* Three steps of four iterations; a continuation begins each with the tangent at hand. */
+/* Three steps of four iterations; each step of a continuation starts with the existing tangent. */
 static void make(scene_analysis_kind kind, sound_bench *b)
 {
     memset(b, 0, sizeof *b);
@@ -62,7 +62,8 @@ static void expect(const sound_bench *b, int sound, const char *what)
     gsl_test(!sound && why[0] == '\0', "%s: it says why", what);
 }
 
-/* Too few of anything is a contradiction everywhere, too many only where nothing else is done. */
+/* A count that is too small is always inconsistent; one that is too large is so only if the
+ * solution does no other work. */
 static void counts(scene_analysis_kind kind)
 {
     const struct {
@@ -134,7 +135,7 @@ static void steps(void)
     scene_free(&b.s);
 }
 
-/* The formulation in use, and how often it was asked. */
+/* The formulation in use, and the number of its evaluations. */
 static const element_type *inner;
 static long strains, stresses, inertias;
 
@@ -158,7 +159,7 @@ static status counted_inertia(const element_data *d, const node_state x[],
     return inner->inertia(d, x, frame, out);
 }
 
-/* The same of several elements. */
+/* The same for several elements. */
 static void counted_strains(int count, const element_data *const data[], const node_state x[],
                             strain_output out[])
 {
@@ -182,8 +183,8 @@ static void counted_equations(int count, const element_data *const data[], const
     inner->equations_many(count, data, x, e, own, s, out, outcome);
 }
 
-/* A real cell: the counters are what the elements count. Strains that reactions are read from
- * are not counted. */
+/* For a real cell, the counters agree with the counts of the elements. Strains evaluated for
+ * reactions are not counted. */
 static void actual(const char *name, int elements, const char *formulation_name,
                    const char *parameters, newton_form newton, int reactions, int looks)
 {
@@ -213,7 +214,8 @@ static void actual(const char *name, int elements, const char *formulation_name,
              formulation_name, newton, f.text);
     gsl_test(sound_cell(&cell, &cell.scene, newton, why) != 1, "%s, %s, Newton %d: %s", name,
              formulation_name, newton, why);
-    /* A look at the stiffness at rest, where a path was unstable, is no work of the solution. */
+    /* Evaluations of the stiffness at rest, made because a path was unstable, are not work of the
+     * solution. */
     stresses -= looks * cell.size.elements;
     strains -= looks * cell.size.elements;
     gsl_test(cell.counters.stress_evaluations != stresses,
@@ -252,7 +254,7 @@ static void sound_tests(void)
     actual("hexapod", 3, "sheet_third", "steps=3", NEWTON_MIXED, 1, 0);
 }
 
-/* Parts of a solution and the whole are read from one clock: what passes without work is in
+/* Times of the parts of a solution and of the whole come from the same clock: idle time is in
  * neither, and no part is missing. */
 
 static const element_type *sleepy_type;
@@ -264,7 +266,7 @@ static void sleep_and_strain(const element_data *data, const node_state x[], str
     sleepy_type->strain(data, x, out);
 }
 
-/* Sleeps a millisecond in each evaluation, which takes microseconds. */
+/* Sleeps for a millisecond in each evaluation, which itself takes microseconds. */
 static element_type make_sleepy(const element_type *type)
 {
     element_type sleepy = *type;
@@ -286,7 +288,7 @@ static void parts_are_the_whole(const cell_request *request, const char *what)
                  phase_name((newton_phase)k), cell.solve.phase[k], cell.solve.seconds_solve);
     }
     gsl_test(!(cell.solve.phase[PHASE_ELEMENTS] > 0), "%s: elements take time", what);
-    /* readings of the clock are no more than four fifths of it */
+    /* the gaps between the readings are at most four fifths of it */
     gsl_test(!(sum <= cell.solve.seconds_solve && sum > 0.2 * cell.solve.seconds_solve),
              "%s: the parts, %g s, are the whole, %g s, but for the readings", what, sum,
              cell.solve.seconds_solve);
@@ -303,7 +305,7 @@ static void parts_of(const char *name, const char *key, int elements)
     parts_are_the_whole(&request, "asleep at times");
 }
 
-/* Unasked, no clock is read: nothing is said of parts. */
+/* Without a request, the clock is not read and there are no times of parts. */
 static void nothing_unasked(void)
 {
     const cell_request request = cells_of(case_find("elastica", NULL), "collocation", 2);

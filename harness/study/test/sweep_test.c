@@ -1,5 +1,5 @@
-/* Sweeps in several processes: the same answers whatever the number of jobs; crashes and endless
- * cells as results. END only bounds a test that would never end. */
+/* Sweeps in several processes give the same results for any number of jobs; crashes and endless
+ * cells count as results. END only bounds a test that would never end. */
 #include <gsl/gsl_test.h>
 #include <signal.h>
 #include <string.h>
@@ -32,8 +32,8 @@ static void crashes(int end, int jobs, const char *reason)
     sweep_free(&s);
 }
 
-/* A killed worker takes the process along that asked for it; one that crashes by itself, or is
- * late, is a result there too. */
+/* With `together`, a killed worker ends the process that requested the sweep; a worker that crashes
+ * or exceeds the time limit still counts as a result. */
 static void together(int end, int dies)
 {
     static const int mesh[] = {1};
@@ -93,10 +93,10 @@ static void jobs(void)
     sweep_free(&s[1]);
 }
 
-/* What a follower was told. */
+/* Log of the calls of a follower. */
 typedef struct follower_log {
     int told, disorder, unfinished, doubted;
-    int most; /* series it is told of; then it fails */
+    int most; /* number of series that it accepts before it fails */
 } follower_log;
 
 static int doubts(void *context, const sweep *s, int series_index)
@@ -118,7 +118,8 @@ static status is_told(void *context, const sweep *s, int series_index, fault *f)
     return log->told <= log->most ? STATUS_OK : fault_set(f, STATUS_REFUSED, "enough");
 }
 
-/* Told of every series in order, with its cells and its noise, while others are run. */
+/* The follower receives every series in order, with its cells and its noise, while others are
+ * run. */
 static void followed(int jobs, int most)
 {
     static const int mesh[] = {1, 2, 4};
@@ -147,7 +148,7 @@ static void followed(int jobs, int most)
     sweep_free(&s);
 }
 
-/* The first case of the registry, in the planning process only. */
+/* Builds the first case of the registry, but only in the planning process. */
 static status build_in_plan(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};
@@ -182,7 +183,8 @@ static void cells_share_a_scene(void)
 
 int main(void)
 {
-    signal(SIGINT, SIG_DFL); /* a shell's background job ignores it, and what is ignored stays so */
+    signal(SIGINT, SIG_DFL); /* a background job of a shell ignores it, and an ignored signal stays
+                                ignored */
     alarm(END);
     crashes(KILLED, 1, "crashed with signal 9");
     crashes(KILLED, 2, "crashed with signal 9");

@@ -1,4 +1,4 @@
-/* What the index finds against a walk over all rows. */
+/* The index finds the same rows as a search of all rows. */
 #include <gsl/gsl_test.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,7 @@ static void fill(truths *t, int from, int to)
     t->rows = to;
 }
 
-/* Rows of one case and quantity: as many and the same as a walk finds, in their order. */
+/* Requires the same rows of one case and quantity as a full search, in the same order. */
 static void compare(const truths *t, const case_type *type, const char *quantity)
 {
     int i = truth_index_first(t, type, quantity), wrong = 0;
@@ -51,7 +51,7 @@ int main(void)
     gsl_test(truth_index_make(&t, &f) != STATUS_OK, "of no rows");
     compare_all(&t);
     fill(&t, 0, ROWS / 3);
-    compare_all(&t); /* none of them is in the index */
+    compare_all(&t); /* no row is in the index */
     gsl_test(truth_index_make(&t, &f) != STATUS_OK || t.indexed != ROWS / 3, "of a third");
     compare_all(&t);
     fill(&t, ROWS / 3, ROWS); /* added later */

@@ -1,4 +1,4 @@
-/* Makes a small file of truths, right or wrong in one respect. */
+/* Makes a small file of reference values, valid or invalid in one respect. */
 #ifndef BEAMWORK_TEST_TRUTHS_FILE_H
 #define BEAMWORK_TEST_TRUTHS_FILE_H
 
@@ -13,7 +13,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 
-/* What a file is made with; the defaults are right. */
+/* Contents of the file; the defaults are valid. */
 typedef struct recipe {
     const char *schema, *case_group, *kind, *model, *theory, *convention, *formulation, *parameters,
         *left_out_column, *rule_cases, *condition, *predicted, *accepted;
@@ -83,7 +83,7 @@ static void put_truth(hid_t file, const recipe *r, const case_type *type)
     H5Gclose(all);
 }
 
-/* "" where the recipe says nothing else. */
+/* Returns the usual string if the recipe gives none. */
 static const char *or_else(const char *given, const char *usual)
 {
     return given != NULL ? given : usual;
@@ -146,7 +146,7 @@ static void truths_file_make(const char *path, const recipe *r)
     truths_file_checksum(path);
 }
 
-/* Refused with one line that has the word. */
+/* Requires that the file is rejected with one line that contains the word. */
 static inline void truths_file_refused(const char *path, const char *word, recipe r,
                                        const char *what)
 {
@@ -158,7 +158,7 @@ static inline void truths_file_refused(const char *path, const char *word, recip
              "%s: %s", what, f.text);
 }
 
-/* Every test with the path of a file of its own; what main returns. */
+/* Runs every test with the path of its own file; returns the result of main. */
 static int truths_file_run(int count, void (*const test[])(const char *path))
 {
     char path[] = "/tmp/beamwork-truths-XXXXXX";

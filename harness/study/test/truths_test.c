@@ -1,4 +1,4 @@
-/* Files of truths made here: a good one, and every way in which one can be wrong. */
+/* Files of reference values: a valid one, and every way in which a file can be invalid. */
 #include <gsl/gsl_test.h>
 #include <hdf5.h>
 #include <math.h>
@@ -12,7 +12,8 @@
 #include "harness/study/study.h"
 #include "harness/study/test/truths_file.h"
 
-/* HDF5 1.10 keeps a few bytes of a damaged file's head for good; our own leaks are still found. */
+/* HDF5 1.10 never frees a few bytes of a damaged file's header; leaks of this program are still
+ * found. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
@@ -95,7 +96,8 @@ static void wrong_files(const char *path)
     truths_file_refused(path, "at", r, "infinite abscissa");
 }
 
-/* Rows that no limit is judged by: of one formulation, of a curve, of no gate. */
+/* Rows that are not used for limits: of one formulation, of a curve, or without effect on the exit
+ * status. */
 static void rows_that_do_not_judge(const char *path)
 {
     recipe of_formulation = right, of_curve = right, agreed = right, unrepeatable = right;
@@ -119,7 +121,8 @@ static void rows_that_do_not_judge(const char *path)
     }
 }
 
-/* A parameter of any value, or all of them: such a row speaks of every point that has the rest. */
+/* A row for any value of a parameter, or of all parameters, applies to every point with the
+ * remaining values. */
 static void any_value(const char *path)
 {
     const case_type *type = registry_cases[0];
@@ -162,7 +165,7 @@ static void new_columns(const char *path)
     truths_free(&t);
 }
 
-/* Every length of a file but the whole one, in steps; and bits turned over: refused. */
+/* Truncated files (in steps) and files with flipped bits are rejected. */
 static void damaged_files(const char *path)
 {
     static char bytes[1 << 20];
@@ -205,7 +208,8 @@ static void damaged_files(const char *path)
     gsl_test_int(broken, 0, "damaged files without a clear refusal");
 }
 
-/* Those that the table names gate, the others of the tree do not; until a table is read all do. */
+/* The formulations in the table affect the exit status, the other built-in ones do not; until a
+ * table is read, all do. */
 static void accepted_ones(const char *path)
 {
     truths t;
