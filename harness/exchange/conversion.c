@@ -189,7 +189,7 @@ static int *word_in(const entry_field *k, scene_quantity *q)
 }
 
 /* Transforms the extracted component to beamwork's axes; components in axes of a section, or
- * without axes, do not change. Returns 1 when it has axes. */
+ * without axes, do not change. Returns 1 when the component has axes. */
 static int turn_extract(const axes *a, scene_quantity *q, int *sign)
 {
     int turns = 0;

@@ -11,13 +11,13 @@
 /* Axes of another program relative to beamwork's: a signed permutation. */
 
 typedef struct axes {
-    int ours[3]; /* 0..2: axes of beamwork that are its x, y, z */
+    int ours[3]; /* 0..2: axes of beamwork that are x, y, z of the other program */
     int sign[3]; /* 1 or -1 */
 } axes;
 
 extern const axes axes_same;
 
-/* Reads "x=x y=-z z=y"; returns 0 if it is not such a permutation. */
+/* Reads "x=x y=-z z=y"; returns 0 if the text is not a signed permutation. */
 int axes_parse(const char *text, axes *out);
 /* Quantity of the scene that corresponds to quantity `q` of the other program in beamwork's axes,
  * and the sign of its values; NULL: none. */
@@ -96,7 +96,8 @@ status import_block_close(import_block *b, fault *f);
  * Columns may be in any order. quantity, unit, elements and value are required; a curve also needs
  * x [SI]. Header lines after rows start another series; keys that are not repeated remain valid. */
 
-/* Reads a file into `into`. Adds all errors of the file to m, by line. FAULT: it cannot be read. */
+/* Reads a file into `into`. Adds all errors of the file to m, by line. FAULT: the file cannot be
+ * read. */
 status import_file_read(const char *path, import_set *into, mistakes *m, fault *f);
 
 /* Imports columns without a header. A map in YAML assigns columns and rows to quantities.
@@ -126,8 +127,8 @@ typedef struct import_left {
 } import_left;
 
 /* Adds a series for every program at points that have series. With a nonzero flag their verdicts
- * affect the exit status. FAULT: missing, damaged or foreign file; REFUSED: it has no imported
- * values, or they are already in the run. */
+ * affect the exit status. FAULT: missing, damaged or foreign file; REFUSED: the file has no
+ * imported values, or the run already has them. */
 status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f);
 
 #endif

@@ -14,7 +14,7 @@
 /* The cross-section of a solid: a lattice of rectangles in the y and z axes of the section, some of
  * which are filled.
  *
- * A straight wall is a strip along its centre line. Where walls meet at right angles each extends
+ * A straight wall is a strip along its centre line. Where walls meet at right angles, each extends
  * by half the thickness of the other: an L has its whole corner, and the area is that of the walls.
  * Where a wall ends on the side of another (I, T), the walls count half of the thickness there
  * twice; the solid counts it once. */
@@ -47,11 +47,11 @@ typedef struct brick {
     face face;                     /* cross-section, equal along the member */
 } brick;
 
-/* Numbers begin at first_node and first_element. along: number of elements along the member; those
- * across come from its face. REFUSED: a section without a face. */
+/* Numbers begin at first_node and first_element. along: number of elements along the member;
+ * numbers across the member come from its face. REFUSED: a section without a face. */
 status brick_init(brick *out, const scene *s, int member, int along, int first_node,
                   int first_element, fault *f);
-/* First numbers after those of the bricks. */
+/* First node number and first element number that the bricks leave free. */
 int brick_next_node(const brick *);
 int brick_next_element(const brick *);
 /* Write the lines below *NODE and *ELEMENT. */
@@ -60,8 +60,8 @@ void brick_write_elements(const brick *, FILE *to);
 /* Writes the node numbers of the first (end 0) or last face, one per line. */
 void brick_write_face(const brick *, int end, FILE *to);
 
-/* Rigid bodies of a deck: all faces at a node and at nodes attached to it, with two nodes that move
- * them: one with translations [m, N], one with rotations [rad, N m]. */
+/* Rigid bodies of a deck. A body has all faces at a node and at nodes attached to it; two reference
+ * nodes move it, one by translations [m, N], one by rotations [rad, N m]. */
 
 typedef struct body_numbers {
     int first; /* first of two node numbers per scene node, for the body of node 0 */
@@ -107,7 +107,7 @@ status import_cells_add(sweep *s, int point_index, imported *found, fault *f);
 /* Reads entries of a map in YAML (strings, numbers), and reports unknown keys and other errors with
  * their positions. */
 
-/* Text of an entry; `otherwise` if it is missing. */
+/* String of an entry; `otherwise` if the entry is missing. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,
                           const char *otherwise);
 double map_keys_number(mistakes *m, const document_node *map, const char *key, double otherwise);
@@ -126,7 +126,7 @@ void path_points_free(path_points *);
 
 /* Node of the body that a node belongs to; the node itself if it is not attached to another. */
 int rigid_body(const scene *s, int node);
-/* Is it a body, or an independent node, at which a member ends? */
+/* Is the node a body, or an independent node, at which a member ends? */
 int rigid_moves(const scene *s, int node);
 /* Axis 0, 1 or 2 of a node that rotates only about x, y or z; SCENE_NONE: it rotates otherwise. */
 int rigid_single_axis(const scene_node *n);

@@ -164,7 +164,7 @@ static status no_batch(const char *path, fault *f)
     return fault_set(f, STATUS_FAULT, "%.200s: no batch of this program, or damaged", path);
 }
 
-/* Returns 0, or -1 if it is missing or too long. */
+/* Returns 0, or -1 if the string is missing or too long. */
 static int get_text(const json_t *from, const char *key, char *out, size_t size)
 {
     const char *text = json_string_value(json_object_get(from, key));
@@ -174,7 +174,7 @@ static int get_text(const json_t *from, const char *key, char *out, size_t size)
     return 0;
 }
 
-/* A non-negative whole number; -1: it is not one. */
+/* Returns a non-negative whole number; -1: the entry is not one. */
 static int get_index(const json_t *from, const char *key)
 {
     const json_int_t value = json_integer_value(json_object_get(from, key));

@@ -18,7 +18,7 @@ enum { MOST_CHILDREN = 64, LOOK = 100 /* [ms] between checks of the clocks */ };
 /* A process that runs one part; its pipe closes when it ends. */
 typedef struct tester {
     pid_t process;
-    int end; /* -1: it does not run */
+    int end; /* -1: no process is running */
     int late;
     double since; /* [s] */
     certificate *of;

@@ -28,7 +28,7 @@
 #include "harness/study/study.h"
 
 /* Compares two formulations or programs in alternation: is one slower, or is the scatter too large
- * to decide? A drift of the machine affects both alike. */
+ * to decide? A drift of the machine affects both equally. */
 
 typedef enum against_outcome { AGAINST_UNDECIDED, AGAINST_FASTER, AGAINST_SLOWER } against_outcome;
 
@@ -44,7 +44,7 @@ typedef struct contest_clock {
 
 const char *against_name(against_outcome);
 
-/* Runs one lap of one of the two, which takes *seconds. */
+/* Runs one lap of one of the two programs or formulations; *seconds: its time. */
 typedef status against_lap(void *contestant, double *seconds, fault *f);
 /* Runs as many pairs as fit into `budget` [s], at least 51. Their number is fixed before the first
  * counted pair. */
@@ -72,11 +72,11 @@ typedef struct machine {
  * of cells. */
 
 /* The batches depend only on the request and the build, so that independent processes make the same
- * ones. */
+ * batches. */
 typedef struct shard_work {
     const char *verb;
-    /* one line each: the program, the request, and all that the results depend on; batches belong
-     * together if all three are equal */
+    /* One line each: the program, the request, and everything that the results depend on. Batches
+     * belong together if all three are equal. */
     const char *build, *request, *plan;
     const char *origin; /* JSON object with the data that merge needs to repeat the request; it is
                            not compared */
@@ -84,11 +84,11 @@ typedef struct shard_work {
     const double *cost; /* [batches] estimated time [s] */
     void *context;
     /* Computes a batch and writes the results as bytes, which another process of this build can
-     * read. *content collects what must be equal when the batch is computed again, without times
-     * and names of machines. Runs in its own process and frees its memory. */
+     * read. *content: digest of all values that must be equal when the batch is computed again,
+     * which excludes times and names of machines. Runs in its own process and frees its memory. */
     status (*run)(void *context, int batch, FILE *to, digest *content, fault *f);
-    /* Reads the results of a batch; called in canonical order, once per batch. FAULT: it cannot be
-     * read. */
+    /* Reads the results of a batch; called in canonical order, once per batch. FAULT: the batch
+     * cannot be read. */
     status (*take)(void *context, int batch, FILE *from, fault *f);
 } shard_work;
 
@@ -98,10 +98,10 @@ enum { BATCH_STEM = 48, BATCH_NAME = BATCH_STEM + 24 };
 typedef struct batch_label {
     char build[512], request[2048], plan[DIGEST_TEXT], verb[32];
     int batch, batches; /* index, starting at 0 */
-    int shard, shards;  /* shard that computed it, starting at 0 */
+    int shard, shards;  /* shard that computed the batch, starting at 0 */
     char content[DIGEST_TEXT];
     double seconds;           /* run time [s] */
-    double processor_seconds; /* processor time [s] of all its processes */
+    double processor_seconds; /* processor time [s] of all processes of the batch */
     machine node;
     json_t *origin; /* batch_label_free releases it */
 } batch_label;
@@ -123,7 +123,7 @@ typedef struct element_measure {
     double order;       /* observed order of the errors; NAN: not requested, or none observed */
     int least, highest; /* orders that the type declares; 0: not requested */
     int locks;  /* 1: shear or membrane locking: the errors grow as the element becomes thin */
-    int astray; /* 1: for a linear state, every mesh has the error of one element */
+    int astray; /* 1: in a linear state, the error is the same for every mesh as for one element */
     char words[MEASURE_WORDS]; /* why there are no values, or a conclusion */
 } element_measure;
 
@@ -214,7 +214,8 @@ enum { CLAIM_NAME = 64, CLAIM_SENTENCE = 400, CLAIMS_MOST = 48 };
 typedef enum claim_outcome {
     CLAIM_HOLDS,
     CLAIM_BROKEN,
-    CLAIM_NOT_CLAIMED, /* the type does not declare it, or leaves it to others; sentence says why */
+    CLAIM_NOT_CLAIMED, /* the type does not declare the property, or leaves it to others; sentence
+                          gives the reason */
     CLAIM_OUTCOMES
 } claim_outcome;
 
@@ -307,7 +308,7 @@ enum { MEASURED_GROUPS = 3 };
 extern const measured_group measured_groups[MEASURED_GROUPS];
 
 /* Certificate of a formulation: the interface requirements that it must satisfy, and its
- * measurements. Each part runs in its own process; if it crashes, hangs or corrupts its memory,
+ * measurements. Each part runs in its own process. If a part crashes, hangs or corrupts its memory,
  * this is reported as its result, and the other parts continue. */
 
 enum { CERTIFICATE_PARTS = CHECKS_FAMILIES + MEASURED_GROUPS };
@@ -407,8 +408,8 @@ enum { OUTCOME_NEIGHBOURS = 2 };
 
 typedef enum outcome_kind {
     OUTCOME_VALUE,  /* within the extreme's tolerance */
-    OUTCOME_COARSE, /* outside it, but the error decreases with more elements: a discretisation
-                       error */
+    OUTCOME_COARSE, /* outside the tolerance, but the error decreases with more elements: a
+                       discretisation error */
     OUTCOME_WRONG,  /* a number that is neither accurate nor under-resolved */
     OUTCOME_NOT_CONVERGED,
     OUTCOME_SINGULAR,
@@ -476,12 +477,13 @@ typedef struct extreme_request {
     const char *select; /* expression over "name/group/case/formulation", or NULL */
     int jobs, formulations;
     const formulation *formulation; /* only these formulations; 0: all */
-    int named;                      /* 1: requested by name, so that they affect the exit status */
+    int named;                      /* 1: requested by name, so that their outcomes affect the exit
+                                       status */
     FILE *progress;
 } extreme_request;
 
-/* Every formulation at every extreme must give a value with its error, or a named refusal or
- * failure, and never an unreported wrong number. */
+/* Every formulation at every extreme must give a value with its error, or a named rejection or
+ * failure, but never an unreported wrong number. */
 
 /* Request: an extreme_request; result: an extreme_sweep, to be freed by extreme_sweep_free. */
 extern const experiment_type experiment_stress;
@@ -497,7 +499,7 @@ typedef struct pace_method {
     scene_scheme scheme;
     scene_alpha alpha;
     int order;    /* order in time for resolved motions */
-    int estimate; /* 1: it estimates the error of a step */
+    int estimate; /* 1: the integrator estimates the error of a step */
 } pace_method;
 
 /* Comparison of integrators for transient analysis: cost of each step, and accuracy of the results.
@@ -520,7 +522,7 @@ typedef struct pace_run {
     pace_method method;
     double step,
         tolerance; /* [s] size of the first step, or of all fixed steps; tolerance 0: fixed steps */
-    /* outcome of the motion; its values are NAN if there is none */
+    /* outcome of the motion; if there is none, its values are NAN */
     status status;
     const char *reason; /* owned by the sweep */
     double error;       /* largest over stations: positions relative to the size, rotations [rad] */
@@ -530,7 +532,7 @@ typedef struct pace_run {
     long steps, rejected;
     double energy, momentum; /* largest relative energy-balance and momentum error */
     double largest, last;    /* of E/E0 */
-    double stopped;          /* [s] time at which it ended early */
+    double stopped;          /* [s] time at which the motion ended early */
     pace_fate fate;
 } pace_run;
 
@@ -558,7 +560,7 @@ typedef struct pace {
     pace_run *run;
 } pace;
 
-/* Verdicts on integrators, against a table of what is expected (expected.csv):
+/* Verdicts on integrators, compared with a table of expected ones (expected.csv):
  *
  *   order      pass, low order or undecided, from errors at halved steps (experiments_impl.h)
  *   energy     conserved, or "order P" of its drift at halved steps, or drifts
@@ -614,7 +616,7 @@ typedef struct motions {
     pace pace;
     pace_verdicts verdicts;
     int each, methods;
-    pace_method method[PACE_LIST_MOST]; /* methods of all of them */
+    pace_method method[PACE_LIST_MOST]; /* methods of all rows */
 } motions;
 
 extern const experiment_type experiment_motion;
@@ -648,16 +650,16 @@ typedef struct rows {
     double *value,
         *error; /* [points, formulations, meshes, quantities]; error relative; NAN: none */
     double *cost, *seconds; /* [points, formulations, meshes] [s]: counted work, measured time */
-    int32_t *lacks;  /* [points, formulations] omitted physics, bits of model.h, of another model,
-                        which is not counted; 0: model of the scene */
+    int32_t *lacks;  /* [points, formulations] bits of model.h: omitted physics if the formulation
+                        solves another model, which is not counted; 0: model of the scene */
     int32_t *least;  /* [points, formulations, quantities] smallest number of elements from which
                         every mesh is within the tolerance; 0: none */
     uint8_t *kind;   /* [points, quantities] values of rows_reference */
     uint8_t *status; /* [points, formulations, meshes] */
 } rows;
 
-/* A sweep over parameters: its points, formulations, meshes and quantities, and its batches. It
- * depends only on the request and the build. */
+/* A sweep over parameters: its points, formulations, meshes and quantities, and its batches. All of
+ * this depends only on the request and the build. */
 
 enum { RANGES_FORMULATIONS = 64, RANGES_QUANTITIES = 64 };
 
@@ -737,7 +739,7 @@ typedef struct shard_outcome {
 /* "2/4" -> 1, 4. REFUSED: anything else. */
 status shard_parse(const char *text, int *index, int *count, fault *f);
 /* Computes the missing batches, the most expensive first. If a process ends without a result, only
- * its batch is lost; it is computed when the shard is started again. REFUSED: the folder has
+ * its batch is lost, and is computed when the shard is started again. REFUSED: the folder has
  * batches of another work. FAULT: disk, memory, or an error of the batch: the run ends, completed
  * batches are kept. */
 status shard_run(const shard_work *w, const shard_request *request, shard_outcome *out, fault *f);
@@ -778,9 +780,9 @@ typedef struct stock {
     const char *const *folder; /* owned by the caller */
     int folders;
     char stem[BATCH_STEM];
-    int *where; /* [batches] index of the folder that contains it, or -1 */
+    int *where; /* [batches] index of the folder that contains the batch, or -1 */
     int there, damaged, twice;
-    int shards; /* number of shards of the existing batches; 0: they differ */
+    int shards; /* number of shards of the existing batches; 0: different numbers */
     double seconds;
     int kinds; /* of machines */
     stock_kind *kind;
@@ -798,13 +800,13 @@ void stock_free(stock *);
 void stock_missing(const stock *, const shard_work *, char *out, size_t size);
 /* Writes a line for each kind of machine if there are several. */
 void stock_tell_kinds(const stock *, FILE *to);
-/* The first readable batch of a folder, by name; merge repeats its request. REFUSED: there is none.
- */
+/* The first readable batch of a folder, by name; merge repeats its request. REFUSED: the folder has
+ * no readable batch. */
 status stock_first(const char *folder, batch_label *out, fault *f);
 
 /* Reads the batches of one or several folders in canonical order, with one at a time in memory. */
 
-/* Reads every existing batch. s: from stock_take. FAULT: one cannot be read any more. */
+/* Reads every existing batch. s: from stock_take. FAULT: a batch can no longer be read. */
 status merge_take(const shard_work *w, const stock *s, fault *f);
 
 /* Numbers of elements from the option -n. */
@@ -863,8 +865,8 @@ typedef struct tally {
     long *failed;     /* [formulations x meshes] number of cells without a solution */
     double *cost, *seconds; /* [formulations x meshes] [s], sums over all cells that ran */
     long *ran;              /* [formulations x meshes] */
-    long others[RANGES_FORMULATIONS];    /* number of points where it solves another model; they are
-                                            not counted elsewhere */
+    long others[RANGES_FORMULATIONS];    /* number of points where the formulation solves another
+                                            model; these are not counted elsewhere */
     unsigned lacks[RANGES_FORMULATIONS]; /* physics omitted there: bits of model.h */
     int worsts[RANGES_FORMULATIONS];
     tally_worst worst[RANGES_FORMULATIONS][TALLY_WORST]; /* in decreasing order of error */
@@ -941,11 +943,11 @@ void ranges_table_head(FILE *to, const parameter_ranges *r);
 /* Results of a verification that are worse than in a previous run. */
 
 /* Adds to the judgement: every mesh whose error is larger than in the previous run (by more than 2
- * % and RESULTS_FLOOR), or that has lost its value or its solution; series that the previous run
- * has and this one should have; and limits of default points that changed by more than a relative
- * 1e-5, unless an exact reference value checks them as closely. If only the short table of the
- * previous run is known, errors are compared by series. Work is not compared. REFUSED: the two runs
- * have nothing in common. */
+ * % and RESULTS_FLOOR), or whose value or solution is now missing; series of the previous run that
+ * are missing although this run should have them; and limits of default points that changed by more
+ * than a relative 1e-5, unless an exact reference value checks them as closely. If only the short
+ * table of the previous run is known, errors are compared by series. Work is not compared. REFUSED:
+ * the two runs have nothing in common. */
 status regressions_find(const stored_results *former, const char *name, const sweep *, judgement *,
                         fault *);
 
@@ -1002,8 +1004,8 @@ typedef struct restart {
 
 /* REFUSED: the final state of no motion of the scene can be stored; call before the solution. */
 status restart_possible(const scene *, fault *);
-/* Writes the final states of the solved motions with their scene, formulation and mesh. Written
- * under a temporary name and renamed. */
+/* Writes the final states of the solved motions with their scene, formulation and mesh, under a
+ * temporary name, and renames the file. */
 status restart_write(const char *path, const solution_request *, const sweep *, fault *);
 /* FAULT: missing, damaged or foreign. Call restart_free also after a failure. */
 status restart_read(const char *path, restart *, fault *);
@@ -1020,7 +1022,8 @@ typedef struct runs_on {
     const char *name; /* of the case or the formulation */
     int runs;
     int other;                 /* 1: as another model (harness/study/study.h) */
-    char words[RUNS_ON_WORDS]; /* missing features; if it runs, the physics that it omits */
+    char words[RUNS_ON_WORDS]; /* missing features; if the formulation runs, the physics that it
+                                  omits */
 } runs_on;
 
 void runs_on_scene(const scene *s, const element_type *type, runs_on *out);
@@ -1040,8 +1043,8 @@ void rounds_single_thread(char **arguments);
 /* Observer of results that are evaluated during the run. */
 typedef struct verification_reader {
     void *context;
-    /* Called once per case, after all its series have been evaluated, in the order of the last of
-     * them; in an interrupted run only for cases before the interruption. */
+    /* Called once per case, after its last series has been evaluated; in an interrupted run only
+     * for cases before the interruption. */
     void (*judged)(void *context, const case_type *);
 } verification_reader;
 
@@ -1075,9 +1078,9 @@ typedef struct verification_request {
     int taken;                   /* 1: the cells have been read from batches and are not run */
     const char *const *imported; /* [importeds] stored imports: other programs to compare */
     int importeds;
-    int imported_must_pass; /* 1: their verdicts affect the exit status */
+    int imported_must_pass; /* 1: verdicts on imported values affect the exit status */
     const char *former;     /* name of verification.former; NULL: none */
-    const char *processor;  /* computed the batches; "": this one */
+    const char *processor;  /* processor that computed the batches; "": this one */
     int exit_zero, verbose, quiet;
 } verification_request;
 
@@ -1086,13 +1089,13 @@ typedef struct verification {
     truths truths;             /* read before planning */
     stored_results former;     /* previous results; this run must not be worse */
     verification_files *files; /* owned by the caller */
-    double begun;              /* [s] clock_wall_seconds at its start */
+    double begun;              /* [s] clock_wall_seconds at the start */
     sweep sweep;
     judgement judgement;
     overview overview;
 } verification;
 
-/* For an interrupted run its files have names that say so. */
+/* The output files of an interrupted run have names that say so. */
 extern const experiment_type experiment_verify;
 void verification_free(verification *);
 

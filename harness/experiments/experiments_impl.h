@@ -12,7 +12,7 @@
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
 
-/* Evaluates given times [s] of `pairs` laps each: tests supply them, no clock is used. */
+/* Evaluates given times [s] of `pairs` laps each; for tests, which supply the times. */
 contest_clock against_judge(int pairs, const double a[], const double b[]);
 
 /* Varied parameter: a parameter of a case, and its values. */
@@ -27,8 +27,8 @@ status axis_read(const case_type *type, const char *text, sweep_axis *out, fault
 void axis_free(sweep_axis *);
 /* Value i of `count`. */
 double axis_value(const sweep_axis *, int i);
-/* Value at a fraction of the axis, 0 <= share < 1; for a list the value that contains this
- * fraction. */
+/* Value at a fraction of the axis, 0 <= share < 1; for a list, the value at this fraction of the
+ * list. */
 double axis_at(const sweep_axis *, double share);
 /* "linear", "log", "list", "words". */
 const char *axis_kind_name(axis_kind);
@@ -66,7 +66,7 @@ element_measure *measures_add(measures *m, const char *name);
 /* Number of quantities with a wrong limit. */
 int measures_astray(const measures *m);
 
-/* The check of that name; a new one passes until a deviation is found. */
+/* Returns the check of the given name; a new check passes until a deviation is found. */
 claim *claims_open(claims *c, const char *name, double allowed);
 /* Records that the type does not declare this property, and why. */
 void claims_not_made(claims *c, const char *name, const char *why);
@@ -83,14 +83,14 @@ static inline double claims_share(double apart, double size)
 {
     return apart == 0 ? 0 : apart / size;
 }
-/* Number of checks with this outcome, and number of their comparisons. */
+/* Number of checks with this outcome, and number of comparisons in them. */
 int claims_counted(const claims *c, claim_outcome outcome);
 int claims_compared(const claims *c);
 
 /* Lengths in units of `unit` metres, force in newtons, time in seconds for the same mass. */
 status profiles_section(profiles_form form, double unit, section *out, fault *f);
 
-/* Features for a straight element: all, and all without those of second order. */
+/* Features for a straight element: all that the type supports, except `without`. */
 unsigned specimen_features(const element_type *t, unsigned without);
 
 /* Pseudo-random numbers in (-1/2, 1/2), determined by the seed. */
@@ -172,9 +172,9 @@ void design_free(design *);
 status design_points(const design *, long first, long count, double out[], fault *f);
 const char *design_name(design_kind);
 
-int outcome_is_good(outcome_kind kind); /* Is it accurate or under-resolved? */
+int outcome_is_good(outcome_kind kind); /* Is the outcome accurate or under-resolved? */
 
-/* Outcome of the same formulation and quantity at the x that others are compared with, or NULL. */
+/* Outcome of the same formulation and quantity at the x with which others are compared, or NULL. */
 extreme_outcome *extreme_sweep_base(const extreme_sweep *s, const extreme_outcome *o);
 
 /* Plans a point for every extreme and value, in order, with a series for every formulation and an
@@ -201,9 +201,10 @@ status pace_list_read(const char *option, const char *text, double ratio, pace_l
 
 /* Default method. */
 extern const char pace_method_all[];
-/* Reads one of PACE_METHODS, with R in [0, 1], A in [0, 1/3]. REFUSED: names the invalid part. */
+/* Reads one of PACE_METHODS, with parameters R in [0, 1] and A in [0, 1/3]. REFUSED: names the
+ * invalid part. */
 status pace_method_read(const char *text, int length, pace_method *out, fault *f);
-/* Appends "NAME,NAME,...", each at most once. */
+/* Appends the methods of "NAME,NAME,...", each of which may occur once. */
 status pace_method_read_list(const char *text, int most, pace_method list[], int *count, fault *f);
 
 /* Tolerances of the reference and of its checks, radau on the same mesh. */
@@ -300,12 +301,13 @@ typedef struct beam_request {
 
 /* Constants of its section. */
 status beam_section(const beam_request *, section *out);
-/* Solves the beam and adds the error against the exact value to the measure; NAN if there is no
- * value, and `words` of the first gives the reason. Returns 0 when further points are useless: the
- * formulation does not support it, or the first three have no value. */
+/* Solves the beam and adds the error with respect to the exact value to the measure: NAN if there
+ * is no value; `words` then gives the reason at the first such point. Returns 0 when further points
+ * are useless: the formulation does not support the beam, or the first three points have no
+ * value. */
 int beam_point(const beam_request *, double at, double exact, element_measure *one);
 
-/* Certificates as text, one screen each. */
+/* Prints certificates as text, one screen each. */
 
 /* verbose: every check with its numbers; quiet: only failed checks. */
 void certificate_text(FILE *to, screen look, const certificate *all, int count, int verbose,
@@ -406,7 +408,7 @@ typedef enum pace_order_kind {
     PACE_ORDER_KINDS
 } pace_order_kind;
 
-/* Runs of one integrator in one group with fixed steps, the largest step first. */
+/* Runs of one integrator in one group with fixed steps, starting with the largest. */
 typedef struct pace_ladder {
     int group;
     const pace_method *method;
@@ -459,14 +461,14 @@ enum { PACE_LEVELS = 3 };
 extern const double pace_levels[PACE_LEVELS];
 
 typedef struct pace_reach {
-    const pace_run *run; /* run within the error, as are all runs of its integrator with smaller
+    const pace_run *run; /* a run within the error, as are all runs of its integrator with smaller
                             steps or tolerances; NULL: none */
-    double cost; /* [s] interpolated between this run and the previous one at the error level */
+    double cost; /* [s] interpolated at the error level between this run and the previous one */
 } pace_reach;
 
-/* For one integrator in one group. */
+/* Finds the run for one integrator in one group. */
 pace_reach pace_reach_of(const pace *, int group, const char *method, double level);
-/* Different integrators of all groups, by name; returns their number. */
+/* Lists the different integrators of all groups, by name; returns their number. */
 enum { PACE_METHODS_MOST = 32 };
 int pace_reach_methods(const pace *, const char *name[PACE_METHODS_MOST]);
 
@@ -515,8 +517,9 @@ void ranges_table_known(FILE *to, const tally *t);
  * each quantity. */
 void ranges_table_map(FILE *to, const tally *t, int every);
 
-/* Reference of the values at one point: a stored reference value, one computed by a deriving
- * program, or the limit of the meshes of all formulations with the same physics.
+/* Reference of the values at one point: a stored reference value, a reference value computed by a
+ * program of reference/derive, or the limit of the meshes of all formulations with the same
+ * physics.
  *
  * Of the limits, the one with the smallest uncertainty U is used. Its uncertainty is U or, if
  * larger, its difference from another limit beyond the uncertainty of that limit. An uncertainty
@@ -541,7 +544,7 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
 
 typedef void specimens_check(const specimen *s, claims *c);
 /* Calls check for every test element. An element that the formulation rejects with a reason is
- * skipped, except the default one, which must be possible (check "prepare"). */
+ * skipped, except the default element, which must be accepted (check "prepare"). */
 void specimens_each(const formulation *chosen, claims *c, specimens_check *check);
 
 /* Preview of a sweep before the solution, at some of its points: quantities, meshes, formulations
@@ -562,7 +565,7 @@ shard_work ranges_work_of(ranges_work *);
 
 /* File of a sweep. */
 
-/* The path must outlive it. plan: digits that identify the sweep. */
+/* Opens the file; the path must outlive it. plan: digits that identify the sweep. */
 status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
                         ranges_file *out, fault *f);
 /* Finishes the file: worst points with the names of their scenes, and content: digits of all values

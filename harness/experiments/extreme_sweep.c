@@ -275,7 +275,7 @@ static void cell_text(const extreme_outcome *o, char *text, size_t size)
     }
 }
 
-/* Width of a cell for an extreme with this number of values. */
+/* Width of a cell of the table for an extreme with this number of values. */
 static int width_of_cells(const extreme *e)
 {
     const int width = (PARAGRAPH_WIDTH - INDENT - NAME_WIDTH - CONDITION_WIDTH) / e->values;

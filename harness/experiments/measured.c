@@ -235,7 +235,7 @@ void measured_states(const formulation *chosen, claims *c, measures *out)
 
 /* Observed and declared order of convergence in the number of elements. */
 
-enum { MESHES = 6, MESHES_Z = 4 /* along z, to see the same order */ };
+enum { MESHES = 6, MESHES_Z = 4 /* in z: the order along z should be the same */ };
 static const double noise =
     1e-8; /* smaller errors show no order, because the column is not infinitely thin */
 

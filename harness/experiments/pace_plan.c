@@ -243,7 +243,7 @@ static status refuse(const char *name, fault *f)
     return fault_set(f, STATUS_REFUSED, "--integrator '%.31s': give one of " PACE_METHODS, name);
 }
 
-/* "KEY=NUMBER" of a scheme; *value is the default if it is not given. */
+/* Reads "KEY=NUMBER" of a scheme; *value is the default if the key is not given. */
 static int read_value(const char *text, const char *key, double most, double *value)
 {
     const size_t length = key != NULL ? strlen(key) : 0;

@@ -90,7 +90,7 @@ static status place_output(const range_sweep_request *r, range_sweep *s, fault *
     return check_folder(s->worst, f);
 }
 
-/* Locks the folder until this process ends: of two runs with the same output, one is refused. */
+/* Locks the folder until this process ends: of two runs with the same output, one is rejected. */
 static status hold_batches(const char *folder, fault *f)
 {
     struct stat there = {.st_nlink = 0};
@@ -115,7 +115,8 @@ static status hold_batches(const char *folder, fault *f)
     return STATUS_OK;
 }
 
-/* Folder for batches until all are complete: next to the output, or a temporary one. */
+/* Chooses the folder for batches until all are complete: next to the output, or a temporary
+ * folder. */
 static status place_batches(const char *path, char folder[PATH_MAX], fault *f)
 {
     if (path != NULL) {
@@ -153,8 +154,8 @@ static status run(const void *asked, void *found, fault *f)
     return shard_run(&s->all, &request, &done, f);
 }
 
-/* From now on all batches that the work reads are added to the summary and the file, one at a time
- * in memory. */
+/* Begins: all batches read from now on are added to the summary and the file, one at a time in
+ * memory. */
 static status begin(range_sweep *s, fault *f)
 {
     TRY(tally_alloc(&s->ranges, &s->tally, f));
@@ -167,8 +168,8 @@ static status begin(range_sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Finishes after the last batch: scenes of the worst points, and the file; if `taken` is not OK, it
- * is removed. */
+/* Finishes after the last batch: scenes of the worst points, and the file. If `taken` is not OK,
+ * the file is removed. */
 static status end(range_sweep *s, status taken, fault *f)
 {
     char content[DIGEST_TEXT];
@@ -183,7 +184,7 @@ static status end(range_sweep *s, status taken, fault *f)
     return taken;
 }
 
-/* Reads the batches of the stock; NULL: those that the caller has. */
+/* Reads the batches of the stock; NULL: the batches that the caller has. */
 static status take_all(range_sweep *s, const stock *there, fault *f)
 {
     const range_sweep_request *r = s->asked;
@@ -207,7 +208,7 @@ static status remove_batches(const stock *there, const char *folder, fault *f)
     return STATUS_OK;
 }
 
-/* Reads the batches that were computed here, unless some are missing; those beside an output are
+/* Reads the batches that were computed here, unless some are missing; batches next to an output are
  * then kept. */
 static status collect(range_sweep *s, fault *f)
 {

@@ -11,10 +11,10 @@
 static const double LARGER = 0.02;
 
 /* Allowed relative change of a limit if no reference value checks it as closely: 1e-5, so that a
- * fault of 1e-3 is detected wherever it changes a limit by a hundredth of itself. */
+ * fault of 1e-3 is detected wherever a limit changes by a hundredth of the fault. */
 static const double MOVED = 1e-5;
 
-/* The run as it will be stored, read back, so that both sides are treated in the same way. */
+/* Reads back the run as it will be stored, so that both sides are treated in the same way. */
 static status read_back(const sweep *s, const judgement *j, stored_results *out, fault *f)
 {
     const char *folder = getenv("TMPDIR");
@@ -87,7 +87,7 @@ static status compare(const stored_results *former, const char *name, const stor
     return outcome;
 }
 
-/* The limit of a quantity of a series at its default point in the former run, or NULL. */
+/* Finds the limit of a quantity of a series at its default point in the former run, or NULL. */
 static const result_limit *limit_of_former(const stored_results *former, const sweep *s,
                                            const verdict *v)
 {
@@ -104,8 +104,8 @@ static const result_limit *limit_of_former(const stored_results *former, const s
     return NULL;
 }
 
-/* Does a reference value check the limit as closely? Not if it is an estimate, if the limit has a
- * larger uncertainty, or if a known deviation allows it to differ. */
+/* Does a reference value check the limit as closely? It does not if it is an estimate, if the limit
+ * has a larger uncertainty, or if a known deviation allows the limit to differ. */
 static int is_judged_closely(const verdict *v, double slack)
 {
     return (v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED_AS_PREDICTED ||

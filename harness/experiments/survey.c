@@ -15,8 +15,8 @@ typedef struct survey_wanted {
     select_words words;
     char formulation[RANGES_FORMULATIONS]; /* 1: the selection holds for one of its quantities */
     char runs[RANGES_FORMULATIONS];
-    const char
-        *missing[RANGES_FORMULATIONS]; /* reason why it does not run at its first failing point */
+    const char *missing[RANGES_FORMULATIONS]; /* reason why the formulation does not run at the
+                                                 first point where it fails */
 } survey_wanted;
 
 static status add_point(const parameter_ranges *r, long index, sweep *s, fault *f)
@@ -43,7 +43,7 @@ static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *
     return STATUS_OK;
 }
 
-/* Enters for one series the selected quantities, and whether it runs. */
+/* Enters the selected quantities of one series, and whether the series runs. */
 static status look_at(parameter_ranges *r, const sweep *s, int index, survey_wanted *w, fault *f)
 {
     const series *one = &s->series[index];
@@ -148,7 +148,7 @@ static status judge(parameter_ranges *r, const sweep *s, fault *f)
     return keep_running(r, &w, f);
 }
 
-/* All formulations, before it is known which run. */
+/* Takes all formulations, before it is known which of them run. */
 static void take_formulations(parameter_ranges *r)
 {
     const ranges_request *q = &r->request;

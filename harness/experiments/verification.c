@@ -127,7 +127,7 @@ static status begin(judging *v, const sweep *s, int jobs, int time_limit, fault 
     return hold_contracts(s, jobs, time_limit, v->judgement, f);
 }
 
-/* Evaluates the remaining series: those of a point that an interrupted run did not finish. */
+/* Evaluates the remaining series: series of a point that an interrupted run did not finish. */
 static status end(judging *v, const sweep *s, int everything, fault *f)
 {
     TRY(judge_to(v, s, s->seriess, f));
@@ -280,7 +280,7 @@ static void files_drop(verification_files *to)
     to->open = 0;
 }
 
-/* Adds other programs to the comparison; reports those that match no point of this run. */
+/* Adds other programs to the comparison; reports series that match no point of this run. */
 static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
 {
     import_left left;
@@ -383,7 +383,7 @@ static void print(FILE *to, const verification *v)
     table_run_end(to, look, sentence);
 }
 
-/* Completes the files, of which those of evaluated cases have been prepared during the run. */
+/* Completes the files; the parts for evaluated cases were prepared during the run. */
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const verification *v = found;

@@ -21,7 +21,8 @@ static inline const element_data *adapted_own(const element_data *d)
     return (const element_data *)d->own;
 }
 
-/* Largest number of elements whose own data are passed in one call; returns the number passed. */
+/* Largest number of elements whose own data are passed on in one call; passes on the data and
+ * returns their number. */
 enum { ADAPTED_TOGETHER = 1024 };
 static inline int adapted_owns(int count, const element_data *const data[],
                                const element_data *own[ADAPTED_TOGETHER])
@@ -51,7 +52,7 @@ void relative_stress_many(int count, const element_data *const data[], const dou
                           const double *const inner[], stress_output out[], status outcome[]);
 status relative_stress(const element_data *d, const double e[], const double inner[],
                        stress_output *out);
-/* Derivative by differences, in the undeformed state, of C along the strains of this prestress. */
+/* Derivative of C along the strains of this prestress, in the undeformed state, by differences. */
 void relative_geometric(const element_data *d, const double sigma[], double G[]);
 
 #endif

@@ -13,8 +13,8 @@
 /* Completes the interface of a formulation: derivatives by differences, strains and stresses from a
  * force or an energy. */
 
-/* *out: the complete interface of the same beam; it is `given` itself when nothing is missing.
- * REFUSED: the type is inconsistent. */
+/* *out: the complete interface of the same beam, or `given` itself if nothing is missing. REFUSED:
+ * the type is inconsistent. */
 status adapters_complete(const element_type *given, const double options[], element_type *out,
                          fault *f);
 
@@ -33,7 +33,7 @@ typedef struct assignment_list {
     const char *what;     /* "parameter" */
     const char *owner;    /* the case or the formulation */
     const char *option;   /* option of `beamwork list` before that argument: "--scene " or "" */
-    const char *shown_by; /* argument of `beamwork list` that shows them */
+    const char *shown_by; /* argument of `beamwork list` that shows the parameters */
     char separator;       /* between assignments */
 } assignment_list;
 
@@ -48,16 +48,17 @@ enum { ASSIGNMENT_VALUE = 64 };
  * REFUSED: the message names the word and the nearest known name. */
 status assignment_set(const assignment_list *, const char *text, double value[], int any[],
                       int *index, fault *f);
-/* Sets "NAME=VALUE;NAME=VALUE", each name at most once. Other parameters keep their values. "" sets
- * nothing. */
+/* Sets the parameters of "NAME=VALUE;NAME=VALUE", in which a name may occur once. Other parameters
+ * keep their values. "" sets nothing. */
 status assignment_parse(const assignment_list *, const char *text, double value[], int any[],
                         fault *f);
-/* Writes the same form: values that differ from their defaults, in the order of the tables. */
+/* Writes the parameters in the same form: only values that differ from their defaults, in the order
+ * of the tables. */
 void assignment_text(const assignment_list *, const double value[], char *text, int size);
 
 /* Reads a number, or the index of a choice, of any size. Returns 0 when the text is neither. */
 int assignment_value(const parameter_type *, const char *text, double *value);
-/* Writes the shortest text that reads back as the same value, or the name of the choice. */
+/* Writes the shortest text that gives the same value when read, or the name of the choice. */
 void assignment_value_text(const parameter_type *, double value, char *text, int size);
 
 /* Cases by their names. */
@@ -91,7 +92,7 @@ typedef struct environment {
 environment environment_now(int threads);
 const char *environment_version(void); /* of the program, "0.12.0" */
 
-/* -f name:key=value,...: a formulation with its options. */
+/* A formulation with its options: -f name:key=value,... */
 
 enum { FORMULATION_KEY = 128, FORMULATION_OPTIONS = ELEMENT_MAX_OPTIONS + 1 };
 
@@ -106,7 +107,8 @@ typedef enum newton_form {
 
 typedef struct formulation {
     const element_type *type;
-    double option[FORMULATION_OPTIONS]; /* its own, in table order, then the common ones */
+    double option[FORMULATION_OPTIONS]; /* options of the type in table order, then the common
+                                           options */
     /* name, and the options that differ from their defaults */
     char key[FORMULATION_KEY];
 } formulation;
@@ -128,36 +130,37 @@ unsigned formulation_bears_on(const formulation *chosen);
 
 /* List of formulations. */
 
-/* Adds one in the form of -f, or "all". REFUSED: unknown, given twice, or more than `most`. */
+/* Adds a formulation in the form of -f, or "all". REFUSED: unknown, given twice, or more than
+ * `most`. */
 status formulation_list_add(const char *text, int most, formulation list[], int *count, fault *f);
 
-/* All formulations: first those of elements/, then those that were loaded. */
+/* All formulations: first those of elements/, then those loaded at run time. */
 
 enum { FORMULATIONS_MOST_LOADED = 16 };
 
-/* Number i, or NULL after the last one. */
+/* Formulation number i, or NULL after the last one. */
 const element_type *formulations_at(int i);
 /* Returns the element type of this name, or NULL. */
 const element_type *formulations_named(const char *name, size_t length);
 /* Was the type loaded at run time? */
 int formulations_is_loaded(const element_type *t);
 /* Returns 1 for a formulation that the project has not accepted: it was loaded at run time, or
- * formulations_accept has named others but not this one. Its verdicts affect the exit status only
- * if the user loaded or named it (sweep_gates). */
+ * formulations_accept has accepted others but not this one. Its verdicts affect the exit status
+ * only if the user loaded or named it (sweep_gates). */
 int formulations_is_new(const element_type *t);
-/* Marks one as accepted (reference/accepted.csv); an unknown name is ignored. */
+/* Marks a formulation as accepted (reference/accepted.csv); an unknown name is ignored. */
 void formulations_accept(const char *name);
 /* Adds a type. Rejects a name that exists, and words with another meaning ("all"). The caller keeps
  * ownership of the type and of `from`, the value of --element (NULL if none). */
 status formulations_add(const element_type *t, const char *from, fault *f);
-/* Returns the value of --element that loaded the type, or NULL where it was not loaded. */
+/* Returns the value of --element that loaded the type, or NULL if the type was not loaded. */
 const char *formulations_element(const element_type *t);
 
 /* Formulations in separate processes: --element 'exec:COMMAND'. */
 
 enum { PROCESS_MOST = 16 };
 
-/* Does another process compute this type? */
+/* Is this type computed by another process? */
 int process_serves(const element_type *);
 /* Sets the time limit of an answer [s], initially 120; 0: no limit. */
 void process_limit(int seconds);
@@ -174,7 +177,7 @@ status parameters_set(const case_type *c, const char *assignment, double value[]
 /* Reads "NAME=VALUE;NAME=VALUE". Other parameters keep their defaults. A value "*" is skipped and
  * marked in any[] (may be NULL); "*" alone marks all parameters of the source. */
 status parameters_parse(const case_type *c, const char *text, double value[], int any[], fault *f);
-/* Writes the same form; empty for the defaults. */
+/* Writes the parameters in the same form; writes nothing for the defaults. */
 void parameters_text(const case_type *c, const double value[], char *text, int size);
 /* As parameters_text, but only parameters of the original source: programs that compute reference
  * values are called with these. */
@@ -185,7 +188,7 @@ int parameters_of_source(const case_type *c); /* number of parameters of the ori
  * any. */
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[]);
 
-/* Words of the previous point; neighbouring rows of a table have most of them in common. */
+/* Words of the previous point; most of them do not change between neighbouring rows of a table. */
 typedef struct parameters_words {
     int known; /* number of known words; 0: none */
     double value[CASE_MAX_PARAMETERS];

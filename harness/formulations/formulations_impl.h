@@ -13,11 +13,12 @@
 #include "harness/formulations/formulations.h"
 
 /* A child process with its standard input and output as channels; its standard error is that of
- * this process. It ends with the thread that starts it. */
+ * this process. The child ends with the thread that starts it. */
 
 typedef struct child {
     pid_t process; /* 0: no process */
-    pid_t owner;   /* the process that started it; only that process may communicate with it */
+    pid_t owner;   /* the process that started the child; only that process may communicate with the
+                      child */
     int to, from;
 } child;
 
@@ -36,7 +37,8 @@ enum { PROCESS_PROTOCOL = 1, HANDSHAKE_MOST = 65536 };
 typedef struct handshake {
     element_type type; /* data members only, no functions */
     int whole;         /* 1: energy, force or tangent of whole elements; 0: strains and stresses */
-    int inertia; /* 1: the process computes its inertia; with type.spreads also for dynamics */
+    int inertia;       /* 1: the process computes its inertia; with type.spreads, also for transient
+                          analysis */
     element_constants constants; /* of the type */
 } handshake;
 
@@ -73,7 +75,7 @@ typedef struct channel {
     int limit;    /* time limit of an answer [s]; 0: none */
     pthread_mutex_t lock;
     channel_bytes out, in;
-    /* Error that broke the channel, until it is reported; "": none. */
+    /* Error that broke the channel, stored until it is reported; "": none. */
     char trouble[FAULT_TEXT];
     int told;
 } channel;
@@ -81,7 +83,7 @@ typedef struct channel {
 /* FAULT: memory. REFUSED: no words in the command. */
 status channel_init(channel *, const char *command, fault *);
 /* Starts the process (again, if it has ended) and reads its first line: line[HANDSHAKE_MOST + 1],
- * ended by '\0'. REFUSED: there is none. */
+ * ended by '\0'. REFUSED: the process writes no line. */
 status channel_start(channel *, char line[], fault *);
 /* Was it started by this process, and is it running? */
 int channel_runs(const channel *);
@@ -89,10 +91,9 @@ int channel_runs(const channel *);
  * their address; NULL: out of memory. */
 void channel_begin(channel *);
 void *channel_add(channel *, size_t count);
-/* Sends the request and waits for the answer. *body has `least` or `most` bytes, *count says which;
- * it is valid until the next request. NOT_CONVERGED, SINGULAR, REFUSED: reported by the process,
- * with its message; FAULT: the channel is broken or the process ended, and `trouble` gives the
- * reason. */
+/* Sends the request and waits for the answer. *body: the answer, `least` or `most` bytes (*count),
+ * valid until the next request. NOT_CONVERGED, SINGULAR, REFUSED: reported by the process, with its
+ * message; FAULT: the channel is broken or the process ended, and `trouble` gives the reason. */
 status channel_ask(channel *, enum channel_request what, int mask, int elements, size_t least,
                    size_t most, const char **body, size_t *count, fault *);
 /* Stores the reason of a REFUSED or FAULT until it is reported. Other outcomes are ignored, since
@@ -135,8 +136,8 @@ void gather_run(int count, int nodes, size_t size, gather_element *, gather_eval
  * caller's result is not used. */
 const double *gather_next(gather *, const element_data *own, const node_state x[]);
 
-/* Energy, forces and stiffness from the type's own functions, for one state or for many together.
- */
+/* Energy, forces and stiffness from the functions of the type itself, for one state or for many
+ * together. */
 
 /* Forces computed by the type. With `together`: the gathered answers, and zero in the gathering
  * pass. */
@@ -150,9 +151,9 @@ void forces_evaluate(const element_type *given, gather *, int first, int count);
 /* Options in the description that a process sends. */
 
 /* Strains of an element defined by its force or energy. They are the positions of its nodes
- * relative to the first one, in the axes of that node: e = (|d| - undeformed distance, l p, l
- * log(R0^T R_k)) of every other node, l^2 a of all [m], where d = r_k - r_0, and p = (2 n_y, 2
- * n_z)/(1 + n_x) for its direction n, which is regular unless the chord points backward. The
+ * relative to the first node, in the axes of that node: e = (|d| - undeformed distance, l p, l
+ * log(R0^T R_k)) of every other node, l^2 a of all nodes [m], where d = r_k - r_0, and p = (2 n_y,
+ * 2 n_z)/(1 + n_x) for its direction n, which is regular unless the chord points backward. The
  * distance is a separate strain: otherwise a stiff chord would need more iterations of the mixed
  * equations than a soft one. */
 

@@ -30,7 +30,7 @@ static int first_warping(const element_data *d)
     return 6 * (d->nodes - 1);
 }
 
-/* The chord to node k and its change, in the axes of the first node [m]. */
+/* Chord to node k and its change, in the axes of the first node [m]. */
 static void chord(const node_state x[], int k, double to[3], double moved[3])
 {
     double d[3], u[3];

@@ -43,8 +43,7 @@ static void become(char *const words[], int in, int out, int why, pid_t parent)
     _exit(127);
 }
 
-/* Opens a pipe whose descriptors are not 0, 1 or 2, so that dup2 does not close one that is in use.
- */
+/* Opens a pipe whose descriptors are not 0, 1 or 2, so that dup2 closes no descriptor in use. */
 static int pipe_above(int ends[2])
 {
     int low[2];

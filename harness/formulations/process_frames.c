@@ -304,7 +304,7 @@ void frames_serve(process *p)
     t->force_many = p->whole ? force_many : NULL;
 }
 
-/* Inertia of a formulation that computes its own: one request for each element. */
+/* Inertia of a formulation that computes it itself: one request for each element. */
 
 enum { OUTPUTS = 8, TURNING = 1 << 8, RATE = 1 << 9, ACCELERATION = 1 << 10 };
 

@@ -1,11 +1,11 @@
-/* Inside of a formulation in another process. */
+/* Internal declarations of formulations in another process. */
 #ifndef BEAMWORK_PROCESS_IMPL_H
 #define BEAMWORK_PROCESS_IMPL_H
 
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/formulations_impl.h"
 
-enum { PROCESS_KINDS = 65536 }; /* numbers of kinds; larger ones are reused modulo this */
+enum { PROCESS_KINDS = 65536 }; /* number of kinds; larger numbers are reused modulo this */
 
 typedef struct process {
     element_type type;
@@ -17,7 +17,7 @@ typedef struct process {
 
 struct element_data {
     process *of;
-    long started, kind; /* of the process that prepared it */
+    long started, kind; /* of the process that prepared the kind */
     int strains, coordinates, linear;
     double C[]; /* [strains x strains] where linear: sigma = C e */
 };
@@ -27,7 +27,7 @@ void frames_serve(process *p);
 /* process_frames.c: sets the inertia function of the type, where the process gives inertia. */
 void frames_serve_inertia(process *p);
 
-/* A request about many elements, and the numbers in it and in its answer. */
+/* A request about many elements, with the numbers of values in the request and in its answer. */
 
 /* A request about elements. */
 typedef struct frame_question {

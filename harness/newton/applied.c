@@ -116,7 +116,7 @@ static void weight_centre(const model *m, const scene_load *load, const mesh_ele
     mat3_mul_vec(el->triad[node], at, centre);
 }
 
-/* A part of an element shorter than this carries no load; it results from rounding. */
+/* A part of an element shorter than this carries no load, since it is due to rounding. */
 static const double least_part = 1e-12;
 
 int applied_inside(double x)

@@ -47,7 +47,7 @@ void chain_begin(chain *s)
 }
 
 /* Are all eigenvalues of 1 + F B positive, according to a bound? For positive F the eigenvalues of
- * F B are real and bounded by its row sums scaled with the diagonal of F. */
+ * F B are real and bounded by the row sums of F B, scaled with the diagonal of F. */
 static int small_product(int n, const double F[], const double W[])
 {
     for (int i = 0; i < n; i++) {
@@ -308,7 +308,7 @@ INLINED void deform(const chain *s, int c, int y, const double r[], const double
     }
 }
 
-/* Forces on the last joint that move it to x from its force-free position. */
+/* Forces on the last joint that move it from its force-free position to x. */
 static void force_to(const chain *s, const double x[], const double from[], double g[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT], moved[CHAIN_JOINT];

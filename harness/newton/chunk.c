@@ -42,7 +42,7 @@ static const double *inner_of(const model *m, const model_state *s, int element)
     return &s->inner[(size_t)element * (size_t)model_inner(m)];
 }
 
-/* Calls the type's functions for one element, or uses values from a batch. */
+/* Calls the functions of the type for one element, or uses values from a batch. */
 static void strains_one_by_one(const equations *eq, const linear_memory *memory,
                                const model_state *s, int count, chunk_element element[],
                                double deformed[][ELEMENT_MAX_STRAINS])

@@ -135,7 +135,7 @@ int distributed_takes(const equations *eq, int element, const scene_load *load)
     return applied_part(m, element, load, part) && taken(eq, element, load, part);
 }
 
-/* force[] += one of the loads times `scale`. */
+/* force[] += a load times `scale`. */
 static void gather(const equations *eq, int element, const scene_load *load, double scale,
                    double force[3 * ELEMENT_ALONG_POINTS])
 {

@@ -17,8 +17,8 @@ enum { MANY_ELEMENTS = 1000, OF_MANY = 8 };
 /* The second step is extrapolated linearly if the first one took at most this number of
  * iterations. */
 enum { EASY_ITERATIONS = 4 };
-/* Largest error of an extrapolation, relative to no extrapolation, with which it saves iterations.
- */
+/* Largest error of an extrapolation, relative to that without extrapolation, for which an
+ * extrapolation saves iterations. */
 static const double worthwhile = 0.3;
 
 /* The last k of the first `count` states. */
@@ -89,13 +89,13 @@ void predictor_guess(const equations *eq, const predictor *t, double path, model
             return;
 }
 
-/* Initial guess of the next state of a path: the polynomial through the last ones. */
+/* Initial guess for the next state of a path: the polynomial through the last states. */
 
 /* Largest step for extrapolation relative to the last step; largest error of prescribed values
  * relative to the largest of their steps. */
 static const double far = 1.5 * (1 + 1e-9), bent = 0.25;
 
-/* Weights of the states in the polynomial through them, at `path`. */
+/* Weights of the states in their interpolation polynomial, at `path`. */
 static void lagrange(int count, const model_state *const at[], double path, double weight[])
 {
     for (int i = 0; i < count; i++) {
@@ -149,8 +149,8 @@ static void keep_smooth(const equations *eq, const model_state *const at[], doub
     }
 }
 
-/* Sets the prescribed components of a spatial increment to those of their drivers, so that frame
- * and driver agree. */
+/* Sets the prescribed components of a spatial increment to the values of their drivers, so that
+ * frame and driver agree. */
 static void prescribe(const model *m, const mesh_vertex *v, const model_state *last,
                       const model_state *out, double turn[3])
 {

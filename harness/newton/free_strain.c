@@ -184,7 +184,7 @@ void free_strain_subtract(const equations *eq, int element, double path, double 
         e[i] -= own[i] - rest[i];
 }
 
-/* Element data modified by their type for the last amounts. */
+/* Element data as modified by their type for the last amounts. */
 typedef struct run_free {
     size_t size;     /* doubles per element: amounts, data */
     double *element; /* [elements x size] */
@@ -308,7 +308,7 @@ static double energy_with(const equations *eq, const model_state *s, int element
 }
 
 /* Energy gained by an element in a state when its amounts change from `before` to `after` at
- * constant stresses, for a type whose strains are measured from them. */
+ * constant stresses, for a type whose strains are measured from the free strains. */
 static double counted(const equations *eq, const model_state *s, int element,
                       const double before[AMOUNTS], const double after[AMOUNTS])
 {

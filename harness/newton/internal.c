@@ -65,8 +65,8 @@ static void take_couple(const mesh_element *el, const node_state x[], double tak
     }
 }
 
-/* ends[2][7]: external forces on the first (0) and last (1) node of an element without the loads
- * along it, in global axes; x: its nodes. */
+/* ends[2][7]: external forces on the first (0) and last (1) node of an element, excluding loads
+ * along the element, in global axes; x: nodes of the element. */
 static void ends_of(const equations *eq, const internal_state *s, int i, node_state x[],
                     double ends[2][7])
 {
@@ -453,7 +453,7 @@ static status take_local(member_points *of, double place, fault *f)
     return stress_points_of(&spec, &of->local, &of->points, f);
 }
 
-/* Transforms the resultants from the principal axes of the element's section to those of the
+/* Transforms the resultants from the principal axes of the element's section to the axes of the
  * points; the twist follows from the local stiffness. */
 static stress_resultants local_resultants(const member_points *of, int element, const double v[])
 {

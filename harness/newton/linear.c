@@ -401,7 +401,7 @@ static status correct(analysis_context *c, linear_system *s, system_workspace *w
 }
 
 /* A correction may be zero by accident, especially with one element. Perturbs x in its last digits,
- * corrects it, and measures the distance from its old value. The work is not counted. */
+ * corrects it, and measures the distance from the old value. The work is not counted. */
 static status shake(analysis_context *c, linear_system *s, system_workspace *w, const double x[],
                     double *change, fault *f)
 {

@@ -139,7 +139,7 @@ status link_of(const link_element *el, chain_link *out, fault *f)
     take(el, J_p, J_y, H);
     carry_along(el, T);
     TRY(flexibility(el, J_y, H, out, f));
-    /* E, and the forces that it causes */
+    /* E, and the resulting forces */
     dense_mul(s, y, c, J_y, T + c * c, E);
     for (int i = 0; i < s * c; i++)
         E[i] += J_p[i];
@@ -291,8 +291,8 @@ static void add_holds(linkage *l, int node)
             sum[i];
 }
 
-/* Motion of a point of a part in the eigenvector of the smallest eigenvalue: [6: m, rad]; its size
- * [m]. */
+/* Motion of a point of a part in the eigenvector of the smallest eigenvalue: [6: m, rad]; returns
+ * its magnitude [m]. */
 static double motion_of(const linkage *l, int part, const double position[3], double motion[N])
 {
     double at[3], G[N * N], of_part[N];

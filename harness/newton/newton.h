@@ -38,7 +38,8 @@ typedef struct counters {
 
 /* Stored derivatives of elements in the undeformed state (undeformed_of in newton_impl.h). */
 typedef struct run_undeformed {
-    int *of;         /* [elements] index of its values, or NONE; NULL: no values yet */
+    int *of;         /* [elements] index of the values of an element, or NONE; NULL: no values
+                        yet */
     int count, room; /* of values */
     int last;        /* element to which the last values belong */
     double *value;   /* [room x (J, C, initial stresses)] */
@@ -57,8 +58,8 @@ typedef struct loading {
     int unloaded;     /* no loads, and drivers at zero */
     int acting;       /* number of the load case or combination (scene_acting_number) */
     int lumps;        /* LUMPS_* */
-    element_rotating_frame
-        frame; /* for a path of rotation its velocity is multiplied by the path parameter */
+    element_rotating_frame frame; /* for a path of rotation, the angular velocity is multiplied by
+                                     the path parameter */
     int rotates, rotation_follows_path;
 } loading;
 
@@ -83,11 +84,11 @@ typedef struct run_state {
     phases phases;
     thread_team *team; /* threads of the loop over elements; NULL: one thread */
     struct element_part
-        *part; /* equations of a few elements, before they are added up in order; NULL: none yet */
+        *part; /* equations of a few elements, before they are added in order; NULL: none yet */
     struct run_ahead
-        *ahead; /* one memory block; NULL: no batch has been evaluated: newton_impl.h */
+        *ahead; /* in one memory block (newton_impl.h); NULL: no batch has been evaluated */
     run_undeformed undeformed;
-    struct run_free *free_strain; /* free_strain.c; NULL: no type changes its data */
+    struct run_free *free_strain; /* free_strain.c; NULL: the type does not modify its data */
     run_damping *damping;         /* damping of a motion; NULL: none */
     double *feedback; /* [loads] factors of the loads with feedback in the evaluated state, set by
                          feedback_take (harness/time); NULL: no motion yet */
@@ -103,8 +104,8 @@ typedef struct equations {
 status linear_memory_alloc(const model *, linear_memory *, fault *);
 void linear_memory_free(linear_memory *);
 
-/* Starts a run of a model. threads share the loop over elements; 0, 1: one. Sums keep their order,
- * so that results do not depend on the number of threads. */
+/* Starts a run of a model. threads: number of threads for the loop over elements; 0, 1: one. Sums
+ * keep their order, so that results do not depend on the number of threads. */
 status run_state_begin(run_state *, const model *, int threads, fault *);
 void run_state_end(run_state *);
 
@@ -122,8 +123,8 @@ typedef struct advance_stress {
  * element defines. stress: may be NULL. */
 double advance_state(const equations *, const linear_memory *, model_state *, const double dx[],
                      double path, advance_stress *);
-/* Marks the state as an equilibrium: later increments start from it with the last tangent, and gaps
- * of the last linearisation are not closed again. */
+/* Marks the state as an equilibrium: later increments start from this state with the last tangent,
+ * and gaps of the last linearisation are not closed again. */
 void advance_settle(const model *, const linear_memory *, const model_state *);
 
 typedef struct applied {
@@ -134,8 +135,8 @@ typedef struct applied {
     double arm[3]; /* from the vertex to the point of application; it rotates with the vertex [m] */
 } applied;
 
-/* Factor of the load at `path`, or at a time (loading_of), with the factor of its load case; and
- * its derivative. */
+/* Factor of the load, including that of its load case, at `path` or at a time (loading_of); and the
+ * derivative of the factor. */
 double applied_factor(const equations *, const scene_load *load, double path);
 double applied_rate(const equations *, const scene_load *load, double path);
 /* Calls `take` with each nodal force of the load times `scale`. Loads along members are lumped at
@@ -151,7 +152,8 @@ void applied_each(const model *, const model_state *, const scene_load *, double
 typedef struct arrival {
     double criterion;          /* requested value; 0: limit of rounding */
     double small;              /* two successive corrections below this end a step */
-    double correction, before; /* last correction; previous one in the same step, or INFINITY */
+    double correction, before; /* last correction; previous correction in the same step, or
+                                  INFINITY */
     double stress;             /* largest stress on the path so far [N] */
     double stress_change;      /* relative change by the last correction */
     double
@@ -253,7 +255,7 @@ typedef struct outcome_rotation {
 /* State of a motion at one instant; balance: from scene_balance. */
 typedef struct outcome_instant {
     double *rate,
-        *acceleration; /* [free + driven]: see harness/time/time_impl.h; one memory block */
+        *acceleration; /* [free + driven], as in harness/time/time_impl.h; in one memory block */
     double balance[SCENE_BALANCES];
 } outcome_instant;
 
@@ -275,10 +277,10 @@ typedef struct outcome_step {
     double balance[SCENE_BALANCES];
 } outcome_step;
 
-/* End of a motion, with all data needed to continue it. */
+/* End of a motion, with all data needed for its continuation. */
 typedef struct outcome_end {
     int analysis;                        /* index in the scene */
-    double time, step;                   /* [s] step: size of the next one */
+    double time, step;                   /* [s] step: next step size */
     double path;                         /* path parameter of the state */
     double work, dissipated;             /* [J] since t = 0 */
     double largest, origin;              /* [J] largest energy so far; that at t = 0 */
@@ -290,8 +292,8 @@ typedef struct outcome_end {
     double *value; /* [2 states + 3 coordinates + 2 strains + released + 5 between]; NULL: none. The
                       state; the initial state; rates, their derivatives, and the accelerations that
                       generalized-alpha averages; rates of damped strains and their derivatives;
-                      rates of released ends in conserving steps; rotations of nodes relative to
-                      others (model.h) */
+                      rates of released ends in conserving steps; relative rotations of nodes
+                      (model.h) */
 } outcome_end;
 /* Number of entries of `value`. */
 size_t outcome_end_values(const outcome_end *);
@@ -312,7 +314,7 @@ typedef struct outcome_motion {
 
 /* Extreme of a response between the frequencies of the analysis. */
 typedef struct outcome_peak {
-    int known;     /* 0: it is at a frequency of the analysis */
+    int known;     /* 0: the extreme is at a frequency of the analysis */
     int unbounded; /* 1: nothing damps the resonance at hertz */
     double hertz, value, bound;
 } outcome_peak;
@@ -320,7 +322,8 @@ typedef struct outcome_peak {
 typedef struct outcome_harmonic {
     outcome_path path;  /* path of frequencies [Hz]; without states */
     double *response;   /* [quantities of the scene x stations] as extracted */
-    double *bound;      /* the same: error by omitted modes, at most */
+    double *bound;      /* [quantities of the scene x stations] upper bound of the error due to
+                           omitted modes */
     outcome_peak *peak; /* [quantities of the scene] for quantities that request the largest or the
                            smallest value */
 } outcome_harmonic;
@@ -435,7 +438,7 @@ typedef struct row_label {
     const char *unit;      /* unit of the coordinate: "m", "rad", "rad/m" */
 } row_label;
 
-/* out[free]; a coordinate shared by several nodes belongs to the first one. */
+/* out[free]; a coordinate shared by several nodes is labelled with the first of them. */
 void rows_label(const model *, row_label out[]);
 
 /* Matrices of small motions about the states of a solution, for other programs:
@@ -450,7 +453,7 @@ typedef struct linear_model {
     } state;
     int eliminated; /* coordinates without mass and damping */
     double apart;   /* harmonic analysis: largest difference from its responses, relative ... */
-    int farthest;   /* ... and the quantity that has it */
+    int farthest;   /* ... and the quantity with this difference */
 } linear_model;
 
 /* A reduced linear model, q = T x, next to the full one. */
@@ -471,7 +474,7 @@ typedef struct system_input {
 } system_input;
 
 typedef struct system_output {
-    int quantity; /* the first that reads it */
+    int quantity; /* first quantity that reads it */
     scene_response as;
 } system_output;
 
@@ -573,7 +576,7 @@ typedef enum step_stability {
     STEP_GROWS, /* in rotating axes, or with a tangent that is not symmetric: a small motion grows,
                    shown by an odd number of negative eigenvalues (det K < 0) or by a mode */
     STEP_HELD,  /* in rotating axes: stable only by gyroscopic forces; without damping no motion
-                   grows, but damping that rotates with the structure makes one grow */
+                   grows, but damping that rotates with the structure can make a motion grow */
     STEP_STABILITIES
 } step_stability;
 const char *result_stability_name(step_stability);
@@ -585,7 +588,8 @@ typedef struct step_record {
     double path, increment;
     int iterations, rejected,
         negative_pivots;   /* rejected: number of longer steps that failed before this one */
-    int by_eigenvalues;    /* 1: the tangent is not symmetric, and its eigenvalues were followed: */
+    int by_eigenvalues;    /* 1: the tangent is not symmetric, and its eigenvalues were followed. In
+                              that case: */
     int passed;            /* number of eigenvalues that have crossed zero */
     step_stability judged; /* result from the frequencies of small motions; STEP_OPEN: not computed
                               or unknown */
@@ -658,7 +662,7 @@ typedef struct solve_result {
 } solve_result;
 
 const char *result_event_name(event_kind); /* "limit point", ... */
-/* Number of eigenvalues of the tangent that cross zero there, for one load. */
+/* Number of eigenvalues of the tangent that cross zero at the event, for one load. */
 int result_event_multiplicity(const path_event *);
 void result_free(solve_result *);
 
@@ -686,8 +690,7 @@ typedef struct analysis_context {
     const struct analysis_context *const *sides;
 } analysis_context;
 
-/* Must the analysis run, because quantities or other analyses read it, or the options request it?
- */
+/* Is the analysis required by quantities, by other analyses or by the options? */
 int context_runs(const analysis_context *, int analysis);
 /* Returns the context of an analysis, with its loading. In a motion, loads without a function of
  * time keep the value of the initial state. */
@@ -760,7 +763,8 @@ status tangent_take(analysis_context *c, const scene_compliance *a, const model_
 status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
                               const double reaction[6], const condensation *members,
                               node_tangent *t, fault *f);
-/* Removes the moment about free rotation axes from the reaction, since no support exerts it. */
+/* Removes the moment about axes of free rotation from the reaction, since no support exerts that
+ * moment. */
 void tangent_prescribed(const node_tangent *t, double moment[3]);
 /* Components in which the node can move. */
 void tangent_movable(const model *m, const node_tangent *t, movable *out);
@@ -780,8 +784,8 @@ typedef struct element_part {
 /* Loads and drivers along a path. */
 
 /* Returns the loading of an analysis. In a motion the path parameter is the time, and loads and
- * drivers are functions of it; a load without such a function acts in full. Axes rotate as those of
- * the analysis, or of its base analysis. */
+ * drivers are functions of it; a load without such a function acts in full. The axes rotate as in
+ * the analysis or its base analysis. */
 loading loading_of(const model *, int analysis);
 /* Value of a known driver [m or rad]. */
 double loads_driver_value(const equations *, const scene_driver *d, double path);
@@ -834,7 +838,7 @@ typedef struct model_linearisation {
     const model_condition *condition;
     double *column;   /* ... [conditions x (free + driven)] */
     sparse *K;        /* on a pattern of assemble_pattern; may be NULL */
-    double *residual; /* [free + driven] right-hand side; for prescribed coordinates minus their
+    double *residual; /* [free + driven] right-hand side; for prescribed coordinates, minus their
                          reaction */
     double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
@@ -872,7 +876,7 @@ void linearise_add_internal(const equations *, const model_state *, int elements
 
 enum {
     CHUNK_MOST = 8,   /* largest number of elements in a batch */
-    CHUNK_WINDOW = 32 /* number of elements among which those of one kind are searched */
+    CHUNK_WINDOW = 32 /* number of elements among which elements of one kind are searched */
 };
 
 /* Number of elements in a batch; 1 if they are evaluated one after the other. */
@@ -886,9 +890,9 @@ int chunk_next(const model *m, int first, int end, unsigned char done[], int ind
  * Semitangential: K; the moment follows half of the rotation, m + theta x m/2, and has a potential
  * (Argyris et al. 1979). Spatial: K - m~/2 on the rotations; the moment has fixed axes, and the
  * matrix is not symmetric. Symmetrised: the symmetric part of the spatial stiffness; K itself if
- * all other loads have a potential. A tangent uses one of the first two: the spatial one at a node
- * that is fixed about one axis only, whose moment keeps its direction (coordinates_held_turn), else
- * the semitangential one. */
+ * all other loads have a potential. A tangent uses one of the first two conventions: the spatial
+ * one at a node that is fixed about one axis only, whose moment keeps its direction
+ * (coordinates_held_turn), else the semitangential one. */
 
 /* Does the convention change the stiffness given by the tangent? If so, one column of the
  * compliance depends on all others. */
@@ -917,7 +921,7 @@ void history_drop_step(solve_result *r, const step_record *step);
 
 /* Sets the analysis of the steps from `first` on, and the stability of their final states. */
 void history_judge_steps(solve_result *, const scene *, int analysis, int first);
-/* Sets the stability shown by the modes at a station, where pivots do not decide it. */
+/* Sets the stability shown by the modes at a station where pivots are not conclusive. */
 void history_judge_station(solve_result *, int analysis, double path, step_stability);
 /* Stability of the step that ended at that path parameter; STEP_OPEN: there is none. */
 step_stability history_stability_at(const solve_result *, int analysis, double path);
@@ -951,8 +955,8 @@ int identity_add_model(identity *, const model *);
 
 /* Resultants of the stresses on the sections of a member.
  *
- * At the ends of an element they are its nodal forces J^T sigma minus the loads along it that are
- * lumped at its nodes. They are in equilibrium with the rest of the structure, whatever a
+ * At the ends of an element, the resultants are its nodal forces J^T sigma minus the loads along it
+ * that are lumped at its nodes. They are in equilibrium with the rest of the structure, whatever a
  * formulation assumes inside. Between the ends harness/section_forces/section_forces.h computes
  * them in the same way for all formulations. */
 
@@ -969,7 +973,8 @@ typedef struct internal_state {
 
 /* Inertia forces of one element in a motion. */
 typedef struct internal_inertia {
-    /* ends[2][7] += inertia forces of its masses lumped at its first and its last node */
+    /* ends[2][7] += inertia forces of the masses of the element lumped at its first and its last
+     * node */
     void (*ends)(const void *context, int element, double ends[2][7]);
     /* inertia force per initial length, in global axes, of evenly distributed mass that moves as
      * each node does: density[nodes][force, moment about the node's frame] */
@@ -1010,7 +1015,7 @@ typedef double (*internal_measure)(void *context, int element, double x, const d
 status internal_largest(const equations *, const internal_state *, int member, internal_measure of,
                         void *context, double *out, fault *);
 
-/* Stresses in members, at the points of a section, from its resultants. */
+/* Stresses at the points of a section of a member, from the resultants there. */
 
 /* At a position of a member, 0 (from) .. 1 (to) [Pa]. REFUSED: a section given by constants, which
  * has no points; else as internal_at. */
@@ -1022,8 +1027,8 @@ status internal_stress_largest(const equations *, const internal_state *, int me
 
 /* Subtracts the free strains from e[strains], the strains due to the node positions. */
 void free_strain_subtract(const equations *, int element, double path, double e[]);
-/* Data for the stresses of an element: those of its kind, or modified by its type; valid until the
- * next call for the element. */
+/* Data for the stresses of an element: the data of its kind, or modified by its type; valid until
+ * the next call for the element. */
 const element_data *free_strain_data(const equations *, int element, double path);
 /* Energy supplied by temperatures that change in time: at an instant [W], and between two states
  * [J]. */
@@ -1070,7 +1075,7 @@ status predictor_alloc(const model *, predictor *, fault *); /* contains the und
 void predictor_free(predictor *);
 status predictor_add(const equations *, const model_state *, int iterations, predictor *, fault *);
 void predictor_forget(predictor *);
-/* Moves the last state s to an extrapolation for `path`, or leaves it unchanged. */
+/* Moves the last state s to an extrapolation for `path`, or leaves s unchanged. */
 void predictor_guess(const equations *, const predictor *, double path, model_state *s);
 
 /* Newton's method in coordinates, strains and stresses together (N section 4), used by every
@@ -1107,7 +1112,7 @@ status newton_keep_driven(newton_run *, fault *);
 typedef struct newton_correction {
     double at;     /* target path parameter or, in a motion, instant [s] */
     double size;   /* dimensionless size of the change: advance_state */
-    double energy; /* |r . K^-1 r| of the residual r before it [J]; NAN: unknown */
+    double energy; /* |r . K^-1 r| of the residual r before the correction [J]; NAN: unknown */
     advance_stress stress;
 } newton_correction;
 
@@ -1127,7 +1132,7 @@ status newton_accept(const model *, const model_state *from, model_state *, faul
 /* Parts of Newton's method that depend on the analysis. */
 typedef struct newton_use {
     void *of;
-    newton_run *on;  /* for a path: newton_accept checks its states, and a state far from its first
+    newton_run *on;  /* for a path: newton_accept checks the states, and a state far from its first
                         correction, possibly another equilibrium, does not count as converged; NULL:
                         for a motion */
     int least, most; /* iterations */
@@ -1155,8 +1160,8 @@ status newton_iterate(analysis_context *, const newton_use *, arrival *, step_re
 /* Newton's method to `path`: OK, or NOT_CONVERGED with the reason. */
 status newton_to(newton_run *, double path, step_record *, fault *);
 
-/* Quadratic forms of the undeformed structure and of the stresses of a linear solution, from the
- * element strains: unlike assembled matrices they do not lose digits of soft motions. */
+/* Quadratic forms of the undeformed structure and of the stresses of a linear solution, computed
+ * from the element strains. Unlike assembled matrices, they do not lose digits of soft motions. */
 
 typedef struct quadratic_forms {
     const equations *eq;
@@ -1188,7 +1193,7 @@ void quadratic_forms_product(quadratic_forms *p, const double x[], double y[]);
 
 /* If the outcome is STATUS_OK but lacks the value, the status becomes STATUS_NO_VALUE. */
 void quantity_no_value(quantity_result *, status, const char *reason);
-/* Value times the factor of the quantity, plus its offset. */
+/* Returns the value times the factor of the quantity, plus its offset. */
 double quantity_scaled(const scene_quantity *, double value);
 
 /* As quantity_scaled, for the abscissa of its curve. */
@@ -1255,10 +1260,11 @@ void singular_explain(analysis_context *c, fault *f);
 
 /* The tangent of a state as a sum of two parts. */
 
-/* K x of the last linearisation in two parts. The stiff part is computed from the element strains,
- * y += sum J^T P'' (J x); an assembled matrix would lose all digits of the soft motions. x, y:
- * [free + driven]. The other part is a matrix on the pattern of G: sum sigma_i H_i with the second
- * derivatives of offsets and sequences, minus the stiffness of loads and rotation. */
+/* Products of K of the last linearisation with x, in two parts. The stiff part is computed from the
+ * element strains, y += sum J^T P'' (J x); an assembled matrix would lose all digits of the soft
+ * motions. x, y: [free + driven]. The other part is a matrix on the pattern of G: sum sigma_i H_i
+ * with the second derivatives of offsets and sequences, minus the stiffness of loads and
+ * rotation. */
 void stiffness_parts_material_product(const model *, const linear_memory *, const model_state *,
                                       const double x[], double y[]);
 /* Bound of the rounding error of x^T K x of the material part. */

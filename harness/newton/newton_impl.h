@@ -25,11 +25,11 @@ element_rotating_frame loading_frame(const loading *, double path);
 /* Returns 1 for a uniform load on the whole length of a member without lumping of its own: it is
  * distributed to the nodes in the same shares as the mass. */
 int applied_with_mass(const scene_load *);
-/* As applied_each, for a load along the member of this element, on this element only. */
+/* As applied_each, for a load along the member of an element, but only on this element. */
 void applied_element(const model *, const model_state *, const scene_load *, double scale,
                      int element, void (*take)(void *context, const applied *), void *context);
-/* Range [from, to] of an element on which a load along its member acts; for a point load both are
- * its position, in the following element. Returns 0 when the load acts elsewhere. */
+/* Range [from, to] of an element on which a load along its member acts; for a point load, both are
+ * its position (between two elements, in the second). Returns 0 when the load acts elsewhere. */
 int applied_part(const model *, int element, const scene_load *, double part[2]);
 /* Returns 1 when x is inside the element, not at an end. */
 int applied_inside(double x);
@@ -48,15 +48,16 @@ void applied_stiffness(const model *, const model_state *, const scene_load *, d
 /* Condenses members to their ends before the tangent is solved, and expands the solution.
  *
  * For members with many elements the assembled tangent loses digits with the fourth power of their
- * number. Flexibilities of members (newton_impl.h) do not, and the remaining system is as small as
- * with one element per member. */
+ * number. Flexibilities of members (chain.c) do not, and the remaining system is as small as with
+ * one element per member. */
 
 /* Minimum number of elements of a condensed member: with fewer, the assembled tangent costs less
  * and is accurate enough. */
 enum { CONDENSATION_ELEMENTS = 1000 };
 
-/* *out NULL: members have fewer elements than `from`, or a load between their ends has a stiffness,
- * or frames rotate. released[count]: prescribed coordinates that are also unknowns. */
+/* *out is NULL if members have fewer elements than `from`, if a load between their ends has a
+ * stiffness, or if frames rotate. released[count]: prescribed coordinates that are also
+ * unknowns. */
 status condensation_alloc(const equations *, int from, int count, const int released[],
                           condensation **out, fault *);
 /* Allocates a condensation with the members of `of`, which must outlive it, and other released
@@ -70,14 +71,14 @@ void condensation_free(condensation *);
 status condensation_at(condensation *, const model_state *, double path, fault *);
 /* Computes the tangent in the state of `of`, which owns the members. */
 void condensation_take(condensation *, const condensation *of, const model_state *);
-/* Matrix on all coordinates of ends, to be changed before it is factored. */
+/* Matrix on all end coordinates, which the caller may change before it is factored. */
 sparse *condensation_ends(condensation *);
 /* SINGULAR: see factor_numeric, or a member is in a critical state. */
 status condensation_factor(condensation *, fault *);
 /* x[free + driven] := K^-1 x on the unknowns; transposed: K^-T x. */
 void condensation_solve(condensation *, int transposed, double x[]);
 factor_counts condensation_count(const condensation *);
-/* Makes a factor that solves with the condensation and owns it. */
+/* Makes a factor that solves by means of the condensation and owns it. */
 status condensation_as_factor(condensation *, matrix_factor **, fault *);
 
 /* Condenses members with many elements. *out NULL: there are none, or the condition of the tangent
@@ -108,15 +109,15 @@ typedef struct distributed_loads {
 /* Does the load act by its work inside elements? Otherwise half of it is lumped at each end. */
 int distributed_spreads(const equations *, const scene_load *);
 
-/* Does the element include the load in its own equilibrium (element_type.along)? Only dead forces
- * on the whole element, along its line, without a motion. */
+/* Does the element include the load in its own equilibrium (element_type.along)? This is supported
+ * only for dead forces along the whole line of an element, without a motion. */
 int distributed_takes(const equations *, int element, const scene_load *);
 /* Sum of the loads that an element includes in its own equilibrium. */
 typedef struct distributed_taken {
     int acts;
     double force[3 * ELEMENT_ALONG_POINTS], mixed[3 * ELEMENT_MAX_STRAINS],
         H[ELEMENT_ALONG_COORDINATES * ELEMENT_ALONG_COORDINATES];
-    along_output out; /* fills the arrays above; its stresses go to those of a slot */
+    along_output out; /* writes to the arrays above; its stresses are added to those of a slot */
 } distributed_taken;
 /* Fills *out for the loads at `path`; out->acts 0: none. */
 void distributed_take(const equations *, int element, double path, distributed_taken *out);
@@ -139,8 +140,8 @@ int distributed_add(const equations *, const model_state *, const node_state x[]
 /* As distributed_add, only for loads in the element's own equilibrium. */
 int distributed_add_own(const equations *, const model_state *, const node_state x[], int element,
                         double path, double forces[], double K[]);
-/* Stresses of a state under the loads at `path` (sigma, C of stress_output); returns 0 when the
- * element has no loads in its own equilibrium. */
+/* Stresses of a state under the loads at `path` (sigma, C of stress_output); returns 0 if the
+ * element has no loads of this kind. */
 int distributed_stress(const equations *, const model_state *, const node_state x[], int element,
                        double path, const stress_output *, status *outcome);
 int distributed_add_field(const equations *, const node_state x[], int element, double path,
@@ -180,7 +181,7 @@ status loads_have_potential(const equations *eq, const model_state *s, double pa
  * derivatives differ by the reaction moment R: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic
  * order. */
 void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K);
-/* REFUSED: there is such a moment, which has no potential. */
+/* REFUSED: such a moment exists; it has no potential. */
 status linearise_held_have_potential(const equations *eq, const double sigma[], double path,
                                      fault *f);
 
@@ -197,8 +198,8 @@ void loads_drive(const equations *, const model_state *, double path, double dx[
 void loads_release_moment(const model *, const model_state *, int node, const double M[3],
                           sparse *K);
 
-/* Batches of a few elements that are evaluated together: of one kind if the type has lanes
- * (element_type.lanes), otherwise one after the other. */
+/* Batches of a few elements that are evaluated together: elements of one kind if the type has lanes
+ * (element_type.lanes); otherwise one element after the other. */
 
 /* Evaluation of one element. */
 typedef struct chunk_element {
@@ -206,7 +207,7 @@ typedef struct chunk_element {
     double *force; /* input: [7 nodes] */
     double *K;     /* input: [7 nodes x 7 nodes] sum sigma_i H_i; may be NULL */
     node_state x[ELEMENT_MAX_NODES];
-    distributed_taken along; /* loads included in its stresses */
+    distributed_taken along; /* loads that are included in the stresses */
     status outcome;
     int complete; /* 1: force is J^T sigma of the slot, and K also contains J^T C J ... */
     double present[ELEMENT_MAX_COORDINATES]; /* ... and `present` is J^T sigma of the state */
@@ -255,7 +256,7 @@ void linear_forces(const equations *, const double sigma[],
  * instead of eps n^4. */
 double linear_strain_energy2(const equations *, const double x[]); /* x^T K x = sum (Jx)^T S (Jx) */
 double linear_strain_rounding(const equations *,
-                              const double x[]); /* bound of its rounding error */
+                              const double x[]); /* bound of the rounding error */
 double linear_geometric_energy2(const equations *, const double sigma[], const double x[]);
 /* Size of the rounding error of the geometric form, with the stresses sigma of the displacements
  * load_x[free + driven]. */
@@ -280,8 +281,8 @@ void rotating_frame_load_stiffness(const equations *, const model_state *, doubl
 
 /* Strains and stresses of all elements are evaluated before the loop that uses them, for types that
  * evaluate all elements in one call (element_type.strain_many, stress_many, without lanes). For
- * other types, and when memory is short, every element is evaluated in the loop; those with lanes
- * in small batches (chunk.c). */
+ * other types, and when memory is short, every element is evaluated in the loop; elements with
+ * lanes are evaluated in small batches (chunk.c). */
 
 /* Strains and stresses evaluated for all elements in one call. */
 typedef struct run_ahead {
@@ -399,8 +400,7 @@ static inline int chain_packed(int n)
     return n * (n + 1) / 2;
 }
 
-/* For each link its A and F are stored, and for its junction with the previous row Z, B Z and Z F.
- */
+/* For each link, its A and F are stored; for its junction with the previous row, Z, B Z and Z F. */
 struct chain {
     int links, count; /* count: number added so far */
     int c, y, inside; /* number of coordinates of a joint; of a link; inside = y - c */
@@ -454,9 +454,10 @@ struct condensation {
     int members, all, unknowns;
     int lent; /* 1: another condensation owns chains and r */
     condensed_member *member;
-    int *number;   /* [all] index of a coordinate among those of ends; NONE: not of an end */
+    int *number;   /* [all] index of a coordinate among the end coordinates; NONE: not an end
+                      coordinate */
     int *unknown;  /* [unknowns] coordinates of the reduced system */
-    sparse K;      /* matrix of the ends, on all their coordinates */
+    sparse K;      /* matrix on all end coordinates */
     sparse inside; /* matrix of the unknowns */
     int *from;     /* [entries of inside] positions in K */
     matrix_factor *factor;

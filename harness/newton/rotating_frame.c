@@ -1,5 +1,5 @@
 /* A frame that rotates at a constant rate: its effect on elements, and the matrices of small
- * motions in it (J Eq. 76). */
+ * motions in the frame (J Eq. 76). */
 #include "harness/newton/newton_impl.h"
 
 #include <string.h>

@@ -153,8 +153,8 @@ static int has_no_number(const sparse *K)
     return found;
 }
 
-/* Condition of the stiffness of an undeformed model; INFINITY: it cannot be factored. *lost: LOST:
- * no accuracy is left, NO_NUMBER: entries are NaN or Inf. */
+/* Condition of the stiffness of an undeformed model; INFINITY: the stiffness cannot be factored.
+ * *lost: LOST: no accuracy is left, NO_NUMBER: entries are NaN or Inf. */
 static double condition_at_rest(const analysis_context *c, const equations *eq, int *lost)
 {
     const counters work = eq->run->counters;

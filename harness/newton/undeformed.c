@@ -295,7 +295,7 @@ double linear_springs_geometric_energy2(const model *m, const double sigma[], co
     return sum;
 }
 
-/* Bytes of an array, rounded up so that the next one is aligned. */
+/* Size of an array [bytes], rounded up so that the next array is aligned. */
 static size_t bytes(size_t count, size_t size)
 {
     const size_t unit = _Alignof(max_align_t);

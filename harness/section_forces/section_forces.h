@@ -39,8 +39,8 @@ typedef struct span_frame {
  * active physics) between the end frames. It satisfies F' = -q, m' = -r' x F - mu, N = R^T F, M =
  * R^T m, and the torsion equations of section_forces_impl.h. The solution that starts at p with the
  * forces at p is blended, in proportion to x, with the solution that starts at q with the forces at
- * q. The only error is that of the end forces: values inside converge as they do, and agree with
- * them at the ends. */
+ * q. The only error is that of the end forces: values inside converge like the end forces, and
+ * agree with them at the ends. */
 
 /* Action of the part towards q on the part towards p, in the principal axes of the rotated section;
  * moments about the centroid. */
@@ -58,7 +58,7 @@ enum span_value {
     SPAN_MX_SAINT_VENANT,
     SPAN_MX_WARPING,
     SPAN_MX_WAGNER,
-    SPAN_TWIST, /* kappa_x minus its initial value [1/m] */
+    SPAN_TWIST, /* kappa_x minus the initial value of kappa_x [1/m] */
     SPAN_VALUES
 };
 

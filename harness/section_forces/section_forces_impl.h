@@ -8,7 +8,7 @@
 
 enum { FIXED_POINT_MAX = 160 };
 
-/* out = g(x), [n] each. Returns 0, or 1 when it cannot be evaluated. */
+/* out = g(x), [n] each. Returns 0, or 1 when g(x) cannot be evaluated. */
 typedef int (*fixed_point_map)(void *context, const double x[], double out[]);
 
 /* Non-uniform torsion between two sections whose bimoments and warping amplitudes are known.
@@ -16,9 +16,9 @@ typedef int (*fixed_point_map)(void *context, const double x[], double out[]);
  *   EIw a' = B, B' = -M_w, M_s = K k + M_w, k = a + F_w M_w + f:
  * torque M_s about the shear centre, twist rate k, amplitude a, torque M_w due to restrained
  * warping, torsional stiffness K, flexibility F_w of warping in shear, and contribution f of
- * transverse forces. Two of the four end values determine a solution: the one with (B_p, a_q) is
- * used near p and blends into the one with (a_p, B_q) near q. Both are well posed for any K >= 0.
- */
+ * transverse forces. Two of the four end values determine a solution: the solution with (B_p, a_q)
+ * is used near p and is blended with the solution with (a_p, B_q) near q. Both are well posed for
+ * any K >= 0. */
 
 typedef struct span_torsion {
     double EIw;                         /* 0: no warping */

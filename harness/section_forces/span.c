@@ -342,8 +342,8 @@ void span_moved(const span_grid *g, const span_problem *problem, const span_fiel
 
 enum { CURVE_N = SPAN_GRID_POINTS };
 
-/* Rotation over a gap of length h, in the axes at its start (Blanes, Casas, Ros, BIT 40, 2000):
- * R^T' = -kappa~ R^T at three Gauss points. */
+/* Rotation over an interval of length h, in the axes at its start (Blanes, Casas, Ros, BIT 40,
+ * 2000): R^T' = -kappa~ R^T at three Gauss points. */
 static void turn_of(const span_grid *g, int gap, const double kappa[], double h, double out[3])
 {
     double at[SPAN_GRID_GAUSS][3] = {{0}}, a[3], b[3], c[3], first[3], second[3], third[3],
@@ -370,7 +370,7 @@ static void turn_of(const span_grid *g, int gap, const double kappa[], double h,
         out[i] = -(a[i] + c[i] / 12 + second[i] / 240);
 }
 
-/* Integrates the orientations; the last one becomes that of q. */
+/* Integrates the orientations, and sets the last one to that of q. */
 static void turn(const span_grid *g, const span_frame *p, const span_frame *q, const double kappa[],
                  span_curve *out)
 {
@@ -567,7 +567,7 @@ typedef struct history {
     double move[MEMORY][FIXED_POINT_MAX], given[MEMORY][FIXED_POINT_MAX];
 } history;
 
-/* Adds a pair of differences; when the history is full, it is cleared. */
+/* Adds a pair of differences; a full history is cleared first. */
 static void remember(history *h, int n, double move[], double given[])
 {
     if (h->count == MEMORY)

@@ -125,7 +125,7 @@ void cell_result_free(cell_result *r)
 
 const double omission_most = 1e-4;
 const double omission_safety = 2;
-/* [s] estimated time of a solution; above it the change is reported as unknown */
+/* [s] longest estimated time of a solution; beyond it the change is reported as unknown */
 static const double longest = 20;
 /* [s] estimated time of a solution that is always made */
 static const double brief = 0.2;
@@ -253,7 +253,7 @@ static double change_of_curve(const curve *a, const curve *b, double least)
     return relative(apart, size);
 }
 
-/* Relative change of one quantity; INFINITY when one of the two has no value. */
+/* Relative change of one quantity; INFINITY when one of the two values is missing. */
 static double change_of(const scene *s, const solve_result *with, const solve_result *without,
                         int quantity)
 {

@@ -147,8 +147,8 @@ int expense_order(const sweep *s, int jobs, workload_task tasks[])
 }
 
 /* The result of a cell is a tree of arrays. Records and elements are sent as stored in memory, and
- * pointers are replaced by those of the receiver. A new array requires a line in the tables below;
- * a new number does not. */
+ * pointers are replaced by those of the receiving process. A new array requires a line in the
+ * tables below; a new number does not. */
 typedef struct branch branch;
 struct branch {
     size_t pointer, size; /* position of the pointer in the record; size of an element [bytes] */
@@ -242,7 +242,7 @@ static int put_parts(FILE *to, const void *record, const branch parts[])
     return 0;
 }
 
-/* Clears pointers, which are those of the other process. */
+/* Clears pointers that are valid only in the other process. */
 static void forget(void *record, const branch parts[])
 {
     for (const branch *b = parts; b->size > 0; b++)

@@ -9,7 +9,7 @@
 
 enum { MOST_SERIES = 64 };
 
-/* A limit with its uncertainty. */
+/* A limit and its uncertainty. */
 typedef struct families_known_limit {
     int series;
     const char *family;
@@ -145,8 +145,8 @@ static int is_near(const families_known_limit *one, const mean *m)
     return fabs(one->value - m->value) <= one->uncertainty + m->uncertainty;
 }
 
-/* Repeatedly removes the limit that is farthest outside its uncertainty, until none is outside:
- * in[count]. */
+/* Repeatedly removes from in[count] the limit that is farthest outside its uncertainty, until none
+ * is outside. */
 static mean settle(const families_known_limit *all, int count, int in[])
 {
     for (;;) {
@@ -431,7 +431,7 @@ static void drop(sweep *s, const kept *k)
 {
     scene *wanted = &s->point[k->point].scene;
     int quantities = 0, seriess = 0;
-    for (int q = 0; q < wanted->quantities; q++) /* together with the abscissae of their curves */
+    for (int q = 0; q < wanted->quantities; q++) /* together with the abscissae of the curves */
         if (k->quantity[q] && scene_abscissa_of(wanted, &wanted->quantity[q]) != SCENE_NONE)
             k->quantity[scene_abscissa_of(wanted, &wanted->quantity[q])] = 1;
     for (int q = 0; q < wanted->quantities; q++)

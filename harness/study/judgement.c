@@ -83,8 +83,8 @@ static status check_cells(const sweep *s, int index, judgement *out, fault *f)
     return STATUS_OK;
 }
 
-/* Marks the reference values of this quantity as used, including lower-ranked ones and those of
- * other models. */
+/* Marks the reference values of this quantity as used, including reference values of lower rank and
+ * of other models. */
 static void mark_met(truths *t, const sweep_point *p, const formulation *chosen,
                      const char *quantity, int judged)
 {
@@ -210,8 +210,8 @@ static void judge_series(const sweep *s, truths *t, int index, judgement *out)
     const sweep_point *p = &s->point[one->point];
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *quantity = &p->scene.quantity[q];
-        /* a curve is only drawn with its reference values; another quantity evaluates a point of it
-         */
+        /* a curve is only drawn with its reference values; another quantity evaluates a point of
+         * the curve */
         if (one->imported != NULL && (quantity->reduction == SCENE_CURVE || !is_imported(one, q)))
             continue;
         if (quantity->reduction == SCENE_CURVE)

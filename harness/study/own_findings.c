@@ -9,7 +9,8 @@
 #include "cases/format/format.h"
 #include "elements/shared/choice.h"
 
-/* Number i of the cases of the run, followed by the other built-in ones; NULL after the last. */
+/* Returns case number i of the run, followed by the other built-in cases; NULL after the last
+ * one. */
 static const case_type *own_names_case_at(const case_type *const run[], int i);
 
 static const char head[] = "rule,formulations,cases,condition,quantities,verdicts,largest_error,"

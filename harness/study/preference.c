@@ -93,7 +93,7 @@ typedef struct preference_candidates {
     standing here[CANDIDATES];
 } preference_candidates;
 
-/* Is it already a candidate, or is its family full? */
+/* Is the type already a candidate, or does its family have enough candidates? */
 static int is_taken(const preference_candidates *all, const element_type *type)
 {
     int same = 0;
@@ -200,7 +200,7 @@ typedef struct runner {
                              expected; else 0 */
     int tried, before, elements; /* number of meshes; elements of the last two */
     int unstable;                /* 1: a mesh had unstable states that finer meshes may not have */
-    double cost, next;           /* cost of the last mesh; estimated cost of the next one [s] */
+    double cost, next;           /* [s] cost of the last mesh; estimated cost of the next mesh */
 } runner;
 
 static status begin(runner *r, const cell_request *request, const formulation *chosen, double asked,
@@ -232,7 +232,8 @@ static void end(runner *r)
     cell_result_free(&r->cell[1]);
 }
 
-/* Next mesh: those of the scene, then twice the elements each time. */
+/* Number of elements of the next mesh: the meshes of the scene, then twice the elements each
+ * time. */
 static int next_mesh(const scene *s, const runner *r)
 {
     return r->tried < s->meshes ? s->mesh[r->tried] : 2 * r->elements;
@@ -297,8 +298,8 @@ static void refine(const scene *s, runner *r)
     r->tried++;
 }
 
-/* Always advances the runner whose next mesh has the lowest cost, until one has converged; NULL:
- * none does within the limits. */
+/* Always advances the runner whose next mesh has the lowest cost, until one has converged; NULL: no
+ * runner converges within the limits. */
 static runner *race(const scene *s, runner of[], int count)
 {
     for (;;) {
@@ -343,7 +344,7 @@ static runner *calmest(runner of[], int count)
     return out;
 }
 
-/* Stores the result of a runner; *out takes ownership of its changes. */
+/* Stores the result of a runner; *out takes ownership of the changes. */
 static void keep(const scene *s, runner *r, preference *out)
 {
     out->chosen = r->chosen;

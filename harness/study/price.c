@@ -194,8 +194,8 @@ static int has_no_rank(const formulation *chosen)
     return reach_unranked(chosen->type)[0] != '\0';
 }
 
-/* Answers the question for one series. Returns 0 if it does not meet the level in all requested
- * quantities. */
+/* Answers the question for one series. Returns 0 if the series does not meet the level in all
+ * requested quantities. */
 static int reach_one(const reach_question *q, int series_index, reached *out)
 {
     const series *one = &q->s->series[series_index];
@@ -221,7 +221,7 @@ static int reach_one(const reach_question *q, int series_index, reached *out)
     return 1;
 }
 
-/* Ranks a before b if it is better. */
+/* Ranks a before b if a is better. */
 static int is_before(const sweep *s, const reached *a, const reached *b)
 {
     if ((a->defect != NULL) != (b->defect != NULL))

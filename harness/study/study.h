@@ -43,7 +43,8 @@
 typedef enum limit_kind {
     LIMIT_NONE,            /* no value */
     LIMIT_NOISE_DOMINATED, /* the last two changes are within the noise */
-    LIMIT_SETTLED,         /* known to a relative 1e-4, or its last change is within the noise */
+    LIMIT_SETTLED,         /* known to a relative accuracy of 1e-4, or the last change is within the
+                              noise */
     LIMIT_ASYMPTOTIC,      /* two observed orders agree: value(n) = limit + c n^-order */
     LIMIT_OSCILLATING,     /* the last two changes differ in sign */
     LIMIT_NOT_YET,         /* drifting orders, or fewer than three meshes */
@@ -66,7 +67,7 @@ typedef struct mesh_limit {
     double limit, limit_uncertainty; /* NAN, INFINITY: none */
     /* NAN: no order observed; uncertainty: difference of the last two orders */
     double order, order_uncertainty;
-    double earlier_order; /* order of the three meshes before those two; NAN: none */
+    double earlier_order; /* order of the three meshes before the last two; NAN: none */
     int order_turns;      /* 1: the middle one of these three orders is clearly the smallest or the
                              largest */
     double noise;         /* [unit of value] noise that was used */
@@ -100,7 +101,7 @@ typedef struct cell_request {
 } cell_request;
 
 typedef struct cell_result {
-    scene scene; /* the scene, if the cell built it itself, else empty */
+    scene scene; /* the scene, if the cell built it; else empty */
     model_size size;
     double mass; /* of the members [kg] */
     counters counters;
@@ -111,8 +112,8 @@ typedef struct cell_result {
 
 /* Sets the formulation, its options and the form of Newton's method. */
 void cell_formulation(cell_request *, const formulation *chosen);
-/* The valid scene of a case at its parameters, changed by the edit (NULL: unchanged). The caller
- * frees it, also after a failure. */
+/* Builds the valid scene of a case at its parameters, changed by the edit (NULL: unchanged). The
+ * caller frees the scene, also after a failure. */
 status cell_scene(const case_type *type, const double parameter[], const scene_edit *edit,
                   scene *out, fault *f);
 status cell_run(const cell_request *, cell_result *, fault *);
@@ -141,17 +142,18 @@ typedef struct imported_row {
 typedef struct imported {
     char program[FORMULATION_KEY]; /* name of the program, used like the key of a formulation */
     char file[IMPORTED_FILE];
-    /* "beam": the same model as the beams; else another model, whose difference is a model error */
+    /* "beam": the same model as the beams; else a different model, whose difference is a model
+     * error */
     char model[IMPORTED_WORD];
     char convention[IMPORTED_WORD]; /* convention of moments; empty: not given */
     char version[IMPORTED_WORD];    /* of the program; empty: not given */
-    int gates;                      /* 1: its verdicts affect the exit status */
+    int gates;                      /* 1: verdicts on these values affect the exit status */
     int rows;
     imported_row *row;
     element_type type; /* placeholder for a formulation that supports nothing */
 } imported;
 
-/* Returns 1 when its values belong to the continuum model of the beams. */
+/* Returns 1 when the values belong to the continuum model of the beams. */
 int imported_same_model(const imported *);
 void imported_free(imported *); /* may be NULL */
 
@@ -180,7 +182,7 @@ void omission_words(const omission *, char text[OMISSION_TEXT]);
 /* The list of known deviations (reference/findings.csv): expected verdicts other than pass, one
  * rule for each cause. */
 
-/* Lists are words separated by blanks, with * and ? as wildcards; one of them must match. */
+/* Lists are words separated by blanks, with * and ? as wildcards; at least one word must match. */
 typedef struct rule {
     char *name;         /* one word */
     char *formulations; /* list: name with options ("beamw:mass=lumped"), or the bare name */
@@ -190,12 +192,12 @@ typedef struct rule {
     char *verdicts;     /* "wrong limit|undecided" */
     char *predicted;    /* list of "case/quantity" with a derived limit; empty: none */
     char *cause, *proof;
-    /* largest relative difference of the limit from the derived one, or from the reference value if
-     * none was derived; the rule does not cover larger ones */
+    /* largest relative difference of the limit from the derived limit, or from the reference value
+     * if none was derived; the rule does not cover larger differences */
     double largest_error;
     char *from;   /* of a user's table: "file:line"; NULL: of the list of known deviations */
-    int missed;   /* set by judgement: 1: the run should have shown this deviation and did not */
-    int observed; /* set by judgement: number of verdicts it explains */
+    int missed;   /* set by judgement: 1: the run should have shown this deviation but did not */
+    int observed; /* set by judgement: number of verdicts that the rule explains */
     unsigned foretold; /* set by judgement: bits of the derived limits that were confirmed */
 } rule;
 
@@ -207,7 +209,7 @@ typedef struct rule_subject {
     const char *formulation, *quantity, *verdict;
 } rule_subject;
 
-/* Is the formulation (its key) among those of the rule? */
+/* Is the formulation (given by its key) among those of the rule? */
 int rules_speak_of(const rule *, const char *formulation);
 
 /* The packed reference values and findings (reference/pack.py). */
@@ -224,14 +226,16 @@ typedef struct truth {
     int on_curve; /* 1: a point of a curve at abscissa `at` */
     double at;
     double value, uncertainty;
-    /* set by judgement: its quantity exists; at least one formulation evaluates it */
+    /* set by judgement: 1: the quantity of the row exists; 1: at least one formulation evaluates
+     * it */
     int met, judged;
 } truth;
 
 typedef struct truths {
     int rows, rules, room; /* room: capacity in rows */
     truth *row;
-    /* index of study_impl.h: first row of each case and quantity, and next row of the same */
+    /* index of study_impl.h: first row of each case and quantity, and next row of the same
+     * quantity */
     int indexed, places; /* number of rows in the index: the first ones */
     int *first, *next;   /* [places], [indexed] */
     rule *rule;          /* known deviations */
@@ -239,8 +243,9 @@ typedef struct truths {
     char stranger[64];
 } truths;
 
-/* FAULT: a missing, truncated or foreign file, or a stale row (the defaults of its case have
- * changed since). Registers the formulations that affect the exit status (formulations_accept). */
+/* Reads all reference values. FAULT: a missing, truncated or foreign file, or a stale row (the
+ * defaults of its case have changed since). Registers the formulations that affect the exit status
+ * (formulations_accept). */
 status truths_read(const char *path, truths *out, fault *f);
 /* As truths_read, for one case (NULL: all). */
 status truths_read_case(const char *path, const case_type *type, truths *out, fault *f);
@@ -276,9 +281,9 @@ typedef struct sweep_point {
 typedef struct series {
     int point;
     formulation formulation;
-    /* required features that the formulation does not support; empty: it runs ... */
+    /* required features that the formulation does not support; empty: the formulation runs ... */
     char missing[200];
-    omission without; /* ... without this physics, as another model if that matters */
+    omission without; /* ... without this physics, as a different model if that matters */
     int meshes, mesh[SERIES_MAX_MESHES];
     cell_result *cell; /* [meshes]; their scenes are empty, see the point */
     /* [quantities] relative scatter on the finest mesh; NULL: not measured */
@@ -316,9 +321,9 @@ typedef struct sweep_follower {
     /* Returns 1 when the finest mesh of this completed series must be run again to measure its
      * scatter. NULL: no scatter is measured. */
     int (*doubts)(void *context, const sweep *, int series_index);
-    /* Called once for every series in order, when it and all previous ones are complete and their
-     * scatter is measured. A failure ends the run. An interrupted run removes incomplete series, so
-     * that later ones move up. May be NULL. */
+    /* Called once for every series in order, when this series and all previous ones are complete
+     * and their scatter has been measured. A failure ends the run. An interrupted run removes
+     * incomplete series, which changes the indices of later ones. May be NULL. */
     status (*whole)(void *context, const sweep *, int series_index, fault *);
 } sweep_follower;
 
@@ -326,8 +331,8 @@ typedef struct sweep_request {
     const char *select; /* expression over "case/point/formulation/quantity", or NULL */
     int jobs;           /* number of processes, >= 1 */
     int whole_only;     /* see sweep */
-    int share; /* 1: cells with provably equal results are solved once; they also share their times
-                */
+    int share; /* 1: cells with provably equal results are solved once; such cells also share their
+                  times */
     int time_limit; /* [s] limit for one cell, checked by its process and by the parent; 0: none */
     int together;   /* 1: if a worker is killed (SIGKILL), this process ends too, so that its result
                        is not used. 0: the cell counts as crashed */
@@ -338,9 +343,9 @@ typedef struct sweep_request {
                     */
     int formulations; /* number of formulations in the list; 0: all */
     const formulation *formulation;
-    int named; /* 1: the user named these formulations, so that they affect the exit status even if
-                  the project has not accepted them */
-    /* relative tolerance used instead of those of the cases; 0: those of the cases */
+    int named; /* 1: the user named these formulations, so that their verdicts affect the exit
+                  status even if the project has not accepted them */
+    /* relative tolerance that replaces those of the cases; 0: the tolerances of the cases */
     double tolerance;
     /* largest number of path states with stored centre lines, on the finest mesh at the defaults;
      * 0: none */
@@ -388,10 +393,11 @@ typedef struct verdict {
     verdict_kind kind, expected;
     /* reference value of the same model and shear theory; NULL: none */
     const truth *truth;
-    /* for information only, if there is no such reference value: one of another model or theory, or
-     * a cross-formulation agreement; NULL: none */
+    /* for information only, if there is no such reference value: a value of another model or
+     * theory, or a cross-formulation agreement; NULL: none */
     const truth *model_truth;
-    const truth *theory_truth; /* without such a reference value: that of another shear theory */
+    const truth *theory_truth; /* if there is no such reference value: that of another shear
+                                  theory */
     const truth *predicted;    /* limit derived for the formulation; NULL: none */
     /* published value that differs from the limit by more than both uncertainties; NULL: none */
     const truth *contradicted;
@@ -400,7 +406,7 @@ typedef struct verdict {
     /* (limit - truth)/truth, or relative to near_zero if the reference value is near zero; NAN:
      * none */
     double error;
-    double departure;   /* relative difference of the limit from the derived one, or from the
+    double departure;   /* relative difference of the limit from the derived limit, or from the
                            reference value if none was derived */
     double model_error; /* relative difference from the reference value of another model */
     /* absolute, including the uncertainty of the reference value and the effect of omitted
@@ -418,7 +424,8 @@ typedef struct verdict {
 
 const char *verdict_name(verdict_kind kind);
 /* Limit of a quantity of a series, without its `left_out` finest meshes. */
-/* Meshes up to the finest one that has the quantity: another program may give it on fewer. */
+/* Number of meshes up to the finest one with a value of the quantity: another program may give the
+ * quantity on fewer meshes. */
 int verdict_meshes(const series *, int quantity);
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
 /* Reference value by which a formulation is evaluated, for the same model and its shear theory;
@@ -429,8 +436,8 @@ const truth *verdict_truth(const truths *t, const sweep_point *p, const formulat
  * never affects the exit status. */
 const truth *verdict_reference(const truths *t, const sweep_point *p, const formulation *chosen,
                                int quantity);
-/* Evaluates the quantity of the series that v names: sets kind, fit and errors, and `matches` if
- * the verdict is as expected without known deviations. */
+/* Evaluates the quantity and series of v: sets kind, fit and errors, and `matches` if the verdict
+ * is as expected without known deviations. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
 /* Relative error of a value of a quantity with respect to a reference value. */
 double verdict_error(const scene_quantity *q, double value, double truth_value);
@@ -438,7 +445,7 @@ double verdict_error(const scene_quantity *q, double value, double truth_value);
 /* Evaluation of all runs (case, point, formulation, quantity) against reference values and expected
  * verdicts. */
 
-/* A value of one mesh against its own stored discrete value. */
+/* A value on one mesh, compared with the stored discrete value for that mesh. */
 typedef struct agreement {
     int series, mesh, quantity;
     const truth *truth;
@@ -509,8 +516,8 @@ typedef struct judgement {
 /* Returns 1 when verdicts of the series may depend on the scatter of its finest mesh, which should
  * then be measured. */
 int judgement_doubts(const sweep *s, const truths *t, int series_index);
-/* Starts with the planned series, which are evaluated in order after their run. FAULT: the unit of
- * a reference value is not that of its quantity. */
+/* Starts an evaluation; the planned series are evaluated in order after they have run. FAULT: the
+ * unit of a reference value is not that of its quantity. */
 status judgement_begin(const sweep *s, truths *t, judgement *out, fault *f);
 status judgement_add(const sweep *s, truths *t, int series_index, judgement *out, fault *f);
 /* whole: 1 when no selection was made; then unobserved rules and reference values without a
@@ -520,8 +527,8 @@ void judgement_end(const sweep *s, truths *t, int whole, judgement *out);
 status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);
 void judgement_free(judgement *j);
 enum { JUDGED_AS_EXPECTED = 0, JUDGED_DIFFERS = 1, JUDGED_NOTHING = 3 };
-/* Exit status: 0 as expected, 1 some verdict that affects it differs from the expected one, 3
- * nothing was evaluated. No other function determines the exit status. */
+/* Exit status: 0 as expected, 1 some verdict that counts differs from the expected one, 3 nothing
+ * was evaluated. No other function determines the exit status. */
 int judgement_exit(const judgement *j);
 /* "pass", "fail", "nothing was evaluated". */
 const char *judgement_outcome(const judgement *j);
@@ -533,9 +540,9 @@ double change_size(const scene *);
  * in the same unit. */
 double change_scale(const scene *s, int quantity, const solve_result *r);
 
-/* Last line of a beamwork file, with its length and checksum. It reveals truncated, damaged or
- * altered files before the HDF5 library reads them, which trusts their contents (version 1.10 reads
- * past its buffers in damaged files). */
+/* Last line of a beamwork file, with its length and checksum. The checksum reveals truncated,
+ * damaged or altered files before the HDF5 library reads them. The library does not check their
+ * contents (version 1.10 reads past its buffers in damaged files). */
 
 enum { CHECKSUM_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
 
@@ -546,21 +553,21 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
 /* FAULT: the file is missing, foreign, or altered. */
 status checksum_check(const char *path, fault *f);
 
-/* A child process that works for its parent: it ends when the parent ends, and enforces its own
- * time limit. */
+/* A child process that works for its parent. The child ends when its parent ends, and enforces its
+ * own time limit. */
 
-/* Call first in the child. The child then ends with its parent, even if that was killed or has
- * already ended; an alarm also ends it. */
+/* Call first in the child. The child then ends with its parent, even if the parent was killed or
+ * has already ended; an alarm also ends the child. */
 void child_begin(pid_t parent);
 /* Sets the remaining time of the child [s]; 0: no limit. */
 void child_alarm(int seconds);
-/* Call in the parent: has the child ended? Does not reap it. */
+/* Call in the parent. Returns 1 when the child has ended; does not reap it. */
 int child_is_gone(pid_t process);
-/* Call in the parent. Waits at most two seconds, then kills the child; reaps it and returns its
- * status from waitpid. */
+/* Call in the parent. Waits for at most two seconds, then kills the child; reaps the child and
+ * returns its status from waitpid. */
 int child_reap(pid_t process);
 /* Call in the parent: describes in words how the child ended (status from waitpid); late: it was
- * killed after its time limit. Returns 1 when the time limit was the reason. */
+ * killed after the time limit. Returns 1 when the time limit was the reason. */
 int child_ended(int how, int late, int seconds, char *words, size_t size);
 
 typedef struct claims claims;
@@ -593,13 +600,13 @@ status columns_read(const table_columns *r, const columns_field *field, void *ba
 
 /* Largest difference over the common points, relative to the largest value of the second curve; at
  * (may be NULL): the point where it occurs. Points of a path with given stations are matched by
- * number, others by abscissa. NAN: no common points, or `one` does not reach the end. */
+ * number, other points by abscissa. NAN: no common points, or `one` does not reach the end. */
 double curve_error_between(const scene *s, int quantity, const solve_result *one,
                            const solve_result *two, int *at);
 /* Finest mesh of a series that has the whole curve; -1: none. */
 int curve_error_finest(const series *, int quantity);
-/* Series that the others are compared with: its curve changed least when its last mesh was added;
- * -1: none. */
+/* Series with which the others are compared: the one whose curve changed least when its last mesh
+ * was added; -1: none. */
 int curve_error_reference(const sweep *, int quantity);
 
 /* Location of data files: reference values, and programs that compute them. */
@@ -615,7 +622,7 @@ void data_place_truths(char path[PATH_MAX]);
 void data_place_modules(void);
 
 /* Reference values at new parameter points, computed on demand by the programs of reference/derive,
- * which share no code with this one. */
+ * which share no code with this program. */
 
 typedef struct derived_value {
     char quantity[SCENE_NAME], unit[16], convention[96], source[96];
@@ -625,9 +632,9 @@ typedef struct derived_value {
 /* Location of a program of reference/derive: in BEAMWORK_REFERENCE, or with the data. FAULT: the
  * path is too long. */
 status derive_script(const char *name, char out[PATH_MAX], fault *f);
-/* Runs `script CASE PARAMETERS`. REFUSED: no program computes the case or the parameters; f has its
- * message. FAULT: the script could not be run, or its output is invalid. *out: allocated by malloc.
- */
+/* Runs `script CASE PARAMETERS`. REFUSED: no program computes the case or the parameters; f
+ * contains its message. FAULT: the script could not be run, or its output is invalid. *out:
+ * allocated by malloc. */
 status derive_values(const char *script, const char *case_name, const char *parameters,
                      derived_value **out, int *count, fault *f);
 /* As derive_values, with a scene in the form of write_scene on the standard input of `script`. The
@@ -668,7 +675,7 @@ typedef struct follow_request {
 
 typedef struct follow_sample {
     double value;      /* value of the parameter */
-    int asked;         /* 0: an added value between two requested ones */
+    int asked;         /* 0: a value added between two requested ones */
     double *frequency; /* [modes] [Hz] */
     double *match;     /* [modes] match with the previous sample; 1 for the first */
 } follow_sample;
@@ -748,7 +755,7 @@ void interrupt_end(interrupt *);
 
 /* Compares two formulations at equal error: the number of elements that each needs. */
 
-/* Result for series 0 and 1 of a sweep of one point. */
+/* Result for series 0 and 1 of a sweep with one point. */
 typedef struct meeting {
     int mesh[2];     /* index of the coarsest mesh at and above which all quantities meet the error
                         target;     -1: none */
@@ -756,16 +763,16 @@ typedef struct meeting {
 } meeting;
 
 /* Does the comparison include the quantity? Both series need a reference value or an agreement, and
- * it must not be a curve. */
+ * the quantity must not be a curve. */
 int meeting_asks(const sweep *s, const truths *t, int quantity);
 /* Number of quantities in the comparison. */
 int meeting_asked(const sweep *s, const truths *t);
-/* Compares at the relative error target `level`, for all these quantities. */
+/* Compares at the relative error target `level`, for all quantities in the comparison. */
 meeting meeting_at(const sweep *s, const truths *t, double level);
 /* Do both series meet the target? */
 int meeting_holds(const meeting *);
 
-/* Reduces the last point of a planned sweep to its selection. */
+/* Reduces the last point of a planned sweep to the selected quantities and formulations. */
 
 /* Call before the run. Keeps the quantities and the formulations that appear in at least one
  * selected combination (formulations/formulations.h; NULL: all). REFUSED: the selection is
@@ -819,8 +826,8 @@ void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
 /* Returns 1 when the row has an evaluated run. */
 int overview_judged(const overview *, int row);
-/* Does the row get its own line? All do if there are few; otherwise passing cases share lines, so
- * that the table fits on one screen. */
+/* Does the row get a line of its own? All rows do if there are few; otherwise passing cases share
+ * lines, so that the table fits on one screen. */
 int overview_shown(const overview *, int row);
 /* "ok", "~3", "!#2": readable without colour. utf8 1: uses characters outside ASCII. */
 void overview_text(const overview_cell *, int utf8, char text[OVERVIEW_TEXT]);
@@ -831,7 +838,7 @@ const char *overview_words(overview_mark mark);
  * columns. */
 
 /* Adds the rules of a file to those of t; run: the cases of the run, NULL-terminated. Errors of the
- * file are reported to `m`, and their rows are skipped. FAULT: it cannot be read. */
+ * file are reported to `m`, and their rows are skipped. FAULT: the file cannot be read. */
 status own_findings_read(const char *path, const case_type *const run[], truths *t, mistakes *m,
                          fault *f);
 
@@ -859,9 +866,9 @@ void own_table_free(own_table *);
 /* Reference values of the user's project in addition to the packed ones, with the columns of
  * reference/tables. */
 
-/* Adds the rows of a file to those of t; run: the cases of the run, NULL-terminated. only: this
- * case alone; NULL: all. Errors of the file are reported to `m`, and their rows are skipped. FAULT:
- * it cannot be read. */
+/* Adds the rows of a file to those of t; run: the cases of the run, NULL-terminated. only: the only
+ * case to read; NULL: all cases. Errors of the file are reported to `m`, and their rows are
+ * skipped. FAULT: the file cannot be read. */
 status own_truths_read(const char *path, const case_type *const run[], const case_type *only,
                        truths *t, mistakes *m, fault *f);
 
@@ -873,7 +880,7 @@ status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fau
 status plan_one(const case_type *type, const double value[], const formulation those[], int count,
                 const int mesh[], int meshes, sweep *out, fault *f);
 /* Adds a point to a sweep that is planned by hand, with its scene changed by the edit (NULL:
- * unchanged). Its steps and condition may be set before the run. */
+ * unchanged). The steps and the condition of the point may be set before the run. */
 status plan_add(sweep *s, const case_type *type, const double value[], const scene_edit *edit,
                 const int mesh[], int meshes, fault *f);
 /* Adds a series to the last point, with the meshes of its scene. */
@@ -922,7 +929,7 @@ status preference_both(const cell_request *, const rule_subject *where, const ru
  *
  * The coefficients are fitted once to measured times (`make lab L=prices`) and stored in
  * harness/study/prices.csv, from which the build generates the table. A formulation without
- * coefficients uses the common ones ("*"), which depend on its number of strains. */
+ * coefficients uses the common coefficients ("*"), which depend on its number of strains. */
 
 /* Counted work; the names are those of the columns of the table `cells`. */
 typedef enum price_count {
@@ -990,19 +997,21 @@ void progress_end(progress *);
  * placeholder for the cause. Returns the number of rules. */
 int proposal_write(FILE *to, const sweep *s, const judgement *j);
 
-/* Which formulations meet an error target, and with which mesh. A formulation meets the target from
- * the coarsest mesh on for which the errors of that mesh and all finer ones are below it.
- * Formulations are ranked by their counted work on that mesh with the committed cost coefficients,
- * without measured times. Those with a known deviation in the requested quantity come last. */
+/* Determines which formulations meet an error target, and with which mesh. A formulation meets the
+ * target from the coarsest mesh on for which the errors of that mesh and all finer ones are below
+ * it. Formulations are ranked by their counted work on that mesh with the committed cost
+ * coefficients, without measured times. Formulations with a known deviation in the requested
+ * quantity come last. */
 
 enum { REACH_LEVELS = 4, REACH_EVERY = -1 };
 extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */
 
 /* A formulation that meets the target. */
 typedef struct reached {
-    int series, mesh; /* index of the series, and of the coarsest mesh that meets the target */
-    double cost;      /* [s] cost of its counted work; INFINITY: its derivatives are computed by
-                         differences, or it runs in another process; it is ranked after all others */
+    int series, mesh;      /* index of the series, and of the coarsest mesh that meets the target */
+    double cost;           /* [s] cost of the counted work; INFINITY: derivatives are computed by
+                              differences, or the formulation runs in another process. It is then ranked
+                              after all others. */
     const verdict *defect; /* first verdict other than pass; NULL: all pass */
 } reached;
 
@@ -1019,21 +1028,21 @@ typedef struct reach_question {
 /* Reason why a type is not ranked by its work: "by differences", "in another process"; "": it is
  * ranked. */
 const char *reach_unranked(const element_type *type);
-/* Index of the coarsest mesh such that its error and those of all finer meshes meet the target, or
- * -1. */
+/* Index of the coarsest mesh for which its own error and those of all finer meshes meet the target,
+ * or -1. */
 int reach_mesh(const sweep *s, const verdict *v, double level);
 /* Describes a formulation that meets the target despite such a verdict. */
 const char *reach_defect_words(verdict_kind kind);
-/* Ranks the formulations that meet the target: those without a defect first, each group by cost,
- * then by name. Returns their number; out: room for all series. Other programs are omitted, because
- * their work is not counted. */
+/* Ranks the formulations that meet the target: formulations without a defect first, each group by
+ * cost, then by name. Returns the number of formulations; out: room for all series. Other programs
+ * are omitted, because their work is not counted. */
 int reach_ranking(const reach_question *q, reached out[]);
 /* Number of tied formulations at the head of the list: none has a defect, and their costs differ by
  * less than the uncertainty of the cost coefficients. 0: no ranked formulation is without a defect;
  * 1: the first one has the lowest cost. */
 int reach_ties(const reached list[], int count);
 /* Returns how the series of the point is included: 1: every quantity has a reference value of its
- * theory; 0: some have none; -1: the series does not run. */
+ * theory; 0: some quantities have none; -1: the series does not run. */
 int reach_asks(const reach_question *q, int series_index);
 /* Verdicts of every series and quantity of a sweep without judgement. Where there is no reference
  * value, the cross-formulation agreement is used. The caller frees the array; NULL: out of memory.
@@ -1053,8 +1062,8 @@ void rounding_known(double value, double uncertainty, char text[ROUNDING_TEXT]);
 /* Formats a relative error in percent: "-2.7801 %", "+2.1e-9 %". At most 11 characters. */
 void rounding_percent(double error, char text[ROUNDING_TEXT]);
 
-/* Time of a cell: the shortest of enough repetitions, in rounds that alternate with the cells it is
- * compared with. The differences between rounds give the scatter. */
+/* Time of a cell: the shortest of enough repetitions, in rounds that alternate with the other cells
+ * in the comparison. The differences between rounds give the scatter. */
 
 /* Two cells differ if all rounds of one are faster than all rounds of the other. For equal
  * distributions the probability of this is 2 (5! 5!)/10! = 0.8 %. */
@@ -1068,7 +1077,7 @@ typedef struct rounds_reading {
 
 double rounds_least(const rounds_reading *); /* [s], INFINITY: never run */
 double rounds_most(const rounds_reading *);  /* [s] of the slowest round */
-/* -1: every round of a is faster than every one of b; 1: slower; 0: undecided. */
+/* -1: every round of a is faster than every round of b; 1: every round is slower; 0: undecided. */
 int rounds_compare(const rounds_reading *a, const rounds_reading *b);
 
 /* The published algorithm for comparison: all coordinates, strains and stresses as unknowns of one
@@ -1101,8 +1110,8 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f);
 
 /* Reference values of a scene file. */
 
-/* Adds the reference values of the file that apply at a point of its parameters, with their values
- * there. */
+/* Adds the reference values of the file that apply at a point of its parameters, evaluated at that
+ * point. */
 status scene_truths_add(const scene_file *, const double value[], truths *t, fault *f);
 /* As scene_truths_add, at the defaults and at every point that a reference value names. */
 status scene_truths_add_all(const scene_file *, truths *t, fault *f);

@@ -19,7 +19,7 @@ extern const double omission_most;
 extern const double omission_safety;
 
 /* Largest relative change of a requested value due to the omission, on one mesh. NAN: some value is
- * missing, or no formulation has all physics of the scene. */
+ * missing, or no formulation supports all physics of the scene. */
 double omission_on_mesh(const scene *, unsigned what, int elements);
 
 /* Is the condition true? A term is a feature that the scene requires ("shear", "not shear"), or
@@ -75,14 +75,14 @@ typedef struct value_change {
 void change_between(const scene *s, const cell_result *before, const cell_result *now,
                     value_change *out);
 
-/* Avoids duplicate solutions in several processes: the first one solves a problem, the others use
- * its results. */
+/* Avoids duplicate solutions in several processes: the first process solves a problem, the others
+ * use its results. */
 
 /* Allocates `count` claims, shared with all processes that are started later; NULL: out of memory.
  */
 claims *claims_alloc(int count);
 void claims_free(claims *);
-/* Returns the first task that claimed this problem, which is `task` itself if none did before. */
+/* Returns the first task that claimed this problem: `task` itself if no other did before. */
 int claims_take(claims *, const identity *, int task);
 
 /* out[rows] with the memory type `type`. */
@@ -101,13 +101,13 @@ typedef struct workload_task {
 /* Shared by all processes: the tasks to be taken, and the task of each worker. */
 typedef struct board {
     atomic_int next;         /* tasks known from the start */
-    atomic_int later, taken; /* number of added tasks; how many of them have been taken */
+    atomic_int later, taken; /* number of added tasks, and how many of them have been taken */
     atomic_int ended;        /* 1: no further tasks will be added */
     sem_t news;              /* wakes the waiting process when there are tasks, and at the end */
     atomic_int at[WORKERS_MOST]; /* -1: nothing */
     /* [s] of a monotonic clock: when the task was taken */
     _Atomic double since[WORKERS_MOST];
-    atomic_int came_up[]; /* task; ~task: to be solved even if another cell has the same results */
+    atomic_int came_up[]; /* tasks; ~task: to be solved even if another cell has the same results */
 } board;
 
 /* Remaining work of a series: cells, scatter, or none. */
@@ -139,8 +139,8 @@ typedef struct workload {
 status workload_begin(const sweep_request *, sweep *, workload *, fault *);
 void workload_end(workload *);
 
-/* Call in the child: waits for the next task of worker `self`; -1: none remain. *alone: 1: solve it
- * even if another cell has the same results. */
+/* Call in the child: waits for the next task of worker `self`; -1: no tasks remain. *alone 1: solve
+ * the task even if another cell has the same results. */
 int workload_take(const workload *, int self, int *alone);
 /* The edit of the point, or for a repetition the equivalent scene that measures scatter. */
 scene_edit workload_edit(const workload *, int task);
@@ -215,8 +215,8 @@ int expense_order(const sweep *s, int jobs, workload_task tasks[]);
  * deviation for a feature of the scene (a rule with that feature in its condition), or is marked
  * `misprint`.
  *
- * Each formulation has a limit L with uncertainty U. Two limits agree if they have the same theory
- * of shear in stability, where that matters, and |L1 - L2| + U1 + U2 is within FAMILIES_APART of
+ * Each formulation has a limit L with uncertainty U. Two limits agree if they have the same shear
+ * theory for stability, where that matters, and |L1 - L2| + U1 + U2 is within FAMILIES_APART of
  * their size. The centre is the limit with which most families agree, at least two. The reference
  * is the mean, weighted by 1/U^2, of those that are within their U of it. Its uncertainty is that
  * of the mean or the weighted spread, whichever is larger. Other formulations that differ by more
@@ -245,9 +245,9 @@ families_limit families_limit_of(const sweep *s, int point_index, int quantity, 
 /* Scatter of the values of the finest mesh: the same cell is solved again for an equivalent scene
  * that differs only in rounding. */
 
-/* Equivalent scenes for the finest mesh of a series: one with a unit of length that is not a power
- * of two, one with the nodes of members in reverse order; two units of length if a formulation
- * depends on the order of nodes. Stations that only curves need are omitted. */
+/* Equivalent scenes for the finest mesh of a series: one scene with a unit of length that is not a
+ * power of two, and one with the nodes of members in reverse order; two units of length if a
+ * formulation depends on the order of nodes. Stations that only curves need are omitted. */
 enum { NOISE_REPETITIONS = 2 };
 
 /* Beyond the meshes of the scene the number of elements is doubled, while values still change, up
@@ -281,12 +281,12 @@ const truth *truth_agreed(const truths *t, const case_type *type, const double v
 const truth *truth_predicted(const truths *t, const case_type *type, const double value[],
                              const char *quantity, const char *key);
 
-/* Processes that run the cells of a sweep. None outlives the process that started it. Each enforces
- * the time limit of a cell itself. */
+/* Processes that run the cells of a sweep. No worker outlives the process that started it, and each
+ * one enforces the time limit of a cell itself. */
 
 typedef struct worker {
     pid_t process;
-    int from;    /* read end of its pipe; -1: not running */
+    int from;    /* read end of its pipe; -1: the worker is not running */
     int stopped; /* 1: stopped by the parent after the time limit */
     int damaged; /* 1: the parent received invalid output */
     char *bytes; /* incomplete part of its output */
@@ -304,15 +304,16 @@ int worker_receive(workload *, worker *);
 /* Handles a worker that ended during a task: its cell failed. Returns 1 when the worker must be
  * replaced. */
 int worker_bury(workload *, int self, worker *);
-/* Ends a worker whose cell exceeds the time limit, if it cannot do so itself; its pipe closes. */
+/* Ends a worker whose cell exceeds the time limit, if the worker cannot do so itself; its pipe
+ * closes. */
 void worker_stop_late(const workload *, int self, worker *);
 /* Ends a worker in any state; results that it has written are still read. */
 void worker_end(workload *, worker *);
 
 /* Formulations whose verdicts affect the exit status (reference/accepted.csv), as packed. */
 
-/* Registers those of an open file of reference values (formulations_accept). FAULT: the table is
- * missing or damaged. */
+/* Registers the accepted formulations of an open file of reference values (formulations_accept).
+ * FAULT: the table is missing or damaged. */
 status accepted_read(const char *path, hid_t file, fault *f);
 
 /* Compares values of single meshes with stored discrete ones. */
@@ -322,7 +323,7 @@ status agreements_add(const sweep *s, const truths *t, int index, judgement *out
 
 /* Coverage of limits: the check of their uncertainties. */
 
-/* Adds the verdicts from the given one on to the coverages of a judgement. */
+/* Adds the verdicts from number `first` on to the coverages of a judgement. */
 status coverage_count(const sweep *s, int first, judgement *out, fault *f);
 
 /* Mode shapes at one value of a parameter, matched with those at another value. */
@@ -340,7 +341,7 @@ status follow_match_next(const follow_shapes *before, const state_matrices *, fo
                          double *least, fault *);
 void follow_match_free(follow_shapes *);
 
-/* Internals of study.h that its files share. */
+/* Internal declarations shared by the files of `follow`. */
 
 static const double follow_sure = 0.9; /* Smallest match of two shapes that count as the same
                                           mode. */

@@ -323,7 +323,7 @@ static const char *quantity_of(const sweep *s, const verdict *v)
     return s->point[series_of(s, v)->point].scene.quantity[v->quantity].name;
 }
 
-/* Does one rule explain both? */
+/* Does one rule explain both verdicts? */
 static int same_rule(const sweep *s, const verdict *a, const verdict *b)
 {
     return a->needs_finding && b->needs_finding && a->kind == b->kind &&

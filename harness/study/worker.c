@@ -209,7 +209,7 @@ static int take_result(workload *w, const heading *head, char *bytes)
     return bad;
 }
 
-/* Is it the header of an unfinished task? A worker with corrupted memory may write anything. */
+/* Is this the header of an unfinished task? A worker with corrupted memory may write anything. */
 static int is_heading(const workload *w, const heading *head)
 {
     enum { LARGEST = 1 << 30 }; /* [bytes] */

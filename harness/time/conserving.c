@@ -295,7 +295,7 @@ status conserving_alloc(const scheme_request *request, motion_scheme **out, faul
 
 enum { BALL = 3 };
 
-/* N: projection onto the axes about which J[9] is zero; returns their number. */
+/* N: projection onto the axes about which J[9] is zero; returns the number of these axes. */
 static int null_space(const double J[9], double N[9])
 {
     const double nothing = 1e-12;

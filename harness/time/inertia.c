@@ -117,7 +117,7 @@ static void parts_of(const carried_mass *one, const frame_rates *r, const double
     mat3_mul(A, C, AC); /* of c x a, where a does not rotate: d(c x a) = a~ c~ dphi */
     vec3_cross(s.c, r->a, c_a);
     for (int i = 0; i < 3; i++) {
-        rest[i] = F[3 + i] - c_a[i]; /* both rotate with the frame */
+        rest[i] = F[3 + i] - c_a[i]; /* both vectors rotate with the frame */
         force[i] = F[i] - one->mass * r->a[i];
     }
     skew(rest, R);

@@ -38,7 +38,7 @@ static void start_angles(const model *m, const model_state *s, int index, const 
             A[n * i + j] = vec3_dot(b[of[i]], b[of[j]]);
     }
     if (n == 0 || dense_lu_regular(n, A, pivot) != 0)
-        return; /* two angles have the same axis: both keep their rates */
+        return; /* two angles have the same axis; both keep their rates */
     dense_lu_solve(n, 1, A, pivot, right);
     for (int i = 0; i < n; i++)
         v[frame->coordinate[SCENE_RX + of[i]]] = right[i];

@@ -115,7 +115,7 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
 {
     radau *r = (radau *)base;
     *error = 0;
-    if (r->of.c->run->damping != NULL) /* stages add their damping themselves */
+    if (r->of.c->run->damping != NULL) /* the stages add the damping themselves */
         damping_follow(&r->of.c->eq, 0, r->of.c->run->damping->none, NULL);
     return solve(r, from, h, to, error, record, f);
 }

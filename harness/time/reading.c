@@ -19,7 +19,7 @@ typedef struct read_state {
     fault *f;
 } read_state;
 
-/* The interface is its first member. */
+/* Gives the reader's data, whose first member is the interface. */
 static const read_state *of(const quantity_state *s)
 {
     return (const read_state *)s;

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Free coordinates that the mass of a coordinate couples with it, ascending; returns their number.
- */
+/* Lists the free coordinates that the mass of a coordinate couples with it, in ascending order;
+ * returns their number. */
 static int coupled(const model *m, const int frame_of[], const double warping[], int c, int list[6])
 {
     int count = 0;

@@ -199,7 +199,7 @@ static void blend_elements(const step_between *b, double s, model_state *at)
     blend(inner, s, from->inner, to->inner, at->inner);
 }
 
-/* Positions and rates at a time inside the step or near it [s]. */
+/* Sets positions and rates at a time [s] inside the step or near it. */
 static void between_places(const step_between *b, double time, instant *at)
 {
     const model *m = b->m;

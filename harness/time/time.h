@@ -18,9 +18,10 @@ typedef struct instant {
                                  derivatives as used by generalized-alpha; NULL: no damping */
     double stress, contraction; /* largest stress so far, and the last contraction of Newton's
                                    method: newton.h */
-    double *ends; /* [released ends x 6] velocities of their masses in conserving steps: velocity of
-                     the centre, angular velocity in the axes of the end; NULL: no such mass */
-    int ends_known;    /* 0: they follow from v */
+    double *ends;   /* [released ends x 6] velocities of the masses of released ends in conserving
+                       steps: velocity of the centre, angular velocity in the axes of the end; NULL:
+                       no such mass */
+    int ends_known; /* 0: the values of `ends` follow from v */
     double *algorithm; /* [free + driven] the acceleration that generalized-alpha averages */
 } instant;
 
@@ -51,12 +52,12 @@ typedef struct step_between {
     double *room; /* [3 x (free + driven)] */
 } step_between;
 
-/* The whole state. Strains, stresses and inner unknowns are interpolated linearly: use them for
- * pictures, not for forces. */
+/* Gives the whole state. Strains, stresses and inner unknowns are interpolated linearly; they are
+ * accurate enough for pictures, but not for forces. */
 void between_at(const step_between *, double time, instant *at);
 
 /* Masses at the frames of a model: lumped masses of the elements, and rigid bodies. All masses
- * joined rigidly to a frame are combined to one mass with one centre and one tensor. */
+ * joined rigidly to a frame are combined into one mass with one centre and one tensor. */
 
 /* Mass at one frame, in axes that rotate with it and are parallel to the global ones in the
  * undeformed state. */
@@ -116,8 +117,8 @@ typedef struct scheme_request {
 typedef struct motion_scheme motion_scheme;
 struct motion_scheme {
     int order; /* order of the estimated error of one step in the step size */
-    int adds;  /* 1: the estimates add up to the error of the motion; 0: they are of lower order and
-                  much larger */
+    int adds;  /* 1: the estimates add up to the error of the motion; 0: the estimates are of lower
+                  order and much larger */
     const double *light; /* coordinates without inertia, which the error ignores: metric_distance;
                             NULL: none, or not known before the first step */
     between_degree
@@ -165,7 +166,7 @@ status damping_matrix(const equations *, const model_state *, double more, spars
 
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
-/* Quantities of a state, as their files in cases/quantities read them. */
+/* Quantities of a state, as read by their files in cases/quantities. */
 
 /* Known data of a state. */
 typedef struct reading {

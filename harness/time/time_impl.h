@@ -36,7 +36,7 @@ double between_reading(const step_between *, const scene_quantity *, double time
 double work_power(outer_work *, const model_state *, const double v[], const double a[],
                   double time, const double along[]);
 /* Work of a step: mean of the forces at its start and end times its increment inc[free + driven].
- * Exact for constant forces, else of second order. */
+ * This is exact for constant forces, and of second order otherwise. */
 double work_trapezoid(outer_work *, const instant *from, const instant *to, const double inc[]);
 
 /* [J] allowed energy-balance error: the given fraction of account_size, plus rounding. */
@@ -80,15 +80,15 @@ double damping_power(const equations *, const double rate[]);
  *   (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) v1' + alpha_f v',
  * equilibrium with the true accelerations v1' at the end; rotations in the frame's axes. */
 
-/* The error estimate of a step is that of its positions, h^2 |beta + (alpha_m - alpha_f)/2 - 1/6|
- * (a1 - a). */
+/* Allocates the scheme. The error estimate of a step is that of its positions, h^2 |beta + (alpha_m
+ * - alpha_f)/2 - 1/6| (a1 - a). */
 status alpha_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* A side step: gives the values of the scheme at an instant inside a step. The motion does not
- * continue from it. */
+/* A side step gives the values of the scheme at an instant inside a step. The motion does not
+ * continue from there. */
 
-/* Starts from the beginning of the motion's step. Its work is counted, its iterations are not
- * recorded. */
+/* Makes a side step from the beginning of the motion's step. Its work is counted, but its
+ * iterations are not recorded. */
 status aside_step(analysis_context *, motion_scheme *, const instant *from, double time,
                   instant *at, fault *);
 
@@ -116,8 +116,8 @@ typedef struct body_mass {
 /* Allocates work space for any body of the model. */
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
-/* Computes the mass matrix of one body (of joined ones the first) in a state; returns its largest
- * mass [kg]. */
+/* Computes the mass matrix of one body (of joined bodies, the first one) in a state; returns its
+ * largest mass [kg]. */
 double body_mass_of(const model *, const carried_masses *, int body, const model_state *,
                     body_mass *);
 /* Returns the mass of a warping amplitude [kg m^4]. */
@@ -202,7 +202,7 @@ typedef struct inertia_relation {
     const double *inc;
 } inertia_relation;
 /* N[3 x 3]: derivative of inc of a vertex with respect to its rotation coordinates, in the state
- * that inc leads to; R is its orientation there. */
+ * after inc; R: orientation of the vertex in that state. */
 void inertia_chart(const model *, int vertex, const double inc[], const double R[9], double N[9]);
 
 /* R N: the same in global axes. */
@@ -278,8 +278,8 @@ typedef struct inertia_balance {
     double momentum[3]; /* [kg m/s] */
     double angular[3];  /* about the origin [kg m^2/s] */
 } inertia_balance;
-/* Momentum and energy. ends[released ends x 6]: velocities of the centres of their masses, and
- * angular velocities in the axes of the ends; NULL: from v. */
+/* Computes momentum and energy. ends[released ends x 6]: velocities of the centres of mass of
+ * released ends, and angular velocities in the axes of the ends; NULL: from v. */
 void inertia_of(const model *, const carried_masses *, const model_state *, const double v[],
                 const double ends[], inertia_balance *out);
 
@@ -296,7 +296,7 @@ typedef struct massive {
                       inertia, rotations in the axes of the frames; NULL: all have inertia */
 } massive;
 
-/* Computes the lumped masses in a state; the functions below use them. */
+/* Computes the lumped masses in a state, for the functions below. */
 status massive_of(const model *, const carried_masses *, const model_state *, massive *, fault *);
 void massive_free(massive *);
 /* Removes motions without inertia from e. Returns the root of the sum of weight[c] e[c]^2 over the
@@ -372,7 +372,7 @@ status conserving_work(conserving *, const instant *from, instant *to, double h,
 /* Strain rates at the end; adds eta S0 e' to the stresses of damped members. */
 void conserving_damped(const conserving *, const instant *from, double h, instant *to);
 
-/* A frame with its mass over a step. */
+/* A frame and its mass during a step. */
 
 typedef struct carried_step {
     double Rn[9], R1[9];
@@ -421,7 +421,7 @@ void cayley_slopes_columns(const cayley_step *, const cayley_slopes *, const cay
 /* K[7 nodes x 7 nodes] += derivative of cayley_forces at fixed f[7 nodes]. */
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
-/* Checks that a motion can be integrated as requested. REFUSED: it cannot. */
+/* Checks that a motion can be integrated as requested. REFUSED: the request is not supported. */
 
 /* Checks that the form of Newton's method suits the integrator, that inertia is defined for
  * transient analysis with the requested mass, and that all drivers are functions of time. */
@@ -476,7 +476,7 @@ typedef struct deformable {
     double length;         /* [m] reference length of the incompatibilities */
 } deformable;
 
-/* Number of deformables (elements, then springs), and access to each. */
+/* Number of deformables (elements, then springs); data of one of them. */
 int deformable_count(const conserving *);
 deformable deformable_at(const conserving *, const instant *from, model_state *now, int i);
 /* Number of elements from `first` on that are evaluated together: of one kind, or 1. */
@@ -566,15 +566,15 @@ void extent_begin(extent *, const model *);
 extent extent_with(const extent *, const model *, const motion_scheme *, const instant *from,
                    const instant *to, double h, double error);
 /* If the errors of steps add up, this is the error of a step of h [s] from the largest estimate
- * within the last ten radians of the motion. Reason: where rates change sign the error of positions
- * vanishes while that of rates is largest. */
+ * within the last ten radians of the motion. The reason is that, where rates change sign, the error
+ * of positions vanishes while that of rates is largest. */
 double extent_error(const extent *, const motion_scheme *, double h, double error);
 /* Allowed error of a part of the motion for a tolerance of the whole; excludes rounding of
  * coordinates. */
 double extent_allows(const extent *, double part, double tolerance);
 /* Returns 1 when the completed motion was less than half of the estimate, its steps are too long
- * for a tolerance relative to its size, and it exceeds the rounding of its initial state. *scale: a
- * better estimate. */
+ * for a tolerance relative to its size, and the motion exceeds the rounding of its initial state.
+ * *scale: a better estimate. */
 int extent_is_less(const extent *, double tolerance, double *scale);
 
 /* States of a motion for pictures, at equal intervals, including times inside steps. */
@@ -607,13 +607,13 @@ void increment_add(const model *, const model_state *now, const double dx[], dou
 
 /* The integrator that the analysis requests. */
 
-/* REFUSED: it cannot integrate this model; the message gives the reason. */
+/* REFUSED: the integrator cannot integrate this model; the message gives the reason. */
 status integrator_alloc(const scheme_request *, motion_scheme **, fault *);
 void integrator_free(motion_scheme *);
 
 /* Slope discontinuities and jumps of loads and prescribed motions. No step crosses one. */
 
-/* The first one after `time` [s]; INFINITY: none. */
+/* Time of the first discontinuity after `time` [s]; INFINITY: none. */
 double kinks_next(const model *, double time);
 /* Time just before a discontinuity, at which a step that ends there evaluates its loads. */
 double kinks_before(const model *, double time);
@@ -639,7 +639,7 @@ typedef struct motion_stage {
     arrival arrival;
     complement *complement;
     int all, free;
-    int begins; /* 1: at a discontinuity the loads after it apply, 0: those before */
+    int begins; /* 1: at a discontinuity, loads after it apply; 0: loads before it */
     long counted;
 } motion_stage;
 
@@ -668,16 +668,16 @@ status stage_solve(motion_stage *, const model_state *from, double time, stage_r
 status launch_again(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
                     instant *room, fault *);
 /* `now` contains the state and the time; `room` is work space. frame: angular velocity of the axes
- * in which the state is at rest [rad/s, m]; omega zero: they do not rotate. REFUSED: a fixed or
- * prescribed coordinate does not follow this rotation. */
+ * in which the state is at rest [rad/s, m]; omega zero: these axes do not rotate. REFUSED: a fixed
+ * or prescribed coordinate does not follow this rotation. */
 status launch_turning(analysis_context *, const carried_masses *, const scene_motion *,
                       const scene_rotating_frame *frame, instant *now, instant *room, fault *);
 /* For axes at rest. */
 status launch(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
               instant *room, fault *);
 
-/* Motions, with and without inertia, of a body and of the ends released from it. Positions of those
- * without inertia follow from equilibrium at every instant. */
+/* Motions, with and without inertia, of a body and of the ends released from it. Positions without
+ * inertia follow from equilibrium at every instant. */
 
 /* Number of free coordinates minus the rank of their masses in the state. */
 status massless_count(const model *, const carried_masses *, const model_state *, int *count,
@@ -732,8 +732,8 @@ typedef struct peaks {
  */
 status peaks_alloc(peaks *, fault *);
 void peaks_free(peaks *);
-/* Adds the end of a step, with its energies. last = 1: it is the last one before a discontinuity of
- * the loads or of the motion. */
+/* Adds the end of a step, with its energies. last 1: the step is the last one before a
+ * discontinuity of the loads or of the motion. */
 status peaks_here(peaks *, const instant *, const double balance[SCENE_BALANCES], int last,
                   fault *);
 /* Starts again after a discontinuity. */
@@ -918,7 +918,7 @@ status resume_keep(const analysis_context *, int analysis, const instant *now,
 const outcome_end *resume_given(const analysis_context *, int analysis);
 /* The end of an earlier motion of the scene. NOT_CONVERGED: that motion stopped early. */
 status resume_before(const analysis_context *, int before, const outcome_end **, fault *);
-/* Sets the instant and the step control from that end. REFUSED: it belongs to another mesh. */
+/* Sets the instant and the step control from that end. REFUSED: the end belongs to another mesh. */
 status resume_take(const analysis_context *, const outcome_end *, instant *now, resume_control *,
                    fault *);
 
@@ -973,7 +973,7 @@ typedef struct spread_parts {
     const struct mesh_element *el;
     const model_state *state;
     int columns; /* coordinates of the element: 7 per node, then those of released ends */
-    int wide;    /* 1: it has a released end, which may have no coordinate */
+    int wide;    /* 1: the element has a released end, which may have no coordinate */
     double place[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], /* as inertia_parts */
         velocity[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
         acceleration[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
@@ -1015,9 +1015,9 @@ typedef struct stations {
 /* The caller sets c, analysis, masses, scheme and out. */
 status stations_alloc(stations *, fault *);
 void stations_free(stations *);
-/* Writes the stations inside a step, without its end. */
+/* Writes the stations inside a step, excluding its end. */
 status stations_inside(stations *, const instant *from, const instant *to, fault *);
-/* Writes the station at the present time, if there is one. */
+/* Writes the station at the present time, if any. */
 status stations_here(stations *, const instant *now, const double balance[SCENE_BALANCES], fault *);
 
 /* Rotation vectors of a frame between two instants, and their rates: with R = R_n exp(t~), body
@@ -1044,7 +1044,7 @@ void vertex_rates(const model *, const model_state *, int vertex, const double v
 
 /* Loads with feedback: factors from measured components and rates, integrals in the state. */
 
-/* Does nothing without such loads. */
+/* Does nothing if no load has feedback. */
 status feedback_begin(const equations *, fault *);
 /* Number of loads of the scene if any of them has feedback, else 0. */
 int feedback_count(const equations *);
@@ -1080,7 +1080,8 @@ typedef struct watched {
     double from, until; /* [s] */
     double noise;       /* values within this distance of the level have no sign */
     int side;           /* side of the level on which the last value was; 0: none yet */
-    int crossings;      /* number of crossings in its direction, inside the window */
+    int crossings;      /* number of counted crossings inside the window, in the requested
+                           direction */
     double first, last; /* [s] first and last crossing */
     double error;       /* [s] error of the first and the last crossing */
     double sum, span;   /* time integral of values, or of squares relative to `largest`; [s] */

@@ -132,7 +132,7 @@ static status crossed(watches *s, watched *one, const instant *from, double time
     return STATUS_OK;
 }
 
-/* Does a crossing to this side count? */
+/* Is a crossing to this side counted? */
 static int counts(const watched *one, int side)
 {
     const scene_direction way = one->q->passing.direction;

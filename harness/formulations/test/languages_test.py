@@ -8,7 +8,7 @@ from harness.tools.kit.program import ROOT, ProgramTest
 
 STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Werror")
 MODULE = ROOT / "elements" / "examples" / "timoshenko.f90"
-# What an author may have beside the headers, in front of them and behind.
+# Code that an author may write before or after including the headers.
 STANDARD = "#include <cmath>\n#include <complex>\n#include <string>\n#include <vector>\n"
 # A formulation that is never called; `beamwork_element` is visible and has C linkage.
 EXPORTED = """#include "elements/element.h"
@@ -21,14 +21,14 @@ const element_type beamwork_element = {(unsigned)of()};
 
 
 def public_headers():
-    """element.h and all that it includes, which are installed."""
+    """Returns element.h and all headers that it includes, which are installed."""
     out = subprocess.run(["cc", "-I.", "-M", "-xc", "-"], cwd=ROOT, check=True, text=True,
                          input='#include "elements/element.h"\n', stdout=subprocess.PIPE).stdout
     return [word for word in out.split() if word.startswith("elements/")]
 
 
 class Headers(ProgramTest):
-    """Each compiles alone, also when it is included twice."""
+    """Requires that each header compiles alone, also if it is included twice."""
 
     def compiles(self, compiler, standard, ending):
         if shutil.which(compiler) is None:
@@ -39,7 +39,7 @@ class Headers(ProgramTest):
             self.compile(compiler, standard, ending, f'#include "{header}"\n' * 2)
 
     def compiles_beside(self, compiler):
-        """Beside what authors use."""
+        """Includes the header before and after the standard headers that authors use."""
         line = '#include "elements/element.h"\n'
         self.compile(compiler, "-std=c++20", "cpp", line + STANDARD)
         self.compile(compiler, "-std=c++17", "cpp", STANDARD + "using namespace std;\n" + line)
@@ -66,7 +66,8 @@ class Headers(ProgramTest):
         self.compiles_beside("clang++-19")
 
     def test_exports(self):
-        """With C linkage in C++, although constants have none outside their file, and with hidden symbols."""
+        """The symbol has C linkage in C++, although constants have internal linkage there, and is visible even if
+        symbols are hidden."""
         for compiler in ("g++", "clang++-19"):
             if shutil.which(compiler) is None:
                 self.skipTest(f"needs {compiler}")
