@@ -38,7 +38,7 @@ typedef struct deck_request {
 status deck_check(const deck_request *, fault *f);
 status deck_write(const deck_request *, FILE *to, fault *f);
 
-/* Import of values of other programs, grouped in series for a program, a case and a parameter
+/* Import of values from other programs, grouped in series for a program, a case and a parameter
  * point. */
 
 enum { IMPORT_SCENES = 32, IMPORT_ROWS = 200000, IMPORT_TEXT = 512 };

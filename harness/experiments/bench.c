@@ -18,7 +18,7 @@
 static status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f);
 
 enum { MOST = 64 };                        /* formulations */
-static const double floor_seconds = 0.002; /* of each round for each cell */
+static const double floor_seconds = 0.002; /* minimum processor time of a round for one cell */
 
 static int all_formulations(formulation out[MOST])
 {

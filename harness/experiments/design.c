@@ -50,7 +50,7 @@ static status check_box(const design *d, fault *f)
     return STATUS_OK;
 }
 
-/* The next point of the sequence, with 0 <= share < 1. */
+/* Computes the next point of the sequence, with 0 <= share < 1. */
 static void next(const design *d, const design_mark *m, double share[])
 {
     if (m->quasi != NULL)
@@ -239,7 +239,7 @@ static status add_value(sweep_axis *a, double value, fault *f)
     return STATUS_OK;
 }
 
-/* Numbers or words between commas. */
+/* Reads numbers or words between commas. */
 static status read_list(const case_type *type, const char *text, sweep_axis *a, fault *f)
 {
     const assignment_list list = parameters_list(type);
@@ -274,7 +274,7 @@ static status read_end(const sweep_axis *a, const char *text, size_t length, dou
                      a->of->name, one, a->of->name);
 }
 
-/* Number of parts after the '/'. */
+/* Reads the number of parts after the '/'. */
 static status read_parts(const char *text, size_t length, sweep_axis *a, fault *f)
 {
     char one[TEXT], *end;

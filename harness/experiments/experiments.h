@@ -527,7 +527,7 @@ typedef struct pace_run {
     const char *reason; /* owned by the sweep */
     double error;       /* largest over stations: positions relative to the size, rotations [rad] */
     double *values;     /* [quantities] relative errors; owned */
-    double order;       /* compared with the previous run, of twice the step size */
+    double order;       /* compared with the previous run, which has twice the step size */
     double cost, seconds, iterations; /* [s] counted and measured; iterations per step */
     long steps, rejected;
     double energy, momentum; /* largest relative energy-balance and momentum error */
@@ -744,7 +744,7 @@ status shard_parse(const char *text, int *index, int *count, fault *f);
  * batches are kept. */
 status shard_run(const shard_work *w, const shard_request *request, shard_outcome *out, fault *f);
 
-/* Lists as JSON: `beamwork list --format json`, and the same from the library. */
+/* Lists in JSON, for `beamwork list --format json` and for the library. */
 
 /* Lists all cases, and all formulations with the physics that they support; 1: requested. */
 status list_json_all(FILE *to, int cases, int formulations, fault *f);
@@ -839,7 +839,8 @@ typedef struct tally_series {
     long proven;                    /* of these, with a reference value */
     long open;                      /* number of points with a value but without a reference */
     long within[SERIES_MAX_MESHES]; /* of `asked`, within the tolerance, for each mesh */
-    long never;     /* of `asked`, not within the tolerance on all meshes from some mesh on */
+    long never;     /* of `asked`: there is no mesh from which all finer ones are within the
+                       tolerance */
     int everywhere; /* smallest number of elements at and above which all others are within the
                        tolerance */
 } tally_series;
@@ -1014,7 +1015,7 @@ void restart_free(restart *);
  * scene (stations and quantities may differ), formulation or mesh, or no later station. */
 status restart_begin(const restart *, solution_request *, scene *, fault *);
 
-/* Which formulations run which cases, and why others do not. */
+/* Formulations that run a case, or cases that a formulation runs; and why others do not. */
 
 enum { RUNS_ON_WORDS = 200 };
 

@@ -78,7 +78,7 @@ void claims_asks(claim *one, int holds, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Names the next check. */
 void claims_doing(claims *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Relative difference of two numbers; 0 for equal numbers, also for two zeros. */
+/* Relative difference of two numbers; 0 for equal numbers, and for two zeros. */
 static inline double claims_share(double apart, double size)
 {
     return apart == 0 ? 0 : apart / size;
@@ -132,7 +132,8 @@ checks_run checks_stateless; /* equal calls give equal results, independent of p
 checks_run checks_many;      /* many elements in one call give the same as single calls */
 checks_run checks_bounds;    /* outputs are filled completely, and no other memory is changed */
 checks_run checks_unsound;   /* NaN and Inf are reported */
-checks_run checks_mass;      /* mass matrix: symmetric, positive, with the mass of the beam */
+checks_run checks_mass;      /* the mass matrix is symmetric and positive definite, with the mass of
+                                the beam */
 checks_run checks_rotating;  /* effects of a rotating frame */
 checks_run checks_along;     /* loads along one element */
 checks_run checks_in_time;   /* inertia forces in transient analysis */
@@ -323,10 +324,11 @@ void extreme_expect(extreme_sweep *s, int whole);
 
 /* Classifies the number of an outcome as accurate, under-resolved or wrong. */
 
-/* From the first mesh alone: accurate, a failure, or wrong until other meshes are known. */
+/* Classifies from the first mesh alone: accurate, a failure, or wrong until other meshes are
+ * known. */
 status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outcome *o, fault *f);
-/* Does the error decrease to the finest mesh with an order of at least 0.5, as a discretisation
- * error does? */
+/* Decides whether the error decreases to the finest mesh with an order of at least 0.5, as a
+ * discretisation error does. */
 void extreme_judge_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o);
 
 /* Records of extremes, of outcomes and of the counts of a formulation. */
@@ -501,7 +503,7 @@ void ranges_points_text(const parameter_ranges *, const double at[], char *text,
 
 /* Solves and measures the cells of some points of a sweep. */
 
-/* Inside of the table of a sweep. */
+/* Internals of the table of a sweep. */
 
 enum { RANGES_TABLE_NAME = 24, RANGES_TABLE_COLUMN = 7, RANGES_TABLE_LINE = 1024 };
 

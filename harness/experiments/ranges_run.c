@@ -29,7 +29,7 @@ static int is_ours(const char *name)
            (sscanf(name, "point_%ld.yaml%n", &index, &end) == 1 && end > 0 && name[end] == '\0');
 }
 
-/* Does the folder contain only files of an earlier sweep? 0: there are others. */
+/* Does the folder contain only files of an earlier sweep? Returns 0 if there are others. */
 static int is_former(const char *folder)
 {
     DIR *at = opendir(folder);
@@ -234,7 +234,7 @@ static status judge(const void *asked, void *found, fault *f)
     return outcome == STATUS_NO_VALUE ? STATUS_OK : outcome;
 }
 
-/* Values and the file were written while batches were read. */
+/* Writes the table; values and the file were written while batches were read. */
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const range_sweep *s = found;

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Allowed increase of an error: between processors, the kernels of LAPACK change errors of some
- * series near rounding by up to 1.2 %. */
+/* Allowed increase of an error: on different processors, the kernels of LAPACK change errors near
+ * rounding in some series by up to 1.2 %. */
 static const double LARGER = 0.02;
 
 /* Allowed relative change of a limit if no reference value checks it as closely: 1e-5, so that a
@@ -35,7 +35,7 @@ static status read_back(const sweep *s, const judgement *j, stored_results *out,
     return outcome;
 }
 
-/* A line of the comparison, "worse    NAME n=4: WHY". */
+/* Adds a line of the comparison, "worse    NAME n=4: WHY". */
 static status add_line(const char *line, judgement *j, fault *f)
 {
     static const comparison_kind counted[] = {CHANGE_WORSE, CHANGE_GONE};

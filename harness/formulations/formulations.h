@@ -22,7 +22,7 @@ status adapters_complete(const element_type *given, const double options[], elem
  * Returns 0 when the type needs no differences. */
 double adapters_error(const element_type *given);
 
-/* Lists what is computed by differences for the type. Returns "" when nothing is. */
+/* Lists what is computed by differences for the type; returns "" if nothing is. */
 const char *adapters_words(const element_type *given);
 
 /* Text form NAME=VALUE of all user choices: parameters of a case and options of a formulation. */
@@ -56,7 +56,8 @@ status assignment_parse(const assignment_list *, const char *text, double value[
  * of the tables. */
 void assignment_text(const assignment_list *, const double value[], char *text, int size);
 
-/* Reads a number, or the index of a choice, of any size. Returns 0 when the text is neither. */
+/* Reads a number, whatever its size, or the index of a choice. Returns 0 when the text is
+ * neither. */
 int assignment_value(const parameter_type *, const char *text, double *value);
 /* Writes the shortest text that gives the same value when read, or the name of the choice. */
 void assignment_value_text(const parameter_type *, double value, char *text, int size);
@@ -269,7 +270,7 @@ status words_split(const char *command, char ***words, fault *f);
 
 /* Prints a word for a shell, in quotes if it needs them. */
 void words_quote(FILE *to, const char *word);
-/* As words_quote, into a text; truncated to `size`. */
+/* As words_quote, into a string of at most `size` bytes. */
 void words_quoted(const char *word, char *out, size_t size);
 
 #endif

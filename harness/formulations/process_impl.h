@@ -12,7 +12,7 @@ typedef struct process {
     element_constants constants;
     int whole; /* energy or forces of whole elements */
     channel to;
-    long kinds; /* prepared so far by the process that runs */
+    long kinds; /* number of kinds prepared so far by the running process */
 } process;
 
 struct element_data {

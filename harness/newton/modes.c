@@ -94,7 +94,7 @@ static void turns(const double R[9], double radius, const double u[7], double ou
     out[TWIST] = radius * radius * u[6];
 }
 
-/* value[MEASURES i] at vertex i. */
+/* Counts the half-waves; value[MEASURES i]: value at vertex i. */
 static int count_half_waves(int vertices, const double *value)
 {
     double largest = 0, last = 0;

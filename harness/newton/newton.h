@@ -26,14 +26,15 @@
 /* Work done so far. */
 typedef struct counters {
     long strain_evaluations, stress_evaluations, inertia_evaluations;
-    long geometric_evaluations; /* of the stiffness of a prestress */
+    long geometric_evaluations; /* evaluations of the stiffness due to a prestress */
     long iterations, steps, rejected_steps, factorisations, solutions;
     long factor_entries;
     double factor_flops;
     double dense_operations; /* n^3 of every eigenvalue problem solved densely */
-    long negative_pivots;    /* largest number for a symmetric tangent at an accepted state */
-    double condition; /* largest estimate of the solved systems (factor_condition), if requested;
-                         else 0 */
+    long negative_pivots;    /* largest number of negative pivots of a symmetric tangent at an
+                                accepted state */
+    double condition; /* largest condition estimate of the solved systems (factor_condition), if
+                         requested; else 0 */
 } counters;
 
 /* Stored derivatives of elements in the undeformed state (undeformed_of in newton_impl.h). */
@@ -45,7 +46,7 @@ typedef struct run_undeformed {
     double *value;   /* [room x (J, C, initial stresses)] */
 } run_undeformed;
 
-/* Data of all elements, from linearise_state for advance_state. */
+/* Data of all elements, passed from linearise_state to advance_state. */
 typedef struct linear_memory {
     double *slot; /* [elements x model.work_size]: J, C, P' + C (D - e), D - e, memory of the last
                      linearisation */
@@ -150,7 +151,7 @@ void applied_each(const model *, const model_state *, const scene_load *, double
 
 /* Convergence history along one path. All members except `stress` are dimensionless. */
 typedef struct arrival {
-    double criterion;          /* requested value; 0: limit of rounding */
+    double criterion;          /* requested value; 0: the limit set by rounding */
     double small;              /* two successive corrections below this end a step */
     double correction, before; /* last correction; previous correction in the same step, or
                                   INFINITY */
@@ -423,7 +424,7 @@ status shapes_alloc(shapes *, fault *);
 void shapes_free(shapes *);
 const char *shapes_kind_name(shape_kind);
 /* Number of frames of a motion if at most `most` states of a path are stored: `most`, or
- * SHAPES_FRAMES if that means all or only a few. */
+ * SHAPES_FRAMES if `most` stands for all or only a few. */
 int shapes_frames(int most);
 
 /* Degrees of freedom of the rows of a model's matrices. */
@@ -790,13 +791,14 @@ loading loading_of(const model *, int analysis);
 /* Value of a known driver [m or rad]. */
 double loads_driver_value(const equations *, const scene_driver *d, double path);
 /* In a motion, also computes the first two derivatives; at the end of a piece, those of the next
- * piece. A driver without a function of time keeps its last value, and a load its full value. */
+ * piece. A driver without a function of time keeps its last value, and such a load keeps its full
+ * value. */
 void loads_driver_rates(const equations *, const scene_driver *d, double path, double out[3]);
 /* out[free + driven] += the load times `scale` in a state. */
 void loads_add_one(const equations *, const model_state *, const scene_load *, double scale,
                    double out[]);
-/* out[free + driven] += forces of a temperature, changed by `scale`, on nodes that are held in
- * place in a state. */
+/* out[free + driven] += forces that a temperature load times `scale` exerts on nodes held in the
+ * positions of a state. */
 void loads_add_temperature(const equations *, const model_state *, const scene_load *, double scale,
                            double out[]);
 /* Derivative of the loads with respect to the path parameter in a state, out[free + driven]. */
@@ -938,8 +940,8 @@ history_mark history_here(const solve_result *);
 void history_go_back(solve_result *, const history_mark *);
 status history_add_event(solve_result *, const path_event *, fault *);
 
-/* Identifies models with equal results: formulations that differ only in physics that a scene does
- * not have are equal there. */
+/* Identifies models with equal results: formulations that differ only in physics that the scene
+ * does not contain give equal results. */
 
 /* Hash of all data that were added, in order. */
 typedef struct identity {
@@ -1049,8 +1051,8 @@ status linear_geometric_stiffness(const equations *, const double sigma[], doubl
 
 /* Linear solutions about the undeformed state. */
 
-/* A linear solution about the undeformed state: x[free + driven] with K x = f; the caller may use
- * the factors of K again. */
+/* A linear solution about the undeformed state: x[free + driven] with K x = f; the caller may reuse
+ * the factors of K. */
 typedef struct linear_system {
     sparse K;
     matrix_factor *factor;
@@ -1198,8 +1200,8 @@ double quantity_scaled(const scene_quantity *, double value);
 
 /* As quantity_scaled, for the abscissa of its curve. */
 double quantity_abscissa(const scene_quantity *, double x);
-/* Allocates a curve of that many points. Returns 0 when there is no memory, and stores that in the
- * result. */
+/* Allocates a curve with the given number of points. Returns 0 when out of memory, and records this
+ * in the result. */
 int quantity_curve(quantity_result *, int points);
 
 /* Stopping criterion of iterative refinement of a linear solution, and the resulting accuracy.

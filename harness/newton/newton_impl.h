@@ -237,8 +237,8 @@ void free_strain_linear(const equations *, int element, double path, double out[
 void free_strain_own(const model *, int element, double out[]);
 /* Largest strain due to temperatures; curvatures are multiplied by the length of the model. */
 double free_strain_size(const equations *, double path);
-/* out[strains]: change in a state due to a temperature changed by `scale`; returns 0 when there is
- * none. */
+/* out[strains]: change of the free strains in a state due to a temperature load times `scale`;
+ * returns 0 if there is none. */
 int free_strain_by_load(const equations *, const model_state *, int element, const scene_load *,
                         double scale, double out[]);
 

@@ -29,7 +29,7 @@ static int is_known_wrong(const truths *t, unsigned features, const char *key)
     return 0;
 }
 
-/* May the formulation take part in the agreement? */
+/* Is the formulation allowed to take part in the agreement? */
 static int may_vote(const sweep *s, const series *one, const truths *t)
 {
     const element_type *type = one->formulation.type;

@@ -187,7 +187,7 @@ static int met_unstable(const solve_result *r)
     return 0;
 }
 
-/* One formulation on finer and finer meshes. */
+/* A formulation that is solved on successively finer meshes. */
 typedef struct runner {
     cell_request request;
     formulation chosen;

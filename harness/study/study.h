@@ -360,8 +360,8 @@ enum { SWEEP_TEXT = PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT };
 void sweep_text(const sweep_point *, const formulation *, const char *quantity,
                 char text[SWEEP_TEXT]);
 
-/* Returns 1 when the verdicts of a series affect the exit status: for accepted, named or loaded
- * formulations, and on request for other programs. */
+/* Returns 1 when the verdicts of a series affect the exit status: this holds for accepted, named or
+ * loaded formulations and, on request, for other programs. */
 int sweep_gates(const sweep *, const series *);
 /* Request for one mesh of a series. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
@@ -383,7 +383,7 @@ typedef enum verdict_kind {
     VERDICT_DIVERGED,  /* no value on the finest mesh: not converged, singular or crashed */
     VERDICT_REFUSED,
     VERDICT_SKIP,        /* the formulation does not support a required feature */
-    VERDICT_NO_TRUTH,    /* the formulation does not support a required feature */
+    VERDICT_NO_TRUTH,    /* no reference value, or none for its shear theory */
     VERDICT_OTHER_MODEL, /* omits physics of the scene that changes the requested quantity */
     VERDICT_KINDS
 } verdict_kind;
@@ -535,9 +535,9 @@ const char *judgement_outcome(const judgement *j);
 
 /* Largest extent of the positions of nodes [m]. */
 double change_size(const scene *);
-/* Scale of a quantity [its unit]. Round-off is small compared with it: it is 1e-14 for strains,
- * 1e-12 for rotations and (times the size of the structure) for lengths, and 1e-9 of other values
- * in the same unit. */
+/* Scale of a quantity [its unit]. Round-off is small compared with this scale, which is 1e-14 for
+ * strains, 1e-12 for rotations and (times the size of the structure) for lengths, and 1e-9 of other
+ * values in the same unit. */
 double change_scale(const scene *s, int quantity, const solve_result *r);
 
 /* Last line of a beamwork file, with its length and checksum. The checksum reveals truncated,
@@ -629,8 +629,8 @@ typedef struct derived_value {
     double value, uncertainty; /* [unit] */
 } derived_value;
 
-/* Location of a program of reference/derive: in BEAMWORK_REFERENCE, or with the data. FAULT: the
- * path is too long. */
+/* Path of a program of reference/derive: in BEAMWORK_REFERENCE, or with the data. FAULT: the path
+ * is too long. */
 status derive_script(const char *name, char out[PATH_MAX], fault *f);
 /* Runs `script CASE PARAMETERS`. REFUSED: no program computes the case or the parameters; f
  * contains its message. FAULT: the script could not be run, or its output is invalid. *out:
@@ -874,9 +874,9 @@ status own_truths_read(const char *path, const case_type *const run[], const cas
 
 /* Plans the cells of a verification. */
 
-/* Points: the defaults, and every parameter point with a reference value. */
+/* Plans the default point and every point with a reference value. */
 status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fault *f);
-/* One point, the given formulations and meshes. */
+/* Plans one point with the given formulations and meshes. */
 status plan_one(const case_type *type, const double value[], const formulation those[], int count,
                 const int mesh[], int meshes, sweep *out, fault *f);
 /* Adds a point to a sweep that is planned by hand, with its scene changed by the edit (NULL:
@@ -1044,9 +1044,9 @@ int reach_ties(const reached list[], int count);
 /* Returns how the series of the point is included: 1: every quantity has a reference value of its
  * theory; 0: some quantities have none; -1: the series does not run. */
 int reach_asks(const reach_question *q, int series_index);
-/* Verdicts of every series and quantity of a sweep without judgement. Where there is no reference
- * value, the cross-formulation agreement is used. The caller frees the array; NULL: out of memory.
- */
+/* Verdicts of every series and quantity of a sweep without judgement. If there is no reference
+ * value, the cross-formulation agreement is used. The caller frees the array; NULL: out of
+ * memory. */
 verdict *reach_verdicts(const sweep *s, const truths *t, int *count);
 
 /* Formats numbers with their significant digits, as text. */

@@ -145,7 +145,7 @@ int workload_take(const workload *, int self, int *alone);
 /* The edit of the point, or for a repetition the equivalent scene that measures scatter. */
 scene_edit workload_edit(const workload *, int task);
 
-/* Destination of the result of a task. */
+/* Address for the result of a task. */
 cell_result *workload_cell(const workload *, int task);
 /* Records that a task is finished, with a result or a failure. */
 void workload_done(workload *, int task);
@@ -310,7 +310,8 @@ void worker_stop_late(const workload *, int self, worker *);
 /* Ends a worker in any state; results that it has written are still read. */
 void worker_end(workload *, worker *);
 
-/* Formulations whose verdicts affect the exit status (reference/accepted.csv), as packed. */
+/* Formulations whose verdicts affect the exit status (reference/accepted.csv), from the packed
+ * file. */
 
 /* Registers the accepted formulations of an open file of reference values (formulations_accept).
  * FAULT: the table is missing or damaged. */

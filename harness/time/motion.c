@@ -250,7 +250,7 @@ static status go_on(motion_course *w, fault *f)
                : STATUS_OK;
 }
 
-/* Finds the end that the motion resumes from, in another run or in the scene. */
+/* Finds the end from which the motion continues, in another run or in the scene. */
 static status find_end(motion_course *w, fault *f)
 {
     w->from = resume_given(w->c, w->analysis);

@@ -85,7 +85,7 @@ static void turn(const double b[3], double angle, int column, double x[3], doubl
     }
 }
 
-/* c of the body, from three coordinates or a sequence of angles. */
+/* Computes c of the body, from three coordinates or a sequence of angles. */
 static void begin(const double step[], place_chain *by, frame_place *p)
 {
     const int at = model_vertex(by->m, by->vertex)->body;

@@ -433,7 +433,7 @@ static int keeps_axis(const model *m, int vertex)
     return moving <= 1;
 }
 
-/* Names the two axes of free rotation, and the third. */
+/* Names the two axes of free rotation, and the third axis. */
 static status refuse_turns(const model *m, int vertex, fault *f)
 {
     static const char axis[] = "xyz";

@@ -682,8 +682,8 @@ status launch(analysis_context *, const carried_masses *, const scene_motion *, 
 /* Number of free coordinates minus the rank of their masses in the state. */
 status massless_count(const model *, const carried_masses *, const model_state *, int *count,
                       fault *);
-/* force[free], dx[free] (spatial increments of rotations): removes all but the component on motion
- * without inertia. */
+/* Removes from force[free], or dx[free] (spatial increments of rotations), all but the component on
+ * motion without inertia. */
 status massless_forces(const model *, const carried_masses *, const model_state *, double force[],
                        fault *);
 status massless_motion(const model *, const carried_masses *, const model_state *, double dx[],
@@ -1061,7 +1061,8 @@ typedef struct feedback_step {
 /* Computes the integrals at the end of a step by the trapezoidal rule: out[feedback_count]. */
 void feedback_integrate(const equations *, const model_state *from, const model_state *now,
                         const feedback_step *, double out[]);
-/* Derivatives of place, rate and integral of a measured component with respect to itself. */
+/* Derivatives of position, rate and integral of a measured component with respect to the component
+ * itself. */
 typedef struct feedback_gains {
     double place, rate, integral;
 } feedback_gains;

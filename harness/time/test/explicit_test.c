@@ -17,7 +17,7 @@
 
 static const double J[3] = {1, 2, 3}, start[3] = {0.5, 0.2, 2};
 
-/* Of the test's own cases. */
+/* Parameters of the cases in this test. */
 static struct {
     scene_scheme scheme;
     double step, tolerance, time;

@@ -1,4 +1,4 @@
-/* A scene in motion, step by step: for tests of the conserving scheme. */
+/* A scene in motion, advanced step by step: for tests of the conserving scheme. */
 #ifndef BEAMWORK_TEST_FLIGHT_H
 #define BEAMWORK_TEST_FLIGHT_H
 

@@ -1,4 +1,4 @@
-/* Motions step by step, for tests of the integrators themselves. */
+/* Motions advanced step by step, for tests of the integrators themselves. */
 #ifndef BEAMWORK_TEST_FLYING_H
 #define BEAMWORK_TEST_FLYING_H
 
@@ -69,7 +69,7 @@ static inline void flying_end(flying *f)
     model_free(f->m);
 }
 
-/* One step of h [s], backwards if negative, to `next`. */
+/* Makes one step of h [s], backwards if negative, to `next`. */
 static inline status flying_try(flying *f, double h)
 {
     step_record record = {.path = f->now.time + h, .increment = h};
