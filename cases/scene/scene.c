@@ -545,6 +545,22 @@ int scene_node_axes(const scene_node *n, double R[9])
     return differ;
 }
 
+int scene_node_coordinate(const scene_node *n, int component)
+{
+    const int turn = component - SCENE_RX;
+    double R[9];
+    if (turn < 0 || n->rotation != SCENE_ROTATION_SEQUENCE)
+        return component;
+    scene_node_axes(n, R);
+    for (int k = 0; k < 3; k++) {
+        const double along =
+            R[turn] * n->axis[k][0] + R[3 + turn] * n->axis[k][1] + R[6 + turn] * n->axis[k][2];
+        if (along > 0 && along >= (1 - 1e-14) * vec3_norm(n->axis[k]))
+            return SCENE_RX + k;
+    }
+    return component;
+}
+
 void scene_fork(scene *s, int node, const double axis[3], const double web[3])
 {
     scene_node *n = scene_node_at(s, node);

@@ -1069,6 +1069,8 @@ void scene_drive(scene *s, int node, int component,
                  int driver); /* a translation, or a spatial rotation component */
 /* Unit vectors of the axes of its supports, in columns. 0: they are those of the scene. */
 int scene_node_axes(const scene_node *n, double R[9]);
+/* The coordinate of a component: of a sequence, the angle about that axis, if there is one. */
+int scene_node_coordinate(const scene_node *n, int component);
 /* A fork has guides on both sides of the web with the fixed normal n = web x axis. The web remains
  * between them, R web . n = 0, for any bending of the section: R = exp(n t_1) exp(web t_2). For
  * bending in the plane of axis and web, the section does not rotate about its present axis, R axis,

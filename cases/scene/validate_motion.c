@@ -315,6 +315,19 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
                          "%s: a compliance is that of a static path, or of the undeformed "
                          "structure; name a static analysis",
                          scene_called(s, SCENE_ANALYSES, i).text);
+    const scene_compliance *what = scene_compliance_of(a);
+    const scene_node *n = what->node >= 0 && what->node < s->nodes ? &s->node[what->node] : NULL;
+    static const char *const component_name[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+    for (int c = SCENE_UX; c <= SCENE_RZ && n != NULL; c++) {
+        const int at = scene_node_coordinate(n, c);
+        if ((what->released >> c & 1u) &&
+            (at < SCENE_RX ? n->translation[at] : n->angle[at - SCENE_RX]) == SCENE_HELD)
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: %s of %s is held, and only what a motion drives can be released; "
+                             "remove it from 'released', or free the node",
+                             scene_called(s, SCENE_ANALYSES, i).text, component_name[c],
+                             scene_called(s, SCENE_NODES, what->node).text);
+    }
     return STATUS_OK;
 }
 

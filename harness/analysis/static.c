@@ -221,19 +221,16 @@ static void forget_columns(unsigned known, double C[36])
             C[i] = NAN;
 }
 
-/* Force and moment [6] that the prescription of the node's motion exerts on it. The moment of a
- * fork support is that of guides, which rotate with the node, so that the convention of moments
- * does not apply to it. */
-static void reaction_of(const analysis_context *c, const scene_compliance *what,
-                        const model_state *s, double reaction[6])
+/* Force on the node, and moment that drives its rotation. */
+static status reaction_of(analysis_context *c, const scene_compliance *what, const model_state *s,
+                          node_tangent *t, double reaction[6], fault *f)
 {
     double load[6];
     linearise_node_force(&c->eq, s, NULL, what->node, reaction);
     loads_at_node(&c->eq, s, kinematics_state_path(s), what->node, load);
     for (int i = 0; i < 6; i++)
         reaction[i] -= load[i];
-    if (c->scene->node[what->node].rotation == SCENE_ROTATION_FORK)
-        memset(reaction + 3, 0, 3 * sizeof *reaction);
+    return tangent_driven_moment(c, s, what->node, t, reaction + 3, f);
 }
 
 /* Tangent about the node; unneeded columns of C, and with them K, are NaN. */
@@ -261,7 +258,7 @@ static status compliance_at(analysis_context *c, const scene_compliance *what, c
                             node_tangent *t, unsigned wanted, station_matrices *out, fault *f)
 {
     double reaction[6];
-    reaction_of(c, what, s, reaction);
+    TRY(reaction_of(c, what, s, t, reaction, f));
     TRY(tangent_at(c, what, s, reaction, t, f));
     return matrices_of(c, what, reaction, t, wanted, out, f);
 }
@@ -272,7 +269,7 @@ static status compliance_take(analysis_context *c, int analysis, const newton_ru
 {
     const scene_compliance *what = scene_compliance_of(&c->scene->analysis[analysis]);
     double reaction[6];
-    reaction_of(c, what, n->state, reaction);
+    TRY(reaction_of(c, what, n->state, t, reaction, f));
     if (!arrival_tangent_stands(&n->arrival))
         TRY(tangent_at(c, what, n->state, reaction, t, f));
     else if (n->condensed != NULL)

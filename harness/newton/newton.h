@@ -764,6 +764,11 @@ status tangent_take(analysis_context *c, const scene_compliance *a, const model_
 status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
                               const double reaction[6], const condensation *members,
                               node_tangent *t, fault *f);
+/* Of the moment on a node that rotates by angles, keeps that of the driven ones, which counts as a
+ * load: guides exert that of held angles and rotate with the node, and constraints exert that of
+ * angles which others follow. Other nodes: no change. */
+status tangent_driven_moment(analysis_context *c, const model_state *s, int node, node_tangent *t,
+                             double moment[3], fault *f);
 /* Removes the moment about axes of free rotation from the reaction, since no support exerts that
  * moment. */
 void tangent_prescribed(const node_tangent *t, double moment[3]);

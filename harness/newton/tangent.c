@@ -135,11 +135,6 @@ static status complete(analysis_context *c, const scene_compliance *a, const mod
     }
     if (t->condensed == NULL)
         border_fill(&t->border, t->free, &t->K);
-    if (model_vertex(c->model, model_body(c->model, a->node))->led)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s follows the master of a diaphragm; request the compliance of that node",
-            scene_called(model_scene(c->model), SCENE_NODES, a->node).text);
     t->coordinates =
         kinematics_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
     return STATUS_OK;
@@ -275,6 +270,51 @@ static int is_free(const node_tangent *t, int k)
     return t->index[k] < t->free;
 }
 
+/* Moment that makes the work g_k with unit rates of the angles, without a part at right angles to
+ * their axes b. */
+static void moment_of(int angles, double b[3][3], const double g[3], double moment[3])
+{
+    double A[9], factor[3] = {g[0], g[1], g[2]};
+    int pivot[3];
+    memset(moment, 0, 3 * sizeof *moment);
+    for (int i = 0; i < angles; i++)
+        for (int j = 0; j < angles; j++)
+            A[i * angles + j] = vec3_dot(b[i], b[j]);
+    if (dense_lu_regular(angles, A, pivot) != 0)
+        return; /* two axes are parallel: the tangent is singular, too */
+    dense_lu_solve(angles, 1, A, pivot, factor);
+    for (int k = 0; k < angles; k++)
+        for (int i = 0; i < 3; i++)
+            moment[i] += factor[k] * b[k][i];
+}
+
+status tangent_driven_moment(analysis_context *c, const model_state *s, int node, node_tangent *t,
+                             double moment[3], fault *f)
+{
+    const mesh_vertex *v = model_vertex(c->model, node);
+    double b[3][3], g[3] = {0, 0, 0};
+    int driven[3], others = v->angles == 1 || v->angles == 2, followed = 0;
+    for (int k = 0; k < v->angles; k++) {
+        const int at = v->coordinate[SCENE_RX + k],
+                  tied = model_tie(c->model, node, SCENE_RX + k) != NULL;
+        driven[k] = at != NONE && at >= t->free;
+        followed |= driven[k] && tied;
+        others |= at == NONE || tied;
+    }
+    if (!others)
+        return STATUS_OK;
+    if (followed) {
+        model_linearisation lin = {.path = kinematics_state_path(s), .residual = t->residual};
+        TRY(linearise_state(&c->eq, &c->run->memory, s, &lin, f));
+    }
+    kinematics_axes(c->model, s, node, b);
+    for (int k = 0; k < v->angles; k++)
+        if (driven[k])
+            g[k] = followed ? -t->residual[v->coordinate[SCENE_RX + k]] : vec3_dot(moment, b[k]);
+    moment_of(v->angles, b, g, moment);
+    return STATUS_OK;
+}
+
 void tangent_prescribed(const node_tangent *t, double moment[3])
 {
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS], rest[3];
@@ -292,8 +332,10 @@ void tangent_movable(const model *m, const node_tangent *t, movable *out)
 
 static int is_released(const analysis_context *c, const scene_compliance *a, int coordinate)
 {
+    const scene_node *n = &c->scene->node[a->node];
     for (int k = 0; k < TANGENT_COMPONENTS; k++)
-        if ((a->released >> k & 1u) && kinematics_coordinate(c->model, a->node, k) == coordinate)
+        if ((a->released >> k & 1u) &&
+            kinematics_coordinate(c->model, a->node, scene_node_coordinate(n, k)) == coordinate)
             return 1;
     return 0;
 }

@@ -710,10 +710,18 @@ quantities:
             self.assertIn(old, text)
             path.write_text(text.replace(old, new))
             self.refused(2, words, "scene", "--scene", path)
-        path.write_text(text.replace("pushed: {linear: {}}", "pushed: {linear: {}}\n  C: {compliance: {node: a}}")
-                        .replace("quantities:", "quantities:\n  q: {compliance: {analysis: C, row: ux, column: ux}}"))
-        done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
-        self.assertIn("node a follows the master of a diaphragm; request the compliance of that node", done.stdout + done.stderr)
+        text = text.replace("pushed: {linear: {}}", "pushed: {linear: {}}\n  C: {compliance: {node: a}}")
+        text = text.replace("quantities:", "quantities:" + "".join(
+            f"\n  c{a}{b}: {{compliance: {{analysis: C, row: {a}, column: {b}}}}}" for a in ("ux", "uy", "rz") for b in ("ux", "uy")))
+        det = "(ky*kt - kc^2)"  # displacement of a: that of the middle + turn x (-3, -2)
+        text = text.replace("truths:", "truths:" + "".join(
+            f"\n  - {{quantity: c{name}, value: {value}, kind: exact, source: statics, uncertainty: 1e-9}}" for name, value in {
+                "uxux": f"1/ky + 4*ky/{det}", "uyuy": f"(kt + 6*kc + 9*ky)/{det}", "uxuy": f"(-2*kc - 6*ky)/{det}",
+                "uyux": f"(-2*kc - 6*ky)/{det}", "rzux": f"2*ky/{det}", "rzuy": f"(-kc - 3*ky)/{det}"}.items()))
+        path.write_text(text)
+        for q in self.record("solve", "--scene", path, "-f", "collocation", "-n", "1")["quantities"]:
+            self.assertLess(abs(q["error"]), 1e-8, q["quantity"])
+        text = example.read_text()
         path.write_text(text.replace("modes:  {modal: {}}", "modes:  {modal: {}}\n  T: {motion: {stations: [0.1], integrator: alpha, step: 0.01}}")
                         .replace("quantities:", "quantities:\n  q: {displacement: {analysis: T, node: a, component: ux}}"))
         done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
