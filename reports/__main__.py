@@ -1,6 +1,7 @@
 """python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--imported THEIRS.h5]
-[--sweep SWEEP.h5] -o FOLDER: the report as one self-contained folder of HTML and SVG. A sweep may replace the
-results. With --film FILM.html instead of -o FOLDER: a motion as one file that any browser plays from disk."""
+[--sweep SWEEP.h5] -o FOLDER writes the report as a self-contained folder of HTML and SVG files. A sweep may replace
+the results. With --film FILM.html instead of -o FOLDER, it writes a motion as a single file that any browser plays
+from disk."""
 import argparse
 import sys
 

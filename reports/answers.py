@@ -1,17 +1,17 @@
-"""Which formulation, with how many elements, reaches a tolerance at the lowest cost: the answers that pages show.
+"""Finds the formulation and the number of elements that reach a tolerance at the lowest cost.
 
 The rule is that of harness/study/study.h: n is the coarsest mesh from which the error of every mesh is within the
 level; formulations are sorted by the cost of their counted work on that mesh, so that two runs give the same order;
-costs that differ by less than the uncertainty of the cost model tie; a formulation that does not pass in the
-requested quantity is never the cheapest, but is listed. Measured times are shown. Variants that give the same results
-as the formulation without their options are not shown.
+costs that differ by less than the uncertainty of the cost model tie; a formulation that does not pass in the requested
+quantity is never the cheapest, but is listed. The pages show measured times. They omit variants that give the same
+results as the formulation without the options.
 
     found = answers.answer(point, quantity, level)    # quantity: a name, or ALL
-    found.best       [Way] the cheapest one, and those whose costs tie with it; empty: none
-    `found.dearer`   [Way] the other ones that pass, by cost
-    found.defective  [Way] within the level too, but with a verdict that is not a pass, by cost
+    found.best       [Way] the cheapest, and those whose costs tie with it; may be empty
+    `found.dearer`   [Way] the others that pass, by cost
+    found.defective  [Way] also within the level, but with a verdict other than pass, by cost
     found.faster     [Way] of the more expensive ones: measured faster than the cheapest in every round
-    found.unranked   [Way] that pass but have no rank (Way.unranked gives the reason), by name
+    found.unranked   [Way] those that pass but have no rank (Way.unranked gives the reason), by name
     found.missed     [key] not within the level on these meshes
     found.unjudged   [key] without a reference value of their theory for all requested quantities
 """
@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from reports import data, verdicts as words
 
 ALL = "all quantities"
-NO_COSTS = "the results have no costs"  # files from before there were cost coefficients
+NO_COSTS = "the results have no costs"  # results written before cost coefficients existed
 SOUND = ("pass", *words.UNJUDGED)
 LEVELS = tuple(data.REACH)
 
@@ -33,11 +33,11 @@ class Way:
     n: int
     cost: float  # [s] of counted work, with the cost coefficients of the reference machine
     clock: object  # data.Clock: measured
-    error: float  # the largest one of the requested quantities, on that mesh
-    worst: object  # data.Verdict: the worst of those involved
-    defects: list  # those of them that are not a pass
-    priced: bool = True  # with cost coefficients of its formulation, not the general ones
-    unranked: str = ""  # reason why it has no rank; it then has no cost
+    error: float  # the largest among the requested quantities on that mesh
+    worst: object  # data.Verdict: the worst of the verdicts on the requested quantities
+    defects: list  # the verdicts other than pass
+    priced: bool = True  # the formulation has its own cost coefficients, not the general ones
+    unranked: str = ""  # reason why it has no rank; it then has no cost either
 
     @property
     def seconds(self):
@@ -46,7 +46,7 @@ class Way:
 
 @dataclass
 class Answer:
-    """Formulations that reach a level in one quantity, or in all of a point."""
+    """Formulations that reach a level in one quantity or in all quantities of a point."""
     quantity: str
     level: float
     best: list = field(default_factory=list)
@@ -59,7 +59,8 @@ class Answer:
 
     @property
     def ways(self):
-        """All that are within the level: [(Way, rank, tie)]; rank 0: a defect, or unranked."""
+        """Returns [(Way, rank, tie)] of all that are within the level; the rank is 0 for defective and unranked
+        ones."""
         ranked = self.best + self.dearer
         return [(w, i + 1, len(self.best) > 1 and i < len(self.best))
                 for i, w in enumerate(ranked)] + [(w, 0, False)
@@ -67,7 +68,7 @@ class Answer:
 
 
 def judged(point):
-    """Quantities of a point with a reference value, in the order of the case."""
+    """Returns the quantities of a point that have a reference value, in the order of the case."""
     names = []
     for series in point.series:
         for v in series.verdicts:
@@ -81,13 +82,13 @@ def verdict_of(series, quantity):
 
 
 def error_of(mesh, quantities):
-    """The error of largest magnitude; NaN if one is missing."""
+    """Returns the error of largest magnitude; NaN if one is missing."""
     errors = [mesh.errors.get(q, math.nan) for q in quantities]
     return math.nan if any(not math.isfinite(e) for e in errors) else max(errors, key=abs)
 
 
 def first_within(series, quantity, level):
-    """Elements of the coarsest mesh from which every error is within the level, or None."""
+    """Returns the number of elements of the coarsest mesh from which every error is within the level, or None."""
     found = None
     for mesh in reversed(series.meshes):
         if not abs(mesh.errors.get(quantity, math.nan)) <= level:
@@ -97,21 +98,21 @@ def first_within(series, quantity, level):
 
 
 def reach(series, v, level):
-    """The same, as stored by the evaluation at its levels."""
+    """Returns the same, as stored by the evaluation at its levels."""
     if not math.isfinite(v.truth):
         return None
     return v.reach.get(level) if level in data.REACH else first_within(series, v.quantity, level)
 
 
 def verdicts_on(series, quantities):
-    """Verdicts on all of them, or None if one has no reference value of the formulation's theory."""
+    """Returns the verdicts on all quantities, or None if one has no reference value of the formulation's theory."""
     found = [verdict_of(series, q) for q in quantities]
     known = not series.missing and found and all(v and math.isfinite(v.truth) for v in found)
     return found if known else None
 
 
 def repeats(point, series, quantities):
-    """Is it a variant without effect: the same errors and the same work on every mesh as without these options?"""
+    """Does the variant have no effect: the same errors and the same work on every mesh as without its options?"""
     name, colon, _ = series.key.partition(":")
     plain = next((s for s in point.series if colon and s.key == name and not s.missing), None)
 
@@ -122,7 +123,8 @@ def repeats(point, series, quantities):
 
 
 def way(series, quantities, level):
-    """The coarsest mesh and cost with which a formulation has all these quantities within the level, or None."""
+    """Returns the coarsest mesh with which a formulation has all these quantities within the level, and its cost; or
+    None."""
     verdicts = verdicts_on(series, quantities)
     if verdicts is None:
         return None
@@ -144,7 +146,7 @@ def words_of(v):
 
 
 def defect_words(w):
-    """The same of a way: the worst of it."""
+    """Describes the worst verdict of a way."""
     return words_of(w.worst)
 
 
@@ -153,7 +155,7 @@ def by_cost(w):
 
 
 def answer(point, quantity, level):
-    """The Answer of a point: see above."""
+    """Returns the Answer of a point (see above)."""
     quantities = judged(point) if quantity == ALL else [quantity]
     out, sound = Answer(quantity, level), []
     for series in point.series:
@@ -190,7 +192,7 @@ def differ(a, b):
 
 
 def front(point, quantity):
-    """[(series, mesh)] that no ranked one beats in both time and error, sorted by time."""
+    """Returns [(series, mesh)] that no ranked mesh beats in both time and error, sorted by time."""
     cells = [(s, m) for s in point.series if not s.missing and not s.other and not s.unranked
              for m in s.meshes
              if math.isfinite(m.errors.get(quantity, math.nan))]
@@ -203,7 +205,7 @@ def front(point, quantity):
 
 
 def failures(point):
-    """[(series, mesh, reason)] of cells without a solution."""
+    """Returns [(series, mesh, reason)] of the runs without a solution."""
     out = []
     for series in point.series:
         for mesh in series.meshes if not series.missing else []:
@@ -217,24 +219,24 @@ def failures(point):
 
 
 def savings(point):
-    """[(series, mesh)] measured with all degrees of freedom."""
+    """Returns [(series, mesh)] of the runs measured with all degrees of freedom."""
     return [(s, m) for s in point.series for m in s.meshes if m.kept is not None]
 
 
-# The lowest-cost mesh of every case for each level, for the heat map and the index.
+# Finds the lowest-cost mesh of every case for each level, for the heat map and the index.
 
 
 @dataclass
 class CaseLine:
-    """A case at its defaults: all its quantities with verdicts together."""
+    """A case at its defaults, with the verdicts on all its quantities together."""
 
     case: object  # data.Case
-    quantities: list  # with a reference value to judge by
+    quantities: list  # those with a reference value
     found: dict  # level -> answers.Answer
 
 
 def line_of_case(case):
-    """None if there are no verdicts."""
+    """Returns the CaseLine of a case, or None if there are no verdicts."""
     point = case.points[0]
     names = judged(point)
     if not names:

@@ -1,9 +1,9 @@
-"""The answers as a table to download: CSV, JSON, or text for a terminal.
+"""Writes the answers as a table: CSV, JSON, or text for a terminal.
 
     python -m reports.answers_table RESULTS [--error 0.3%] [--format text|csv|json] [-k WORDS] [-o FILE]
 
-A row for each formulation that is within the tolerance, in the order of its counted work; rank 0: it does not pass,
-or has no rank (`unranked` gives the reason), so that it has no place in that order.
+There is a row for each formulation within the tolerance, sorted by counted work. Rank 0 means that the formulation
+does not pass or has no rank (`unranked` gives the reason); it then has no place in that order.
 """
 import argparse
 import csv
@@ -23,22 +23,22 @@ from reports.answers import LEVELS
 COLUMNS = ("case", "parameters", "quantity", "tolerance", "formulation", "n", "cost", "seconds",
            "error", "rank", "tie", "defect", "priced", "unranked")
 UNITS = {"cost": "s", "seconds": "s", "tolerance": "1", "error": "1"}
-ASKED = 4  # columns of the request; the others are of each answer
+ASKED = 4  # columns of the request; the others belong to each answer
 
 
 def asked_of(point):
-    """Requests at a point: all quantities together, where there are several, and each."""
+    """Returns the requests at a point: all quantities together, if there are several, and each quantity."""
     names = answers.judged(point)
     return ([answers.ALL] if len(names) > 1 else []) + names
 
 
 def short(value):
-    """A number with its significant digits; None if there is none."""
+    """Returns a number with its significant digits, or None if it is not finite."""
     return float(f"{value:.3g}") if math.isfinite(value) else None
 
 
 def rows(cases, levels=LEVELS, everywhere=False):
-    """[{column: value}]; everywhere: at all parameter points, otherwise at the defaults."""
+    """Returns [{column: value}]; everywhere: at all parameter points, otherwise at the defaults."""
     out = []
     for case in cases:
         for point in case.points if everywhere else case.points[:1]:
@@ -62,9 +62,8 @@ def as_csv(found):
 
 
 def as_json(found, about):
-    """One object: the run, names and units of the columns, and a line for each question:
-    case, parameters, quantity, tolerance, then its answers as lists, each beginning with the
-    index of its formulation."""
+    """Returns one object: the run, the names and units of the columns, and a line for each question: case, parameters,
+    quantity, tolerance, then its answers as lists, each beginning with the index of its formulation."""
     keys = sorted({row["formulation"] for row in found})
     head = {"commit": about.get("commit", ""), "clock": about.get("clock", ""),
             "asked": COLUMNS[:ASKED], "columns": COLUMNS[ASKED:], "units": UNITS,
@@ -79,7 +78,7 @@ def as_json(found, about):
 
 
 def sentence(answer):
-    """An answer in words: the formulation with the lowest cost, ties, and those that are wrong there."""
+    """Returns an answer as text: the formulation with the lowest cost, ties, and those with a wrong limit."""
     def told(ways):
         return ", ".join(f"{w.key} n = {w.n}" for w in ways)
 
@@ -114,7 +113,7 @@ def as_text(cases, levels, everywhere=False):
 
 
 def tolerance(text):
-    """0.3% or 0.003, as a fraction of the value."""
+    """Converts 0.3% or 0.003 to a fraction of the value."""
     value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
     if not 0 < value < 1:
         raise argparse.ArgumentTypeError(f"'{text}': give an error such as 0.3% or 0.003")
@@ -150,13 +149,13 @@ if __name__ == "__main__":
     main()
 
 
-# The answers at the reader's own tolerance, and the tables to download.
+# Page of answers at a tolerance that the reader chooses, with the tables to download.
 
 NAVIGATION = [("answers.html", "answers")]
 
 
 def outward(value):
-    """Six digits, rounded up, so that no mesh appears more accurate than it is."""
+    """Rounds up to six digits, so that no mesh appears more accurate than it is."""
     if not math.isfinite(value):
         return None
     near = float(f"{value:.6g}")
@@ -166,7 +165,7 @@ def outward(value):
 
 
 def staying(series, quantities):
-    """For each mesh, the largest error of it and all finer ones; None if one has no value."""
+    """Returns for each mesh the largest error of it and all finer meshes, or None if one has no value."""
     out, worst = [], 0.0
     for mesh in reversed(series.meshes):
         worst = max([worst, *(abs(mesh.errors.get(q, math.nan)) for q in quantities)],
@@ -177,8 +176,8 @@ def staying(series, quantities):
 
 
 def points_of(case, keys):
-    """Returns the data of a case at its defaults for the script of the page: for each formulation its meshes
-    with cost and time, for each quantity asked the error that each stays within."""
+    """Returns the data of a case at its defaults for the script of the page: for each formulation its meshes with cost
+    and time, and for each requested quantity the error within which each mesh stays."""
     point, meshes, asked = case.points[0], {}, []
     for series in point.series:
         if series.meshes:
@@ -207,13 +206,13 @@ def short_seconds(value):
 
 
 def defect_of(verdicts):
-    """In words; empty where all pass."""
+    """Describes the worst verdict; empty if all pass."""
     bad = [v for v in verdicts if v.verdict not in answers.SOUND]
     return answers.words_of(answers.words.worst(bad)) if bad else ""
 
 
 def embedded(value):
-    """JSON that can be embedded in a page: no end of a script, no comment."""
+    """Returns JSON that can be embedded in a page: it contains no end of a script and no comment."""
     text = json.dumps(value, separators=(",", ":"), allow_nan=False)
     return Markup(text.replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e"))
 

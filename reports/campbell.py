@@ -27,7 +27,7 @@ def finest(look, case, parameters, key):
 
 
 def truth(look, case, parameters, quantity):
-    """The stored exact value, or NaN."""
+    """Returns the stored exact value, or NaN."""
     point = look.points.get((case, canonical(parameters)))
     return next((v.truth for s in (point.series if point else [])
                  for v in s.verdicts if v.quantity == quantity and v.truth_kind == "exact"),
@@ -35,7 +35,7 @@ def truth(look, case, parameters, quantity):
 
 
 def draw_across(site, look):
-    """Flap and lag, the exact values, and multiples of the angular velocity."""
+    """Draws flap and lag frequencies, the exact values, and multiples of the angular velocity."""
     mesh = finest(look, CASE, ACROSS, KEY)
     if mesh is None or "flap_1_curve" not in mesh.curves:
         return None
@@ -68,7 +68,8 @@ def draw_across(site, look):
 
 
 def draw_along(site, look):
-    """An unsymmetric shaft: frequencies in the rotating frame and the rate of growth between its critical speeds."""
+    """Draws the frequencies of an unsymmetric shaft in the rotating frame, and the rate of growth between its critical
+    speeds."""
     mesh = finest(look, CASE, ALONG, KEY)
     if mesh is None or "whirl_1_curve" not in mesh.curves:
         return None
@@ -113,7 +114,7 @@ def channel_at(speed, w=1.0):
 
 
 def draw_channel(site, look):
-    """J Fig. 13: load against deflection at several angular velocities, with exact points where known."""
+    """Draws J Fig. 13: load against deflection at several angular velocities, with exact points where known."""
     figure, ax = plt.subplots(figsize=(7.2, 4.8))
     drawn = False
     for speed, shade in zip(SPEEDS, np.linspace(0.75, 0, len(SPEEDS))):
@@ -142,7 +143,7 @@ def draw_channel(site, look):
 
 
 def channel_rows(look):
-    """[(rad/s, w, printed form with lumped mass, consistent form, its error, exact)]"""
+    """Returns [(rad/s, w, printed form with lumped mass, consistent form, its error, exact)]."""
     for speed in SPEEDS[1:]:
         for w in (0.25, 0.5, 1.0):
             at = channel_at(speed, w)
@@ -155,7 +156,7 @@ def channel_rows(look):
 
 
 def orders(look, parameters, quantities):
-    """[(formulation, [(error of the finest mesh, order)])] at one point."""
+    """Returns [(formulation, [(error of the finest mesh, order)])] at one point."""
     point = look.points.get((CASE, canonical(parameters)))
     for series in point.series if point else []:
         found = [next((v for v in series.verdicts if v.quantity == q), None) for q in quantities]

@@ -1,4 +1,4 @@
-"""A page for each case: its scene, the quantities, the best formulations, one figure per question, and folded
+"""Writes a page for each case: its scene, the quantities, the best formulations, one figure per question, and folded
 details."""
 import functools
 import math
@@ -10,13 +10,12 @@ from reports.drawing import describe, draw, scene
 from reports.site import ROOT
 from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 
-# Scene on the page of a case: the drawing, its sections, the same in words.
+# The scene on the page of a case: the drawing, its sections, and a description.
 
 
 @dataclass
 class Drawing:
-    """figure, sections: images of the site, the second None where no section has a shape; lines:
-    [(heading, lines)]."""
+    """figure, sections: images of the site; sections is None if no section has a shape. lines: [(heading, lines)]."""
     figure: object
     sections: object
     counts: str
@@ -24,7 +23,7 @@ class Drawing:
 
 
 def drawing(site, case):
-    """Returns the drawing of the first parameter point, or None where the results hold no scene of it."""
+    """Returns the drawing of the first parameter point, or None if the results contain no scene for it."""
     read = scene.read(case.points[0].scene)
     if read is None:
         return None
@@ -34,15 +33,14 @@ def drawing(site, case):
                    describe.counts(read), describe.describe(read))
 
 
-# Quantities of a parameter point: truths with their digits, verdicts in a
-# matrix.
+# Quantities of a parameter point: reference values with their digits, and verdicts in a matrix.
 
 MOST_DIGITS = 15
 
 
 @dataclass(frozen=True)
 class Truth:
-    """One reference value of a quantity, in its unit; of: the formulations to which it applies, if not all."""
+    """One reference value of a quantity, in its unit. of: the formulations to which it applies, if not all."""
     value: str
     digits: int
     kind: str
@@ -52,7 +50,7 @@ class Truth:
 
 @dataclass
 class Quantity:
-    """meaning: its description; truths: none if it has no verdict."""
+    """meaning: description of the quantity; truths: empty if it has no verdict."""
     name: str
     unit: str
     meaning: str
@@ -68,7 +66,7 @@ def digits_of(value, uncertainty):
 
 
 def truths_of(point, name):
-    """The different reference values for verdicts on formulations, each once."""
+    """Returns the different reference values used in verdicts on formulations, each once."""
     out = {}
     for series in point.series:
         v = answers.verdict_of(series, name)
@@ -91,14 +89,14 @@ def quantities(point):
 
 @dataclass
 class Cell:
-    """A verdict in the matrix, or an empty one."""
+    """A verdict in the matrix, or an empty cell."""
     sign: str
     look: str
     words: str
 
 
 def away(v):
-    """Describes the distance of another model's limit from the reference value."""
+    """Describes the distance between the limit of another model and the reference value."""
     if not math.isfinite(v.model_error):
         return []
     return [f"{percent(v.model_error)} from the {v.model_truth_kind} value"]
@@ -117,14 +115,14 @@ def cell_of(series, name):
 
 
 def matrix(point):
-    """(series, [(quantity, cells)]) with verdicts."""
+    """Returns (series, [(quantity, cells)]) with verdicts."""
     names = answers.judged(point)
     shown = [s for s in point.series if any(cell_of(s, n).look != "skip" for n in names)]
     return shown, [(name, [cell_of(s, name) for s in shown]) for name in names]
 
 
 def tally_of(point):
-    """[(kind, number)] of the verdicts of a point, from good to bad."""
+    """Returns [(kind, number)] of the verdicts of a point, from good to bad."""
     counts = {}
     for series in point.series:
         for v in series.verdicts:
@@ -136,16 +134,16 @@ def tally_of(point):
 NAVIGATION = [("convergence.html", "to print")]
 MOST_POINTS = 3  # parameter points with a figure
 MOST_PANELS = 6  # small figures of the other quantities, and of model errors
-# of verdicts on one page; with more, other parameter points have pages of their own
+# of verdicts on one page; if there are more, the other parameter points have their own pages
 MOST_ROWS = 1500
 
-# Figures about the first quantity, and the formulations that are not in them.
+# Figures about the first quantity, and the formulations that they do not show.
 NOTHING = {"elements": None, "time": None, "work": None, "further": None,
            "left_out": []}
 
 
 def question_of(site, point, quantity, name):
-    """{what: image} of the figures about the first quantity."""
+    """Returns {figure: image} of the figures about the first quantity."""
     shown, further = plots.leading(point, quantity)
 
     def draw(series, kind, *abscissae):
@@ -160,7 +158,7 @@ def question_of(site, point, quantity, name):
 
 
 def told_of(point, quantity):
-    """Does any of its errors exceed round-off?"""
+    """Does any error of the quantity exceed round-off?"""
     return any(e > plots.FLOOR for s in point.series for _, e in plots.finite(s, quantity))
 
 
@@ -202,7 +200,7 @@ def cost_of(cell):
 
 
 def table_of(point, quantity):
-    """[(formulation, {level: (way, factor to the cheapest, tie)})]: what each formulation needs for
+    """Returns [(formulation, {level: (way, cost relative to the cheapest, tie)})]: what each formulation requires for
     each level."""
     rows = {}
     for level in LEVELS:
@@ -214,14 +212,14 @@ def table_of(point, quantity):
 
 
 def cheapest_of(point):
-    """[(quantity, {level: answers.Answer})], with all quantities together first."""
+    """Returns [(quantity, {level: answers.Answer})], with all quantities together first."""
     names = answers.judged(point)
     wanted = ([answers.ALL] if len(names) > 1 else []) + names
     return [(q, {level: answers.answer(point, q, level) for level in LEVELS}) for q in wanted]
 
 
 def limits_of(point):
-    """[(quantity, [(formulation, verdict)])] of quantities without a reference value."""
+    """Returns [(quantity, [(formulation, verdict)])] of quantities without a reference value."""
     rows = {}
     for s in point.series:
         for v in s.verdicts:
@@ -231,8 +229,8 @@ def limits_of(point):
 
 
 def verdicts_of(point, index):
-    """[(series, verdicts)] for the table: at the first parameter point all verdicts, at the others those that are not
-    a pass."""
+    """Returns [(series, verdicts)] for the table: all verdicts at the first parameter point, and those other than pass
+    at the others."""
     def told(v):
         own = v.verdict not in ("skip", "no truth", *(("pass",) if index else ()))
         return own or math.isfinite(v.model_truth) and v.verdict != "pass"
@@ -241,7 +239,7 @@ def verdicts_of(point, index):
 
 
 def causes_of(point):
-    """[(rule of the list of known deviations, its cause)] of the verdicts of a point."""
+    """Returns [(entry of the list of known deviations, its cause)] for the verdicts of a point."""
     return sorted({v.finding: v.cause for s in point.series for v in s.verdicts
                    if v.finding and not s.missing}.items())
 
@@ -274,12 +272,12 @@ def rows_of(point):
 
 
 def own_pages(case):
-    """Do its other parameter points have pages of their own?"""
+    """Do the other parameter points of the case have their own pages?"""
     return sum(rows_of(p) for p in case.points[1:]) > MOST_ROWS
 
 
 def page_of(case, index):
-    """Where a parameter point is shown."""
+    """Returns the page and the place where a parameter point is shown."""
     point = case.points[index]
     if index and own_pages(case):
         return f"{case.name}_{point.name}.html"
@@ -320,14 +318,13 @@ def tasks(site):
             *(functools.partial(write, site, case) for case in site.cases)]
 
 
-# A convergence report on paper: every case on a sheet, to be printed or attached (A4; headless:
-# chromium --print-to-pdf).
+# A convergence report for printing: every case on an A4 sheet (headless: chromium --print-to-pdf).
 
 
 
 def sheet(site, case):
-    """The first quantity of the defaults with verdicts: its figure, and for each formulation its limit, order,
-    errors, and time to every level."""
+    """Returns the sheet of the first quantity with verdicts at the defaults: its figure, and for each formulation its
+    limit, order, errors, and time to every level."""
     point = case.points[0]
     names = answers.judged(point)
     if not names:

@@ -1,6 +1,6 @@
-"""Certificates: the properties that a paper should report of its element. For each formulation the interface
-requirements one by one, uniform and linear states, locking and orders of convergence, from the results of `beamwork
-element-test`."""
+"""Certificates: the properties that a paper should report about its element. For each formulation, they list the
+interface requirements one by one, uniform and linear states, locking and orders of convergence, from the results of
+`beamwork element-test`."""
 import functools
 import math
 
@@ -11,7 +11,7 @@ NAVIGATION = [("certificates.html", "certificates")]
 STATES, LOCKING, ORDERS = "states", "locking", "orders"
 LINES = ("-", "--", ":", "-.")
 FLOOR = 1e-16  # of what is drawn
-EXACT = 1e-9  # as the text of the program says it
+EXACT = 1e-9  # the bound that the program prints
 MARKS = {"holds": "✔", "broken": "✘", "not claimed": "–"}
 
 
@@ -31,7 +31,8 @@ def points_of(points, measure):
 
 
 def read(path):
-    """Reads the results of `beamwork element-test`, or None; each formulation with its parts."""
+    """Reads the results of `beamwork element-test`: each formulation with its parts. Returns None if there are
+    none."""
     record = experiments.read(path, "element-test")
     if record is None:
         return None
@@ -43,12 +44,12 @@ def read(path):
 
 
 def stored(site):
-    """The record in the results, or None."""
+    """Returns the record in the results, or None."""
     return read(site.results)
 
 
 def shown(site):
-    """Certificates of the formulations in the results."""
+    """Returns the certificates of the formulations in the results."""
     record = stored(site)
     if record is None:
         return []
@@ -61,12 +62,12 @@ def present(site):
 
 
 def names(site):
-    """Returns the formulations with a certificate, for their pages."""
+    """Returns the formulations that have a certificate, for their pages."""
     return {c["formulation"] for c in shown(site)}
 
 
 def percent(error):
-    """As the text of the program says it."""
+    """Formats an error as the program prints it."""
     if error is None:
         return "–"
     size = 100 * abs(error)
@@ -76,13 +77,13 @@ def percent(error):
 
 
 def standing(part):
-    """(worst outcome of its requirements, number of them that are satisfied or violated)."""
+    """Returns (worst outcome of the requirements, number of those that are satisfied or violated)."""
     made = [c["outcome"] for c in part["claims"] if c["outcome"] != "not claimed"]
     return "broken" if "broken" in made else made[0] if made else "not claimed", len(made)
 
 
 class Certificate:
-    """One formulation's: its families of claims and its measured groups by name."""
+    """Certificate of one formulation: its groups of checks, and its measured groups by name."""
 
     def __init__(self, record):
         self.key, self.summary, self.source = (record[k]
@@ -99,7 +100,7 @@ class Certificate:
 
 
 def curve(site, panel, certificate, one, line, columns):
-    """Errors of one measure in a panel."""
+    """Draws the errors of one measure in a panel."""
     points = [(x, abs(e)) for x, e in zip(one["at"], one["error"]) if e is not None]
     if not points:
         return
@@ -109,7 +110,7 @@ def curve(site, panel, certificate, one, line, columns):
 
 
 def draw(site, certificate):
-    """Locking over thickness, and errors over elements."""
+    """Draws locking against thickness, and errors against elements."""
     chart = Chart(2, (330, 200), apart=True)
     thin = chart.panel("locking", "thickness / length", "relative error")
     fine = chart.panel("convergence", "elements", "", whole=True, like=thin)
@@ -122,7 +123,7 @@ def draw(site, certificate):
 
 
 def order(one):
-    """"2.0, declared 2 to 4"."""
+    """Returns the order and the declared range: "2.0, declared 2 to 4"."""
     declared = f"declared {one['least']} to {one['highest']}"
     if one["order"] is None or not math.isfinite(one["order"]):
         exact = one["error"] and one["error"][-1] is not None and abs(one["error"][-1]) < EXACT

@@ -1,9 +1,9 @@
-"""Charts of curves in panels, written directly as SVG: most figures of the report are of this kind, and matplotlib
+"""Charts of curves in panels, written directly as SVG. Most figures of the report are of this kind, and matplotlib
 takes a hundred times as long for their ticks.
 
-A chart has panels in rows; a panel has curves with marks, levels, words and a ground, in the
-coordinates of its data. Lengths of the picture are in pixels. The attributes of a curve (colour, marker, line,
-formulation) are those that style.Styles.of and Site.points return."""
+A chart has panels in rows. A panel has curves with markers, levels, labels and shaded areas, in data coordinates.
+Sizes in the picture are in pixels. The attributes of a curve (colour, marker, line, formulation) are those that
+style.Styles.of and Site.points return."""
 import functools
 import math
 import zlib
@@ -15,7 +15,7 @@ from matplotlib.markers import MarkerStyle
 from reports import style
 from reports.figures import FONT, Image, MARKERS, number, said_of
 
-# Axes of charts: limits, where values are, few round ticks.
+# Axes of charts: limits, positions of values, a few round ticks.
 
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -25,7 +25,7 @@ def power(decade):
 
 
 def whole_ticks(low, high):
-    """Few round whole numbers on a logarithmic axis."""
+    """Returns a few round whole numbers on a logarithmic axis."""
     decades = math.log10(high / low)
     if decades < 0.7:
         step = max(1, round((high - low) / 4))
@@ -35,7 +35,7 @@ def whole_ticks(low, high):
 
 
 def log_ticks(low, high):
-    """Powers of ten, at most six."""
+    """Returns powers of ten, at most six."""
     first, last = math.ceil(math.log10(low) - 1e-9), math.floor(math.log10(high) + 1e-9)
     every = max(1, math.ceil((last - first + 1) / 6))
     if last > first:
@@ -53,7 +53,7 @@ def linear_ticks(low, high):
 
 
 class Axis:
-    """One direction of a panel. log: logarithmic; whole: its ticks are whole numbers."""
+    """One axis of a panel. log: logarithmic; whole: the ticks are whole numbers."""
 
     def __init__(self, log, whole=False):
         self.log, self.whole, self.low, self.high = log, whole, math.inf, -math.inf
@@ -63,7 +63,7 @@ class Axis:
         self.low, self.high = min([self.low, *values]), max([self.high, *values])
 
     def settle(self):
-        """Limits a little beyond what is drawn."""
+        """Sets limits slightly beyond the drawn values."""
         if not self.high >= self.low:
             self.low, self.high = 1, 10
         if self.log:
@@ -74,7 +74,7 @@ class Axis:
             self.low, self.high = self.low - margin, self.high + margin
 
     def part(self, values):
-        """Where values are, from 0 to 1."""
+        """Returns the positions of values along the axis, from 0 to 1."""
         values = np.asarray(values, float)
         if self.log:
             return np.log(values / self.low) / math.log(self.high / self.low)
@@ -90,13 +90,13 @@ class Axis:
 
 INK = "currentColor"
 DASHES = {"-": "", "--": "4.4 1.9", ":": "1.2 2", "-.": "7.7 1.9 1.2 1.9", "none": "none"}
-WIDTH = 1.5  # of a curve without other attributes
+WIDTH = 1.5  # of a curve without a given line width
 LETTER = 6.7  # mean width of a letter of 11 pixels
 
 
 @functools.lru_cache(None)
 def marker_path(marker, size):
-    """Corners of a marker as a path about its centre."""
+    """Returns the corners of a marker as a path about its centre."""
     form = MarkerStyle(marker)
     path = form.get_path().transformed(form.get_transform().scale(size))
     lines = path.to_polygons(closed_only=False)
@@ -106,7 +106,7 @@ def marker_path(marker, size):
 
 
 def form(marker, size):
-    """A marker as an element that takes fill and stroke."""
+    """Returns a marker as an element that takes fill and stroke."""
     if marker == "o":
         return f'circle r="{number(0.5 * size, 2)}"'
     return f'path d="{marker_path(marker, size)}"'
@@ -117,12 +117,12 @@ def dashes(line):
 
 
 def colour(given):
-    """Returns the colour for SVG: formulations by their variables, `0.6` a grey of the ink."""
+    """Returns the colour for SVG: variables for formulations; `0.6` is a grey of the text colour."""
     return style.VARIABLES.get(given, given)
 
 
 class Panel:
-    """One pair of axes. y may be another panel's axis."""
+    """One pair of axes. y may be the axis of another panel."""
 
     def __init__(self, title, xlabel, ylabel, x, y):
         self.title, self.xlabel, self.ylabel = title, xlabel, ylabel
@@ -130,15 +130,14 @@ class Panel:
         self.curves, self.back, self.words, self.lows = [], [], [], []
 
     def plot(self, x, y, back=False, **look):
-        """A curve. look: color, marker, linestyle, gid, label, markersize, linewidth, alpha,
-        hollow,
-        marks (indices of points that are marked; all). back: behind all others, no label."""
+        """Adds a curve. look: color, marker, linestyle, gid, label, markersize, linewidth, alpha, hollow, marks
+        (indices of the points with markers; default: all). back: behind all others, without a label."""
         self.x.take(x)
         self.y.take(y)
         (self.back if back else self.curves).append((x, y, look))
 
     def level(self, y, words=""):
-        """A dotted line across, with words at its right end."""
+        """Adds a dotted horizontal line with a label at its right end."""
         self.y.take([y])
         self.lows.append((y, words))
 
@@ -149,7 +148,7 @@ class Panel:
     below = None
 
     def note(self, x, y, words):
-        """Words that end at a point."""
+        """Adds a label that ends at a point."""
         self.words.append((x, y, words))
 
     def cross(self, x, color, gid):
@@ -163,22 +162,22 @@ class Panel:
 
 
 class Chart:
-    """columns: of panels; size: of a panel's axes, in pixels; apart: panels of one row with different curves, so that
-    each has its own legend below it."""
+    """columns: of panels; size: of the axes of a panel, in pixels; apart: the panels of a row show different curves,
+    so that each has its own legend below it."""
 
     def __init__(self, columns, size, gap=(62, 52), apart=False):
         self.columns, self.size, self.gap, self.apart = columns, size, gap, apart
         self.panels, self.names = [], {}
 
     def panel(self, title="", xlabel="", ylabel="", xlog=True, ylog=True, whole=False, like=None):
-        """A new panel; like: one that it shares its upright axis with."""
+        """Adds a panel; like: a panel whose vertical axis it shares."""
         y = like.y if like else Axis(ylog)
         self.panels.append(Panel(title, xlabel, ylabel, Axis(xlog, whole), y))
         self.panels[-1].shares = like is not None
         return self.panels[-1]
 
     def image(self, site, name):
-        """The Image of the chart for the page."""
+        """Returns the Image of the chart for the page."""
         return Writer(self, site, name).image()
 
 
@@ -191,7 +190,7 @@ class Writer:
 
     @staticmethod
     def marker(look):
-        """Identifier of a marker, which is defined once in a page."""
+        """Returns the identifier of a marker, which is defined once in a page."""
         size, hollow = look.get("markersize", 4.5) / 0.75, look.get("hollow", False)
         marker, ink = look["marker"], colour(look["color"])
         filled = MarkerStyle(marker).is_filled() and not hollow
@@ -203,7 +202,7 @@ class Writer:
         return name
 
     def whose(self, gid):
-        """Attributes of what belongs to a formulation."""
+        """Returns the attributes of an element that belongs to a formulation."""
         if not (gid or "").startswith("f|"):
             return ""
         _, key, *points = gid.split("|")
@@ -212,7 +211,7 @@ class Writer:
         return f' data-f="{escape(key)}"{index}'
 
     def line(self, points, look):
-        """A curve with its marks."""
+        """Returns a curve with its markers."""
         drawn = " ".join(f"{number(x)},{number(y)}" for x, y in points)
         dash = dashes(look.get("linestyle", "-"))
         stroke = colour(look["color"]) if dash != "none" else "none"
@@ -234,7 +233,7 @@ class Writer:
         return f"<g{whose}>{line}</g>" if whose else line
 
     def lines(self, curves):
-        """Curves, [(points, look)], in one group."""
+        """Returns curves, [(points, look)], in one group."""
         drawn = "".join(self.line(*curve) for curve in curves)
         return f'<g fill="none">{drawn}</g>' if drawn else ""
 
@@ -314,7 +313,7 @@ class Writer:
                 f"{self.text(33, 4, words)}</g>")
 
     def legend(self, top, left, step, width):
-        """Entries in columns below the panels; (SVG, height)."""
+        """Returns the entries in columns below the panels: (SVG, height)."""
         words = list(self.labels)
         wide = 44 + LETTER * max((len(one) for one in words), default=0)
         if self.chart.apart:

@@ -1,5 +1,5 @@
-"""Page of checks and their numbers: reference values by kind, cells with verdicts, uncertainties of limits, the
-smallest faults that `make verify` detects, injected faults, runs with random bytes as input."""
+"""Page of checks: reference values by kind, runs with verdicts, uncertainties of limits, the smallest faults that
+`make verify` detects, injected faults, and runs with random bytes as input."""
 import csv
 import functools
 import json
@@ -10,19 +10,19 @@ from reports.site import ROOT
 from reports.verdicts import count_verdicts
 
 NAVIGATION = [("checks.html", "checks"), ("environment.html", "environment")]
-# Their limits are the exact ones.
+# Formulations whose limits are exact.
 CONSISTENT = ("beamw_consistent", "collocation", "geometrically_exact")
 
 
 def stored(site, name):
-    """A table that another target wrote next to the results, or None."""
+    """Returns a table that another target wrote next to the results, or None."""
     path = pathlib.Path(site.results).parent / name
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
 
 
 def noticed(cases):
-    """The committed tables of the smallest detected faults of these cases; false: there are none, as in an installed
-    copy."""
+    """Returns the committed tables of the smallest detected faults of these cases; false if there are none, as in an
+    installed copy."""
     paths = [ROOT / "harness" / name for name in ("blind_spots.csv", "planted_faults.csv")]
     if not all(path.is_file() for path in paths):
         return None
@@ -42,7 +42,7 @@ def noticed(cases):
 
 
 def counted(cases):
-    """[(case, points, cells, verdicts against reference values, passes)] over all points."""
+    """Returns [(case, points, runs, verdicts against reference values, passes)] over all points."""
     rows = []
     for case in cases:
         counts = count_verdicts([case])
@@ -60,7 +60,7 @@ def counted(cases):
 
 
 def coverage(rows):
-    """[(covered, series) without the 0, 1, ... finest meshes], summed."""
+    """Returns the sums of (covered, series) without the 0, 1, ... finest meshes."""
     sums = {}
     for row in rows:
         covered, series = sums.get(row["left_out"], (0, 0))
@@ -73,7 +73,7 @@ def of_formulation(rows, key):
 
 
 def coverages(cases):
-    """Returns the coverages on the page: each consistent formulation, these together, all; and by case."""
+    """Returns the coverages on the page: of each consistent formulation, of these together, of all; and by case."""
     rows = [row for case in cases for row in case.coverages]
     names = sorted({row["formulation"] for row in rows})
     by_case = [
@@ -107,10 +107,10 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_environment, site)]
 
 
-# Programs and machine of the results, how times were measured, and whether injected delays were found.
+# Page of the programs and the machine of the results, how times were measured, and whether injected delays were found.
 
-OUTCOME = ("outcome", "sentence")  # of the run, which the first page says
-# (command of make, files that it writes next to the results, what they add)
+OUTCOME = ("outcome", "sentence")  # of the run; the first page shows them
+# (make command, files that it writes next to the results, what they add)
 ADDS = (
     ("lab L=bench-check", ("bench_check.json", ), "injected delays that the times must show"),
     ("lab L=bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
@@ -121,7 +121,7 @@ ADDS = (
     ("lab L=faults", ("faults.json", ), "injected faults"),
     ("lab L=fuzz", ("fuzz.json", ), "random bytes as input"),
 )
-# (command of make, experiment whose group it writes into the results, what it adds)
+# (make command, experiment whose group it writes into the results, what it adds)
 GROUPS = (
     ("bench", "bench", "times with their noise"),
     ("lab L=certificates", "element-test", "interface requirements and features of each formulation"),
@@ -131,13 +131,13 @@ GROUPS = (
 
 
 def planted(site):
-    """Rows of make lab L=bench-check beside the results, or []."""
+    """Returns the rows of make lab L=bench-check next to the results, or []."""
     path = pathlib.Path(site.results).parent / "bench_check.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else []
 
 
 def more(site):
-    """[(command, what it adds)] of commands whose results are missing."""
+    """Returns [(command, what it adds)] of commands whose results are missing."""
     here = pathlib.Path(site.results).parent
     groups = [(command, what) for command, name, what in GROUPS
               if not experiments.holds(site.results, name)]
@@ -146,7 +146,7 @@ def more(site):
 
 
 def noise(site):
-    """{case: (cells timed, median and greatest spread between rounds)}."""
+    """Returns {case: (timed runs, median and greatest spread between rounds)}."""
     out = {}
     for case in site.cases:
         spread = sorted(m.clock.most / m.clock.least - 1 for p in case.points for s in p.series

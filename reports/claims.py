@@ -11,11 +11,11 @@ from reports.site import ROOT, number, percent
 from reports.style import plt
 from reports.verdicts import OWN_LIMITS
 
-# Errors of beamwork's formulations and of other programs that were run elsewhere, side by side.
+# Errors of beamwork's formulations and of other programs, which were run elsewhere, next to each other.
 
 
 def peers_figure(site, ours, others, name):
-    """`ours`: [(key, meshes)], others: {program: [data.Mesh]}: errors against unknowns and time."""
+    """Draws errors against unknowns and time. `ours`: [(key, meshes)], others: {program: [data.Mesh]}."""
     chart = Chart(2, (470, 260))
     labels = ("unknowns", "time of the solution [ms]; open marks: taken elsewhere")
     for quantity in ("C_xx", "C_zz"):
@@ -33,7 +33,7 @@ def peers_figure(site, ours, others, name):
     return chart.image(site, name)
 
 
-# On the page of the column: the printed form levels off at its derived limit.
+# Figure on the page of the column: the printed form levels off at its derived limit.
 
 COLUMN_CASE, COLUMN_POINT, COLUMN_QUANTITY = "c_column", "section_data=printed", "buckling_load"
 COLUMN_ALT = ("Error of the buckling load against elements: beamw levels off, "
@@ -42,13 +42,13 @@ COLUMN_PAIR = ("beamw", "beamw_consistent")
 
 
 def column_words(verdict):
-    """A verdict, with its error where the limit differs from the reference value."""
+    """Returns a verdict, with its error if the limit differs from the reference value."""
     own = verdict.verdict in OWN_LIMITS
     return f"{verdict.verdict} ({100 * verdict.error:+.3g} %)" if own else verdict.verdict
 
 
 def draw_column(axes, series, style):
-    """One formulation, its verdict beside its last mesh, its predicted limit dashed."""
+    """Draws one formulation with its verdict next to its last mesh and its derived limit as a dashed line."""
     pairs = plots.finite(series, COLUMN_QUANTITY)
     verdict = answers.verdict_of(series, COLUMN_QUANTITY)
     axes.plot([m.n for m, _ in pairs], [e for _, e in pairs], label=series.key, **style)
@@ -61,7 +61,7 @@ def draw_column(axes, series, style):
 
 
 def column_figure(site, point):
-    """The figure; None if one of the two was not run."""
+    """Returns the figure, or None if one of the two formulations was not run."""
     found = {s.key: s for s in point.series}
     if not all(key in found and plots.finite(found[key], COLUMN_QUANTITY) for key in COLUMN_PAIR):
         return None
@@ -90,12 +90,12 @@ def column_section(site, case):
 NAVIGATION = [("claims.html", "claims"), ("papers.html", "papers")]
 PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # of sheet_cantilever: the model of reference/peers.csv
 SECTIONS = ("printed constants", "section_data=printed"), (
-    "shear flow", "")  # of J Table 2: no single set gives all of its four entries
-TARGET = 0.01, 2e-4  # both errors of the peers' case within 1 %, in less than 0.2 ms of solving
+    "shear flow", "")  # of J Table 2: no single set reproduces all four of its entries
+TARGET = 0.01, 2e-4  # both errors of the case of other programs within 1 %, in less than 0.2 ms of solving
 
 
 class Lookup:
-    """Values, errors and times of cells by name."""
+    """Values, errors and times of runs by name."""
 
     def __init__(self, cases):
         self.points = {(c.name, canonical(p.parameters)): p for c in cases for p in c.points}
@@ -176,21 +176,21 @@ def column(look, truths):
 
 
 def claims(cases, truths):
-    """[(claim, published, measured)] as far as the results contain them."""
+    """Returns [(claim, published, measured)] as far as the results contain them."""
     look = Lookup(cases)
     rows = [row for family in (sheets, joint, column) for row in family(look, truths)]
     return [row for row in rows if "nan" not in row[2] and not row[2].endswith("–")]
 
 
 def interval(slow, fast):
-    """The ratio of two times with the interval that follows from their rounds."""
+    """Returns the ratio of two times, with the interval that follows from their rounds."""
     middle = slow.least / fast.least
     return f"{middle:.2f}" if slow.repeats == 1 else f"{middle:.2f} ({slow.least / fast.most:.2f} to {slow.most / fast.least:.2f})"
 
 
 def baseline(site):
-    """The joint and the hexapod with the dense baseline, where 'make lab L=bench-mechanisms' wrote them beside the
-    results."""
+    """Returns the joint and the hexapod with the dense baseline, if 'make lab L=bench-mechanisms' wrote them next to
+    the results."""
     files = {"spherical_joint": "mechanisms_joint.h5", "hexapod": "mechanisms_hexapod.h5"}
     here = pathlib.Path(site.results).parent
     return [
@@ -200,7 +200,7 @@ def baseline(site):
 
 
 def row_of(look, claim, fast, slow):
-    """One third-order element against two second-order ones, condensed, or None."""
+    """Compares one third-order element with two condensed second-order elements, or returns None."""
     name, quantity, paper, published = claim
     third, second = look.mesh(name, "", *fast), look.mesh(name, "", *slow)
     if third is None or second is None or not math.isfinite(second.seconds):
@@ -215,7 +215,7 @@ def row_of(look, claim, fast, slow):
 
 
 def row_dense(look, claim, fast, slow):
-    """The same with the published algorithm, or None."""
+    """Returns the same comparison with the published algorithm, or None."""
     row = row_of(look, claim, fast, slow)
     times = [look.mesh(claim[0], "", *cell).dense for cell in (slow, fast)] if row else [None]
     if None in times:
@@ -232,7 +232,7 @@ CLAIMS = (("spherical_joint", "support_stiffness_max", "N 4.2: 68 % less time", 
 
 
 def headlines(site):
-    """(rows, cheapest): the two claims about time, and the lowest cost within 1 % and 0.1 %."""
+    """Returns (rows, cheapest): the two claims about time, and the lowest cost within 1 % and 0.1 %."""
     look, dense = Lookup(site.cases), Lookup(baseline(site))
     rows, soonest = [], []
     for claim in CLAIMS:
@@ -249,17 +249,17 @@ def headlines(site):
 
 
 def both(mesh):
-    """The two errors of the peers' case."""
+    """Returns the two errors of the case that other programs were run on."""
     return [mesh.errors.get(q, math.nan) for q in ("C_xx", "C_zz")]
 
 
 def peers_point(site):
-    """The parameter point that other programs were run on, or None."""
+    """Returns the parameter point that other programs were run on, or None."""
     return Lookup(site.cases).points.get(("sheet_cantilever", canonical(PEERS)))
 
 
 def peers(site):
-    """(rows by unknowns, figure, answer) of the case that other programs were run on."""
+    """Returns (rows by unknowns, figure, answer) of the case that other programs were run on."""
     point = peers_point(site)
     ours, out = [], []
     others = {
@@ -294,7 +294,7 @@ def write(site):
 
 
 def peers_section(site, case):
-    """On the page of the peers' case, if it was run at their parameters: a link to their results."""
+    """Adds a link to the results of other programs on the page of their case, if it was run at their parameters."""
     if case.name != "sheet_cantilever" or peers_point(site) is None:
         return []
     return [(
@@ -311,8 +311,8 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_papers, site)]
 
 
-# The papers figure by figure (reference/papers.csv), next to the values measured here, and equation by
-# equation (reference/equations.csv).
+# The papers compared figure by figure (reference/papers.csv) with the values measured here, and equation by equation
+# (reference/equations.csv).
 
 TABLE = ROOT / "reference" / "papers.csv"
 EQUATIONS = ROOT / "reference" / "equations.csv"
@@ -324,13 +324,13 @@ NAMES = {
 
 
 def read(path=TABLE):
-    """Rows of a table, in its order."""
+    """Returns the rows of a table, in its order."""
     with open(path, newline="", encoding="utf-8") as table:
         return list(csv.DictReader(table))
 
 
 def measured(look, truths, row):
-    """Returns the measured value of a row, in words; '' if it names no cell or the cell was not run."""
+    """Describes the measured value of a row; '' if the row names no run or its run was not made."""
     if not row["elements"]:
         return ""
     cell = row["case"], row["parameters"], row["formulation"], int(row["elements"]), row["quantity"]
@@ -352,7 +352,7 @@ def measured(look, truths, row):
 
 
 def counts(rows):
-    """[(status, number of rows)] of one paper."""
+    """Returns [(status, number of rows)] of one paper."""
     return [(status, sum(r["status"] == status for r in rows)) for status in STATUSES]
 
 

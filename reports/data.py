@@ -1,5 +1,5 @@
-"""Reads results.h5 and truths.h5 into plain records. `beamwork schema` describes the tables, whose columns keep their
-names here."""
+"""Reads results.h5 and truths.h5 into plain records. `beamwork schema` describes the tables; their column names are
+used here."""
 import math
 import multiprocessing
 
@@ -9,7 +9,7 @@ from reports.records import Case, Clock, Dense, Kept, Mesh, Point, Series, Verdi
 
 
 class Unreadable(Exception):
-    """Raised for a file that is missing, damaged or of another kind; the text names it."""
+    """Raised for a file that is missing, damaged or of another kind; the message names it."""
 
 
 def text(value):
@@ -18,17 +18,17 @@ def text(value):
 
 REACH = {0.1: "reach_10", 0.01: "reach_1", 0.001: "reach_0.1", 0.0001: "reach_0.01"}
 SCHEMA, VERSIONS = "beamwork-results", (2, 3)
-BENCH = "experiments/bench"  # group of the times; of version 2: a file of its own
+BENCH = "experiments/bench"  # group of the times; in version 2, a separate file
 
 
 def column(values):
-    """A column as plain numbers or texts."""
+    """Returns a column as plain numbers or strings."""
     return [value.decode()
             for value in values.tolist()] if values.dtype.kind == "S" else values.tolist()
 
 
 def rows(group, name):
-    """[{column: value}] of a table."""
+    """Returns [{column: value}] of a table."""
     table = group[name][()]
     return [
         dict(zip(table.dtype.names, row))
@@ -81,7 +81,7 @@ def read_cell(row):
 
 
 def read_meshes(group):
-    """{(point, formulation, elements): Mesh} with the results of each, {point: {quantity: unit}}"""
+    """Returns {(point, formulation, elements): Mesh} with the results of each mesh, and {point: {quantity: unit}}."""
     meshes, units = {of_mesh(row): read_cell(row) for row in rows(group, "cells")}, {}
     for row in rows(group, "quantities"):
         mesh, name = meshes[of_mesh(row)], row["quantity"]
@@ -91,7 +91,7 @@ def read_meshes(group):
         units.setdefault(row["point"], {})[name] = row["unit"]
         if math.isfinite(row["prediction"]):
             mesh.predictions[name] = row["prediction"]
-    for row in rows(group, "verdicts"):  # also of points without a cell
+    for row in rows(group, "verdicts"):  # also points without a run
         units.setdefault(row["point"], {}).setdefault(row["quantity"], row["unit"])
     x, value = group["curve_x"][()], group["curve_value"][()]
     for row in rows(group, "curves"):
@@ -107,7 +107,7 @@ def read_verdict(row):
 
 
 def unranked(declared):
-    """The reason why a formulation has no rank, from its row of /declarations; otherwise empty."""
+    """Returns the reason why a formulation has no rank, from its row of /declarations; otherwise an empty string."""
     if declared.get("differences"):
         return "by differences"
     if declared.get("misprint"):
@@ -116,14 +116,14 @@ def unranked(declared):
 
 
 def mark(series, declared):
-    """Marks a series by the declarations of its formulation; one that is not ranked has no cost."""
+    """Marks a series with the declarations of its formulation; a series without a rank has no cost."""
     series.unranked, series.is_new = unranked(declared), bool(declared.get("is_new"))
     for mesh in series.meshes if series.unranked else []:
         mesh.cost = math.nan
 
 
 def read_assumptions(group):
-    """{point: [(kind, what is assumed of a section)]}"""
+    """Returns {point: [(kind, assumption about a section)]}."""
     found = {}
     for row in rows(group, "assumptions") if "assumptions" in group else []:
         found.setdefault(row["point"], []).append((row["kind"], row["text"]))
@@ -159,7 +159,7 @@ def read_points(group, meshes, units, noise):
 
 
 def read_words(group, points):
-    """Scenes and meanings of quantities of the points; parameters of the case."""
+    """Reads the scenes, the meanings of the quantities at the points, and the parameters of the case."""
     if "scenes" not in group:
         return []
     scenes = {row["point"]: row["scene"] for row in rows(group, "scenes")}
@@ -180,7 +180,7 @@ def of_root(file):
 
 
 def read_case(path, name, bench=None, root=of_root):
-    """A case; with the times of a benchmark where one is given."""
+    """Reads a case, with the times of a benchmark if one is given."""
     with h5py.File(path) as file:
         own = root(file)
         group = own["cases"][name]
@@ -199,7 +199,7 @@ def read_case(path, name, bench=None, root=of_root):
 
 
 def read_bench(path, name, meshes):
-    """Copies times of a benchmark into the cells of the same name."""
+    """Copies the times of a benchmark into the runs of the same name."""
     with h5py.File(path) as file:
         cases = root_of_bench(file)["cases"]
         if name in cases:
@@ -207,7 +207,7 @@ def read_bench(path, name, meshes):
 
 
 def read_about(path, root=of_root):
-    """Environment {name: text} in which a results file was made."""
+    """Returns the environment {name: string} in which a results file was made."""
     try:
         with h5py.File(path) as file:
             if text(file.attrs.get("schema", "")) != SCHEMA:
@@ -225,7 +225,7 @@ def read_about(path, root=of_root):
 
 
 def read_results(path, bench=None):
-    """(environment, [Case]); cases are read in parallel."""
+    """Returns (environment, [Case]); cases are read in parallel."""
     environment = read_about(path)
     try:
         with h5py.File(path) as file:
@@ -238,7 +238,7 @@ def read_results(path, bench=None):
 
 
 def holds(parameters, at):
-    """Does a reference value with these parameters, `*` for any value, apply at a point?  Both are `name=value;...`."""
+    """Does a reference value with these parameters (`*` for any value) apply at a point? Both are `name=value;...`."""
     said = dict(item.split("=", 1) for item in parameters.split(";") if item)
     there = dict(item.split("=", 1) for item in at.split(";") if item)
     return all(value == "*" or there.get(name) == value
@@ -246,7 +246,7 @@ def holds(parameters, at):
 
 
 def read_other_model(path, case, parameters, quantity):
-    """Value of another model (plate, solid) at a parameter point, or NaN."""
+    """Returns the value of another model (plate, solid) at a parameter point, or NaN."""
     with h5py.File(path) as file:
         group = file["truths"].get(case)
         names = ("parameters", "quantity", "model", "formulation")
@@ -258,8 +258,8 @@ def read_other_model(path, case, parameters, quantity):
 
 
 def read_rules(path):
-    """[{column: value}] of the list of known deviations (reference/findings.csv) that the reference values were
-    packed with."""
+    """Returns [{column: value}] of the list of known deviations (reference/findings.csv) that was packed with the
+    reference values."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
             columns = {name: column(values[()]) for name, values in file["findings"].items()}
@@ -269,19 +269,19 @@ def read_rules(path):
 
 
 def declarations_in(file):
-    """{formulation: row of /declarations}; {} for results that were stored without."""
+    """Returns {formulation: row of /declarations}, or {} if the results were stored without declarations."""
     found = rows(file, "declarations") if "declarations" in file else []
     return {row["formulation"]: row for row in found}
 
 
 def read_declarations(path):
-    """The same of a results file."""
+    """Returns the declarations of a results file."""
     with h5py.File(path) as file:
         return declarations_in(file)
 
 
 def read_glossary(path):
-    """[{column: text}] of the glossary packed with the reference values; [] if there is none."""
+    """Returns [{column: string}] of the glossary packed with the reference values, or [] if there is none."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
             if "glossary" not in file:
@@ -293,7 +293,7 @@ def read_glossary(path):
 
 
 def read_truth_counts(path):
-    """{kind: rows} of the packed truths."""
+    """Returns {kind: rows} of the packed reference values."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
             counts = {}
@@ -305,17 +305,17 @@ def read_truth_counts(path):
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
 
 
-# Other programs' values (`beamwork import`) next to beamwork's: kept apart, so that nothing that counts
-# formulations counts them.
+# Values of other programs (`beamwork import`) next to those of beamwork. They are stored separately, so that nothing
+# that counts formulations counts them.
 
 
 def truths_of(point):
-    """{quantity: (truth, kind)} for the verdicts on formulations at a point."""
+    """Returns {quantity: (reference value, kind)} used in the verdicts on formulations at a point."""
     return {v.quantity: v.truth for s in point.series for v in s.verdicts if math.isfinite(v.truth)}
 
 
 def with_errors(series, truths):
-    """The series with errors against beamwork's reference values; those of another model are model errors."""
+    """Returns the series with errors against beamwork's reference values; those of another model are model errors."""
     for mesh in series.meshes:
         into = mesh.errors if series.model == "beam" else mesh.model_errors
         for quantity, value in mesh.values.items():
@@ -325,7 +325,7 @@ def with_errors(series, truths):
 
 
 def add_beside(cases, path):
-    """Adds the imported series of a file to the points of the results, except those that already exist by name."""
+    """Adds the imported series of a file to the points of the results, except those whose names already exist."""
     with h5py.File(path) as file:
         names = set(file["cases"])
     for case in cases:
@@ -339,12 +339,12 @@ def add_beside(cases, path):
 
 
 def beside_named(point, key):
-    """The other program's series of this name, or None."""
+    """Returns the other program's series with this name, or None."""
     return next((s for s in point.others if s.key == key), None)
 
 
 def style_beside(index):
-    """Grey, hollow, dotted: measured elsewhere."""
+    """Returns the style of values measured elsewhere: grey, hollow, dotted."""
     return {
         "color": "currentColor", "marker": "sDv^<>ph"[index % 8], "hollow": True,
         "linestyle": (0, (1, 1)), "linewidth": 1, "markersize": 6, "alpha": 0.85 - 0.08 * (index % 8)
@@ -352,7 +352,7 @@ def style_beside(index):
 
 
 def rows_beside(point):
-    """[(series, verdict or None, quantity, finest mesh with a value)] for a table."""
+    """Returns [(series, verdict or None, quantity, finest mesh with a value)] for a table."""
     out = []
     for series in point.others:
         judged = {v.quantity: v for v in series.verdicts}

@@ -1,4 +1,4 @@
-"""The list of known deviations (reference/findings.csv): one line for each known cause, and the verdicts."""
+"""The list of known deviations (reference/findings.csv): one line for each known cause, with the verdicts."""
 import functools
 import math
 import re
@@ -14,18 +14,18 @@ NAVIGATION = [("deviations.html", "deviations"), ("errata.html", "errata")]
 
 
 def slug(title):
-    """The name of a heading in a page's address, as markdown's extension toc makes it."""
+    """Returns the name of a heading in a page's address, as markdown's toc extension forms it."""
     return re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", title).strip().lower())
 
 
 def headings():
-    """Titles of the sections of the errata."""
+    """Returns the titles of the sections of the errata."""
     text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
     return [line[3:].strip() for line in text.splitlines() if line.startswith("## ")]
 
 
 def link_of(proof, titles):
-    """The location of a proof in this report; '' if it is a test or a program only."""
+    """Returns the location of a proof in this report; '' if the proof is only a test or a program."""
     if "ERRATA" not in proof:
         return ""
     named = next((t for t in titles if t.lower() in proof.lower()), None)
@@ -33,8 +33,8 @@ def link_of(proof, titles):
 
 
 def predictions(rows):
-    """Counts how many predicted limits are met, missed where the observed limit differs from them, open where
-    the limit is not known well enough; None where none was derived."""
+    """Counts the derived limits that are met, those missed because the observed limit differs, and those still open
+    because the limit is too uncertain. Returns None if no limit was derived."""
     told = [r for r in rows if math.isfinite(met(r.verdict))]
     if not told:
         return None
@@ -54,8 +54,8 @@ def predictions(rows):
 
 
 def left(v):
-    """Returns the unexplained part of a limit: its distance from the derived one if there is one, otherwise from the
-    reference value; relative to the reference value, like errors."""
+    """Returns the unexplained part of a limit: its distance from the derived limit if there is one, otherwise from the
+    reference value, relative to the reference value like all errors."""
     if not math.isfinite(v.predicted) or not v.error:
         return abs(v.error)
     return abs((v.limit - v.predicted) * v.error / (v.limit - v.truth))
@@ -80,7 +80,7 @@ def line(rule, rows, titles):
 
 
 def unexplained(rows):
-    """[((formulation, verdict), number)] of verdicts that differ from the expected ones."""
+    """Returns [((formulation, verdict), number)] of verdicts that differ from the expected ones."""
     found = {}
     for r in rows:
         if not r.verdict.as_expected and r.standing == verdicts.OWN:
@@ -90,7 +90,7 @@ def unexplained(rows):
 
 
 def contents(cases, rules):
-    """The context of the page."""
+    """Returns the context of the page."""
     rows, titles = list(verdicts.rows(cases)), headings()
     of_rule = {rule["rule"]: [] for rule in rules}
     for row in rows:
@@ -135,7 +135,7 @@ def tasks(site):
 
 
 def verdict_of(study):
-    """Returns the conclusion of the experiments on one verdict, in words for the head of its table."""
+    """Returns the conclusion of the experiments on one verdict as text for the heading of its table."""
     gone = [e for e in study["experiments"] if e["gone"]]
     if any(e["kind"] == "finer" for e in gone):
         return "the meshes of the verdict are too coarse"
@@ -147,7 +147,7 @@ def verdict_of(study):
 
 
 def by_rule(record):
-    """{rule: [(study, what it shows)]} in the order of the rules' names."""
+    """Returns {entry: [(study, what it shows)]} in the order of the entries' names."""
     found = {}
     for study in record["studies"]:
         found.setdefault(study["finding"], []).append((study, verdict_of(study)))

@@ -1,9 +1,9 @@
-"""Reads the results of experiments other than verify: a group each, below /experiments. `beamwork schema` describes
-their tables, whose columns keep their names here.
+"""Reads the results of experiments other than verify. Each has a group below /experiments. `beamwork schema` describes
+their tables; the column names are used here.
 
     python -m reports.experiments RESULTS.h5 EXPERIMENT PROGRAM
 
-Status 0: its group was written after the program was built; 1: it was not."""
+Exit status: 0 if the group of the experiment was written after the program was built, otherwise 1."""
 import contextlib
 import datetime
 import math
@@ -18,7 +18,7 @@ GROUPS = "experiments"
 
 
 def plain(value):
-    """Converts numbers that do not exist to None."""
+    """Converts numbers that are not finite to None."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
@@ -49,7 +49,7 @@ def holds(path, name):
 
 
 def read(path, name):
-    """{attribute or table: value or rows} of an experiment, or None if there is none."""
+    """Returns {attribute or table: value or rows} of an experiment, or None if there is none."""
     if not holds(path, name):
         return None
     with opened(path) as file:
@@ -61,7 +61,7 @@ def read(path, name):
 
 
 def made(path):
-    """[(experiment, attributes)] of all experiments in the file."""
+    """Returns [(experiment, attributes)] of all experiments in the file."""
     if not os.path.exists(path):
         return []
     with opened(path) as file:
@@ -69,7 +69,7 @@ def made(path):
 
 
 def grouped(found, *names):
-    """{values of these columns: rows}"""
+    """Returns {values of these columns: rows}."""
     out = {}
     for row in found:
         out.setdefault(tuple(row[name] for name in names), []).append(row)

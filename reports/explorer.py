@@ -1,9 +1,9 @@
-"""A page on which the reader chooses case, quantity and axes; assets/explorer.js draws.
+"""A page on which the reader chooses the case, the quantity and the axes; assets/explorer.js draws it.
 
-The numbers of each case are in a separate file, data_CASE.js, which is loaded when the case is chosen: lists are
-texts of numbers separated by blanks, with `-` for missing ones. A text that is needed more than once is in the list
-`w`, and is replaced by its index. Where a reference value is known the values are
-not stored: reference x (1 + error) gives them to seven digits."""
+The numbers of each case are in a separate file, data_CASE.js, which is loaded when the case is chosen. Lists are
+strings of numbers separated by blanks, with `-` for missing ones. A string that is needed more than once is in the
+list `w` and is replaced by its index. If a reference value is known, the values are not stored: reference x (1 +
+error) gives them to seven digits."""
 import collections
 import functools
 import json
@@ -13,7 +13,7 @@ import os
 from reports import answers, chart, style
 
 NAVIGATION = [("explorer.html", "explorer")]
-COLUMNS = "fnscui"  # of a series: formulation, then as in AXES
+COLUMNS = "fnscui"  # of a series: formulation, then those in AXES
 AXES = (("elements per member", "n"), ("time [s]", "s"), ("cost of counted work [s]", "c"),
         ("unknowns", "u"), ("iterations", "i"))
 
@@ -26,7 +26,7 @@ def listed(values, digits):
 
 
 def error_text(error):
-    """Returns the error with as many digits as truth x (1 + error) needs to be known to seven."""
+    """Returns the error with as many digits as reference x (1 + error) needs for seven correct digits."""
     if error is None or not math.isfinite(error):
         return "-"
     part = abs(error) / max(abs(1 + error), 1e-9)
@@ -35,15 +35,15 @@ def error_text(error):
 
 
 def follow(values, errors, truth):
-    """True if all finite values are truth x (1 + error)."""
+    """Returns True if all finite values equal reference x (1 + error)."""
     return truth != 0 and all(
         not math.isfinite(v) and not math.isfinite(e) or abs(truth * (1 + e) - v) <= 1e-9 * abs(v)
         for v, e in zip(values, errors))
 
 
 def columns_of(values, errors, verdict):
-    """[errors, verdict, truth, values] of a quantity: empty texts if there are none, and no values if they follow
-    from the others."""
+    """Returns [errors, verdict, reference value, values] of a quantity: empty strings if there are none, and no values
+    if they follow from the other entries."""
     said = verdict.verdict if verdict else ""
     truth = verdict.truth if verdict else math.nan
     if math.isfinite(truth) and follow(values, errors, truth):
@@ -53,8 +53,8 @@ def columns_of(values, errors, verdict):
 
 
 def series_of(series, names):
-    """One formulation at one parameter point: the formulation, columns of its meshes in the order
-    of COLUMNS, then a list of those of each quantity (0 where it has none)."""
+    """Returns one formulation at one parameter point: the formulation, the columns of its meshes in the order of
+    COLUMNS, then a list of columns for each quantity (0 if it has none)."""
     meshes, out = series.meshes, []
     for name in names:
         found = [m.values.get(name, math.nan) for m in meshes]
@@ -67,7 +67,7 @@ def series_of(series, names):
 
 
 def data_of(case):
-    """Returns the data of the file of a case."""
+    """Returns the data in the file of a case."""
     points = []
     for point in case.points:
         names = list(point.units)
@@ -79,7 +79,7 @@ def data_of(case):
 
 
 def shared(points):
-    """{"w": texts that are needed more than once, "points": with their index instead}."""
+    """Returns {"w": strings that are needed more than once, "points": the points with indices instead}."""
     every = [s for p in points for s in p["s"]]
     count = collections.Counter()
     for *columns, quantities in every:
@@ -100,7 +100,7 @@ def write_case(site, case):
 
 
 def looks(site):
-    """{formulation: [colour, element of its marker, dashes]}"""
+    """Returns {formulation: [colour, element of its marker, dashes]}."""
     out = {}
     for key in site.styles.order:
         look = site.styles.of(key)

@@ -1,12 +1,11 @@
-"""A figure as a short SVG that is embedded in the page. The output of matplotlib is parsed and written again: with
-coordinates to a tenth of a point, identifiers that are unique in the page, and common attributes of children moved to
-their parent. Black and grey become the colour of the text, so that a figure follows the page into dark mode; colours
-of formulations become variables.
+"""A figure as a short SVG that is embedded in the page. The output of matplotlib is parsed and rewritten: coordinates
+are rounded to a tenth of a point, identifiers are unique in the page, and common attributes of children move to
+their parent. Black and grey become the colour of the text, so that a figure follows the page into dark mode;
+colours of formulations become variables.
 
-Groups whose gid is `f|KEY` (style.py) carry data-f="KEY": what belongs to a formulation, and
-entries of legends data-l="KEY"; data-off names those that are not shown at first.
-`f|KEY|POINTS`
-names the marks that were given to site.points(), too. What has the gid `fixed` keeps its colours."""
+Groups with the gid `f|KEY` (style.py) carry data-f="KEY" if they belong to a formulation; entries of legends carry
+data-l="KEY". data-off lists those that are hidden at first. `f|KEY|POINTS` also names the markers that were given
+to site.points(). Elements with the gid `fixed` keep their colours."""
 import dataclasses
 import io
 import json
@@ -19,7 +18,7 @@ from markupsafe import Markup, escape
 
 from reports import style
 
-# Markers of charts, and common attributes of the curves of a page: defined once in the page.
+# Markers of charts, and common attributes of the curves of a page. Each is defined once in the page.
 
 MARKERS = {}  # identifier of a marker of charts: its definition
 CURVE = re.compile(r'stroke="([^"]*)"((?: [\w-]+="[^"]*")*) '
@@ -27,17 +26,17 @@ CURVE = re.compile(r'stroke="([^"]*)"((?: [\w-]+="[^"]*")*) '
 
 
 def markers_in(markup):
-    """Identifiers of the markers of charts in it."""
+    """Returns the identifiers of the chart markers in the markup."""
     return sorted(set(re.findall(r"marker(?:-mid)?:url\(#(\w+)\)", markup)) & set(MARKERS))
 
 
 def markers_by_name(markup):
-    """Replaces colours of formulations by names that the style sheet of the page defines."""
+    """Replaces colours of formulations by names that the page's style sheet defines."""
     return re.sub(r"var\((--f\d+),#[0-9a-f]{6}\)", r"var(\1)", markup)
 
 
 def with_classes(page):
-    """The page with colour and marker of each kind of curve defined once, in a class."""
+    """Returns the page with the colour and marker of each kind of curve defined once, in a class."""
     looks = {}
 
     def named(found):
@@ -52,7 +51,7 @@ def with_classes(page):
 
 
 def with_markers(page):
-    """The page with the definitions of the markers that its charts use, once."""
+    """Returns the page with the definitions of the markers that its charts use, each once."""
     names = markers_in(page)
     if not names:
         return page
@@ -74,8 +73,8 @@ NUMBER = re.compile(r"-?\d*\.?\d+(?:e-?\d+)?")
 
 @dataclasses.dataclass(frozen=True)
 class Image:
-    """A figure of the site. name: of its file; markup: the SVG for the page, without a title;
-    points: the texts of its marks, as JSON."""
+    """A figure of the site. name: of its file; markup: the SVG for the page, without a title; points: the tooltip
+    texts of its markers, as JSON."""
     name: str
     markup: str
     points: str = ""
@@ -84,7 +83,7 @@ class Image:
         return self.name
 
     def inline(self, alt):
-        """The SVG with its description, followed by its points."""
+        """Returns the SVG with its description, followed by its points."""
         data = f'<script type="application/json">{self.points}</script>' if self.points else ""
         name = escape(self.name.removesuffix(".svg"))
         width = re.search(r' width="(\d+)"', self.markup)
@@ -94,7 +93,7 @@ class Image:
 
 
 def plain(value, digits):
-    """A number in its shortest form, a text unchanged, None for anything else."""
+    """Returns a number in its shortest form, a string unchanged, and None for anything else."""
     if isinstance(value, (str, int)) or value is None:
         return value
     if not math.isfinite(value):
@@ -104,9 +103,8 @@ def plain(value, digits):
 
 
 def said_of(told):
-    """The texts of marks, as JSON for script.js: heads are stored once (h), and so are columns (v);
-    values that are the same in all rows of a curve (k) are in none. A curve names its columns
-    (r)."""
+    """Returns the tooltip texts of the markers as JSON for script.js. Headings (h) and columns (v) are stored once;
+    values that are equal in all rows of a curve (k) are omitted from the columns. A curve lists its columns (r)."""
     if not told:
         return ""
     heads, curves, columns = [], [], {}
@@ -126,13 +124,13 @@ def said_of(told):
 
 
 def number(text, digits=1):
-    """Shortest text of a coordinate."""
+    """Returns the shortest form of a coordinate."""
     short = f"{float(text):.{digits}f}".rstrip("0").rstrip(".")
     return "0" if short in ("-0", "") else short
 
 
 def path(text, digits):
-    """Commands of a path without redundant spaces."""
+    """Returns the commands of a path without redundant spaces."""
     rounded = NUMBER.sub(lambda found: number(found.group(), digits), text)
     return re.sub(r"\s*([MLCQzZ])\s*", r"\1", " ".join(rounded.split())).replace(" -", "-")
 
@@ -142,8 +140,8 @@ def properties(text):
 
 
 def ink(own, name):
-    """Black and grey as the colour of the text, more or less opaque; white as the paper; known
-    colours as variables."""
+    """Replaces black and grey by the colour of the text, more or less opaque; white by the paper; and known colours by
+    variables."""
     colour = own.get(name, "none")
     if not re.fullmatch("#[0-9a-f]{6}", colour):
         return
@@ -159,7 +157,7 @@ def ink(own, name):
 
 
 def dressed(element, fixed):
-    """The attributes of an element including its style, in the shortest form."""
+    """Returns the attributes of an element, including its style, in the shortest form."""
     own = properties(element.get("style", ""))
     own.update({name: element.get(name) for name in ("clip-path",) if element.get(name)})
     if not fixed:
@@ -212,7 +210,7 @@ class Writer:
         return own
 
     def read(self, element, fixed=False):
-        """(tag, attributes, children, text), or None if nothing is drawn."""
+        """Returns (tag, attributes, children, text), or None if nothing is drawn."""
         tag = element.tag.removeprefix(SVG)
         fixed = fixed or element.get("id") == "fixed"
         own = self.attributes(element, tag, fixed)
@@ -232,7 +230,7 @@ class Writer:
 
     @staticmethod
     def joined(children):
-        """Joins consecutive lines of the same look to one path."""
+        """Joins consecutive lines with the same attributes into one path."""
         out = []
         for child in children:
             tag, own, _, _ = child
@@ -247,7 +245,7 @@ class Writer:
 
     @staticmethod
     def share(own, children):
-        """Moves attributes that all children have in common to their parent."""
+        """Moves the attributes that all children have in common to their parent."""
         drawn = [c for c in children if c[0] != "defs"]
         for name in INHERITED:
             values = {c[1].get(name) for c in drawn}
@@ -268,7 +266,7 @@ class Writer:
 
 
 def short(svg, name):
-    """(SVG for a page, points it names) from the output of matplotlib."""
+    """Returns (SVG for a page, points that it names) from the output of matplotlib."""
     root = ElementTree.fromstring(svg)
     writer = Writer(root, f"{zlib.crc32(name.encode()):08x}"[:5].translate(
         str.maketrans("0123456789", "ghijklmnop")))
@@ -283,7 +281,7 @@ def short(svg, name):
 
 
 def alone(markup):
-    """The same SVG as a separate file."""
+    """Returns the same SVG as a separate file."""
     names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
     used = [MARKERS[m] for m in markers_in(markup)]
     markup = markup.replace("</svg>", f"<defs>{''.join(used)}</defs></svg>") if used else markup
@@ -292,12 +290,12 @@ def alone(markup):
 
 
 def handles_of(legend):
-    """The drawn ones; matplotlib 3.7 renamed them."""
+    """Returns the drawn handles; matplotlib 3.7 renamed the attribute."""
     return legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles
 
 
 def tag_legends(figure):
-    """Entries of legends belong to the formulation of the curve they name."""
+    """Assigns the entries of legends to the formulation of the curve they name."""
     owners = {}
     for axes in figure.axes:
         for artist in axes.get_children():
@@ -313,8 +311,8 @@ def tag_legends(figure):
 
 
 def image_of(figure, name, said, tight=True):
-    """The Image of a figure. said: the arguments of points(); tight: cut to what is drawn, which draws
-    it twice."""
+    """Returns the Image of a figure. said: the arguments of points(); tight: cropped to the drawing, which requires
+    drawing it twice."""
     tag_legends(figure)
     out = io.StringIO()
     figure.savefig(out, format="svg", metadata={"Date": None},

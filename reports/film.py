@@ -1,6 +1,6 @@
-"""python -m reports.film RESULTS.h5 [-k CASE] -o FILM.html: a motion as one file that any browser
-plays from disk: the viewer in space (assets/viewer.js, assets/player.js) with the frames in it. It plays repeatedly,
-can be paused (Space), rotated and viewed frame by frame; if the browser requests reduced motion, it waits."""
+"""python -m reports.film RESULTS.h5 [-k CASE] -o FILM.html writes a motion as a single file that any browser plays
+from disk: the 3-D viewer (assets/viewer.js, assets/player.js) with the frames in it. The film plays repeatedly; it
+can be paused (Space), rotated and viewed frame by frame. If the browser requests reduced motion, it starts paused."""
 import argparse
 import os
 import sys
@@ -44,11 +44,11 @@ PAGE = """<!DOCTYPE html>
 
 
 class NoFilm(Exception):
-    """Returns the reason why there is no film."""
+    """Raised with the reason why there is no film."""
 
 
 def films(path):
-    """{case: (summary, point)} of the cases with frames, each with its first point that has some."""
+    """Returns {case: (summary, point)} of the cases with frames, each with its first point that has frames."""
     out = {}
     with h5py.File(path) as file:
         for name, group in file["cases"].items():
@@ -59,7 +59,7 @@ def films(path):
 
 
 def chosen(path, wanted):
-    """(case, summary, point): the requested one, or the only one."""
+    """Returns (case, summary, point): the requested one, or the only one."""
     found = films(path)
     name = next(iter(found)) if wanted is None and len(found) == 1 else wanted
     if name in found:

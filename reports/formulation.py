@@ -1,4 +1,4 @@
-"""A page for each formulation: theory, supported physics, where it fails and why, and its speed."""
+"""Writes a page for each formulation: its theory, the physics it supports, where it fails and why, and its speed."""
 import functools
 import math
 import re
@@ -13,14 +13,14 @@ from reports.chart import Chart
 from reports.site import ROOT, file_of
 from reports.verdicts import SEVERITY, UNJUDGED, worst
 
-# elements/NAME.md: the description of a formulation, in words and equations, for its page.
+# elements/NAME.md: the description of a formulation, with text and equations, for its page.
 
 DISPLAY = re.compile(r"\$\$(.+?)\$\$", re.S)
 INLINE = re.compile(r"\$([^$\n]+?)\$")
 
 
 def rendered(text):
-    """Markdown with equations between dollars ($ in a line, $$ on separate lines) as HTML."""
+    """Returns Markdown with equations between dollar signs ($ in a line, $$ on separate lines) as HTML."""
     equations = []
 
     def keep(found, display):
@@ -36,13 +36,13 @@ def rendered(text):
 
 
 def sections(text):
-    """[(heading, text)] of the parts that begin with a heading of the second level."""
+    """Returns [(heading, text)] of the parts that begin with a second-level heading."""
     parts = re.split(r"^## (.+)$", text, flags=re.M)[1:]
     return [(h.strip(), body.strip()) for h, body in zip(parts[::2], parts[1::2])]
 
 
 def linked(page, pages):
-    """The same with names of cases and formulations as links. pages: {name: file}."""
+    """Returns the page with names of cases and formulations as links. pages: {name: file}."""
 
     def link(found):
         name = found.group(1)
@@ -52,7 +52,7 @@ def linked(page, pages):
 
 
 def explanation_of(name, pages):
-    """[(heading, HTML)] of a formulation; [] if there is no description."""
+    """Returns [(heading, HTML)] of a formulation, or [] if there is no description."""
     path = ROOT / "elements" / f"{name}.md"
     if not path.is_file():
         return []
@@ -60,23 +60,23 @@ def explanation_of(name, pages):
             for h, body in sections(path.read_text(encoding="utf-8"))]
 
 
-# Error against elements of a formulation, for the cases with the smallest and the largest error.
+# Error against the number of elements of a formulation, for the cases with the smallest and the largest error.
 
-FLOOR = 1e-12  # errors below are drawn there
+FLOOR = 1e-12  # errors below this value are drawn at it
 TITLES = ("least", "largest")
 WRONG_LIMITS = ("wrong limit", "wrong limit, as predicted")
 GREY = {"back": True, "color": "currentColor", "alpha": 0.25, "linewidth": 1}
 
 
 def curve(series, quantity):
-    """[(elements, size of the error)] of the meshes that have one."""
+    """Returns [(elements, magnitude of the error)] of the meshes with an error."""
     return [(m.n, max(abs(m.errors[quantity]), FLOOR)) for m in series.meshes
             if math.isfinite(m.errors.get(quantity, math.nan))]
 
 
 def candidates(found):
-    """[(error on the finest mesh, case name, quantity, (case, point, series))] with at least three meshes: the first
-    quantity with a verdict of each case, and those with a wrong limit."""
+    """Returns [(error on the finest mesh, case name, quantity, (case, point, series))] for series with at least three
+    meshes: the first quantity with a verdict in each case, and those with a wrong limit."""
     out = []
     for case, point, series in found:
         names = answers.judged(point)[:1]
@@ -89,14 +89,14 @@ def candidates(found):
 
 
 def extremes(found):
-    """[(case, point, series, quantity)] with the least and the largest error on the finest mesh."""
+    """Returns [(case, point, series, quantity)] with the smallest and the largest error on the finest mesh."""
     known = candidates(found)
     chosen = {known[i][:3]: (*known[i][3], known[i][2]) for i in (0, -1)} if known else {}
     return list(chosen.values())
 
 
 def draw_extremes(site, key, items, name):
-    """Two panels; grey: the other formulations."""
+    """Draws two panels; the other formulations are grey."""
     chart = Chart(2, (380, 230))
     for (case, point, series, quantity), title in zip(items, TITLES):
         one = chart.panel(f"{title}: {case.name}, {quantity}", "elements per member",
@@ -121,13 +121,13 @@ WRONG = ("wrong limit, as predicted", "wrong limit", "refused", "diverged")
 
 
 def split(key):
-    """(name, options) of a formulation's key."""
+    """Returns (name, options) of a formulation's key."""
     name, _, options = key.partition(":")
     return name, options
 
 
 def options_of(declared):
-    """[(name, choices, default, summary)] from a row of /declarations."""
+    """Returns [(name, choices, default, summary)] from a row of /declarations."""
     return [tuple(line.split("\t")) for line in declared["options"].split("\n") if line]
 
 
@@ -141,18 +141,18 @@ def example(name, choices):
 
 
 def standing(series):
-    """The worst verdict of a series, or None."""
+    """Returns the worst verdict of a series, or None."""
     judged = [v for v in series.verdicts if v.verdict not in UNJUDGED]
     return worst(judged) if judged and not series.missing else None
 
 
 def defaults(cases, key):
-    """[(case, point, series)] at the default parameters of every case with this formulation."""
+    """Returns [(case, point, series)] at the default parameters of every case with this formulation."""
     return [(c, c.points[0], s) for c in cases for s in c.points[0].series if s.key == key]
 
 
 def rules(rows, known, titles):
-    """The known deviations that were observed: their verdicts, the worst one, and cases."""
+    """Returns the known deviations that were observed: their verdicts, the worst one, and cases."""
     found = {}
     for row in rows:
         if row.verdict.finding:
@@ -161,7 +161,7 @@ def rules(rows, known, titles):
     for rule in known:
         own = found.get(rule["rule"])
         if own:
-            # A verdict that a formulation with a misprint repeats counts here, on its own page.
+            # A verdict that a formulation repeats because it contains the same misprint counts here, on its own page.
             counted = [verdicts.TallyRow(r.case, r.parameters, r.formulation, r.verdict,
                                          verdicts.OWN) for r in own]
             out.append({**deviations.line(rule, counted, titles),
@@ -170,7 +170,7 @@ def rules(rows, known, titles):
 
 
 def lacking(found, attribute):
-    """[(unsupported physics, cases)]: missing: it is not run on them; other: it solves another model."""
+    """Returns [(unsupported physics, cases)]. missing: it is not run on them; other: it solves another model."""
     lacks = {}
     for case, _, series in found:
         if getattr(series, attribute):
@@ -184,14 +184,14 @@ def median(values):
 
 
 def all_ways(cases):
-    """{(case, level): answers.Answer for all judged quantities at the default parameters}."""
+    """Returns {(case, level): answers.Answer for all quantities with a reference value at the default parameters}."""
     return {(c.name, level): answers.answer(c.points[0], answers.ALL, level)
             for c in cases for level in LEVELS}
 
 
 def speed(found, key, known):
-    """For each level: cases that one reaches, that it reaches, those of them that it does not pass,
-    where it is first, rank and cost by the first's in the median."""
+    """Returns for each level: the cases that any formulation reaches, those that this one reaches, those of them where
+    it does not pass, those where it is first, its rank, and its median cost relative to the cheapest."""
     out = []
     for level in LEVELS:
         posed, doubtful, first, factors, ranks = 0, 0, [], [], []
@@ -211,8 +211,8 @@ def speed(found, key, known):
 
 
 def table(found):
-    """[(case, judged parameter points, [(verdict, number)], worst verdict, its page, its point)]
-    of what has verdicts; the last three are None if everything passes."""
+    """Returns [(case, parameter points with verdicts, [(verdict, number)], worst verdict, its page, its point)] of the
+    cases with verdicts; the last three are None if everything passes."""
     cases = {}
     for case, point, series in found:
         shown = [] if series.missing else [v for v in series.verdicts if v.verdict not in UNJUDGED]
@@ -235,14 +235,14 @@ def table(found):
 
 @dataclass(frozen=True)
 class Known:
-    """Data of all pages, collected once."""
+    """Data for all pages, collected once."""
 
     rows: list  # verdicts.TallyRow of every verdict
     rules: list  # of the list of known deviations
     declared: dict  # formulation -> row of /declarations
     ways: dict  # all_ways
     titles: list  # of the errata
-    certified: set  # names of those that have a certificate
+    certified: set  # names of the formulations with a certificate
 
 
 def gather(site):
@@ -252,13 +252,13 @@ def gather(site):
 
 
 def pages_of(site):
-    """{name: page} of cases and formulations, for words of the explanation that name one."""
+    """Returns {name: page} of cases and formulations, to link their names in explanations."""
     pages = {c.name: f"{c.name}.html" for c in site.cases}
     return {**pages, **{key: f"{file_of(key)}.html" for key in site.styles.order}}
 
 
 def contents(site, key, known):
-    """The context of a page."""
+    """Returns the context of a page."""
     name, options = split(key)
     everywhere = [(c, p, s) for c in site.cases for p in c.points for s in p.series
                   if s.key == key]
@@ -316,7 +316,7 @@ def tasks(site):
 
 
 def counts(rows):
-    """{verdict: number} of rows that have a verdict, without second names, from bad to good."""
+    """Returns {verdict: number} of rows that have a verdict, without second names, from bad to good."""
     found = {}
     for row in rows:
         if row.standing != verdicts.ALIAS and row.verdict.verdict not in UNJUDGED:
@@ -325,7 +325,7 @@ def counts(rows):
 
 
 def grouped(rows, name):
-    """{name of a row: rows}."""
+    """Returns {name of a row: rows}."""
     found = {}
     for row in rows:
         found.setdefault(getattr(row, name), []).append(row)
@@ -333,7 +333,7 @@ def grouped(rows, name):
 
 
 def wrong_in(cases, key):
-    """Cases at whose default parameters more elements do not help."""
+    """Returns the cases at whose default parameters more elements do not help."""
     found = [(c.name, standing(s)) for c in cases for s in c.points[0].series if s.key == key]
     return [name for name, v in found if v is not None and v.verdict in WRONG]
 

@@ -8,7 +8,7 @@ from reports import data
 
 NAVIGATION = [("glossary.html", "glossary")]
 PAGE = "glossary.html"
-# Groups in the order of a reader's questions; other groups follow.
+# Groups in the order in which readers need them; other groups follow.
 GROUPS = ("verdicts", "convergence", "truths", "time and work", "outcomes of a solution",
           "stability", "physics", "elements", "solution", "analyses", "structure",
           "extremes", "program")
@@ -20,12 +20,12 @@ def present(site):
 
 @functools.lru_cache(maxsize=4)
 def terms(truths):
-    """[{term, also, group, meaning, see}] in the order of the file; [] if there is none."""
+    """Returns [{term, also, group, meaning, see}] in the order of the file, or [] if there is none."""
     return data.read_glossary(truths)
 
 
 def anchor(term):
-    """The name of a term in the page's address."""
+    """Returns the name of a term in the page's address."""
     return re.sub(r"[^a-z0-9]+", "-", term.lower()).strip("-") or "term"
 
 
@@ -34,7 +34,7 @@ def split(text):
 
 
 def places(rows):
-    """{term or other name, in small letters: anchor}."""
+    """Returns {term or other name, in lower case: anchor}."""
     found = {}
     for row in rows:
         for name in (row["term"], *split(row["also"])):
@@ -43,7 +43,7 @@ def places(rows):
 
 
 def linker(truths):
-    """The filter `term`: words as a link to the glossary, if it contains them."""
+    """Returns the filter `term`, which turns a term into a link to the glossary if the glossary contains it."""
     known = places(terms(truths))
 
     def term(words, name=None):
@@ -56,7 +56,7 @@ def linker(truths):
 
 
 def grouped(rows):
-    """[(group, rows)] in the order of GROUPS."""
+    """Returns [(group, rows)] in the order of GROUPS."""
     names = [*GROUPS, *dict.fromkeys(r["group"] for r in rows if r["group"] not in GROUPS)]
     return [(name, [r for r in rows if r["group"] == name]) for name in names
             if any(r["group"] == name for r in rows)]

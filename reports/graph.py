@@ -1,10 +1,11 @@
-"""python -m reports.graph FORM: curves as a picture (png, svg, pdf) or a table with a column for
-each quantity (csv), for `beamwork plot`. Reads a list of solutions, as `beamwork solve --format
-json` writes them, from standard input, and writes the picture to standard output. Status 4: nothing can be drawn; a line says why.
+"""python -m reports.graph FORM draws curves as a picture (png, svg, pdf), or writes a table with a column for each
+quantity (csv), for `beamwork plot`. It reads a list of solutions, as `beamwork solve --format json` writes them, from
+standard input, and writes the picture to standard output. Exit status 4: nothing can be drawn; a line gives the
+reason.
 
-One panel for each abscissa and unit. Quantities are distinguished by colour; with several
-formulations each has its colour, and each quantity its panel. Curves over frequencies whose values
-are all positive are drawn over decades, as in a Bode diagram."""
+There is one panel for each abscissa and unit. Quantities are distinguished by colour; with several formulations, each
+formulation has a colour and each quantity a panel. Curves over frequency whose values are all positive have a
+logarithmic vertical axis, as in a Bode diagram."""
 import csv
 import importlib.util
 import itertools
@@ -15,14 +16,14 @@ import sys
 COULD_NOT = 4
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#8c6d31")
 LINES = ("-", "--", ":", "-.")
-MARKED = 30  # points: curves with fewer show them
+MARKED = 30  # curves with fewer points show markers
 WIDTH, HEIGHT = 6.4, 2.5  # of a panel [inch]
 MOST = 16  # panels
-PHASES = ("rad", "deg")  # units of phases over frequencies
+PHASES = ("rad", "deg")  # units of phases over frequency
 
 
 class Curve:
-    """A curve of a quantity by one formulation."""
+    """The curve of a quantity computed with one formulation."""
 
     def __init__(self, solution, entry):
         self.quantity, self.unit = entry["quantity"], entry["unit"]
@@ -38,13 +39,13 @@ class Curve:
 
     @property
     def decades(self):
-        """Is it drawn over decades upwards?"""
+        """Is its vertical axis logarithmic?"""
         return (self.steady and self.unit not in PHASES and
                 all(b > 0 for a, b in zip(self.x, self.y) if a > 0))
 
 
 def merged(curves):
-    """Quantities with the same values (the largest and the least one of a history) are one curve."""
+    """Merges quantities with the same values (the largest and the smallest value of a history) into one curve."""
     found = {}
     for c in curves:
         same = found.setdefault((c.formulation, c.unit, c.x_name, *c.x, *c.y), c)
@@ -58,7 +59,7 @@ def label(name, unit):
 
 
 def panels_of(curves):
-    """Lists of curves, one for each panel."""
+    """Returns lists of curves, one for each panel."""
     several = len({c.formulation for c in curves}) > 1
     found = {}
     for c in curves:
@@ -95,7 +96,7 @@ def draw_panel(axes, curves):
 
 
 def share(panels, axes):
-    """Panels of the same abscissa, one below the other, have the same scale."""
+    """Gives panels of the same abscissa, one below the other, the same scale."""
     for i, (curves, one) in enumerate(zip(panels, axes)):
         for k in range(i):
             if panels[k][0].x_name == curves[0].x_name and (
@@ -105,7 +106,7 @@ def share(panels, axes):
 
 
 def written(curves):
-    """Rows of a table: for each abscissa its column, then one for each curve over it."""
+    """Returns the rows of a table: for each abscissa its column, followed by one for each curve over it."""
     several = len({c.formulation for c in curves}) > 1
     columns, last = [], None
     for c in (c for panel in panels_of(curves) for c in panel):

@@ -1,4 +1,4 @@
-"""First page: on one screen the results, the verdicts, and the answer for every case."""
+"""First page: the results, the verdicts, and the answer for every case on one screen."""
 import functools
 import math
 import re
@@ -10,7 +10,7 @@ from reports import answers, problems, profiles, verdicts
 from reports.data import text
 from reports.profiles import panel
 
-# Topic of a case, from the analyses of its scene.
+# Topic of a case, determined from the analyses of its scene.
 
 # A case belongs to the first kind of which it has an analysis.
 KINDS = (
@@ -27,7 +27,7 @@ ENTRY = re.compile(r"^  [^\s:]+: \{(\w+)[:}]", re.M)
 
 
 def analyses_in(scene):
-    """Names of the kinds of analysis in a scene file as the program writes it."""
+    """Returns the kinds of analysis in a scene file written by the program."""
     block = re.search(r"^analyses:\n((?:  .*\n)*)", scene, re.M)
     return ENTRY.findall(block.group(1)) if block else []
 
@@ -37,7 +37,7 @@ def kind_of(analyses):
 
 
 def scenes(path):
-    """{case: scene file of its defaults, or of its first point; "" where the results have none}"""
+    """Returns {case: scene file of its defaults, or of its first point; "" if the results have none}."""
     found = {}
     with h5py.File(path) as file:
         for name, group in file["cases"].items():
@@ -48,7 +48,7 @@ def scenes(path):
 
 
 def grouped_by_kind(cases, path):
-    """[(kind, [data.Case])] of a results file, in the order of KINDS."""
+    """Returns [(kind, [data.Case])] of a results file, in the order of KINDS."""
     written, groups = scenes(path), {}
     for case in cases:
         found = kind_of(analyses_in(written.get(case.name, "")))
@@ -59,7 +59,7 @@ def grouped_by_kind(cases, path):
 
 # For quantities without a reference value: the limit on which formulations agree, and their distance from it.
 
-AGREED = "agreement"  # its name in the results: it is an agreement of at least two families of formulations
+AGREED = "agreement"  # name in the results of an agreement of at least two families of formulations
 
 
 @dataclass
@@ -70,28 +70,28 @@ class AgreedRow:
     quantity: str
     unit: str
     value: float
-    errors: dict  # formulation -> of its limit
-    meshes: dict  # formulation -> elements at and above which every mesh is within the level
+    errors: dict  # formulation -> error of its limit
+    meshes: dict  # formulation -> number of elements from which every mesh is within the level
 
     def within(self, level):
         return sorted(key for key, error in self.errors.items() if abs(error) <= level)
 
     @property
     def farthest(self):
-        """The formulation whose limit is farthest from it; None if all are the same."""
+        """Returns the formulation whose limit is farthest from the agreement; None if all are equal."""
         key = max(self.errors, key=lambda key: (abs(self.errors[key]), key))
         return key if self.errors[key] else None
 
     @property
     def fewest(self):
-        """(elements, formulations that need no more than these), or None."""
+        """Returns (elements, formulations that need no more than these), or None."""
         least = min(self.meshes.values(), default=None)
         keys = (k for k, n in self.meshes.items() if n == least)
         return least and (least, sorted(keys, key=lambda key: (":" in key, key)))
 
 
 def first_within(series, quantity, level):
-    """Elements at and above which every mesh is within the level of the agreement, or None."""
+    """Returns the number of elements from which every mesh is within the level of the agreement, or None."""
     found = None
     for mesh in reversed(series.meshes):
         if not abs(mesh.model_errors.get(quantity, math.nan)) <= level:
@@ -113,7 +113,7 @@ def row_of(case, quantity, level):
 
 
 def rows_agreed(cases, level):
-    """[Row] of quantities with an agreement but no reference value, at the defaults of each case."""
+    """Returns [AgreedRow] of quantities with an agreement but no reference value, at the defaults of each case."""
     found = []
     for case in cases:
         point = case.points[0]
@@ -123,19 +123,20 @@ def rows_agreed(cases, level):
     return found
 
 
-# Results in three sentences: speed, verdicts, reference values. The template contains the words.
+# Results in three sentences: speed, verdicts, reference values. The template contains the text.
 
 NAMED = 3  # cases that a sentence names
 
 
 def ahead(values):
-    """The formulations with the largest value, to a percent, and that value."""
+    """Returns the formulations with the largest value, to within a percent, and that value."""
     most = max(values.values())
     return sorted(k for k, v in values.items() if round(100 * v) == round(100 * most)), most
 
 
 def of_speed(compared, rows):
-    """Formulations that are most often near the best, and that solve most; None if nothing is compared."""
+    """Returns the formulations that are most often near the best, and those that solve most problems; None if nothing
+    is compared."""
     if not compared.any:
         return None
     known = [r for r in rows if math.isfinite(r.solved)]
@@ -153,8 +154,8 @@ def of_speed(compared, rows):
 
 
 def of_trust(cases, rows):
-    """Formulations that never have a wrong limit, the one with most wrong limits and where, and the number of derived
-    limits."""
+    """Returns the formulations that never have a wrong limit, the formulation with most wrong limits and where they
+    occur, and the number of derived limits."""
     if not rows:
         return None
     worst = max(rows, key=lambda r: (r.wrong, r.key))
@@ -172,7 +173,7 @@ def of_trust(cases, rows):
 
 
 def of_truths(cases):
-    """Number of reference values in verdicts, their kinds and uncertainties; None without any."""
+    """Returns the number of reference values in verdicts, their kinds and uncertainties; None if there are none."""
     known = {}
     for row in verdicts.rows(cases):
         v = row.verdict
@@ -194,8 +195,8 @@ def of_truths(cases):
 
 NAVIGATION = [("index.html", "beamwork")]
 LEVEL = 0.01  # of the answers
-MOST_ROWS = 10  # of the table of trust on the first screen
-PLACES = (  # pages to read next, if this site has them
+MOST_ROWS = 10  # of the table of verdicts on the first screen
+PLACES = (  # pages to read next, if the site has them
     ("answers.html", "your tolerance"),
     ("profiles.html", "profiles"),
     ("profiles.html#winners", "winners at each tolerance"),
@@ -212,7 +213,7 @@ FIGURE = (300, 165)  # axes, pixels
 
 
 def formulation_rows(cases):
-    """{key: {case: {verdict: count}}} over all points, without second names."""
+    """Returns {key: {case: {verdict: count}}} over all points, without second names."""
     rows = {}
     for row in verdicts.rows(cases):
         cell = rows.setdefault(row.formulation, {}).setdefault(row.case, {})
@@ -222,7 +223,8 @@ def formulation_rows(cases):
 
 
 def table_of(case):
-    """[(request, answers.Answer)] at the defaults: the first judged quantity, all together."""
+    """Returns [(request, answers.Answer)] at the defaults: for the first quantity with a reference value and for all
+    together."""
     point = case.points[0]
     names = answers.judged(point)
     asked = [(names[0], names[0])] if names else []

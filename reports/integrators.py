@@ -1,5 +1,5 @@
-"""Results of `beamwork motion` as plain records: motions by integrators with steps
-and tolerances; and `make lab L=paces`, the same of every case of motion."""
+"""Reads the results of `beamwork motion` into plain records: motions computed by integrators with steps and
+tolerances; and those of `make lab L=paces`, the same for every case of motion."""
 import json
 import math
 import os
@@ -9,18 +9,17 @@ from reports import experiments
 from reports.data import Unreadable
 
 PACES = "paces.json"
-KEPT = 1e-11  # of the largest energy: a smaller drift counts as conserved
+KEPT = 1e-11  # of the largest energy: smaller drift counts as conserved
 ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # of legends and tables
 KEYS = ("case", "parameters", "formulation", "elements")  # of a problem
 NONE_WANTED = "none is wanted"  # of a reference
-STIFFENING = "stiffening"  # parameter of cases that says how many times as stiff elongation is
+STIFFENING = "stiffening"  # case parameter: factor on the axial stiffness
 
 
 @dataclass(frozen=True)
 class Run:
     """One motion. error: time error only; cost [s] of counted work; energy, momentum: largest unexplained relative
-    change; fate: outcome once no load acts; large: of a map of
-    large steps, whose errors are not computed."""
+    change; fate: outcome once no load acts; large: from a map of large steps, whose errors are not computed."""
 
     scheme: str
     step: float
@@ -53,7 +52,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Ladder:
-    """Order of an integrator from steps that are halved; verdict: pass, low order or undecided."""
+    """Order of an integrator from successively halved steps; verdict: pass, low order or undecided."""
 
     scheme: str
     nominal: float
@@ -63,8 +62,7 @@ class Ladder:
 
 @dataclass(frozen=True)
 class Way:
-    """Cost of an integrator for an error: cost [s] where the error is just that, and the run that
-    is within it."""
+    """Cost of an integrator for an error: cost [s] at exactly that error, and the run that is within it."""
 
     scheme: str
     cost: float
@@ -80,7 +78,7 @@ class Problem:
     formulation: str
     elements: int
     stiffening: float
-    reference: str  # reason why there is none; empty: there is one
+    reference: str  # reason why there is no reference; empty if there is one
     uncertainty: float
     runs: list
     ladders: list
@@ -93,7 +91,7 @@ class Problem:
 
     @property
     def structure(self):
-        """The same for all stiffenings."""
+        """Returns the case, parameters, formulation and mesh without the stiffening."""
         rest = [p for p in self.parameters.split(";") if not p.strip().startswith(STIFFENING)]
         return self.case, ";".join(rest), self.formulation, self.elements
 
@@ -106,7 +104,7 @@ class Problem:
 
 
 def ordered(schemes):
-    """Known ones in their order, followed by those with options."""
+    """Returns the known schemes in their order, followed by those with options."""
     def place(scheme):
         name = scheme.partition(":")[0]
         return ORDER.index(name) if name in ORDER else len(ORDER), scheme
@@ -138,14 +136,14 @@ def ways_of(rows, runs):
 
 
 def stiffening_in(parameters):
-    """Returns the factor of the axial stiffness, from `name=value;...`."""
+    """Returns the factor on the axial stiffness, from `name=value;...`."""
     said = dict(p.strip().split("=", 1) for p in parameters.split(";") if p.strip())
     return float(said.get(STIFFENING, 1))
 
 
 def problem_of(tables, key):
-    """Returns the runs of a case, set of parameters, formulation and mesh: those with errors, then those of which
-    only the outcome is known."""
+    """Returns the runs of a case, set of parameters, formulation and mesh: those with errors, then those of which only
+    the outcome is known."""
     def own(name):
         return tables[name].get(key, [])
 
@@ -160,7 +158,7 @@ def problem_of(tables, key):
 
 
 def problems_of(found):
-    """A Problem for each case, set of parameters, formulation and mesh."""
+    """Returns a Problem for each case, set of parameters, formulation and mesh."""
     tables = {name: experiments.grouped(found[name], *KEYS)
               for name in ("references", "runs", "orders", "reached")}
     return [problem_of(tables, key) for key in tables["runs"]]
@@ -168,7 +166,7 @@ def problems_of(found):
 
 @dataclass(frozen=True)
 class Check:
-    """Difference of the reference of a problem from `explicit` at two tolerances; reason: why it is unknown."""
+    """Difference between the reference of a problem and `explicit` at two tolerances; reason: why it is unknown."""
 
     name: str
     formulation: str
@@ -179,9 +177,9 @@ class Check:
 
 @dataclass
 class Record:
-    """verdicts: rows with observed and expected verdicts. compared: problems on which
-    integrators are compared, every case of motion where `make lab L=paces` ran them; left_out:
-    {(case, formulation): why it is not run}. about: the program that ran them."""
+    """verdicts: rows with observed and expected verdicts. compared: problems on which integrators are compared (every
+    case of motion if `make lab L=paces` ran them). left_out: {(case, formulation): why it is not run}. about: the
+    program that ran them."""
 
     problems: list
     verdicts: list
@@ -224,7 +222,7 @@ def compared_in(path):
 
 
 def read(path):
-    """The Record of a results file and of paces.json next to it, or None if there is none."""
+    """Returns the Record of a results file and of paces.json next to it, or None if there is none."""
     found = experiments.read(path, "motion")
     if found is None:
         return None
@@ -233,8 +231,8 @@ def read(path):
     return Record(problems, found["verdicts"], *(compared_in(beside) or (problems, {}, [])), found)
 
 
-# Which integrator, with which step, has the lowest cost within a time error; and whether that is
-# verified. `beamwork motion` itself reports the cost of a scheme for an error.
+# Finds the integrator and the step with the lowest cost within a time error, and whether that is verified. `beamwork
+# motion` itself reports the cost of a scheme for an error.
 
 LEVELS = (1e-2, 1e-4, 1e-6)
 FACTORS = [10**(i / 12) for i in range(25)]  # of profiles: from 1 to 100
@@ -242,7 +240,7 @@ FACTORS = [10**(i / 12) for i in range(25)]  # of profiles: from 1 to 100
 
 @dataclass(frozen=True)
 class Answer:
-    """ways: the cheapest first; ties: schemes whose costs differ by less than the noise of costs."""
+    """ways: the cheapest first; ties: schemes whose costs differ by less than the scatter of costs."""
 
     level: float
     ways: tuple
@@ -254,7 +252,7 @@ class Answer:
 
 
 def answer(problem, level, noise=1.0):
-    """The Answer of one problem."""
+    """Returns the Answer of one problem."""
     ways = tuple(problem.reached.get(level, ()))
     ties = tuple(w.scheme for w in ways[1:] if w.cost <= noise * ways[0].cost)
     return Answer(level, ways, ties)
@@ -270,9 +268,9 @@ def by_case(problems):
 
 @dataclass(frozen=True)
 class Summary:
-    """Of a case with all formulations: wins {scheme: formulations in which it has the lowest cost or
-    ties}; best: the ways of the scheme that has most of them; keeping: the cheapest ways that
-    keep energy to round-off, with their costs over the least."""
+    """Summary of a case over all formulations. wins: {scheme: formulations in which it has the lowest cost or ties};
+    best: the ways of the scheme with most wins; keeping: the cheapest ways that conserve energy to round-off, with
+    their costs relative to the lowest."""
 
     wins: tuple
     reached: int
@@ -294,13 +292,13 @@ def summary(problems, level, noise=1.0):
 
 
 def counted(problems, level):
-    """{scheme: problems in which it comes within the level}"""
+    """Returns {scheme: problems in which it comes within the level}."""
     return {s: sum(any(w.scheme == s for w in answer(p, level).ways) for p in problems)
             for s in ordered({r.scheme for p in problems for r in p.runs if r.known})}
 
 
 def orders(problems):
-    """{scheme: (nominal order, {verdict: ladders})}"""
+    """Returns {scheme: (nominal order, {verdict: ladders})}."""
     out = {}
     for one in (one for p in problems for one in p.ladders):
         verdicts = out.setdefault(one.scheme, (one.nominal, {}))[1]
@@ -314,7 +312,7 @@ def judged(problems):
 
 
 def series(problem, scheme):
-    """Its runs, from the coarsest to the finest: [those with equal steps, those with a
+    """Returns the runs of a scheme, from the coarsest to the finest: [those with equal steps, those with a
     tolerance]."""
     own = sorted((r for r in problem.runs if r.scheme == scheme),
                  key=lambda r: (-r.tolerance, -r.step))
@@ -322,7 +320,7 @@ def series(problem, scheme):
 
 
 def doubt(problem, way):
-    """Reason why the error of a run may be wrong; empty: there is none."""
+    """Returns the reason why the error of a run may be wrong; empty if there is none."""
     ladder = problem.ladder(way.scheme)
     if ladder is not None and ladder.verdict == "low order":
         return f"its error falls with order {ladder.order:.1f}, not {ladder.nominal:g}"
@@ -332,7 +330,7 @@ def doubt(problem, way):
 
 
 def wins(problems, level, noise=1.0):
-    """({scheme: problems in which it has the lowest cost or ties}, problems that any scheme reaches)."""
+    """Returns ({scheme: problems in which it has the lowest cost or ties}, problems that any scheme reaches)."""
     count, reached = {}, 0
     for problem in problems:
         found = answer(problem, level, noise)
@@ -343,7 +341,7 @@ def wins(problems, level, noise=1.0):
 
 
 def profile(problems, level):
-    """{scheme: [share of problems within FACTORS of the least cost]}, every case has the same weight."""
+    """Returns {scheme: [share of problems within FACTORS of the lowest cost]}; every case has the same weight."""
     cases = {}
     for problem in problems:
         cases.setdefault(problem.case, []).append(answer(problem, level))
@@ -359,7 +357,7 @@ def profile(problems, level):
 
 
 def structures(problems):
-    """{structure: [Problem]}: one structure with all its stiffenings."""
+    """Returns {structure: [Problem]}: each structure with all its stiffenings."""
     out = {}
     for problem in problems:
         out.setdefault(problem.structure, []).append(problem)
@@ -367,7 +365,8 @@ def structures(problems):
 
 
 def iterations(problems):
-    """({(name, scheme, step): {stiffening: iterations a step}}, stiffenings): for runs with several stiffenings."""
+    """Returns ({(name, scheme, step): {stiffening: iterations per step}}, stiffenings) for runs with several
+    stiffenings."""
     rows = {}
     for own in structures(problems).values():
         for problem in own:

@@ -1,5 +1,5 @@
-"""Integrators: which one, with which step, has the lowest cost within a time error, and
-whether that is verified  (of `beamwork motion`, and paces.json where there is one)"""
+"""Page of integrators: which one, with which step, has the lowest cost within a time error, and whether that is
+verified (from `beamwork motion`, and from paces.json if it exists)."""
 import functools
 import math
 
@@ -25,8 +25,8 @@ def level_words(level):
 
 
 def soonest(problems, level, noise):
-    """`within 1 % alpha in 2 of 3`, without those that have the lowest cost half as often as the first; of
-    one problem with its step."""
+    """Returns `within 1 % alpha in 2 of 3`, without those that have the lowest cost less than half as often as the
+    first; for a single problem, with its step."""
     count, reached = integrators.wins(problems, level, noise)
     if not reached:
         return f"within {level_words(level)} none"
@@ -43,7 +43,7 @@ def soonest(problems, level, noise):
 
 
 def trust(problems, noise):
-    """Evidence for the answers: of the runs of lowest cost."""
+    """Returns the evidence for the answers, from the runs of lowest cost."""
     best = [(p, found.best) for p in problems
             for found in (integrators.answer(p, level, noise) for level in integrators.LEVELS)
             if found.best]
@@ -65,7 +65,7 @@ def trust(problems, noise):
 
 
 def first(problems, noise):
-    """The first sentences of the page."""
+    """Returns the first sentences of the page."""
     told = integrators.judged(problems)
     if not told:
         return "No run of these results has a time error."
@@ -76,7 +76,7 @@ def first(problems, noise):
 
 
 def chosen(ways):
-    """`tolerance 1e-05`, `step 0.01 to 0.02 s`: that of most ways."""
+    """Returns `tolerance 1e-05` or `step 0.01 to 0.02 s`, whichever most of the ways use."""
     by_tolerance = [w.run.tolerance for w in ways if w.run.tolerance]
     if 2 * len(by_tolerance) >= len(ways):
         return f"tolerance {between(by_tolerance, '{:.2g}')}"
@@ -84,7 +84,7 @@ def chosen(ways):
 
 
 def keeping(found):
-    """Returns the integrators that reach the error and conserve energy, with their cost relative to the least."""
+    """Returns the integrators that reach the error and conserve energy, with their cost relative to the lowest."""
     if not found.keeping:
         return "none of those within it conserves energy to round-off"
     names = joined(dict.fromkeys(scheme for scheme, _ in found.keeping))
@@ -93,13 +93,13 @@ def keeping(found):
 
 
 def drift(ways):
-    """Energy-balance errors of the runs of lowest cost."""
+    """Describes the energy-balance errors of the runs of lowest cost."""
     known = [w.run.energy for w in ways if w.run.energy == w.run.energy]
     return f"energy drifts by {between(known, '{:.0e}')}" if known else ""
 
 
 def stability(problems):
-    """One sentence on a map: which schemes grow or stop anywhere."""
+    """Returns one sentence on a map: the schemes that grow or stop anywhere."""
     bad, every = {}, {}
     for problem in problems:
         for run in problem.runs:
@@ -116,7 +116,7 @@ def stability(problems):
 
 
 def iterations(rows):
-    """One sentence on how iterations change between the least and the largest stiffness."""
+    """Returns one sentence on how iterations change between the smallest and the largest stiffness."""
     change = [found[max(found)] - found[min(found)] for found in rows.values()]
     if not change:
         return ""
@@ -125,7 +125,7 @@ def iterations(rows):
 
 
 def verdicts(rows):
-    """One sentence on the verdicts."""
+    """Returns one sentence on the verdicts."""
     off = sum(not row["as_expected"] for row in rows)
     if not rows:
         return ""
@@ -138,11 +138,11 @@ def verdicts(rows):
 SIZE, ONE, PROFILE = (250, 190), (420, 250), (250, 165)
 COLUMNS = 3
 FLOOR = 1e-14  # of what is drawn
-SLOPES = (2, 5)  # orders with their own line
+SLOPES = (2, 5)  # orders that have a reference line
 
 
 def slope_lines(panel, runs):
-    """Dotted lines whose slopes are orders, from the upper left run."""
+    """Draws dotted lines whose slopes are the orders, starting from the upper left run."""
     costs = [r.cost for r in runs]
     low, high = min(costs), max(costs)
     errors = [max(abs(r.error), FLOOR) for r in runs]
@@ -157,7 +157,7 @@ def slope_lines(panel, runs):
 
 
 def draw_scheme(site, panel, problem, scheme):
-    """Its curve, separate for equal steps and for steps by a tolerance."""
+    """Draws the curve of a scheme, separately for equal steps and for tolerance-controlled steps."""
     for own in integrators.series(problem, scheme):
         known = [r for r in own if r.known and r.cost > 0]
         if not known:
@@ -172,7 +172,7 @@ def draw_scheme(site, panel, problem, scheme):
 
 
 def work_precision(site, case, problems):
-    """The Image of a case: a panel for each formulation."""
+    """Returns the Image of a case: a panel for each formulation."""
     told = [p for p in integrators.judged(problems) if any(r.known and r.cost > 0 for r in p.runs)]
     if not told:
         return None
@@ -190,7 +190,7 @@ def work_precision(site, case, problems):
 
 
 def profile(site, problems, level):
-    """The Image of a performance profile, or None when nothing comes within the level."""
+    """Returns the Image of a performance profile, or None if nothing comes within the level."""
     curves = integrators.profile(problems, level)
     if not any(math.isfinite(c[-1]) and c[-1] > 0 for c in curves.values()):
         return None
@@ -210,8 +210,8 @@ def profile(site, problems, level):
     return chart.image(site, f"integrators_profile_{level:g}".replace(".", "_"))
 
 
-# Maps of stability: step across, stiffness down, a panel for each integrator; each outcome has a
-# colour and a letter, so that the map can be read without colours.
+# Stability maps: step horizontally, stiffness vertically, a panel for each integrator. Each outcome has a colour and a
+# letter, so that the map can be read without colours.
 
 # fate: letter, colour, colour of the letter, meaning
 LOOK = {
@@ -229,7 +229,7 @@ def map_text(x, y, words, more=""):
 
 
 def short(value):
-    """A power of ten as 1e6."""
+    """Returns a power of ten as 1e6."""
     return (f"{value:g}" if value < 1e4 else f"{value:.0e}").replace("e+0", "e").replace("e+", "e")
 
 
@@ -259,14 +259,13 @@ def map_panel(scheme, found, steps, stiffenings, left, top):
 
 
 def fates(problems):
-    """{(scheme, step, stiffening): run}: runs with equal steps and a known outcome."""
+    """Returns {(scheme, step, stiffening): run} of runs with equal steps and a known outcome."""
     return {(r.scheme, r.step, p.stiffening): r for p in problems for r in p.runs
             if r.fate and not r.tolerance}
 
 
 def draw_map(problems, legend=True):
-    """The Image of a structure's map. problems: its stiffenings; legend: letters are explained
-    below it."""
+    """Returns the Image of a structure's map. problems: its stiffenings; legend: letters are explained below it."""
     found = fates(problems)
     schemes = ordered({s for s, _, _ in found})
     steps, stiffenings = sorted({h for _, h, _ in found}), sorted({x for _, _, x in found})
@@ -305,26 +304,27 @@ def present(site):
 
 
 def noise_of(site):
-    """Costs whose ratio is below it tie."""
+    """Returns the cost ratio below which costs tie."""
     return float(site.about.get("cost_noise", 1.25))
 
 
 def rows_of(problems, noise):
-    """[(problem, {level: Answer})] of the table of lowest costs."""
+    """Returns [(problem, {level: Answer})] of the table of lowest costs."""
     return [(p, {level: integrators.answer(p, level, noise) for level in integrators.LEVELS})
             for p in problems]
 
 
 def cases_of(problems, noise):
-    """[(case, parameters, {level: Summary}, rows)]: all formulations of a case together, and each."""
+    """Returns [(case, parameters, {level: Summary}, rows)]: all formulations of a case together, and each
+    formulation."""
     return [(case, parameters,
              {level: integrators.summary(own, level, noise) for level in integrators.LEVELS},
              rows_of(own, noise)) for (case, parameters), own in integrators.by_case(problems).items()]
 
 
 def maps_of(problems):
-    """[(name, Image, sentence)]: a map for each structure of which large steps were run, the
-    largest first, letters explained below it."""
+    """Returns [(name, Image, sentence)]: a map for each structure that was run with large steps, the largest first,
+    with the letters explained below it."""
     found = [own for own in integrators.structures(problems).values() if fates(own) and
              any(p.reference == integrators.NONE_WANTED for p in own)]
     found.sort(key=lambda own: -len(fates(own)))
@@ -333,13 +333,13 @@ def maps_of(problems):
 
 
 def unmeasured(problems):
-    """Returns the problems whose errors were requested and are not known."""
+    """Returns the problems whose errors were requested but are unknown."""
     return [p for p in problems if p.reference and p.reference != integrators.NONE_WANTED]
 
 
 def failures_of(problems):
-    """[(case, parameters, scheme, runs that failed, formulations, one of them)] of runs without an error; large steps
-    that are expected to stop are in the maps."""
+    """Returns [(case, parameters, scheme, runs that failed, formulations, one of them)] of runs without an error;
+    large steps that are expected to stop are in the maps."""
     found = {}
     for p in problems:
         for r in p.runs:

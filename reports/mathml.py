@@ -1,6 +1,6 @@
-"""Equations as MathML, which browsers draw without network and script: a small part of LaTeX.
+"""Converts equations in a small subset of LaTeX to MathML, which browsers draw without network access or scripts.
 
-Letters, numbers and operators; `_`, `^` and `'`; groups in braces; Greek letters and symbols;
+The subset: letters, numbers and operators; `_`, `^` and `'`; groups in braces; Greek letters and symbols;
 names of functions; \\frac, \\sqrt, \\mathbf, \\mathrm, \\text; accents; \\left and \\right.
 Unknown commands are rejected by name.
 """
@@ -31,7 +31,7 @@ TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|\s+|.", re.S)
 
 
 class Unknown(ValueError):
-    """A command that this subset of LaTeX does not have."""
+    """Raised for a command that this subset of LaTeX does not contain."""
 
 
 def row(parts):
@@ -44,7 +44,7 @@ def operator(sign, stretchy=False):
 
 
 def bold(letters):
-    """Letters as the bold ones that Unicode has for mathematics."""
+    """Returns letters as the bold mathematical letters of Unicode."""
     first = {"A": 0x1D400, "a": 0x1D41A}
     return "".join(chr(first["A"] + ord(c) - ord("A")) if c.isupper() else chr(
         first["a"] + ord(c) - ord("a")) for c in letters)
@@ -96,7 +96,7 @@ class Parser:
         return parts
 
     def scripted(self):
-        """An atom with its index, its power and its primes."""
+        """Parses an atom with its index, its power and its primes."""
         large = self.peek()[1:] in LARGE
         base, below, above, primes = self.atom(), None, [], 0
         while self.peek() in ("_", "^", "'"):
@@ -166,7 +166,7 @@ class Parser:
 
 
 def convert(tex, display=False):
-    """The <math> element of an equation."""
+    """Returns the <math> element of an equation."""
     parser = Parser(tex)
     parts = parser.until()
     kind = ' display="block"' if display else ""

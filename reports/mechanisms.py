@@ -1,7 +1,7 @@
 """The joint and the hexapod, compared with N sections 4.2 and 4.3: curves, relative times, growth, parts of an
 iteration, dense baseline.
 
-Times come from `make lab L=bench-mechanisms`, whose files are in the folder of the results."""
+Times come from `make lab L=bench-mechanisms`, which writes its files into the folder of the results."""
 import functools
 import math
 import os
@@ -26,7 +26,7 @@ QUANTITY = "support_stiffness_max"
 
 
 class Cell:
-    """One timed cell of a bench file."""
+    """One timed run of a bench file."""
 
     def __init__(self, case, key, mesh):
         self.case, self.key, self.n, self.free = case, key, mesh.n, mesh.free
@@ -40,7 +40,7 @@ class Cell:
 
 
 def read_bench(path, case):
-    """Timed cells of the defaults in a file of `beamwork bench`, or none."""
+    """Returns the timed runs of the defaults in a file of `beamwork bench`; may be empty."""
     if not os.path.exists(path):
         return []
     found = data.read_case(path, case, root=data.root_of_bench)
@@ -51,7 +51,7 @@ def read_bench(path, case):
 
 
 def value_of(site, key, n, parameters):
-    """Largest stiffness of a cell in the results."""
+    """Returns the largest stiffness of a run in the results."""
     case = site.case("spherical_joint")
     for point in case.points if case else []:
         if point.parameters == parameters:
@@ -61,7 +61,7 @@ def value_of(site, key, n, parameters):
 
 
 def comparison(site, cells):
-    """The published rows with those of beamwork. The published second-order element has no Wagner torque."""
+    """Returns the published rows with those of beamwork. The published second-order element has no Wagner torque."""
     at = {(c.key, c.n): c for c in cells if c.case == "spherical_joint"}
     first = at.get(("sheet_third", 1))
     rows = []
@@ -77,8 +77,8 @@ def comparison(site, cells):
 
 
 def curve_figure(site):
-    """Support stiffness around the turn: one and two elements against the converged beam and the published shell
-    maximum."""
+    """Draws the support stiffness over one revolution: one and two elements against the converged beam and the
+    published shell maximum."""
     case = site.case("spherical_joint")
     point = next((p for p in case.points if p.name == "default"), None) if case else None
     wanted = (("collocation", 1), ("sheet_third", 1), ("sheet_third", 2), ("sheet_second", 1),
@@ -112,7 +112,7 @@ def curve_figure(site):
 
 
 def growth_figure(site, cells):
-    """Time of the whole curve against elements per sheet, and the parts of an iteration."""
+    """Draws the time of the whole curve against elements per sheet, and the parts of an iteration."""
     joint = [c for c in cells if c.case == "spherical_joint"]
     if not joint:
         return None
@@ -149,13 +149,13 @@ def growth_figure(site, cells):
 
 
 def factor_of_orders(cells):
-    """Time of two second-order elements against one of third order in the hexapod."""
+    """Returns the time of two second-order elements relative to one of third order in the hexapod."""
     at = {(c.key, c.n): c.seconds for c in cells if c.case == "hexapod"}
     return at.get(("sheet_second", 2), math.nan) / at.get(("sheet_third", 1), math.nan)
 
 
 def farthest(rows):
-    """Largest relative difference from the published values; NaN if one is unknown."""
+    """Returns the largest relative difference from the published values; NaN if one is unknown."""
     known = [abs(r["ours"] / r["published"] - 1) for r in rows]
     return max(known) if all(map(math.isfinite, known)) else math.nan
 

@@ -1,4 +1,4 @@
-"""Motions in time: integrators, energies, momenta, steps, quantities over time; a page for each case that has one
+"""Motion pages: integrators, energies, momenta, steps, and quantities over time; one page for each case with a motion
 (table `motion` of the results)."""
 import functools
 import math
@@ -15,8 +15,8 @@ from reports.chart import Chart
 from reports.data import holds, text
 from reports.style import COLOURS
 
-# Motions in a results file: the table `motion`, with a row for each accepted step, and
-# the settings of their integrators, from the scene.
+# Motions in a results file: the table `motion`, with a row for each accepted step, and the settings of the
+# integrators, from the scene.
 
 TABLE = "motion"
 MOMENTA = {"P": ("px", "py", "pz"), "L": ("lx", "ly", "lz")}
@@ -24,7 +24,7 @@ MOMENTA = {"P": ("px", "py", "pz"), "L": ("lx", "ly", "lz")}
 
 @dataclass
 class Motion:
-    """One motion. columns: {name: values}, the first row is the start."""
+    """One motion. columns: {name: values}; the first row is the start."""
 
     formulation: str
     elements: int
@@ -36,7 +36,7 @@ class Motion:
 
     @property
     def steps(self):
-        """Lengths of the steps [s]."""
+        """Returns the lengths of the steps [s]."""
         return self.columns["step"][1:]
 
     @property
@@ -54,11 +54,11 @@ class Motion:
         return self.columns["drift"] / (self.scale or 1)
 
     def momentum(self, which):
-        """[steps x 3] of P or L."""
+        """Returns P or L [steps x 3]."""
         return np.stack([self.columns[name] for name in MOMENTA[which]], axis=1)
 
     def stays(self, which):
-        """Largest relative change of a momentum, or NaN if there is none."""
+        """Returns the largest relative change of a momentum, or NaN if there is none."""
         found = self.momentum(which)
         size = np.linalg.norm(found, axis=1).max()
         change = np.linalg.norm(found - found[0], axis=1).max()
@@ -66,7 +66,7 @@ class Motion:
 
 
 def motions_of(path, case, point="default"):
-    """[Motion] of a case at a point: the finest mesh of each formulation."""
+    """Returns [Motion] of a case at a point: the finest mesh of each formulation."""
     with h5py.File(path) as file:
         group = file[f"cases/{case}"]
         if TABLE not in group or not len(group[TABLE]):
@@ -101,14 +101,14 @@ def how(point):
 
 @dataclass(frozen=True)
 class Truth:
-    """A value that is known at an instant."""
+    """A reference value at an instant."""
 
     time: float
     value: float
 
 
 def truths_of(path, case, quantity, end):
-    """[Truth] of a quantity at the defaults, for any `time`; end: its default."""
+    """Returns [Truth] of a quantity at the defaults, for any `time`; end: its default."""
     with h5py.File(path, driver="core", backing_store=False) as file:
         group = file["truths"].get(case)
         names = ("parameters", "quantity", "model", "formulation")
@@ -130,7 +130,7 @@ ROUND_OFF = 1e-6  # momenta that change by less count as conserved
 
 
 def scheme(how):
-    """Name and parameters of the integrator of a motion."""
+    """Returns the name and parameters of the integrator of a motion."""
     name = how.get("integrator", "alpha")
     if name != "alpha":
         return name
@@ -166,13 +166,13 @@ def words_of_momenta(motion):
 
 
 def sentence(motion, how):
-    """One motion in one sentence."""
+    """Describes one motion in one sentence."""
     rejected = int(motion.columns["rejected"].sum())
     tries = (f" ({rejected} longer {'one' if rejected == 1 else 'ones'} rejected)"
              if rejected else "")
     drift = float(np.abs(motion.drift).max())
     name = scheme(how)
-    tolerance = float(how.get("tolerance", 0))  # YAML reads 1e-05 as a text
+    tolerance = float(how.get("tolerance", 0))  # YAML reads 1e-05 as a string
     by = f" with a tolerance of {tolerance:g} a step" if tolerance else ""
     return (f"{name[0].upper()}{name[1:]}{by} takes {words_of_steps(motion)}{tries} to "
             f"{motion.time[-1]:.4g} s, {motion.columns['iterations'][1:].mean():.1f} iterations "
@@ -181,7 +181,7 @@ def sentence(motion, how):
 
 
 def between(values, form):
-    """`least to largest`; one value where both print the same."""
+    """Returns `smallest to largest`, or one value if both print the same."""
     least, most = form.format(min(values)), form.format(max(values))
     return least if least == most else f"{least} to {most}"
 
@@ -192,7 +192,7 @@ def whenever(meaning):
 
 
 def spread(motions):
-    """Compares the other formulations, or returns nothing."""
+    """Compares the other formulations; empty if there are none."""
     if len(motions) < 2:
         return ""
     drifts = [float(np.abs(m.drift).max()) for m in motions]
@@ -201,15 +201,15 @@ def spread(motions):
             f"{between(drifts, '{:.0e}')}, and a step takes {between(counts, '{:.1f}')} iterations.")
 
 
-# Numbers of an axis near one: values in thousandths or millionths of a unit, or in thousands.
+# Scales the numbers of an axis close to one: values in thousandths or millionths of a unit, or in thousands.
 
 PREFIXES = ((1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"))
 POWERS = {1e-6: "10⁻⁶ ", 1e-3: "10⁻³ ", 1e3: "10³ "}
-PLAIN = ("m", "rad", "J", "N", "N m", "s")  # units that take a prefix as they are
+PLAIN = ("m", "rad", "J", "N", "N m", "s")  # units that take a prefix unchanged
 
 
 def fitting(values, unit):
-    """(size of the unit that suits them, its name)."""
+    """Returns (size of a suitable unit, its name)."""
     largest = float(np.abs(np.asarray(values, float)).max(initial=0))
     size, prefix = 1.0, ""
     for one, name in PREFIXES:
@@ -226,8 +226,8 @@ def fitting(values, unit):
 
 WIDE, HALF = (640, 200), (300, 170)
 MOST_POINTS = 150  # of a curve
-MOST_CURVES = 7  # with the reference value, one fewer than a figure shows at first
-FLOOR = 1e-17  # of the drifts that are drawn
+MOST_CURVES = 7  # with the reference value, one fewer than a figure initially shows
+FLOOR = 1e-17  # smallest drawn drift
 # column: name, colour, line
 ENERGIES = {"kinetic": ("kinetic", 0, "-"), "strain": ("strain", 1, "-"),
             "work": ("work", 2, "--"), "dissipated": ("dissipated", 3, "-."),
@@ -236,19 +236,19 @@ AXES = {"x": (0, "-"), "y": (1, "--"), "z": (2, ":")}
 
 
 def thinned(values, most=MOST_POINTS):
-    """Indices of this number of values, evenly spaced, including both ends."""
+    """Returns indices of this number of values, evenly spaced, including both ends."""
     return np.unique(np.linspace(0, len(values) - 1, min(len(values), most)).round().astype(int))
 
 
 def largest(x, y, most=MOST_POINTS):
-    """(x, y) of the largest y in each of this number of parts, so that no peak is lost."""
+    """Returns (x, y) of the largest y in each of this number of parts, so that no peak is lost."""
     parts = np.array_split(np.arange(len(y)), min(len(y), most))
     at = [int(part[np.nanargmax(y[part])]) for part in parts]
     return x[at], y[at]
 
 
 def line(site, panel, name, look, x, y, unit, size):
-    """A curve that belongs to no formulation; size: that of the unit of the axis."""
+    """Draws a curve that belongs to no formulation; size: that of the unit of the axis."""
     index, dash = look
     marks = thinned(x, 9)
     told = site.points(name, ("time", f"value [{unit}]"),
@@ -259,7 +259,7 @@ def line(site, panel, name, look, x, y, unit, size):
 
 
 def draw_energies(site, motion, name):
-    """Kinetic energy, strain energy, work and dissipated energy."""
+    """Draws kinetic energy, strain energy, work and dissipated energy."""
     chart = Chart(1, WIDE)
     values = {**motion.columns, "energy": motion.energy}
     size, unit = fitting(motion.scale, "J")
@@ -274,7 +274,7 @@ def draw_energies(site, motion, name):
 
 
 def draw_momenta(site, motion, name):
-    """Momentum and angular momentum, a panel each."""
+    """Draws momentum and angular momentum, each in a panel."""
     chart = Chart(2, HALF, gap=(76, 52))
     at = thinned(motion.time)
     for which, words, unit in (("P", "momentum", "kg m/s"), ("L", "angular momentum", "kg m²/s")):
@@ -294,7 +294,7 @@ def leading(motions):
 
 
 def compared(site, panel, motion, x, y, what):
-    """A curve of a formulation."""
+    """Draws a curve of a formulation."""
     marks = thinned(x, 9)
     look = site.points(motion.formulation, ("time", what),
                        [(f"{x[i]:.4g} s", float(f"{y[i]:.3g}")) for i in marks],
@@ -303,7 +303,7 @@ def compared(site, panel, motion, x, y, what):
 
 
 def draw_drifts(site, motions, name):
-    """Drift of energy of the formulations."""
+    """Draws the energy drift of the formulations."""
     chart = Chart(1, WIDE)
     panel = chart.panel("", "time [s]", "drift of energy", xlog=False)
     for motion in leading(motions):
@@ -313,7 +313,7 @@ def draw_drifts(site, motions, name):
 
 
 def draw_steps(site, motions, name):
-    """Lengths of steps and iterations; for equal steps, iterations only."""
+    """Draws step lengths and iterations; for equal steps, iterations only."""
     told = leading(motions)
     equal = all(np.ptp(m.steps) <= 1e-6 * m.steps.max() for m in told)
     chart = Chart(1 if equal else 2, WIDE if equal else HALF, gap=(76, 52))
@@ -332,8 +332,8 @@ def draw_steps(site, motions, name):
 
 
 def over_time(case, quantity):
-    """{formulation: (times, values, elements, whole)} of finest meshes: the curve of the quantity,
-    or its values at points that only differ in `time`."""
+    """Returns {formulation: (times, values, elements, whole)} of the finest meshes: the curve of the quantity, or its
+    values at points that differ only in `time`."""
     out, end = {}, end_of(case)
     for series in case.points[0].series:
         curves = [m for m in series.meshes if quantity in m.curves and
@@ -356,13 +356,14 @@ def over_time(case, quantity):
 
 
 def end_of(case):
-    """Default of the parameter `time`, or None."""
+    """Returns the default of the parameter `time`, or None."""
     found = [p for p in case.parameters if p["parameter"] == "time"]
     return float(found[0]["default"]) if found else None
 
 
 def draw_quantity(site, case, name, image):
-    """A quantity over time with its reference values, as far as it was computed; None for a single instant."""
+    """Draws a quantity over time with its reference values, as far as it was computed. Returns None for a single
+    instant."""
     found, end = over_time(case, name), end_of(case)
     instants = {t for x, *_ in found.values() for t in x}
     if len(instants) < 2:
@@ -403,7 +404,7 @@ def file_of(case):
 
 
 def leader(motions):
-    """Whose energies and momenta are drawn."""
+    """Returns the motion whose energies and momenta are drawn."""
     return leading(motions)[0]
 
 
@@ -433,7 +434,7 @@ def found_in(site):
 
 
 def section(site, case):
-    """Returns the section on motions of the page of a case."""
+    """Returns the motions section on the page of a case."""
     motions = motions_of(site.results, case.name)
     if not motions:
         return []

@@ -1,8 +1,8 @@
-"""The bar on top of every page: groups of pages, and the pages of the group that is open."""
+"""The bar at the top of every page: groups of pages, and the pages of the open group."""
 from dataclasses import dataclass
 
-# Title, and its pages in order; a group without pages is not shown. Pages that stand in no group
-# come with those of the last one.
+# Titles, each with its pages in order; a group without pages is not shown. Pages in no group are listed with the last
+# one.
 GROUPS = (
     ("beamwork", ("index.html",)),
     ("Answers", ("answers.html", "explorer.html")),
@@ -17,7 +17,7 @@ GROUPS = (
     ("Glossary", ("glossary.html",)),
     ("About", ("environment.html", "checks.html", "convergence.html")),
 )
-SWEEP = "sweep_"  # how the files of sweeps begin
+SWEEP = "sweep_"  # prefix of the files of sweeps
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Group:
 
 
 def groups(pages):
-    """[Group] of the pages that there are, [(file, title)]."""
+    """Returns [Group] of the existing pages, [(file, title)]."""
     titles, placed = dict(pages), {file for _, files in GROUPS for file in files}
     found = []
     for title, files in GROUPS:
@@ -49,7 +49,8 @@ def groups(pages):
 
 
 def group_of(name, found, cases):
-    """The group that a page belongs to, or None: pages of cases and formulations are in theirs."""
+    """Returns the group that a page belongs to, or None. Pages of cases and formulations belong to the groups of the
+    same name."""
     if name.startswith("formulation_"):
         name = "formulations.html"
     elif name.startswith("motion_"):

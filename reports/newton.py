@@ -1,5 +1,5 @@
-"""Compares Newton's method in coordinates, strains and stresses at once with that in displacements only: the largest
-possible step, and its cost."""
+"""Compares Newton's method in coordinates, strains and stresses together with Newton's method in displacements only:
+the largest possible step, and its cost."""
 import functools
 import json
 import os
@@ -20,7 +20,8 @@ def read(path):
 
 
 def largest(values, iterations):
-    """(largest value from which all smaller ones converged in one step, iterations there), or (None, None)."""
+    """Returns (largest value up to which all smaller ones converged in one step, iterations there), or (None,
+    None)."""
     best = (None, None)
     for value, count in zip(values, iterations):
         if count is None:
@@ -30,7 +31,7 @@ def largest(values, iterations):
 
 
 def singles(data):
-    """[(case, [(formulation, unit, {form: (largest, iterations)}, tried)])]"""
+    """Returns [(case, [(formulation, unit, {form: (largest, iterations)}, tried)])]."""
     cases = {}
     for s in data["singles"]:
         row = (f"{s['formulation']}, n = {s['elements']}", s["unit"], {
@@ -42,13 +43,14 @@ def singles(data):
 
 
 def farther(data):
-    """(formulations, those for which the mixed form goes farther in one step, and less far)."""
+    """Returns (formulations, those for which the mixed form goes farther in one step, those for which it goes less
+    far)."""
     best = [[largest(s["values"], s[form])[0] or 0 for form in FORMS] for s in data["singles"]]
     return len(best), sum(m > d for m, d in best), sum(m < d for m, d in best)
 
 
 def contests(data):
-    """[(case, [(formulation, first steps, {form: summary})])]"""
+    """Returns [(case, [(formulation, first steps, {form: summary})])]."""
     cases = {}
     for c in data["contests"]:
         row = (f"{c['formulation']}, n = {c['elements']}", c["first_steps"], {
@@ -60,7 +62,7 @@ def contests(data):
 
 
 def figure_of(case, histories):
-    """Each correction over the one before it: slope two."""
+    """Draws each correction against the preceding one: slope two."""
     figure, axes = plt.subplots(figsize=(5.2, 4.2))
     for marker, form in zip("o+", FORMS):
         for h in (h for h in histories if h["form"] == form):
@@ -83,7 +85,7 @@ def figure_of(case, histories):
 
 
 def stored(site):
-    """The record beside the results, or None."""
+    """Returns the record next to the results, or None."""
     return read(os.path.join(os.path.dirname(site.results), "newton.json"))
 
 

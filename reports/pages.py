@@ -1,15 +1,14 @@
 """The pages of the report. A page is a module of this package with
 
-    NAVIGATION = [("newton.html", "iterations")]    # files and titles for the bar on top of every page
-    def tasks(site): return [functools.partial(write, site)]    # functions without arguments that write its files,
-    run side by side
+    NAVIGATION = [("newton.html", "iterations")]    # files and titles for the bar at the top of every page
+    def tasks(site): return [functools.partial(write, site)]    # functions that write its files in parallel
 
 and, if it adds to the pages of cases, def section(site, case), which returns [(heading, markup)].
 
 A page whose files depend on the results also has def navigation(site), which returns more of them.
 
-A page that needs data that not every results file contains also has def present(site): without its data it is omitted
-from the site, from the bar (navigation.py) and from links (has_page in templates).
+A page whose data may be missing from the results also has def present(site). Without its data, it is omitted from the
+site, from the bar (navigation.py) and from links (has_page in templates).
 """
 import importlib
 import multiprocessing
@@ -43,9 +42,9 @@ PAGES = (
     "glossary",
 )
 
-ALONE = ("sweep_page", "glossary")  # of a sweep without results
+ALONE = ("sweep_page", "glossary")  # pages of a sweep without results
 _tasks = [
-]  # of the run at hand; inherited by the processes of the pool, so that no record is copied
+]  # of the current run; inherited by the processes of the pool, so that no record is copied
 
 
 def _run(index):
@@ -53,7 +52,7 @@ def _run(index):
 
 
 def present(site):
-    """The modules whose data exist."""
+    """Returns the modules whose data exist."""
     names = ALONE if site.alone else PAGES
     modules = [importlib.import_module(f"reports.{name}") for name in names]
     return [m for m in modules if not hasattr(m, "present") or m.present(site)]

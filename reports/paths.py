@@ -1,5 +1,5 @@
-"""Equilibrium paths: load against deflection of the C-shaped cantilever next to 3-D solids, the conclusions of the
-paper from them, limit points."""
+"""Equilibrium paths: load against deflection of the C-shaped cantilever compared with 3-D solids, the paper's
+conclusions from them, and limit points."""
 import dataclasses
 import functools
 import math
@@ -15,7 +15,7 @@ NAVIGATION = [("paths.html", "paths")]
 
 CASE = "c_cantilever"
 EDGES = {"D": "load_height=edge;w=2.6",
-         "E": "load_point=E;load_height=edge;w=1.2"}  # the points for which solids were computed
+         "E": "load_point=E;load_height=edge;w=1.2"}  # the points for which solid models were computed
 FORMS = (("beamw_first", "first-order modes"), ("beamw_vlasov", "J Eq. 66"),
          ("beamw_consistent", "consistent second order"))
 EXACT, COARSE = "collocation", 10
@@ -27,7 +27,7 @@ EVENTS = ("limit point", "bifurcation", "branch jump")
 
 @dataclasses.dataclass
 class Solid:
-    """Points of a curve of another model."""
+    """Points on a curve of another model."""
     w: np.ndarray
     value: np.ndarray
     source: str
@@ -45,7 +45,7 @@ class Event:
 
 
 def solid(truths, parameters, quantity):
-    """Rows of a curve: points at the abscissae `at`."""
+    """Returns the rows of a curve: points at the abscissae `at`."""
     with h5py.File(truths) as file:
         if CASE not in file["truths"]:
             return None
@@ -83,7 +83,7 @@ def draw_curve(ax, mesh, quantity, scale, label, style):
 
 
 def draw_cantilever(site, look):
-    """Load and lateral displacement against w, for D and E, beside the solids."""
+    """Draws load and lateral displacement against w, for D and E, with the solid models."""
     figure, axes = plt.subplots(2, 2, figsize=(11, 7.4), sharex="col")
     for column, (letter, parameters) in enumerate(EDGES.items()):
         for row, (quantity, scale, label) in enumerate(
@@ -135,7 +135,7 @@ def draw_convergence(site, look, parameters):
 
 
 def draw_snap(site, look, case):
-    """A path with its critical points, by the consistent form on its finest mesh."""
+    """Draws a path with its critical points, computed with the consistent form on its finest mesh."""
     point = look.points.get((case, ""))
     series = next((s for s in point.series if s.key == "beamw_consistent"), None) if point else None
     if series is None or "curve" not in series.meshes[-1].curves:
@@ -168,7 +168,7 @@ def percent(value):
 
 
 def conclusions(site, look):
-    """[(what J section 5.2 says, what is measured)]"""
+    """Returns [(statement in J section 5.2, measured value)]."""
 
     def load(parameters, key, n):
         return look.value(CASE, parameters, key, n, "load_at_w")
@@ -203,7 +203,7 @@ def conclusions(site, look):
 
 
 def model_points(site, parameters):
-    """[(w, parameters of the point where the load is judged, the solids' load)]"""
+    """Returns [(w, parameters of the point at which the load is compared, load of the solid model)]."""
     other = solid(site.truths, parameters, "curve")
     base = parameters.rsplit(";", 1)[0]
     for w in (0.1, 0.2, 0.494, 0.5, 1.04, 1.2, 2.6):

@@ -1,5 +1,5 @@
-"""Pictures of every scene, undeformed and deformed, with its modes (shapes.py): a still one, and a model that can be
-rotated.
+"""Pictures of every scene, undeformed and deformed, with its modes (shapes.py): a still picture, and a model that can
+be rotated.
 
 Surfaces are projected in parallel and painted from back to front."""
 import functools
@@ -13,8 +13,8 @@ from reports import shapes
 from reports.shapes import CLAMPED, FRAME, bodies, distance, exaggeration, read, size_of, strips
 
 NAVIGATION = [("pictures.html", "pictures")]
-FLAT = 0.02  # extent to size below which a structure lies in a plane
-FAR, NEARLY = 0.45, 0.9  # of the largest distance: below a half and the whole, which evenly spaced states miss by a little
+FLAT = 0.02  # ratio of extent to size below which a structure lies in a plane
+FAR, NEARLY = 0.45, 0.9  # of the largest distance: below a half and the whole, which evenly spaced states miss slightly
 
 MEMBER, BODY, SUPPORT = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430"
 LIGHT = np.array([0.35, -0.55, 0.76])
@@ -39,7 +39,7 @@ class View:
 
 
 def best_view(s, states):
-    """Viewed from the side, or more from above if that shows significantly more of the displacements."""
+    """Returns the view from the side, or from higher up if that shows significantly more of the displacements."""
 
     def seen(view):
         return max((float(np.linalg.norm(view.flat(s.position[k] - s.position[0]), axis=1).max())
@@ -49,7 +49,7 @@ def best_view(s, states):
     moved = np.abs(s.position - s.position[0]).max(axis=(0, 1))
     if any(s.kind[k] == FRAME for k in states) and moved[2] < moved[:2].max() and \
             np.ptp(s.position[..., 2]) < FLAT * size_of(s):
-        return View(-90, 74)  # a motion in the plane of x and y: from above, x to the right
+        return View(-90, 74)  # motion in the xy plane: from above, x to the right
     side, above = View(), View(elevation=52)
     return above if seen(above) > 1.25 * seen(side) else side
 
@@ -63,7 +63,8 @@ def shade(polygon, colour):
 
 
 def supports(s):
-    """Nodes that do not move: held ones that are not bodies, those attached to a clamped body, hinges."""
+    """Returns the nodes that do not move: fixed nodes that are not bodies, nodes attached to a clamped body, and
+    hinges."""
     owner = {int(b) for b in s.body}
     return [
         i for i, (b, held) in enumerate(zip(s.body, s.held))
@@ -73,13 +74,13 @@ def supports(s):
 
 
 def hinges(s):
-    """Points at ends that are released."""
+    """Returns points at released ends."""
     ends = np.column_stack([s.first[:-1], s.first[1:] - 1])
     return ends[s.released != 0]
 
 
 def drawn_polygons(s, state, scale):
-    """[(corners, colour)] of one state, and of the undeformed one behind it (colour None)."""
+    """Returns [(corners, colour)] of one state, and of the undeformed one behind it (colour None)."""
     every = max(1, math.ceil(len(s.position[0]) / MOST_STRIPS))
     rest = [(p, None) for p in strips(s, 0, 1, every)] if state else []
     here = [(p, shade(p, MEMBER)) for p in strips(s, state, scale, every)]
@@ -88,7 +89,7 @@ def drawn_polygons(s, state, scale):
 
 
 class Sheet:
-    """The picture's frame: millimetres of paper for metres of the scene."""
+    """The frame of the picture: millimetres of paper for metres of the scene."""
 
     def __init__(self, view, points, width=560, most=380):
         flat = view.flat(points)
@@ -99,7 +100,7 @@ class Sheet:
         self.view, self.low = view, low - [(width / self.scale - span[0]) / 2, 30 / self.scale]
 
     def at(self, points):
-        """Places on the sheet, in pixels, to a tenth."""
+        """Returns positions on the sheet, in pixels, to a tenth."""
         x, y = ((self.view.flat(np.asarray(points)) - self.low) * self.scale).T
         return [f"{a:.1f} {self.height - b:.1f}" for a, b in zip(x, y)]
 
@@ -107,7 +108,7 @@ class Sheet:
         return "M" + "L".join(self.at(corners)) + ("z" if len(corners) > 2 else "")
 
     def bar(self):
-        """A bar of a round length."""
+        """Returns a scale bar of a round length."""
         length = 10 ** math.floor(math.log10(0.4 * self.width / self.scale))
         words = f"{length:g} m" if length >= 1 else f"{1e3 * length:g} mm"
         x, y = 10 + length * self.scale, self.height - 10
@@ -116,7 +117,7 @@ class Sheet:
 
 
 def still(s, state):
-    """One state over the pale undeformed one, as SVG: shown where the model cannot be rotated."""
+    """Returns one state over the pale undeformed one, as SVG, which is shown where the model cannot be rotated."""
     scale = 1 if s.kind[state] == FRAME else exaggeration(s, state)
     view = best_view(s, [state])
     rest, here = drawn_polygons(s, state, scale)
@@ -156,8 +157,8 @@ def title_of(s, state, scale):
 
 
 def chosen(s):
-    """States with a picture: the first far state of a path and the last state that is farthest from it, a linear
-    solution, the first modes."""
+    """Returns the states with a picture: the first distant state of a path and the last state that is farthest from
+    it, a linear solution, and the first modes."""
     path = [k for k, kind in enumerate(s.kind) if kind in ("path", FRAME)]
     out = [0]
     if path:
@@ -173,7 +174,7 @@ def chosen(s):
 
 
 def draw(site, case, s):
-    """The still picture and the shape that can be rotated, as files."""
+    """Writes the still picture and the model that can be rotated as files."""
     worth = chosen(s)
     first = worth[min(1, len(worth) - 1)]
     start = max((k for k in worth if s.kind[k] in ("path", FRAME)), default=first)
@@ -199,7 +200,7 @@ def caption(s):
 
 
 def markup(case, s):
-    """The element of the viewer with the still picture in it, for the pages of cases."""
+    """Returns the viewer element with the still picture in it, for the pages of cases."""
     name = html.escape(case.name)
     image = f'<img src="picture_{name}.svg" alt="{name}, undeformed and deformed" loading="lazy">'
     place = shapes.markup(case.name, image, f"{case.name} in space")

@@ -1,5 +1,4 @@
-"""Parts of all figures of errors: axes, which formulations are drawn, marks below the reference value's
-digits."""
+"""Parts of all error figures: axes, the formulations drawn, and markers below the digits of the reference value."""
 import math
 
 import numpy as np
@@ -8,15 +7,15 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormat
 from reports import answers, data, style, verdicts
 from reports.chart import Chart
 
-FLOOR = 1e-13  # below it errors are round-off
-NEARLY = 1e-10  # errors that are of no interest
+FLOOR = 1e-13  # errors below this value are round-off
+NEARLY = 1e-10  # errors below this value are of no interest
 CEILING = 1e3  # larger values count as diverged
 MOST_CURVES = style.MOST  # of formulations in a figure
 OPEN = "open: below the reference value's own digits"
 
 
 def log_axis(axis, whole=False):
-    """Few ticks: whole numbers as such, else powers of ten."""
+    """Sets few ticks: whole numbers as such, otherwise powers of ten."""
     low, high = axis.get_view_interval()
     decades = math.log10(high / low) if low > 0 else 6
     if whole and decades < 0.7:
@@ -45,13 +44,14 @@ def clipped(error):
 
 
 def finite(series, quantity, errors="errors"):
-    """[(mesh, magnitude of its error)] of those that have a value."""
+    """Returns [(mesh, magnitude of its error)] of the meshes with a value."""
     return [(m, clipped(getattr(m, errors)[quantity])) for m in series.meshes
             if math.isfinite(getattr(m, errors).get(quantity, math.nan))]
 
 
 def work_of(point):
-    """(label, function of a mesh) of the counted work: iterations, or evaluated elements if nothing iterates."""
+    """Returns (label, function of a mesh) of the counted work: iterations, or evaluated elements if nothing
+    iterates."""
     if any(m.iterations > 0 for s in point.series for m in s.meshes):
         return "Newton iterations", lambda m: m.iterations
     return ("evaluations of elements",
@@ -59,7 +59,7 @@ def work_of(point):
 
 
 def against(point, name):
-    """(label, function of a mesh, whole numbers) of an abscissa."""
+    """Returns (label, function of a mesh, whole numbers) of an abscissa."""
     return {"elements": ("elements per member", lambda m: m.n, True),
             "time": ("time [ms]: set-up and solution", lambda m: 1e3 * m.seconds, False),
             "unknowns": ("unknowns", lambda m: m.free, True),
@@ -75,8 +75,8 @@ def tolerance_of(point, quantity):
 
 
 def digits_of(point, quantity):
-    """Relative uncertainty of the reference value: smaller errors have no meaning. None if it is below the range of
-    the plot."""
+    """Returns the relative uncertainty of the reference value, below which errors have no meaning; None if it is below
+    the range of the plot."""
     found = (answers.verdict_of(s, quantity) for s in point.series)
     known = [v.truth_uncertainty / abs(v.truth) for v in found
              if v and v.truth and math.isfinite(v.truth)]
@@ -85,8 +85,8 @@ def digits_of(point, quantity):
 
 
 def leading(point, quantity):
-    """(series to draw, further ones): at most MOST_CURVES. Kept misprints and options are dropped
-    first (but options on the front of time and error are drawn), then what is least exact."""
+    """Returns (series to draw, further ones): at most MOST_CURVES. Uncorrected misprints and options are dropped first
+    (but options on the front of time and error are drawn), then the least accurate series."""
     drawn = [s for s in point.series if finite(s, quantity)]
     front = {s.key for s, _ in answers.front(point, quantity)}
 
@@ -102,8 +102,8 @@ def leading(point, quantity):
 
 
 def telling(point, quantities):
-    """The first of these in which most formulations differ from the reference value on their coarsest mesh, if there
-    is one; otherwise the first."""
+    """Returns the first of these quantities in which most formulations differ from the reference value on their
+    coarsest mesh, or the first quantity if there is none."""
     def tells(quantity):
         least = max(digits_of(point, quantity) or 0, NEARLY)
         first = [pairs[0][1] for pairs in (finite(s, quantity) for s in point.series) if pairs]
@@ -113,7 +113,8 @@ def telling(point, quantities):
 
 
 def marks_of(site, point, series, quantity, meshes, errors="errors"):
-    """Arguments of plot() for the curve of a formulation through these meshes, with the values for its marks."""
+    """Returns the arguments of plot() for the curve of a formulation through these meshes, with the values of its
+    markers."""
     v = answers.verdict_of(series, quantity)
     unit = point.units.get(quantity, "")
     columns = ("elements", f"value [{unit}]" if unit else "value", "error", "time [s]", "unknowns",
@@ -125,8 +126,8 @@ def marks_of(site, point, series, quantity, meshes, errors="errors"):
 
 
 def draw_series(site, panel, point, series, quantity, where, errors="errors", told=True, **look):
-    """The curve of a formulation. Marks below the reference value's digits are open and lie on these digits,
-    on the grey ground. `told`: each mark carries its values."""
+    """Draws the curve of a formulation. Markers below the digits of the reference value are hollow and lie at the
+    limit of these digits, on the grey background. `told`: each marker carries its values."""
     digits = digits_of(point, quantity) if errors == "errors" else None
     pairs = [(m, e) for m, e in finite(series, quantity, errors) if where(m) > 0]
     if not pairs:
@@ -154,7 +155,7 @@ def draw_series(site, panel, point, series, quantity, where, errors="errors", to
 
 
 def slope_triangle(panel, shown, quantity):
-    """Order of the most accurate formulation, next to its last points."""
+    """Draws the order of the most accurate formulation next to its last points."""
     best = None
     for series in shown:
         pairs, v = finite(series, quantity), answers.verdict_of(series, quantity)
@@ -171,7 +172,7 @@ def slope_triangle(panel, shown, quantity):
 
 
 def draw_failures(site, panel, shown, quantity, where):
-    """Crosses on the upper edge for cells without a value."""
+    """Draws crosses on the upper edge for runs without a value."""
     for series in shown:
         look = site.styles.of(series.key)
         for mesh in series.meshes:
@@ -180,7 +181,7 @@ def draw_failures(site, panel, shown, quantity, where):
 
 
 def front_line(point, quantity):
-    """Times and errors of the front, as a staircase."""
+    """Returns the times and errors of the front, as a staircase."""
     least = digits_of(point, quantity) or FLOOR
     best = [(1e3 * m.seconds, max(clipped(m.errors[quantity]), least))
             for _, m in answers.front(point, quantity)]
@@ -188,8 +189,7 @@ def front_line(point, quantity):
     return [p for pair in zip(best, corners + [None]) for p in pair if p]
 
 
-# Figures of a case, each for one question: errors of a quantity, those of the others, curves of
-# paths.
+# Figures of a case, each for one question: errors of a quantity, errors of the others, curves of paths.
 
 ONE = (520, 280)  # axes of a figure with one panel [pixels]
 TWO = (400, 260)  # of each of two side by side
@@ -197,8 +197,8 @@ SMALL = (250, 150)  # of one among many
 
 
 def errors_figure(site, point, quantity, shown, abscissae, name, told=True):
-    """Error of one quantity against elements, time, unknowns or work, a panel for each that is
-    named. None when there is no error. `told`: marks carry their values."""
+    """Draws the error of one quantity against elements, time, unknowns or work, with a panel for each of the given
+    abscissae. Returns None if there is no error. `told`: markers carry their values."""
     if not any(finite(s, quantity) for s in [*shown, *point.others]):
         return None
     chart = Chart(len(abscissae), ONE if len(abscissae) == 1 else TWO)
@@ -232,7 +232,7 @@ def draw_errors(site, panel, point, quantity, shown, abscissa, told):
 
 
 def draw_times(site, panel, point, shown, quantity):
-    """The front of the best results, and the noise of times."""
+    """Draws the front of the best results, and the scatter of times."""
     line = front_line(point, quantity)
     panel.plot([x for x, _ in line], [y for _, y in line], back=True, color="currentColor",
                linewidth=5, alpha=0.15)
@@ -245,7 +245,7 @@ def draw_times(site, panel, point, shown, quantity):
 
 
 def shown_in_all(point, quantities, errors="errors"):
-    """At most MOST_CURVES: those that are drawn of most of these quantities."""
+    """Returns at most MOST_CURVES series: those drawn for most of these quantities."""
     if errors != "errors":
         own = [s for s in point.series if any(finite(s, q, errors) for q in quantities)]
         plain = [s for s in own if ":" not in s.key and verdicts.corrected(s.key) is None]
@@ -260,7 +260,7 @@ def shown_in_all(point, quantities, errors="errors"):
 
 def small_multiples(site, point, quantities, name, errors="errors", ylabel="relative error",
                     abscissa="time"):
-    """One small panel for each quantity, the same formulations in all."""
+    """Draws one small panel for each quantity, with the same formulations in all."""
     columns = min(3, len(quantities))
     chart = Chart(columns, SMALL if len(quantities) > 1 else ONE, gap=(66, 62))
     label, where, whole = against(point, abscissa)
@@ -275,8 +275,8 @@ def small_multiples(site, point, quantities, name, errors="errors", ylabel="rela
 
 
 def curves(site, point, quantity, name):
-    """The curve of every formulation on its finest mesh, of MOST_CURVES at most. Over frequencies as in a Bode plot:
-    these by their logarithm, and values too where all are amplitudes."""
+    """Draws the curve of every formulation on its finest mesh, at most MOST_CURVES. Curves over frequency have
+    logarithmic frequencies, as in a Bode plot, and logarithmic values if all are amplitudes."""
     found = [(s, [m for m in s.meshes if quantity in m.curves and len(m.curves[quantity][0])])
              for s in point.series]
     found = sorted((f for f in found if f[1]),

@@ -1,4 +1,4 @@
-"""Compares analytic predictions with single elements, on the pages of the cases that have some."""
+"""Compares analytic estimates with single elements, on the pages of the cases that have estimates."""
 import math
 
 from markupsafe import Markup
@@ -19,7 +19,7 @@ def truths_of(point):
 
 
 def of_point(point):
-    """[(quantity, prediction, its error, [(formulation, error of its coarsest mesh)])]"""
+    """Returns [(quantity, estimate, its error, [(formulation, error of its coarsest mesh)])]."""
     known = truths_of(point)
     coarsest = [(s.key, s.meshes[0]) for s in point.series if s.meshes]
     predictions = {name: value for _, mesh in coarsest for name, value in mesh.predictions.items()}

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from reports import answers, verdicts
 from reports.verdicts import OWN_LIMITS, UNJUDGED
 
-COUNTS = {  # measures of cost of a mesh
+COUNTS = {  # cost measures of a mesh
     "cost": lambda mesh: mesh.cost,  # [s] counted work, with the cost coefficients of the reference machine
     "unknowns": lambda mesh: max(1, mesh.free),
 }
@@ -22,18 +22,18 @@ COUNTS = {  # measures of cost of a mesh
 
 @dataclass
 class Problem:
-    """tries: {formulation: (data.Series, data.Verdict)} of those that support what it needs."""
+    """tries: {formulation: (data.Series, data.Verdict)} of those that support the problem."""
 
     case: str
     point: str
     quantity: str
     tries: dict
     meshes: list  # of all runs of the same structure
-    least: dict = field(default_factory=dict)  # measure -> smallest value of all those meshes
+    least: dict = field(default_factory=dict)  # measure -> smallest value over all those meshes
 
 
 def contestants(cases):
-    """Keys of formulations that were run and have a rank, without options and misprints if possible."""
+    """Returns the keys of formulations that were run and have a rank, without options and misprints if possible."""
     keys = {s.key for c in cases for p in c.points for s in p.series
             if not s.missing and not s.unranked}
     plain = {k for k in keys if ":" not in k and verdicts.corrected(k) is None}
@@ -51,7 +51,7 @@ def tries_of(point, quantity, keys):
 
 
 def problems_of(case, keys):
-    """The problems of a case, with the smallest cost of any run of their structure."""
+    """Returns the problems of a case, with the smallest cost of any run of their structure."""
     found, second_names = [], verdicts.aliases(case)
     for point in case.points:
         meshes = [m for s in point.series for m in s.meshes if m.status == "ok"]
@@ -82,13 +82,13 @@ def any_defect(verdict, level):
 
 
 def no_defect(verdict, level):
-    """Only the errors of the meshes count, regardless of the limit."""
+    """Ignores the limit: only the errors of the meshes count."""
     del verdict, level
     return False
 
 
 def solved(problem, key, level, forbids=defect):
-    """The data.Mesh that solves it, or None. forbids: the known defect that counts as not solved."""
+    """Returns the data.Mesh that solves it, or None. forbids: the known defect that counts as not solved."""
     if key not in problem.tries:
         return None
     series, verdict = problem.tries[key]
@@ -99,34 +99,34 @@ def solved(problem, key, level, forbids=defect):
 
 
 def weights(found, key=None):
-    """Weight of each problem, with a sum of 1; key: only problems that this formulation supports."""
+    """Returns the weight of each problem, with a sum of 1; key: only problems that this formulation supports."""
     kept = [p for p in found if key is None or key in p.tries]
     sizes = Counter(p.case for p in kept)
     return [(p, 1 / sizes[p.case] / len(sizes)) for p in kept]
 
 
 def paid(problem, keys, level, count, forbids=defect):
-    """{formulation: cost of the mesh that solves it}; infinite if none does."""
+    """Returns {formulation: cost of the mesh that solves it}; infinite if none does."""
     meshes = {key: solved(problem, key, level, forbids) for key in keys}
     return {key: COUNTS[count](m) if m else math.inf for key, m in meshes.items()}
 
 
 def to_the_best(problem, bills, count):
-    """Unit of performance profiles (Dolan and More 2002): the lowest cost of any formulation."""
+    """Returns the unit of performance profiles (Dolan and More 2002): the lowest cost of any formulation."""
     del problem, count
     return min(bills.values(), default=math.inf)
 
 
 def to_the_smallest(problem, bills, count):
-    """Unit of data profiles (More and Wild 2009), which depends neither on a tolerance nor on other formulations: the
-    smallest cost of any run of the same structure, regardless of its error."""
+    """Returns the unit of data profiles (More and Wild 2009), which depends neither on a tolerance nor on other
+    formulations: the smallest cost of any run of the same structure, regardless of its error."""
     del bills
     return problem.least[count]
 
 
 @dataclass(frozen=True)
 class Question:
-    """Definition of a profile: error level, cost measure, unit, and the defects that exclude."""
+    """Definition of a profile: error level, cost measure, unit, and the defects that exclude a formulation."""
 
     level: float
     count: str = "cost"
@@ -135,7 +135,7 @@ class Question:
 
 
 def factors(found, keys, question):
-    """{formulation: [(problem, its cost over the unit)]}; infinite if it does not solve it."""
+    """Returns {formulation: [(problem, its cost over the unit)]}; infinite if the formulation does not solve it."""
     out = {key: [] for key in keys}
     for problem in found:
         bills = paid(problem, keys, question.level, question.count, question.forbids)
@@ -162,13 +162,13 @@ COLUMN = {verdict: name for name, verdicts in GROUPS.items() for verdict in verd
 
 @dataclass
 class TrustRow:
-    """One formulation; shares are of the weight of all problems (reports/problems.py)."""
+    """One formulation; shares are fractions of the weight of all problems."""
 
     key: str
     counts: dict  # column of GROUPS -> verdicts
     offered: float = math.nan
     solved: float = math.nan  # to LEVEL
-    near: float = math.nan  # to LEVEL within NEAR times the best
+    near: float = math.nan  # share solved to LEVEL within NEAR times the best
     factor: float = math.nan  # relative to the best: the median over the problems that it solves to LEVEL
 
     @property
@@ -186,7 +186,7 @@ class TrustRow:
 
 
 def median(pairs):
-    """Returns the weighted median: half of the weight is at or below it; NaN where there is none."""
+    """Returns the weighted median: half of the weight is at or below it; NaN if there is none."""
     half, reached = sum(w for _, w in pairs) / 2, 0.0
     for value, weight in sorted(pairs):
         reached += weight
@@ -196,7 +196,7 @@ def median(pairs):
 
 
 def count_trust(cases):
-    """{formulation: {column: number}} over all points and quantities, without second names."""
+    """Returns {formulation: {column: number}} over all points and quantities, without second names."""
     out = {}
     for row in verdicts.rows(cases):
         name = COLUMN.get(row.verdict.verdict)
@@ -207,12 +207,12 @@ def count_trust(cases):
 
 
 def judged(cases):
-    """Every formulation with a verdict, with any options."""
+    """Returns every formulation with a verdict, with any options."""
     return [key for key, counts in count_trust(cases).items() if sum(counts.values())]
 
 
 def speed(row, found, pairs):
-    """Fills the data on problems of a row. pairs: [(problem, factor to the best)]."""
+    """Fills in the data on problems in a row. pairs: [(problem, cost relative to the best)]."""
     weight = {id(p): w for p, w in weights(found)}
     reached = [(f, weight[id(p)]) for p, f in pairs if math.isfinite(f)]
     row.offered = sum(weight[id(p)] for p in found if row.key in p.tries)
@@ -222,7 +222,7 @@ def speed(row, found, pairs):
 
 
 def trust_table(cases, found, keys):
-    """[Row] of these formulations, as far as they have verdicts."""
+    """Returns [TrustRow] of these formulations, as far as they have verdicts."""
     counts, measured = count_trust(cases), factors(found, contestants(cases), Question(LEVEL))
     rows = [TrustRow(key, counts[key]) for key in keys if sum(counts.get(key, {}).values())]
     for row in rows:
@@ -232,14 +232,14 @@ def trust_table(cases, found, keys):
 
 
 def trust_order(row):
-    """Sorts by the number of solved problems; formulations that are not compared (options, kept misprints) come
+    """Sorts by the number of solved problems; formulations that are not compared (options, uncorrected misprints) come
     last."""
     solved = row.solved if math.isfinite(row.solved) else -1
     return -round(solved, 6), -round(row.share, 6), row.key
 
 
 def wrong_cases(cases, key):
-    """{case: verdicts} for which a formulation converges to a wrong limit, most first."""
+    """Returns {case: verdicts} for which a formulation converges to a wrong limit, most first."""
     sizes = {}
     for row in verdicts.rows(cases):
         wrong = COLUMN.get(row.verdict.verdict) in ("predicted", "wrong")

@@ -11,7 +11,7 @@ from reports.chart import Axis, Chart
 from reports.problems import Question, any_defect, defect, no_defect, to_the_best, to_the_smallest
 from reports.style import plt
 
-ROUND = (1, 1.2, 1.4, 1.7, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8)  # in each decade, where shares are read
+ROUND = (1, 1.2, 1.4, 1.7, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8)  # in each decade, at which shares are read
 FARTHEST = {to_the_best: 100, to_the_smallest: 1000}  # where the axis ends
 SLACK = 1e-9  # of a factor: equal costs stay equal in floating point
 
@@ -43,15 +43,15 @@ PICTURES = (
 
 
 def places(farthest):
-    """Factors at which shares are read: round numbers from 1 to a power of ten."""
+    """Returns the factors at which shares are read: round numbers from 1 to a power of ten."""
     tens = [10**i for i in range(round(math.log10(farthest)))]
     return [round(ten * x, 1) for ten in tens for x in ROUND] + [farthest]
 
 
 def shares(pairs, at):
-    """Share of the weight of problems solved within each factor, and at last at any.
+    """Returns the share of the weight of problems solved within each factor, and last the share solved at any factor.
 
-    pairs: [(factor, weight)] of one formulation, infinite where it does not solve; at: ascending.
+    pairs: [(factor, weight)] of one formulation, infinite if it does not solve the problem; at: ascending.
     """
     ordered = sorted(pairs)
     whole, reached, i, out = sum(w for _, w in ordered), 0.0, 0, []
@@ -69,7 +69,7 @@ def weight_of(found, key=None):
 
 
 def profile(found, keys, question, offered=False):
-    """{formulation: shares at `places`, and the share that it solves at all}."""
+    """Returns {formulation: shares at `places`, and the share that it solves at any factor}."""
     at, everything = places(FARTHEST[question.unit]), weight_of(found)
     out = {}
     for key, pairs in problems.factors(found, keys, question).items():
@@ -79,13 +79,13 @@ def profile(found, keys, question, offered=False):
 
 
 def read_at(curves, at, factor):
-    """[(share within the factor, formulation)], the largest first; factor: one of the places."""
+    """Returns [(share within the factor, formulation)], the largest first; factor: one of the places."""
     i = at.index(factor)
     return sorted(((values[i], key) for key, values in curves.items()), reverse=True)
 
 
 class Compared:
-    """Comparison of results: problems, the formulations, those of them with a curve."""
+    """Comparison of results: the problems, the formulations, and those with a curve."""
 
     def __init__(self, cases):
         self.keys = problems.contestants(cases)
@@ -97,11 +97,11 @@ class Compared:
 
     @property
     def any(self):
-        """Is there a comparison: a problem, and two formulations to solve it?"""
+        """Can anything be compared: is there a problem, and are there two formulations to solve it?"""
         return bool(self.problems) and len(self.keys) > 1
 
     def profile(self, question, offered=False):
-        """{formulation: shares at `places`, and the share that it solves at all}."""
+        """Returns {formulation: shares at `places`, and the share that it solves at any factor}."""
         if (question, offered) not in self._profiles:
             found = profile(self.problems, self.keys, question, offered)
             self._profiles[question, offered] = found
@@ -123,14 +123,14 @@ def xlabel(picture):
 
 
 def marks_of(site, key, at, shares, marked):
-    """Arguments of plot() for a curve whose marks give the share, and the share solved at any cost."""
+    """Returns the arguments of plot() for a curve whose markers give the share, and the share solved at any cost."""
     rows = [(f"{x:g}", f"{100 * share:.1f} %", f"{100 * shares[-1]:.1f} %")
             for x, share in list(zip(at, shares))[marked]]
     return site.points(key, ("factor", "solved", "at any cost"), rows)
 
 
 def legend_of(site, keys, name="profile_legend"):
-    """One legend for all figures of the page."""
+    """Draws one legend for all figures of the page."""
     columns = min(2, len(keys))
     figure, axes = plt.subplots(figsize=(1.95 * columns, 0.22 * -(-len(keys) // columns) + 0.06))
     lines = [axes.plot([], [], label=key, **site.styles.of(key))[0] for key in keys]
@@ -141,7 +141,7 @@ def legend_of(site, keys, name="profile_legend"):
 
 
 class Fixed(Axis):
-    """An axis whose limits and ticks are given. ticks: [(value, words)]"""
+    """An axis with given limits and ticks. ticks: [(value, label)]."""
 
     def __init__(self, log, limits, ticks):
         super().__init__(log)
@@ -164,7 +164,7 @@ def factors(farthest):
 
 
 def stairs(at, shares):
-    """Corners of the curve: a share holds from its factor on."""
+    """Returns the corners of the curve: a share holds from its factor on."""
     xs, ys = [at[0]], [shares[0]]
     for x, y in zip(at[1:], shares[1:]):
         if y != ys[-1]:
@@ -174,7 +174,7 @@ def stairs(at, shares):
 
 
 def figure_of(site, picture, curves, keys, name, size=(250, 175)):
-    """curves: {formulation: shares at places}; size: of the axes, in pixels."""
+    """Draws curves: {formulation: shares at places}; size: of the axes, in pixels."""
     at = places(FARTHEST[picture.unit])
     chart = Chart(1, size)
     panel = chart.panel(xlabel=xlabel(picture), ylabel="share of problems")
@@ -189,7 +189,7 @@ def figure_of(site, picture, curves, keys, name, size=(250, 175)):
 
 
 def write_table(site, compared, name="profiles.csv"):
-    """Every curve, drawn or not; at factor "any": what is solved at all."""
+    """Writes every curve, drawn or not; factor "any" contains the share solved at any factor."""
     path = os.path.join(site.folder, name)
     with open(f"{path}.part", "w", encoding="utf-8", newline="") as out:
         table = csv.writer(out)
@@ -205,7 +205,7 @@ def write_table(site, compared, name="profiles.csv"):
     return name
 
 
-# The page of profiles, winners and trust.
+# The page of profiles, winners and reliability.
 
 NAVIGATION = [("profiles.html", "profiles")]
 NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor of the reading example
@@ -213,7 +213,7 @@ READINGS = (defect, no_defect, any_defect)
 
 
 def panel(site, compared, picture, level, name=None, size=(250, 175)):
-    """A figure with a reading example: the leading curve at NEAR."""
+    """Returns a figure with a reading example: the leading curve at NEAR."""
     curves = compared.profile(picture.question(level), picture.offered)
     at = places(FARTHEST[picture.unit])
     factor = NEAR[picture.unit]
@@ -231,7 +231,7 @@ def panel(site, compared, picture, level, name=None, size=(250, 175)):
 
 
 def readings(compared):
-    """[(formulation, [(level, shares solved by each of READINGS)])]"""
+    """Returns [(formulation, [(level, shares solved by each of READINGS)])]."""
     shares = {
         (level, forbids): compared.profile(Question(level, forbids=forbids))
         for level in LEVELS

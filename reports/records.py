@@ -1,12 +1,12 @@
-"""Records of a run: cases, their points, series, meshes and verdicts, as plain records."""
+"""Plain records of a run: cases, their points, series, meshes and verdicts."""
 import math
 from dataclasses import dataclass, field
 
 
 @dataclass
 class Clock:
-    """Time of a cell: smallest of all repetitions, and the smallest and largest round; for a single run all three are
-    the same."""
+    """Time of a run: the smallest of all repetitions, and the smallest and largest round; for a single run, all three
+    are equal."""
     setup: float
     solve: float
     least: float
@@ -24,8 +24,8 @@ class Kept:
 
 @dataclass
 class Dense:
-    """The same cell by the published algorithm (newton=dense). whole: a run was timed, not one iteration times their
-    number."""
+    """The same run with the published algorithm (newton=dense). whole: the whole run was timed, not one iteration
+    multiplied by their number."""
     seconds: float
     unknowns: int
     whole: bool
@@ -33,7 +33,7 @@ class Dense:
 
 @dataclass
 class Mesh:
-    """One cell: a formulation on one mesh."""
+    """One run: a formulation on one mesh."""
     n: int
     status: str
     reason: str
@@ -43,7 +43,7 @@ class Mesh:
     left_out: str
     work: dict  # counter -> number
     values: dict = field(default_factory=dict)  # quantity -> value
-    errors: dict = field(default_factory=dict)  # quantity -> relative error of discretisation
+    errors: dict = field(default_factory=dict)  # quantity -> relative discretisation error
     model_errors: dict = field(default_factory=dict)
     reasons: dict = field(default_factory=dict)  # quantity -> reason why it has no value
     curves: dict = field(default_factory=dict)  # quantity -> (x, value, x name, x unit, unit)
@@ -52,7 +52,7 @@ class Mesh:
     dense: Dense = None
     predictions: dict = field(default_factory=dict)  # quantity -> value of an analytic model
     cost: float = math.nan  # [s] of counted work, with the cost coefficients of the reference machine
-    priced: bool = True  # with cost coefficients of its formulation, not the general ones
+    priced: bool = True  # the formulation has its own cost coefficients, not the general ones
 
     @property
     def seconds(self):
@@ -96,7 +96,7 @@ class Verdict:
     model_error: float = math.nan
     reach: dict = field(
         default_factory=dict
-    )  # level -> elements of the coarsest mesh from which every mesh is within it
+    )  # level -> number of elements of the coarsest mesh from which every mesh is within it
 
 
 @dataclass
@@ -108,21 +108,21 @@ class Series:
     missing: str
     meshes: list
     verdicts: list
-    imported: str = ""  # file of another program from which it was read
+    imported: str = ""  # file of the other program from which it was read
     model: str = "beam"
-    unranked: str = ""  # reason why it has no rank: derivatives by differences, another process
+    unranked: str = ""  # reason why it has no rank: derivatives by differences, or another process
     is_new: bool = False  # not accepted yet: its verdicts do not affect the exit status
-    other: str = ""  # physics that it omits where that matters: another model
-    without: str = ""  # what it omits, and the effect of that
+    other: str = ""  # relevant physics that it omits: another model
+    without: str = ""  # the physics that it omits, and the effect of the omission
 
     @property
     def marks(self):
-        """Marks that follow its name everywhere."""
+        """Returns the remarks that follow its name everywhere."""
         return "; ".join(filter(None, (self.unranked, "new, without effect on the exit status" if self.is_new else "")))
 
     @property
     def label(self):
-        """Its name in a legend."""
+        """Returns its name in a legend."""
         other = f"without {self.other}" if self.other else ""
         marks = "; ".join(filter(None, (self.marks, other)))
         return f"{self.key} ({marks})" if marks else self.key
@@ -136,11 +136,11 @@ class Point:
     series: list
     units: dict
     others: list = field(default_factory=list)  # series of other programs (reports/data.py)
-    noise: float = 1.25  # costs whose ratio is below it tie
+    noise: float = 1.25  # cost ratio below which costs tie
     scene: str = ""  # as a scene file
     meanings: dict = field(default_factory=dict)  # quantity -> description in one line
-    omitted: str = ""  # physics that the scene omits, in words
-    assumed: list = field(default_factory=list)  # (kind, what is assumed of a section)
+    omitted: str = ""  # description of the physics that the scene omits
+    assumed: list = field(default_factory=list)  # (kind, assumption about a section)
 
 
 @dataclass

@@ -1,7 +1,7 @@
-"""Shapes of a scene in space, from the centre lines in the result file.
+"""Shapes of a scene in space, from the centre lines in the results file.
 
-A wall of a section is a strip along its mid-line, thick ones are solid. Rigid bodies are the convex
-hulls of the points attached to them, those of points far apart joined by rods."""
+A wall of a section is drawn as a strip along its mid-line, a thick wall as a solid. Rigid bodies are the convex hulls
+of the points attached to them; groups of points that are far apart are joined by rods."""
 import base64
 import dataclasses
 import json
@@ -16,10 +16,10 @@ from scipy.spatial.transform import Rotation
 
 from reports.data import text
 
-SYMBOL = 0.03  # half a side of a rectangle that represents constants, relative to the size, at most
-THIN = 0.2  # thickness to length of a wall that is drawn as a surface
-VISIBLE = 0.02  # displacement relative to size below which the picture exaggerates
-GAP = 0.35  # distance between the points of a body, relative to its extent, beyond which they are drawn as parts joined by rods
+SYMBOL = 0.03  # half the side of a rectangle that represents a section known only by constants, at most, relative to the size
+THIN = 0.2  # ratio of thickness to length up to which a wall is drawn as a surface
+VISIBLE = 0.02  # displacement relative to the size below which the picture exaggerates
+GAP = 0.35  # distance between points of a body, relative to its extent, beyond which they are drawn as parts joined by rods
 CLAMPED = 63  # all six components held
 FRAME = "motion"  # kind of a state that is a frame of a motion; its value is the time [s]
 
@@ -31,14 +31,14 @@ class Shapes:
     n: int
     members: np.ndarray  # [members x 3]: nodes p and q, section
     first: np.ndarray  # [members + 1]
-    body: np.ndarray  # [nodes]: node it moves with, or -1
+    body: np.ndarray  # [nodes]: the node with which it moves, or -1
     held: np.ndarray  # [nodes]: bits
     released: np.ndarray  # [members x 2]: bits of both ends
     sections: list  # [walls x 4 x 2] in m
-    far: dict  # member: the same at its far end, if the section changes along it
-    equivalent: list  # section known by its constants only: drawn as a rectangle
+    far: dict  # member: the section at its far end, if it changes along the member
+    equivalent: list  # the section is known only by its constants: drawn as a rectangle
     kind: list
-    acting: list  # what acts in a linear solution, such as "combination ULS"; "": everything
+    acting: list  # loads of a linear solution, such as "combination ULS"; "" for all loads
     value: np.ndarray
     position: np.ndarray  # [states x points x 3] in m
     axes: np.ndarray  # [states x points x 3 x 3]: rows are the section's axes
@@ -46,7 +46,7 @@ class Shapes:
 
 
 def matrices(q):
-    """Rows: axes x, y, z of the triads of quaternions q[..., 4]."""
+    """Returns the triads of quaternions q[..., 4], with the axes x, y, z as rows."""
     w, x, y, z = np.moveaxis(q, -1, 0)
     rows = [[1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
             [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
@@ -60,12 +60,12 @@ def frames_in(shapes):
 
 
 def read(site, case):
-    """Shapes of a case's defaults, or None when the results hold none."""
+    """Returns the shapes of a case's defaults, or None if the results contain none."""
     return read_file(site.results, case.name)
 
 
 def read_file(path, name, point="default"):
-    """The same of a case of a file, at a point."""
+    """Returns the shapes of a case of a file at a point, or None."""
     with h5py.File(path) as file:
         place = f"cases/{name}/shapes/{point}"
         if place not in file:
@@ -98,19 +98,19 @@ def size_of(s):
 
 
 def turns(s, a, b):
-    """Rotation vectors [points x 3] from state a to b."""
+    """Returns rotation vectors [points x 3] from state a to b."""
     return Rotation.from_matrix(np.swapaxes(s.axes[b], -1, -2) @ s.axes[a]).as_rotvec()
 
 
 def distance(s, a, b):
-    """Approximate largest displacement of a corner."""
+    """Returns the approximate largest displacement of a corner."""
     radius = max(np.linalg.norm(walls, axis=2).max() for walls in s.sections)
     return float((np.linalg.norm(s.position[a] - s.position[b], axis=1) +
                   radius * np.linalg.norm(turns(s, a, b), axis=1)).max())
 
 
 def exaggeration(s, state):
-    """1 if the displacements are visible, otherwise the round factor that makes them visible."""
+    """Returns 1 if the displacements are visible, otherwise the round factor that makes them visible."""
     moved = distance(s, state, 0)
     if moved == 0 or moved > VISIBLE * size_of(s):
         return 1
@@ -128,12 +128,12 @@ def axes_of(s, state, scale):
 
 
 def is_thick(wall):
-    """Drawn with all its sides, not as its mid-line."""
+    """Is the wall drawn with all its sides rather than as its mid-line?"""
     return np.linalg.norm(wall[0] - wall[1]) > THIN * np.linalg.norm(wall[1] - wall[2])
 
 
 def strips(s, state, scale, every):
-    """Quadrilaterals [.. x 4 x 3] of all members."""
+    """Returns quadrilaterals [.. x 4 x 3] of all members."""
     out = []
     position = s.position[0] + scale * (s.position[state] - s.position[0])
     axes = axes_of(s, state, scale)
@@ -159,8 +159,8 @@ def strips(s, state, scale, every):
 
 
 def hull_faces(points):
-    """Faces of the convex hull as indices; of points in a plane the polygon, of points in a line
-    the segment."""
+    """Returns the faces of the convex hull as indices; for points in a plane the polygon, for points on a line the
+    segment."""
     rounded, index = np.unique(np.round(points, 12), axis=0, return_index=True)
     middle = rounded.mean(axis=0)
     _, extent, axes = np.linalg.svd(rounded - middle, full_matrices=False)
@@ -181,7 +181,7 @@ def hull(points):
 
 
 def clusters(points):
-    """Indices of points that lie together: gaps below a third of the whole extent join."""
+    """Returns the indices of points that lie together: gaps below GAP times the extent join them."""
     reach = GAP * np.linalg.norm(np.ptp(points, axis=0))
     group = np.arange(len(points))
     for i in range(len(points)):
@@ -192,8 +192,8 @@ def clusters(points):
 
 
 def groups_of_bodies(s):
-    """[(nodes of a rigid body, groups of those that lie together)]. A body also contains its own node if that is a
-    hinge, which is partly held."""
+    """Returns [(nodes of a rigid body, groups of those that lie together)]. A body also contains its own node if that
+    is a hinge, which is partly fixed."""
     out = []
     for b in sorted({int(b) for b in s.body if b >= 0}):
         attached = np.append(np.flatnonzero(s.body == b), [b] * (s.held[b] not in (0, CLAMPED)))
@@ -203,7 +203,7 @@ def groups_of_bodies(s):
 
 
 def bodies(s, state, scale):
-    """Faces, and rods between their middles."""
+    """Returns the faces, and the rods between their middles."""
     faces = []
     nodes = s.nodes[0] + scale * (s.nodes[state] - s.nodes[0])
     for attached, groups in groups_of_bodies(s):
@@ -214,35 +214,32 @@ def bodies(s, state, scale):
     return faces
 
 
-# Shapes for the viewer in space (assets/viewer.js): a file for each case, loaded when it
-# is looked at.
+# Shapes for the 3-D viewer (assets/viewer.js): one file for each case, loaded when the case is viewed.
 #
-# Positions and axes of all stored states are whole numbers of 16 bits: a position is that part of
-# half
-# the scene's size from its middle, axes are quaternions. Invisible displacements are exaggerated
-# larger,
-# as in the still pictures; the words of the state say how much.
+# Positions and axes of all stored states are 16-bit integers: a position is a fraction of half the scene's size from
+# its middle; axes are quaternions. Invisible displacements are exaggerated, as in the still pictures; the label of the
+# state gives the factor.
 
 WHOLE = 32767
-MOST_POINTS = 1300  # of all members; of more every second or third is dropped
+MOST_POINTS = 1300  # of all members; beyond this number, only every second or third point is kept
 MOST_FRAMED = 16_000  # of all frames of a motion together
-LEAST = 3  # points of a member that bends, before frames are dropped
+LEAST = 3  # points of a bent member, before frames are dropped
 
 
 def packed(values):
-    """Numbers from -1 to 1 as text."""
+    """Returns numbers from -1 to 1 as text."""
     whole = np.round(np.clip(values, -1, 1) * WHOLE).astype("<i2")
     return base64.b64encode(whole.tobytes()).decode()
 
 
 def frames_of(s):
-    """States that are frames of a motion."""
+    """Returns the states that are frames of a motion."""
     return [k for k, kind in enumerate(s.kind) if kind == FRAME]
 
 
 def drawn_states(s, most=MOST_FRAMED):
-    """States that are stored: all, except that a motion has only as many evenly spaced frames, including both ends,
-    as `most` points allow."""
+    """Returns the states that are stored: all, except that a motion keeps only as many evenly spaced frames, including
+    both ends, as `most` points allow."""
     frames = frames_of(s)
     count = max(2, most // (LEAST * max(1, len(s.members))))
     if len(frames) > count:
@@ -252,7 +249,7 @@ def drawn_states(s, most=MOST_FRAMED):
 
 
 def kept(s, most=MOST_FRAMED):
-    """(points that are kept, first of each member among them)."""
+    """Returns (points that are kept, the first of each member among them)."""
     framed = sum(s.kind[k] == FRAME for k in drawn_states(s, most))
     points = max(LEAST * len(s.members), min(MOST_POINTS, most // max(1, framed)))
     every = -(-s.position.shape[1] // points)
@@ -265,14 +262,14 @@ def kept(s, most=MOST_FRAMED):
 
 
 def ends(wall, other, pick, half):
-    """Corners at the near end, and at the far end where they are others: [y, z, y, z, ...] in parts
-    of half."""
+    """Returns the corners at the near end, and at the far end if they differ: [y, z, y, z, ...] as fractions of
+    half."""
     return [[round(float(x) / half, 6) for x in pick(w).ravel()] for w in (wall, other)
             if w is not None]
 
 
 def profile(walls, far, half):
-    """Strips along a member, and caps of thick walls."""
+    """Returns the strips along a member, and the caps of thick walls."""
     strips, caps = [], []
     for k, wall in enumerate(walls):
         other = None if far is None else far[k]
@@ -286,7 +283,7 @@ def profile(walls, far, half):
 
 
 def drawn_bodies(s):
-    """(faces, groups that rods join): indices of nodes."""
+    """Returns (faces, groups that rods join) as indices of nodes."""
     faces, rods = [], []
     for attached, groups in groups_of_bodies(s):
         for group in groups:
@@ -298,8 +295,8 @@ def drawn_bodies(s):
 
 
 def exaggerations(s):
-    """Returns the scale of every state; those of a path share one, that of the state that has moved farthest; motions
-    have none."""
+    """Returns the scale of every state. The states of a path share the scale of the state that has moved farthest;
+    motions have none."""
     found = [1.0 if kind == FRAME else float(exaggeration(s, k))
              for k, kind in enumerate(s.kind)]
     path = [k for k, kind in enumerate(s.kind) if kind == "path"]
@@ -308,9 +305,9 @@ def exaggerations(s):
 
 
 def shape(s, words, supports, hinges, start, view, most=MOST_FRAMED):
-    """Data for the viewer. words: title of a state and its exaggeration; supports: nodes; hinges:
-    points; start: state shown first; view: (azimuth, elevation) in degrees; most: points of all
-    frames of a motion together."""
+    """Returns the data for the viewer. words: title of a state and its exaggeration; supports: nodes; hinges: points;
+    start: state shown first; view: (azimuth, elevation) in degrees; most: points of all frames of a motion
+    together."""
     at, first = kept(s, most)
     drawn, every = drawn_states(s, most), exaggerations(s)
     scales = [(k, every[k]) for k in drawn]
@@ -361,6 +358,6 @@ def store(site, name, found):
 
 
 def markup(name, still, alt):
-    """The element of a viewer, with the still picture that is shown where the model cannot be rotated."""
+    """Returns the element of a viewer, with the still picture that is shown if the model cannot be rotated."""
     return Markup(f'<div class="viewer" data-shape="{escape(name)}" data-alt="{escape(alt)}">'
                   f"{still}</div>")

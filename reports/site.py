@@ -1,4 +1,4 @@
-"""Parts of every page: records, styles, templates, the folder written into."""
+"""Parts of every page: records, styles, templates, and the output folder."""
 import math
 import os
 import pathlib
@@ -25,7 +25,7 @@ def percent(value):
 
 
 def limit(v):
-    """A limit to its significant digits, and one more, with its uncertainty."""
+    """Returns a limit to its significant digits, and one more, with its uncertainty."""
     if not math.isfinite(v.limit):
         return "–"
     if not math.isfinite(v.limit_uncertainty):
@@ -36,7 +36,7 @@ def limit(v):
 
 
 def breakable(key):
-    """The name of a formulation, which may be broken where its options begin."""
+    """Returns the name of a formulation, which may be broken before its options."""
     return escape(key).replace(":", Markup(":<wbr>")).replace(",", Markup(",<wbr>"))
 
 
@@ -47,19 +47,19 @@ def seconds(value):
 
 
 def file_of(key):
-    """File name without suffix for the key of a formulation."""
+    """Returns the file name without suffix for the key of a formulation."""
     return "formulation_" + key.replace(":", "_").replace("=", "_").replace(",", "_")
 
 
 def file_name(path):
-    """A name that can be used in an address, from that of a file."""
+    """Returns a name for use in an address, from the name of a file."""
     return "".join(c if c.isalnum() or c in "-_" else "_" for c in pathlib.Path(path).stem)
 
 
 class Site:
-    """One report. cases: data.Case records; about, bench: environment of the results and of the
-    times (None: no benchmark); kinds: truths by kind; sweeps: stored.Sweep records. results may be
-    a sweep, too: then there are no cases."""
+    """One report. cases: data.Case records; about, bench: environments of the results and of the times (None: no
+    benchmark); kinds: reference values by kind; sweeps: stored.Sweep records. results may also be a sweep; then there
+    are no cases."""
 
     def __init__(self, results, truths, folder, bench=None, others=(), sweeps=()):
         self.alone = stored.is_alone(results)
@@ -108,7 +108,7 @@ class Site:
                                       look_of=style.class_of)
 
     def write_assets(self):
-        """Style sheet and scripts beside the pages; the sheet has the colours of formulations."""
+        """Writes the style sheet and the scripts next to the pages; the sheet contains the colours of formulations."""
         for asset in ASSETS.iterdir():
             own = style.sheet() if asset.name == "style.css" else ""
             with open(os.path.join(self.folder, asset.name), "w", encoding="utf-8") as out:
@@ -119,24 +119,24 @@ class Site:
         return any(file == name for file, _ in self.navigation)
 
     def bar(self, name):
-        """(groups of the bar, the one that the page belongs to or None)."""
+        """Returns (groups of the bar, the group of the page or None)."""
         found = navigation.groups(self.navigation)
         return found, navigation.group_of(name, found, {c.name for c in self.cases})
 
     def name_of(self, sweep):
-        """Returns the name of a sweep's page: that of its file, with a number where another has the same."""
+        """Returns the name of a sweep's page: that of its file, with a number if another sweep has the same name."""
         name = file_name(sweep.path)
         before = self.sweeps[:self.sweeps.index(sweep)]
         same = sum(file_name(s.path) == name for s in before)
         return f"{name}_{same + 1}" if same else name
 
     def page_of(self, sweep):
-        """The file of a sweep's page; that of the first sweep is the first page if there is no other."""
+        """Returns the file of a sweep's page; without other results, the first sweep is the first page."""
         alone = self.alone and sweep is self.sweeps[0]
         return "index.html" if alone else f"sweep_{self.name_of(sweep)}.html"
 
     def case(self, name):
-        """The case of this name, or None."""
+        """Returns the case of this name, or None."""
         return next((c for c in self.cases if c.name == name), None)
 
     def write(self, template, name, **context):
@@ -147,12 +147,11 @@ class Site:
             out.write(figures.with_markers(text))
 
     def points(self, key, columns, rows, title=""):
-        """Arguments of plot() for a curve whose marks have data: with the pointer on a mark, or by keyboard, a box
-        shows title, formulation and the row of the mark.
+        """Returns the arguments of plot() for a curve whose markers carry data: with the pointer on a marker, or by
+        keyboard, a box shows the title, the formulation and the row of the marker.
 
-        key: formulation; columns: names of what is in a row, of which `error` is shown in percent
-        and `time [s]` in the unit that suits; rows: one for each mark that is drawn, in their
-        order, of numbers, texts or None."""
+        key: formulation; columns: names of the entries of a row, of which `error` is shown in percent and `time [s]`
+        in a suitable unit; rows: one for each drawn marker, in their order, of numbers, strings or None."""
         digits = [{"error": 3, "time [s]": 4}.get(name, 8) for name in columns]
         self.said.append({"f": key, "t": title, "c": list(columns),
                           "r": [[figures.plain(v, d) for v, d in zip(row, digits)]
@@ -161,9 +160,8 @@ class Site:
         return {**look, "gid": f"{look['gid']}|{len(self.said) - 1}"}
 
     def image(self, figure, name, tight=True):
-        """A figure for the macro `figure` of a page, which puts it into the page itself; it is
-        closed.
-        tight: cut to what is drawn, which draws it twice."""
+        """Returns a figure for the macro `figure` of a page, which embeds it in the page, and closes it. tight:
+        cropped to the drawing, which requires drawing it twice."""
         image = figures.image_of(figure, name, self.said, tight)
         plt.close(figure)
         self.said.clear()

@@ -1,5 +1,5 @@
-"""Stability: every formulation at every extreme, as a map, as curves of error against the parameter that is varied,
-and in numbers."""
+"""Stability: every formulation in every extreme case, as a map, as curves of error against the varied parameter, and
+as numbers."""
 import functools
 import math
 
@@ -9,11 +9,10 @@ from reports import experiments
 from reports.chart import Chart
 from reports.figures import FONT, Image
 
-# The map of stability as SVG of its own: rows are formulations, columns extremes, each a strip of
-# the
-# values it was driven to, from left to right as in the tables.
+# The map of stability as a separate SVG: rows are formulations, columns are extremes; each field is a strip of the
+# tested values, from left to right as in the tables.
 
-WIDE, TALL, HEAD, LEFT = 42, 22, 150, 190  # a field, the names on top, the names on the left
+WIDE, TALL, HEAD, LEFT = 42, 22, 150, 190  # width and height of a field, space for the names above and on the left
 MOST = 22  # extremes beside each other
 
 
@@ -23,7 +22,7 @@ def map_text(x, y, words, more=""):
 
 
 class Fields:
-    """All fields, gathered by outcome: one path and one group of signs for each kind."""
+    """All fields, collected by outcome: one path and one group of signs for each kind."""
 
     def __init__(self, look):
         self.look = look
@@ -31,7 +30,7 @@ class Fields:
         self.absent = []
 
     def strip(self, found, values, left, top):
-        """One field: a part for each value, with the colour and the sign of its outcome."""
+        """Adds one field: a part for each value, with the colour and the sign of its outcome."""
         middle = top + TALL / 2 + 3
         if found is None:
             self.absent.append(map_text(left + WIDE / 2 - 2, middle, "–"))
@@ -57,12 +56,13 @@ class Fields:
 
 
 def paint(kind, colour):
-    """Colours of a field and its sign: wrong values have the colour of the text, which changes on a dark page."""
+    """Returns the colours of a field and its sign: wrong values have the colour of the text, which changes on a dark
+    page."""
     return ("currentColor", "var(--paper,#fff)") if kind == "wrong" else (colour, "#111418")
 
 
 def draw_band(fields, extremes, keys, all_cells, top):
-    """Names of extremes above, of formulations on the left, and their fields."""
+    """Draws the names of extremes above, those of formulations on the left, and their fields."""
     out = ""
     for column, extreme in enumerate(extremes):
         x = LEFT + (column + 0.5) * WIDE
@@ -78,7 +78,7 @@ def draw_band(fields, extremes, keys, all_cells, top):
 
 
 def draw_map(record, all_cells, look, meaning):
-    """The Image. look: {kind: (colour, sign)}; meaning: {kind: words}."""
+    """Returns the Image. look: {kind: (colour, sign)}; meaning: {kind: description}."""
     extremes = record["extremes"]
     keys = [f["formulation"] for f in record["formulations"]]
     kinds = {c.kind for found in all_cells.values() for c in found.values()}
@@ -107,7 +107,7 @@ def draw_map(record, all_cells, look, meaning):
 
 NAVIGATION = [("stability.html", "stability")]
 
-# From good to bad: colours that differ in brightness too, and a mark that needs no colour.
+# From good to bad: colours that also differ in brightness, and a sign that needs no colour.
 LOOK = {
     "value": ("#009E73", ""), "coarse": ("#8FD3F4", "·"), "named": ("#E69F00", "△"),
     "wrong": ("#000000", "×"), "fault": ("#CC79A7", "!")
@@ -122,7 +122,8 @@ NAMED = ("not converged", "singular", "refused", "no value")
 
 
 def read(path):
-    """Reads the results of `beamwork stress`, or None; each extreme with its values of x and its quantities."""
+    """Reads the results of `beamwork stress`, each extreme with its values of x and its quantities. Returns None if
+    there are none."""
     record = experiments.read(path, "stress")
     if record is None:
         return None
@@ -161,7 +162,7 @@ class Cell:
 
 
 def cells(record):
-    """{(extreme, formulation): {x: Cell}} of all runs: only some values of x, if the others need unsupported
+    """Returns {(extreme, formulation): {x: Cell}} of all runs: only some values of x, if the others need unsupported
     physics."""
     groups = {}
     for o in record["outcomes"]:
@@ -180,7 +181,7 @@ def largest(found, name):
 
 
 def draw_curve(site, extreme, keys, all_cells):
-    """Error against the parameter that is varied; a failure is a cross on the upper edge."""
+    """Draws the error against the varied parameter; a failure is a cross on the upper edge."""
     low, high = min(extreme["values"]), max(extreme["values"])
     unit = "" if extreme["x_unit"] == "1" else f" [{extreme['x_unit']}]"
     chart = Chart(1, (540, 190))
@@ -205,8 +206,8 @@ def draw_curve(site, extreme, keys, all_cells):
 
 
 def findings(record):
-    """[(extreme, formulations, outcome, values, proof)] of outcomes that are neither a value nor coarse, with equal
-    values of x and equal formulations together."""
+    """Returns [(extreme, formulations, outcome, values, proof)] of outcomes that are neither accurate nor
+    under-resolved; equal values of x and equal formulations are joined."""
     rows, told = {}, {}
     for o in record["outcomes"]:
         if kind(o) in ("named", "wrong", "fault"):
@@ -220,7 +221,7 @@ def findings(record):
 
 
 def stored(site):
-    """The record in the results, or None."""
+    """Returns the record in the results, or None."""
     return read(site.results)
 
 

@@ -1,8 +1,7 @@
 """One permanent colour and marker per formulation: a new formulation does not change those of others.
 
-Distinguishable without colour vision (Okabe and Ito; the last two Tol). On a dark page each colour
-has a
-lighter one of the same hue; figures.py writes the variable, base.html defines it."""
+The colours are distinguishable without colour vision (Okabe and Ito; the last two by Tol). On a dark page, each colour
+has a lighter one of the same hue: figures.py writes the variable, base.html defines it."""
 import zlib
 
 import matplotlib
@@ -31,13 +30,13 @@ SCHEMES = {
     "radau": ("#009e73", "#2bc495", "D"), "explicit": ("#882255", "#d8639b", "^"),
     "hht": ("#56b4e9", "#8fd2fa", "v"), "trapezoidal": ("#000000", "#f4f6f9", "X"),
 }
-# Formulations that are not in the table get one of these by their name.
+# Formulations that are not in the table get one of these, chosen by their name.
 RESERVE = (("#6a51a3", "#a793dc"), ("#a6761d", "#dfb060"), ("#c51b7d", "#f06cb4"),
            ("#1b7837", "#5fc07c"), ("#5b6675", "#aab4c2"))
 RESERVE_MARKERS = "hpd8H"
-MOST = 8  # curves of a figure that are shown at first
-LAST = ("sheet_third_printed", "beamw_vlasov", "beamw_first")  # shown when there is room
-# Line of an option: the colour is the formulation's.
+MOST = 8  # curves of a figure that are initially shown
+LAST = ("sheet_third_printed", "beamw_vlasov", "beamw_first")  # shown if there is room
+# Line style of an option; the colour is that of the formulation.
 LINES = {"mass=lumped": "--", "mass=averaged": ":", "torsion=hyperbolic": "-."}
 RESERVE_LINES = ((0, (6, 1)), (0, (1, 2)), (0, (4, 1, 1, 1)), (0, (8, 3)), (0, (2, 1)))
 
@@ -58,7 +57,7 @@ plt.rcParams.update({
 
 
 def extra(keys):
-    """Returns those that a figure drops first: options, then misprints and old forms."""
+    """Returns those that a figure drops first: options, then uncorrected misprints and old forms."""
     keys = list(keys)
     last = [k for k in keys if ":" in k] + [k for k in LAST if k in keys]
     rest = [k for k in keys if k not in last]
@@ -66,7 +65,7 @@ def extra(keys):
 
 
 def look(key):
-    """(colour, colour on a dark page, marker) of a formulation with or without options."""
+    """Returns (colour, colour on a dark page, marker) of a formulation with or without options."""
     name = key.partition(":")[0]
     number = zlib.crc32(name.encode())
     return TABLE.get(name) or SCHEMES.get(name) or (*RESERVE[number % len(RESERVE)],
@@ -74,14 +73,14 @@ def look(key):
 
 
 def class_of(key):
-    """Class of the style sheet that puts the marker of a formulation before its name."""
+    """Returns the class in the style sheet that puts the marker of a formulation before its name."""
     colour, _, marker = look(key)
     number = [light for light, _ in COLOURS].index(colour)
     return f"m{number}" + ("" if key.partition(":")[0] in TABLE else marker)
 
 
 def corners(marker):
-    """Polygon of a marker in percent of a square, for clip-path."""
+    """Returns the polygon of a marker in percent of a square, for clip-path."""
     form = MarkerStyle(marker)
     outline = form.get_path().transformed(form.get_transform()).to_polygons(closed_only=True)[0]
     half = 2.2 * np.abs(outline).max()
@@ -99,7 +98,7 @@ def marks():
 
 
 def sheet():
-    """Variables of colours and marks of formulations for the style sheet."""
+    """Returns the variables of the colours and markers of formulations for the style sheet."""
     light, dark = (":root { " + " ".join(f"--f{i}: {p[k]};" for i, p in enumerate(COLOURS)) + " }"
                    for k in (0, 1))
     return f"{light}\n@media screen and (prefers-color-scheme: dark) {{ {dark} }}\n{marks()}"
@@ -117,7 +116,8 @@ class Styles:
 
     @staticmethod
     def of(key):
-        """Arguments of plot() for the curve of a formulation; its gid names the formulation (figures.py)."""
+        """Returns the arguments of plot() for the curve of a formulation; its gid names the formulation
+        (figures.py)."""
         colour, _, marker = look(key)
         options = key.partition(":")[2]
         return {
@@ -127,7 +127,7 @@ class Styles:
 
     @staticmethod
     def shape(key):
-        """The marker as the path of an SVG picture of 12 by 12, its centre at the origin."""
+        """Returns the marker as the path of an SVG picture of 12 by 12, with its centre at the origin."""
         path = MarkerStyle(look(key)[2])
         corners = path.get_path().transformed(path.get_transform()).to_polygons(closed_only=True)
         size = 5.4 / max(np.abs(c).max() for c in corners)
@@ -136,5 +136,5 @@ class Styles:
 
     @staticmethod
     def fill(key):
-        """The colour for a page, which the dark page changes."""
+        """Returns the colour for a page, which a dark page changes."""
         return VARIABLES[look(key)[0]]

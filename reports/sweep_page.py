@@ -1,4 +1,4 @@
-"""The page of a sweep: over which range each formulation is within a tolerance."""
+"""The page of a sweep: the range over which each formulation is within a tolerance."""
 import functools
 import itertools
 import json
@@ -14,18 +14,18 @@ from matplotlib.colors import to_hex
 from reports.chart import Chart
 from reports.sweep import answers, gather, maps
 
-# The figures of a sweep's page: maps of the elements that are needed, maps of the formulation of lowest cost,
+# The figures of a sweep's page: maps of the required number of elements, maps of the formulation of lowest cost,
 # curves of the error over one axis.
 
-MOST_DOTS = 400  # scattered points that are drawn one by one
-SLICES, WORDS = 4, 6  # maps side by side over a third axis of numbers, of words
+MOST_DOTS = 400  # scattered points that are drawn individually
+SLICES, WORDS = 4, 6  # maps next to each other over a third axis of numbers, of words
 NARROW = 170  # width of a map next to others, pixels
 TOLD = 0.01  # share of the points for which the cheapest formulation is listed first
-FLOOR = 1e-12  # of errors that are drawn
+FLOOR = 1e-12  # smallest drawn error
 
 
 def projected(found, table, axes):
-    """A table [C, ...] summed over all axes but some, which it has in the order of axes."""
+    """Returns a table [C, ...] summed over all axes except the given ones, which are in the given order."""
     count = len(found.parts)
     whole = table.reshape(found.shape + table.shape[1:])
     whole = whole.sum(axis=tuple(a for a in range(count) if a not in axes))
@@ -33,7 +33,7 @@ def projected(found, table, axes):
 
 
 def by_influence(found):
-    """Axes, first those along which the result changes most; those of words last."""
+    """Returns the axes, sorted by the change of the result along them, largest first; those of words come last."""
     within = found.reach[:, :, -1, :-2].sum(axis=(1, 2))
     score = []
     for a, part in enumerate(found.parts):
@@ -44,7 +44,7 @@ def by_influence(found):
 
 
 def slices_of(part):
-    """[(words, parts)] of a third axis: its parts, grouped."""
+    """Returns [(label, parts)] of a third axis: its parts, grouped."""
     most = WORDS if part.axis.words else SLICES
     groups = np.array_split(np.arange(len(part)), min(most, len(part)))
     return [(answers.condition(part, list(g)) if len(g) < len(part) else part.axis.name, list(g))
@@ -60,8 +60,8 @@ def counted(state, look):
 
 
 class Validity:
-    """Maps of least elements. order: of formulations, by key; axes: across, up, side by side.
-    rows: [(formulation or empty, [(Image, alt)])]; used: states that are drawn."""
+    """Maps of the smallest number of elements. order: of formulations, by key; axes: horizontal, vertical, side by
+    side. rows: [(formulation or empty, [(Image, alt)])]; used: states that are drawn."""
 
     def __init__(self, sweep, found, order, q=-1):
         self.sweep, self.found, self.q = sweep, found, q
@@ -76,7 +76,7 @@ class Validity:
         return self.look.legend(self.used)
 
     def scattered(self):
-        """(points, their states [points, F]) if there are few on two axes; otherwise None."""
+        """Returns (points, their states [points, F]) if there are few on two axes; otherwise None."""
         sweep = self.sweep
         if len(sweep.axes) != 2 or sweep.points > MOST_DOTS or not any(
                 a.scattered for a in sweep.axes):
@@ -96,7 +96,7 @@ class Validity:
             f"{what}: {counted(state, self.look)}")
 
     def strips(self, order):
-        """One axis: a row for each formulation, the first on top."""
+        """Draws one axis: a row for each formulation, the first on top."""
         found, upward = self.found, order[::-1]
         rows = [self.sweep.keys.index(key) for key in upward]
         state = maps.states(found.reach[:, rows, self.q], found.points[:, None], self.look)
@@ -105,7 +105,7 @@ class Validity:
                          f"elements needed over {found.parts[0].axis.name}")
 
     def of(self, f, key):
-        """Maps of a formulation: of two axes, or side by side over the third one."""
+        """Returns the maps of a formulation: of two axes, or next to each other over the third axis."""
         found, (a, b, *more) = self.found, self.axes
         x, y = found.parts[a], found.parts[b]
         what = f"elements needed by {key} over {x.axis.name} and {y.axis.name}"
@@ -132,10 +132,9 @@ class Validity:
 
 
 class Winners:
-    """The formulations of lowest cost within the tolerance. images: [(Image, alt)]; shares: [(letter,
-    formulation, points won, mean cost there, s)], most first; ahead: those of them that are listed
-    first; none: points without one, of the number with a reference; unranked: formulations without costs of
-    counted work."""
+    """The formulations of lowest cost within the tolerance. images: [(Image, alt)]; shares: [(letter, formulation,
+    points won, mean cost there, s)], most first; ahead: the formulations that are listed first; none: points
+    without a winner, and the number with a reference value; unranked: formulations without counted costs."""
 
     def __init__(self, sweep, found, axes):
         self.sweep, self.found = sweep, found
@@ -177,7 +176,7 @@ class Winners:
 
 
 def curves(site, sweep, found, q=-1):
-    """Curves over one axis: the largest error in each of its parts, a panel for each mesh. q: quantity."""
+    """Draws curves over one axis: the largest error in each of its parts, a panel for each mesh. q: quantity."""
     part = found.parts[0]
     x = np.where(part.low == part.high, part.low, (part.low + part.high) / 2)
     columns = 2 if len(sweep.meshes) > 1 else 1
@@ -197,19 +196,18 @@ def curves(site, sweep, found, q=-1):
     return chart.image(site, f"sweep_errors{q if q >= 0 else ''}")
 
 
-# Data of the runs of a sweep, for maps over the axes of the reader's choice: a script of its
-# own beside the page, which assets/sweep.js loads when something is chosen.
+# Data of the runs of a sweep, for maps over axes of the reader's choice: a separate script next to the page, which
+# assets/sweep.js loads when the reader makes a choice.
 #
 # Cells are letters, each with its number of repetitions. The last axis varies fastest.
 
-# Upper ends of the classes of errors, percent, beside the tolerance; then come larger errors, and
-# none at all.
+# Upper ends of the classes of errors in percent, in addition to the tolerance; then come larger errors, and no errors.
 LEVELS = [m * 10.0**e for e in range(-3, 2) for m in (1, 2, 5)] + [100.0]
 SPECIAL = {maps.EMPTY: "_", maps.UNKNOWN: "?"}
 
 
 def written(states):
-    """States of cells as one text."""
+    """Returns the states of cells as one string."""
     out = []
     for state, same in itertools.groupby(states.ravel().tolist()):
         times = len(list(same))
@@ -225,15 +223,14 @@ def levels_of(tolerance):
 
 
 def classes(worst, points, levels):
-    """Classes of the largest errors in cells [C]."""
+    """Returns the classes of the largest errors in cells [C]."""
     found = np.searchsorted(levels, 100 * worst.astype(float) * (1 - 1e-6))  # single precision
     found = np.where(np.isinf(worst), len(levels) + 1, found)
     return np.where(points == 0, maps.EMPTY, np.where(worst < 0, maps.UNKNOWN, found))
 
 
 def looks_of_errors(tolerance):
-    """{class: fill, ink, sign, words}: light while it is within the tolerance, the boundary between
-    the two halves of the colours at it."""
+    """Returns {class: fill, ink, sign, label}: light colours within the tolerance, dark ones beyond it."""
     out, levels = {}, levels_of(tolerance)
     inside = [x for x in levels if x <= 100 * tolerance * (1 + 1e-5)]
     for k, x in enumerate([*levels, np.inf]):
@@ -255,8 +252,8 @@ def look(fill, sign, words):
 
 
 def axis_of(part):
-    """Returns the axis of a map: names of its parts, the cuts between them, and where ticks may
-    stand, in parts."""
+    """Returns the axis of a map: names of its parts, the cuts between them, and possible positions of ticks, in
+    parts."""
     low, high = part.low[0], part.high[-1]
     return {"name": part.axis.name, "range": [float(f"{low:.6g}"), float(f"{high:.6g}")],
             "cuts": part.cuts.tolist(), "words": bool(part.axis.words), "title": maps.title_of(part), "names":
@@ -267,7 +264,7 @@ def axis_of(part):
 
 
 def cells_of(sweep, found, order):
-    """The data. order: of formulations, by key."""
+    """Returns the data. order: of formulations, by key."""
     elements = maps.Look(sweep.meshes)
     asked = range(len(sweep.quantities) + 1)
     keys, levels = range(len(sweep.keys)), levels_of(sweep.tolerance)
@@ -288,7 +285,7 @@ def cells_of(sweep, found, order):
 
 
 def write_cells(site, name, sweep, found, order):
-    """The file of that name beside the pages."""
+    """Writes the file of that name next to the pages."""
     text = json.dumps(cells_of(sweep, found, order), separators=(",", ":"), ensure_ascii=False)
     path = os.path.join(site.folder, name)
     with open(f"{path}.part", "w", encoding="utf-8") as out:
@@ -296,12 +293,12 @@ def write_cells(site, name, sweep, found, order):
     os.replace(f"{path}.part", path)
 
 
-NAVIGATION = []  # its files have the names of the sweeps
-MOST_WORST, MOST_CURVES = 20, 12  # points that are named, quantities with their own curves
+NAVIGATION = []  # the files are named after the sweeps
+MOST_WORST, MOST_CURVES = 20, 12  # points that are listed, quantities with their own curves
 
 
 def navigation(site):
-    """[(file, title)] of the bar."""
+    """Returns [(file, title)] for the bar."""
     return [(site.page_of(sweep), f"sweep of {pathlib.PurePath(sweep.name).stem}")
             for sweep in site.sweeps]
 
@@ -323,13 +320,13 @@ def axis_words(part):
 
 
 def solving(sweep, row):
-    """The command that solves a stored point."""
+    """Returns the command that solves a stored point."""
     scene = shlex.quote(sweep.scene_of(row))
     return f"beamwork solve --scene {scene} -f {row.formulation} -n {row.elements}"
 
 
 def worst_rows(sweep):
-    """[(Worst, place in words, command or empty)], those without a solution first."""
+    """Returns [(Worst, description of the point, command or empty)], those without a solution first."""
     rows = sorted(sweep.worst, key=lambda r: -abs(r.error) if r.quantity else -math.inf)
     rows = rows[:MOST_WORST]
     wanted = {row.point for row in rows}
@@ -343,7 +340,7 @@ def worst_rows(sweep):
 
 
 def curves_of(site, sweep, found):
-    """[(quantity or empty for all of them, Image)] over the axis of a sweep that has only one."""
+    """Returns [(quantity or empty for all of them, Image)] over the axis of a sweep with a single axis."""
     if len(found.parts) > 1:
         return []
     single = sweep.quantities[:MOST_CURVES] if len(sweep.quantities) > 1 else []

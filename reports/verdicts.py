@@ -1,4 +1,4 @@
-"""Verdicts in words: sign, look, meaning, additional text of a record."""
+"""Descriptions of verdicts: sign, style, meaning, additional text of a record."""
 import math
 from dataclasses import dataclass
 
@@ -8,12 +8,12 @@ from reports import data
 @dataclass(frozen=True)
 class Kind:
     name: str  # as in the results
-    sign: str  # where there is no room
-    look: str  # class of the style sheet
+    sign: str  # used if there is no room for the name
+    look: str  # class in the style sheet
     meaning: str
 
 
-# From good to bad, then those without a verdict: of several the last one counts.
+# From good to bad, then those without a verdict; of several, the last one counts.
 KINDS = (
     Kind("pass", "✓", "pass", "the limit agrees with the reference value within the uncertainties"),
     Kind("low order", "↓", "other", "the limit is the reference value, approached more slowly than expected"),
@@ -47,7 +47,7 @@ UNJUDGED = ("skip", "no truth", "other model")
 
 
 def worst(verdicts):
-    """The record of the worst kind; of several the one whose limit is farthest off."""
+    """Returns the record of the worst kind; of several, the one whose limit is farthest off."""
 
     def badness(v):
         return SEVERITY[v.verdict], abs(v.error) if math.isfinite(v.error) else 0
@@ -60,7 +60,7 @@ def percent(value):
 
 
 def met(v):
-    """Returns the relative distance of the limit from the predicted one; NaN where none was derived."""
+    """Returns the relative distance of the limit from the derived one; NaN if none was derived."""
     return abs(v.limit - v.predicted) / abs(v.predicted) if v.predicted else math.nan
 
 
@@ -79,8 +79,8 @@ def of_limit(v):
 
 
 def remarks(v, distance=True):
-    """Short sentences for a verdict's cell in a table; distance: of a limit from the reference value, too,
-    which is omitted in a table with a column for it."""
+    """Returns short sentences for a verdict's cell in a table; distance: includes the distance of a limit from the
+    reference value, which is omitted in a table with a column for it."""
     words = of_limit(v) if math.isfinite(v.limit) else []
     if not distance and v.verdict in OWN_LIMITS:
         words = words[1:]
@@ -91,11 +91,11 @@ def remarks(v, distance=True):
     return words
 
 
-# Every verdict once: which are counted, and which only repeat another one.
+# Counts every verdict once, and finds those that only repeat another one.
 #
-# An alias is a second name of the same entry of a matrix. It is recognised from the results:
-# both names have the same bits in every cell. A formulation with a misprint shares all but one
-# sign with the corrected form: where both have the same verdict, the misprint adds nothing.
+# An alias is a second name of the same entry of a matrix. It is recognised from the results: both names have the same
+# bits in every run. A formulation with a misprint shares all but one sign with the corrected form; if both have the
+# same verdict, the misprint adds nothing.
 
 ALIASES = {"C_xx": "C_ux_Fx", "C_zz": "C_uz_Fz"}
 MISPRINTS = {"sheet_third_printed": "sheet_third"}
@@ -118,25 +118,25 @@ def same(a, b):
 
 
 def is_alias(case, name, other):
-    """Do both names have the same value wherever either has one, and is there at least one?"""
+    """Do both names have the same value in every run that has one of them, and is there at least one?"""
     values = [m.values for p in case.points for s in p.series for m in s.meshes]
     pairs = [(v.get(name, math.nan), v.get(other, math.nan)) for v in values]
     return all(same(*pair) for pair in pairs) and any(math.isfinite(a) for a, _ in pairs)
 
 
 def aliases(case):
-    """Names of a case that repeat another one."""
+    """Returns the names of a case that repeat another one."""
     return {name for name, other in ALIASES.items() if is_alias(case, name, other)}
 
 
 def corrected(key):
-    """The formulation of which one with a misprint is a variant, with its options; or None."""
+    """Returns the corrected formulation, with its options, if this one contains a misprint; otherwise None."""
     name, colon, options = key.partition(":")
     return MISPRINTS[name] + colon + options if name in MISPRINTS else None
 
 
 def standing(v, key, second_names, judged):
-    """judged: {(formulation, quantity): verdict} at the point."""
+    """Returns how a verdict counts. judged: {(formulation, quantity): verdict} at the point."""
     if v.quantity in second_names:
         return ALIAS
     return MISPRINT if judged.get((corrected(key), v.quantity)) == v.verdict else OWN
@@ -151,7 +151,7 @@ def rows_of_point(case, point, second_names):
 
 
 def rows(cases):
-    """Every verdict of the results."""
+    """Yields every verdict of the results."""
     for case in cases:
         second_names = aliases(case)
         for point in case.points:
@@ -159,7 +159,7 @@ def rows(cases):
 
 
 def counts(found):
-    """{verdict: number} of those that are counted, and {standing: number} of the others."""
+    """Returns {verdict: number} of those that are counted, and {standing: number} of the others."""
     by_verdict, left_out = {}, {}
     for row in found:
         own = row.standing == OWN
@@ -169,6 +169,6 @@ def counts(found):
 
 
 def count_verdicts(cases):
-    """{verdict: number} of those that are counted, from good to bad."""
+    """Returns {verdict: number} of those that are counted, from good to bad."""
     found = counts(rows(cases))[0]
     return dict(sorted(found.items(), key=lambda item: SEVERITY[item[0]]))

@@ -1,1 +1,1 @@
-"""A scene drawn: members with their sections, supports, loads, motions, axes and sizes."""
+"""Draws a scene: members with their sections, supports, loads, motions, axes and dimensions."""

@@ -1,4 +1,4 @@
-"""A drawing in points (1/72 inch): shapes, and labels that avoid them and each other."""
+"""A drawing in points (1/72 inch): shapes, and labels that avoid the shapes and each other."""
 import itertools
 
 import numpy as np
@@ -6,53 +6,53 @@ from matplotlib.collections import PolyCollection
 
 from reports.style import plt
 
-# Numbers with their units, short.
+# Formats numbers with their units in a short form.
 
 
 def number(value):
-    """Four digits; large ones in groups of three."""
+    """Returns a number with four digits; the digits of large ones are in groups of three."""
     if 1e4 <= abs(value) < 1e8:
         return f"{float(f'{value:.4g}'):,.0f}".replace(",", "\u202f")
     return f"{value + 0:.4g}"
 
 
 def length(value):
-    """In m, small ones in mm."""
+    """Returns a length in m, a small one in mm."""
     return f"{number(value)} m" if abs(value) >= 0.5 or value == 0 else f"{number(1e3 * value)} mm"
 
 
 def vector(values, unit):
-    """The size along an axis, else all three components."""
+    """Returns the magnitude of a vector along an axis, otherwise all three components."""
     along = [v for v in values if v]
     said = number(abs(along[0])) if len(along) == 1 else f"({', '.join(map(number, values))})"
     return f"{said} {unit}"
 
 
-# Greys follow the page into dark mode; loads and motions have a colour for each (style.py).
+# Greys follow the page into dark mode; loads and motions each have a colour (style.py).
 INK, SOFT, LOAD, MOTION, SPRING = "#141414", "#606060", "#b03a00", "#005a94", "#6a5a00"
 STEEL, BODY, ROD, MASS = "#c9d3de", "#e3dcc8", "#a89f86", "#8c8468"
 FONT = 9  # [pt]
-WIDE, HIGH = 0.6, 1.25  # of a letter, to the size of the font
+WIDE, HIGH = 0.6, 1.25  # of a letter, relative to the font size
 MOST_FACES = 100  # whose edges labels avoid
 SPACING = 3  # of the points that represent a line when labels are placed [pt]
 WAYS = [np.array([np.cos(a), np.sin(a)]) for a in np.arange(8) * np.pi / 4]
 
 
 def boxes_overlap(a, b):
-    """Area that two boxes (x0, y0, x1, y1) share."""
+    """Returns the area that two boxes (x0, y0, x1, y1) share."""
     width = min(a[2], b[2]) - max(a[0], b[0])
     height = min(a[3], b[3]) - max(a[1], b[1])
     return max(width, 0) * max(height, 0)
 
 
 class Canvas:
-    """Collects what is drawn; `finish` makes the figure."""
+    """Collects the shapes; `finish` makes the figure."""
 
     def __init__(self):
         self.faces, self.draws, self.points, self.labels, self.boxes = [], [], [], [], []
 
     def occupy(self, line):
-        """A polyline [n x 2] that labels avoid."""
+        """Marks a polyline [n x 2] that labels must avoid."""
         line = np.atleast_2d(line)
         self.points.append(line)
         for a, b in itertools.pairwise(line):
@@ -61,7 +61,7 @@ class Canvas:
                 self.points.append(a + np.linspace(0, 1, steps + 1)[:, None] * (b - a))
 
     def face(self, corners, depth, colour, edge=INK):
-        """A filled polygon; far ones are covered by near ones."""
+        """Adds a filled polygon; near polygons cover those farther away."""
         self.faces.append((depth, corners, colour, edge))
         if len(self.faces) < MOST_FACES:
             self.occupy(np.vstack([corners, corners[:1]]))
@@ -69,7 +69,7 @@ class Canvas:
             self.points.append(corners)
 
     def line(self, points, colour=INK, width=1.2, style="-", mark=None, above=True, clear=True):
-        """mark: its id in the file."""
+        """Adds a polyline. mark: its id in the file."""
         if clear:
             self.occupy(points)
         order = 5 if above else 1
@@ -83,7 +83,7 @@ class Canvas:
         self.draws.append(draw)
 
     def area(self, points, colour, edge=INK, width=0.8, mark=None, order=4):
-        """A polygon in front of the members."""
+        """Adds a polygon in front of the members."""
         self.occupy(np.vstack([points, points[:1]]))
 
         def draw(axes):
@@ -105,7 +105,7 @@ class Canvas:
         self.draws.append(draw)
 
     def arrow(self, points, colour, width=1.6, mark=None, head=7):
-        """Along a polyline, its head at the last point."""
+        """Adds an arrow along a polyline, with its head at the last point."""
         points = np.asarray(points)
         self.occupy(points)
         tail, tip = points[-2], points[-1]
@@ -123,11 +123,11 @@ class Canvas:
         self.draws.append(draw)
 
     def label(self, at, text, colour=INK, size=FONT, near=4, towards=None):
-        """Places a label around a point where there is room; towards: preferred direction."""
+        """Adds a label, placed around a point where there is room; towards: preferred direction."""
         self.labels.append((np.asarray(at), text, colour, size, near, towards))
 
     def text(self, at, text, colour=INK, size=FONT, rotation=0):
-        """Places a label centred at a position."""
+        """Adds a label centred at a position."""
         width, height = WIDE * size * len(text), HIGH * size
         c, s = abs(np.cos(np.radians(rotation))), abs(np.sin(np.radians(rotation)))
         half = 0.5 * np.array([c * width + s * height, s * width + c * height])
@@ -138,7 +138,7 @@ class Canvas:
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8}))
 
     def extent(self):
-        """(least, largest) corner of what is drawn."""
+        """Returns the (lower, upper) corner of the drawing."""
         corners = [np.array([b[:2], b[2:]]) for b in self.boxes]
         all_points = np.vstack([np.vstack(self.points)] + corners)
         return all_points.min(axis=0), all_points.max(axis=0)

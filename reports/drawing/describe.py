@@ -1,4 +1,4 @@
-"""Description of a drawing: supports, motions, loads, springs, sections."""
+"""Describes a drawing: supports, motions, loads, springs, sections."""
 import numpy as np
 
 from reports.drawing import geometry, loads
@@ -52,7 +52,7 @@ def extent(within):
 
 
 def axis(one):
-    """The axis along which it acts, if it is one."""
+    """Returns the axis along which the load acts, if it acts along a single axis."""
     along = np.flatnonzero(np.abs(one.vector) + np.abs(one.last))
     if one.varies():
         return ""
@@ -93,7 +93,7 @@ def mass(node):
 
 
 def warping(scene):
-    """Where warping is held and where it is free: nodes, or members if their ends differ at a node."""
+    """Lists where warping is restrained and where it is free: nodes, or members if their ends at a node differ."""
     at = {}
     for member, end, word in ends_that_warp(scene):
         at.setdefault(member.ends[end], []).append((word, member.name))
@@ -111,13 +111,13 @@ def warping(scene):
 
 
 def shortened(lines):
-    """A few of many lines."""
+    """Shortens many lines to a few."""
     found = [line for line in lines if line]
     return found[:MOST] + [f"and {len(found) - MOST} more"] if len(found) > MOST else found
 
 
 def describe(scene):
-    """[(heading, lines)] of the contents."""
+    """Returns [(heading, lines)] of the contents."""
     spin = scene.spin
     turning = [] if spin is None else [f"{place(spin.omega)} rad/s about {place(spin.centre)}"]
     kinds = (("Supports", [support(scene, n) for n in scene.nodes.values()]),

@@ -1,4 +1,4 @@
-"""A scene as a figure."""
+"""Draws a scene as a figure."""
 import itertools
 
 import numpy as np
@@ -6,14 +6,14 @@ import numpy as np
 from reports.drawing import geometry, loads, members
 from reports.drawing.canvas import Canvas, INK, SOFT, STEEL, length
 
-# Main sizes of a structure and its axes.
+# Main dimensions of a structure, and its axes.
 
 CLEAR = 13  # between a dimension and the drawing [pt]
-SMALL = 0.02  # extents below this fraction of the largest have no dimension
+SMALL = 0.02  # dimensions below this fraction of the largest are not drawn
 
 
 def edges(low, high, axis):
-    """Edges of the box along an axis [4 x 2 x 3]."""
+    """Returns the edges of the box along an axis [4 x 2 x 3]."""
     others = [i for i in range(3) if i != axis]
     out = []
     for corner in itertools.product((0, 1), repeat=2):
@@ -25,7 +25,7 @@ def edges(low, high, axis):
 
 
 def put_size(canvas, view, low, high, axis):
-    """A dimension line outside the drawing, on the lower or the right side."""
+    """Draws a dimension line outside the drawing, below it or on its right side."""
     along = view(np.eye(3)[axis]) / view.scale
     if np.linalg.norm(along) < 0.2:
         return
@@ -62,7 +62,7 @@ def put_sizes(canvas, view, points):
 
 
 def put_axes(canvas, view):
-    """x, y, z in the lower left corner; an axis that points at the reader is a dot."""
+    """Draws x, y, z in the lower left corner; an axis that points at the reader is a dot."""
     low, _ = canvas.extent()
     at = low + [-16, -12]
     for axis, name in enumerate("xyz"):
@@ -75,15 +75,15 @@ def put_axes(canvas, view):
         canvas.text(at + 26 * way + 7 * way / np.linalg.norm(way), name, INK, 8)
 
 
-# Sections next to a drawing, at their own scale, with their sizes.
+# Sections next to a drawing, at their own scale, with their dimensions.
 
-SIZE, THINNEST = 84, 1.6  # largest size on paper, least thickness [pt]
+SIZE, THINNEST = 84, 1.6  # largest size on paper, smallest thickness [pt]
 GAP = 46  # between two sections [pt]
 MOST = 3
 
 
 def thick(polygon, scale):
-    """The section on paper, with thin walls widened so that they are visible."""
+    """Returns the section on paper, with thin walls widened so that they are visible."""
     flat = polygon * scale
     sides = np.linalg.norm(np.roll(flat, -1, axis=0) - flat, axis=1)
     if len(flat) != 4 or min(sides[:2]) >= THINNEST:
@@ -152,7 +152,7 @@ def put_section(canvas, name, section, left):
 
 
 def sections_drawn(scene):
-    """Names of the sections whose shape is known, each shape once."""
+    """Returns the names of the sections whose shape is known, each shape once."""
     out = {}
     for member in scene.members.values():
         for name in member.sections:
@@ -162,7 +162,7 @@ def sections_drawn(scene):
 
 
 def draw_sections(scene):
-    """The figure, or None where no section has a shape."""
+    """Returns the figure, or None if no section has a shape."""
     names = sections_drawn(scene)
     if not names:
         return None
@@ -172,18 +172,18 @@ def draw_sections(scene):
     return canvas.finish()
 
 
-FAR = 5  # distance in sizes of the structure from which an axis is no longer drawn
+FAR = 5  # distance, in multiples of the structure's size, from which an axis is no longer drawn
 MOST_NAMES = 9  # nodes whose names are written
 
 
 def skeleton(scene, lines):
-    """Nodes and lines [n x 3]."""
+    """Returns the nodes and the lines [n x 3]."""
     points = [line.points for line in lines.values()]
     return np.vstack(points + [n.position[None] for n in scene.nodes.values()])
 
 
 def body(scene, lines):
-    """Corners of the sections at the ends of members, and masses [n x 3]."""
+    """Returns the corners of the sections at the ends of members, and the masses [n x 3]."""
     out = [n.position[None] + n.centre for n in scene.nodes.values() if n.mass]
     for name, member in scene.members.items():
         line = lines[name]
@@ -212,7 +212,7 @@ def directions(scene):
 
 
 def put_names(canvas, look, scene):
-    """Draws the names of all nodes or, where there are many, of those with quantities."""
+    """Draws the names of all nodes or, if there are many, of those with quantities."""
     asked = [n for n in scene.nodes.values() if n.name in scene.asked]
     named = asked if len(scene.nodes) > MOST_NAMES else list(scene.nodes.values())
     if len(named) > MOST_NAMES:
@@ -222,7 +222,7 @@ def put_names(canvas, look, scene):
 
 
 def near_spin(scene, points):
-    """Is the axis of rotation so near that it can be drawn?"""
+    """Is the axis of rotation near enough to be drawn?"""
     if scene.spin is None:
         return False
     away = np.linalg.norm(scene.spin.centre - points.mean(axis=0))
@@ -230,7 +230,7 @@ def near_spin(scene, points):
 
 
 def compose(scene):
-    """A canvas with the scene on it."""
+    """Returns a canvas with the scene on it."""
     lines = {name: geometry.line_of(scene, m) for name, m in scene.members.items()}
     points = skeleton(scene, lines)
     solid = any(geometry.outline(s) for s in scene.sections.values())
@@ -263,5 +263,5 @@ def compose(scene):
 
 
 def draw(scene):
-    """The figure of a scene."""
+    """Returns the figure of a scene."""
     return compose(scene).finish()

@@ -11,13 +11,13 @@ STEPS = 24  # of a curved member
 
 @dataclass
 class Line:
-    """Axis of a member: points [n x 3] and the triads there [n x 3 x 3], rows x, y, z."""
+    """Axis of a member: points [n x 3], and the triads at them [n x 3 x 3], rows x, y, z."""
     points: np.ndarray
     axes: np.ndarray
 
 
 def triad(x, y):
-    """Rows: the axis along x, the part of y normal to it, and the third axis."""
+    """Returns the triad with rows: the axis along x, the part of y normal to it, and the third axis."""
     x = x / np.linalg.norm(x)
     y = y - x * (x @ y)
     y = y / np.linalg.norm(y)
@@ -25,7 +25,8 @@ def triad(x, y):
 
 
 def chord(k, s):
-    """Position on an arc with torsion and curvature k [1/m] after a length s, in the triad at its beginning."""
+    """Returns the position on an arc with torsion and curvature k [1/m] after a length s, in the triad at its
+    start."""
     w = np.linalg.norm(k)
     e = np.array([1.0, 0, 0])
     if w * s < 1e-9:
@@ -36,7 +37,7 @@ def chord(k, s):
 
 
 def arc_length(k, distance):
-    """Returns the length of the arc whose ends have this distance."""
+    """Returns the length of the arc whose ends are this distance apart."""
     length = distance
     for _ in range(60):
         length += distance - np.linalg.norm(chord(k, length))
@@ -44,7 +45,7 @@ def arc_length(k, distance):
 
 
 def line_of(scene, member):
-    """The axis of a member between its nodes."""
+    """Returns the axis of a member between its nodes."""
     p, q = (scene.nodes[name].position for name in member.ends)
     B = triad(q - p, member.y)
     k = member.curvature
@@ -59,18 +60,18 @@ def line_of(scene, member):
 
 
 def rectangle(y, z, height, width):
-    """Corners [4 x 2] about (y, z)."""
+    """Returns the corners [4 x 2] about (y, z)."""
     return np.array([y, z]) + 0.5 * np.array([[-height, -width], [height, -width],
                                               [height, width], [-height, width]])
 
 
 def meet(walls):
-    """Do they have a point in common, so that an open section of them does not warp?"""
+    """Do the walls have a point in common, so that an open section of them does not warp?"""
     return bool(set.intersection(*({w["from"], w["to"]} for w in walls)))
 
 
 def warps(section):
-    """Does it have a warping constant?"""
+    """Does the section have a warping constant?"""
     given = section.get("given", {})
     if "Iw" in given:
         return float(given["Iw"]) > 0
@@ -80,7 +81,7 @@ def warps(section):
 
 
 def walls_of(section):
-    """Strips [4 x 2] of thin walls about their centroid, and the mid-lines [walls x 2 x 2]."""
+    """Returns strips [4 x 2] of thin walls about their centroid, and the mid-lines [walls x 2 x 2]."""
     points = {name: np.array([float(v) for v in p]) for name, p in section["points"].items()}
     ends = np.array([[points[w["from"]], points[w["to"]]] for w in section["walls"]])
     thickness = np.array([float(w["thickness"]) for w in section["walls"]])
@@ -99,7 +100,7 @@ def circle(radius, count=24):
 
 
 def outline(section):
-    """Polygons [n x 2] in (y, z) of a section, in m; [] where only its constants are known."""
+    """Returns polygons [n x 2] in (y, z) of a section, in m; [] if only its constants are known."""
     if "rectangle" in section:
         r = section["rectangle"]
         return [rectangle(0, 0, float(r["thickness"]), float(r["width"]))]
@@ -111,8 +112,7 @@ def outline(section):
 
 
 def prism(line, here, there):
-    """Quadrilaterals [m x 4 x 3] of the sides of a member, from outline `here` at its beginning to
-    `there`."""
+    """Returns quadrilaterals [m x 4 x 3] of the sides of a member, from outline `here` at its start to `there`."""
     share = np.linspace(0, 1, len(line.points))[:, None, None]
     rings = (1 - share) * here + share * there  # [points x corners x 2]
     y, z = line.axes[:, None, 1], line.axes[:, None, 2]
@@ -123,11 +123,10 @@ def prism(line, here, there):
     return np.concatenate(sides), [edges[0], edges[-1]]
 
 
-# Viewpoint of a structure: face-on if it lies in a plane, otherwise from above at an
-# angle.
+# Viewpoint of a structure: face-on if it lies in a plane, otherwise from above at an angle.
 
 WIDTH, HEIGHT = 400, 230  # of the structure on paper, at most [pt]
-FLAT = 1e-6  # extent below this fraction of the whole counts as none
+FLAT = 1e-6  # extents below this fraction of the whole count as zero
 AZIMUTHS, ELEVATIONS = (-72, -64, -56, -48, -40, -32), (18, 24, 31)  # [degrees]
 MOST_POINTS = 60  # by which an angle is rated
 
@@ -148,7 +147,7 @@ class View:
         return max(abs(self.near)) > 1 - 1e-9
 
     def __call__(self, points):
-        """On paper [.. x 2], in pt."""
+        """Returns positions on paper [.. x 2], in pt."""
         return self.scale * np.stack([points @ self.right, points @ self.up], axis=-1)
 
     def depth(self, points):
@@ -166,14 +165,15 @@ FACES = (View(X, Y), View(X, Z), View(Y, Z))
 
 
 def in_plane(normal, flat, shifts, turns):
-    """Does everything lie and move in the plane normal to an axis, and rotate about that axis only?"""
+    """Does everything lie and move in the plane normal to an axis, and rotate only about that axis?"""
     others = np.eye(3)[[i for i in range(3) if i != normal]]
     return bool(flat[normal] and all(abs(v[normal]) <= FLAT * np.linalg.norm(v) for v in shifts)
                 and all(max(abs(others @ v)) <= FLAT * np.linalg.norm(v) for v in turns))
 
 
 def openness(view, points):
-    """Smallest distance on paper between points that are separate in space, relative to the size of the picture."""
+    """Returns the smallest distance on paper between points that are separate in space, relative to the size of the
+    picture."""
     flat = view(points)
     apart = [(np.linalg.norm(flat[i] - flat[k]), np.linalg.norm(points[i] - points[k]))
              for i, k in itertools.combinations(range(len(points)), 2)]
@@ -182,8 +182,8 @@ def openness(view, points):
 
 
 def choose_view(points, shifts, turns, solid):
-    """points [n x 3] to be seen; shifts, turns: directions of loads and motions; solid: sections
-    have a shape."""
+    """Returns the view of points [n x 3]. shifts, turns: directions of loads and motions; solid: sections have a
+    shape."""
     extent = np.ptp(points, axis=0)
     flat = extent <= FLAT * np.linalg.norm(extent)
     straight = flat.sum() == 2
@@ -201,6 +201,6 @@ def choose_view(points, shifts, turns, solid):
 
 
 def scaled(view, points):
-    """The same view, at the largest scale that fits these points [n x 3]."""
+    """Returns the same view, at the largest scale that fits these points [n x 3]."""
     width, height = np.maximum(np.ptp(View(view.right, view.up)(points), axis=0), 1e-300)
     return View(view.right, view.up, min(WIDTH / width, HEIGHT / height))

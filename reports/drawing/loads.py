@@ -1,4 +1,4 @@
-"""Arrows of loads, of driven motions and of rotating axes."""
+"""Draws arrows of loads, of prescribed motions and of rotating axes."""
 from dataclasses import replace
 
 import numpy as np
@@ -8,7 +8,7 @@ from reports.drawing.scene import COMPONENTS
 
 ARROW, SHORT, RADIUS = 38, 20, 15  # [pt]
 ALONG = 9  # arrows of a load along a member
-MOST_MOTIONS = 4  # with their ranges; others are in the list below the drawing
+MOST_MOTIONS = 4  # motions with their ranges; others are in the list below the drawing
 UNITS = {"force": "N", "moment": "N m", "distributed": "N/m", "distributed_moment": "N m/m",
          "gravity": "m/s²"}
 
@@ -18,7 +18,7 @@ def unit(v):
 
 
 def arc(view, at, axis, radius=RADIUS, begin=-0.35, turn=1.5):
-    """An arc around an axis through a point, right-handed, on paper [n x 2]. turn: in units of pi."""
+    """Returns a right-handed arc around an axis through a point, on paper [n x 2]. turn: in units of pi."""
     axis = unit(axis)
     side = view.right - axis * (axis @ view.right)
     side = unit(side if np.linalg.norm(side) > 0.2 else view.up - axis * (axis @ view.up))
@@ -28,7 +28,7 @@ def arc(view, at, axis, radius=RADIUS, begin=-0.35, turn=1.5):
 
 
 def straight(view, at, way, ways, size=ARROW):
-    """An arrow on paper [2 x 2]: away from the point, or towards it if a member is in the way."""
+    """Returns an arrow on paper [2 x 2]: away from the point, or towards it if a member is in the way."""
     flat = view(unit(way)) / view.scale
     size = size * max(np.linalg.norm(flat), 0.45)
     flat = unit(flat)
@@ -38,7 +38,7 @@ def straight(view, at, way, ways, size=ARROW):
 
 
 def size(load):
-    """Returns the magnitude of the load's vector, or of both if it varies."""
+    """Returns the magnitude of the load's vector, or both magnitudes if it varies."""
     unit_of = UNITS[load.kind]
     if not load.varies():
         return vector(load.vector, unit_of)
@@ -61,7 +61,7 @@ def put_force(canvas, view, load, at, ways):
 def put_moment(canvas, view, load, at):
     line = arc(view, at, load.vector)
     canvas.arrow(line, LOAD, mark=load.name)
-    if np.ptp(line, axis=0).min() < 0.3 * RADIUS:  # an arc seen from its edge: draw its axis, which is clearer
+    if np.ptp(line, axis=0).min() < 0.3 * RADIUS:  # an arc seen edge-on: draw its axis, which is clearer
         shaft = straight(view, at, load.vector, [], ARROW + 8)
         canvas.arrow(shaft, LOAD, 1.0, head=6)
         canvas.arrow(shaft[0] + 0.86 * (shaft - shaft[0]), LOAD, 1.0, head=6)
@@ -77,18 +77,18 @@ def beside_member(flat, way, gravity):
 
 
 def in_fixed(load, line, v):
-    """The vector of a load on a member."""
+    """Returns the vector of a load on a member in fixed axes."""
     return line.axes[0].T @ v if load.member_axes else v
 
 
 def point_on(line, places):
-    """Points of a member at fractions of its length [n x 3]."""
+    """Returns points of a member at fractions of its length [n x 3]."""
     share = np.linspace(0, 1, len(line.points))
     return np.array([np.interp(places, share, line.points[:, i]) for i in range(3)]).T
 
 
 def put_within(canvas, view, load, line):
-    """A force or a moment at a position of a member."""
+    """Draws a force or a moment at a position along a member."""
     at = point_on(line, load.within[:1])[0]
     fixed = replace(load, vector=in_fixed(load, line, load.vector))
     if load.kind == "moment":
@@ -98,8 +98,8 @@ def put_within(canvas, view, load, line):
 
 
 def put_along(canvas, view, load, line, told):
-    """Arrows along a member, pointing to its line; a thin line joins their tails. `told`: words that are already
-    drawn."""
+    """Draws arrows along a member that point to its line; a thin line joins their tails. `told`: labels that are
+    already drawn."""
     parts = np.linspace(0.03, 0.97, ALONG)[:, None]
     begin, end = load.within or (0, 1)
     ways = (1 - parts) * in_fixed(load, line, load.vector) + parts * in_fixed(load, line, load.last)
@@ -151,7 +151,7 @@ def put_loads(canvas, view, scene, lines, into):
 
 
 def motions_of(scene, node):
-    """[(direction, whether it is a rotation, name of the motion)] of the prescribed components that move."""
+    """Returns [(direction, whether it is a rotation, name of the motion)] of the prescribed components that move."""
     out = [(np.eye(3)[COMPONENTS.index(c) % 3], c[0] == "r", motion)
            for c, motion in node.driven.items()]
     out += [(t.axis, True, t.angle) for t in node.turns if t.angle in scene.motions]
@@ -191,7 +191,7 @@ def put_motions(canvas, view, scene, into):
 
 
 def put_spin(canvas, view, scene, size):
-    """The axis about which everything rotates, and its direction."""
+    """Draws the axis about which everything rotates, and its direction."""
     if scene.spin is None:
         return
     omega, at = scene.spin.omega, scene.spin.centre

@@ -1,4 +1,4 @@
-"""Members with their sections, rigid bodies, masses, springs and hinges."""
+"""Draws members with their sections, rigid bodies, masses, springs and hinges."""
 import numpy as np
 
 from reports import shapes
@@ -6,8 +6,8 @@ from reports.drawing import geometry
 from reports.drawing.canvas import BODY, INK, MASS, ROD, SOFT, SPRING, STEEL, number
 from reports.drawing.scene import COMPONENTS
 
-THIN = 0.2  # thickness to length of a wall that is drawn as a surface
-SEEN = 2.5  # size of a section on paper from which it is drawn [pt]
+THIN = 0.2  # ratio of thickness to length up to which a wall is drawn as a surface
+SEEN = 2.5  # size on paper from which a section is drawn [pt]
 LIGHT = np.array([0.3, -0.5, 0.81])
 FEW = 10  # members with centre lines
 HINGE = 9  # from the end of a member [pt]
@@ -40,7 +40,7 @@ def put_polygon(canvas, view, corners, colour, edge=INK):
 
 
 def put_solid(canvas, view, line, here, there):
-    """One polygon of a section, along the member."""
+    """Draws one polygon of a section along the member."""
     if len(here) == 4 and is_thin(here) and is_thin(there):
         a, b = middle_line(here), middle_line(there)
         sides, _ = geometry.prism(line, a, b)
@@ -88,7 +88,7 @@ def put_hinges(canvas, view, member, line):
 
 
 def ends_that_warp(scene):
-    """(member, its end: 0 or 1, fixed, free or shared) of all members whose section warps."""
+    """Returns (member, its end: 0 or 1, fixed, free or shared) of all members whose section warps."""
     if "warping" in scene.omitted or "all" in scene.omitted:
         return
     for member in scene.members.values():
@@ -98,7 +98,7 @@ def ends_that_warp(scene):
 
 
 def put_warping(canvas, view, scene, lines):
-    """Bars across the ends of members: filled where they hold the warping, open where it is free."""
+    """Draws bars across the ends of members: filled where warping is restrained, open where it is free."""
     for member, end, word in ends_that_warp(scene) if len(scene.members) <= FEW else ():
         flat = view(lines[member.name].points)
         at, beside = (flat[0], flat[1]) if end == 0 else (flat[-1], flat[-2])
@@ -115,7 +115,7 @@ def put_warping(canvas, view, scene, lines):
 
 
 def put_bodies(canvas, view, scene):
-    """Convex hulls of nodes that move together; rods between parts that are far from each other."""
+    """Draws convex hulls of nodes that move together, and rods between parts that are far from each other."""
     for name, node in scene.nodes.items():
         own = [n.position for n in scene.nodes.values() if n.part_of == name]
         if not own or node.part_of:
@@ -143,7 +143,7 @@ def put_masses(canvas, view, scene):
 
 
 def zigzag(a, b, width=5, turns=5):
-    """From a to b [n x 2]."""
+    """Returns a zigzag from a to b [n x 2]."""
     along = b - a
     across = np.array([-along[1], along[0]]) / max(np.linalg.norm(along), 1e-9)
     share = np.concatenate([[0, 0.15], np.linspace(0.2, 0.8, 2 * turns), [0.85, 1]])
@@ -152,14 +152,15 @@ def zigzag(a, b, width=5, turns=5):
 
 
 def spiral(turns=2.2, radius=12):
-    """Around the origin [n x 2], from the middle outwards."""
+    """Returns a spiral around the origin [n x 2], from the middle outwards."""
     angle = np.linspace(0, 2 * np.pi * turns, 60)
     return radius * (0.15 + 0.85 * angle[:, None] / angle[-1]) * np.stack(
         [np.cos(angle), np.sin(angle)], axis=1)
 
 
 def stands_along(view, spring):
-    """Direction on paper of a spring to the ground: that of its stiffest displacement, otherwise downwards."""
+    """Returns the direction on paper of a spring to the ground: that of its stiffest displacement, otherwise
+    downwards."""
     k = spring.stiffness[:3] if spring.stiffness[:3].any() else spring.acts[:3]
     way = view(np.eye(3)[int(np.argmax(k))]) if k.any() else np.zeros(2)
     way = way if np.linalg.norm(way) > 0.2 * view.scale else np.array([0, -1.0])
@@ -191,7 +192,7 @@ def put_springs(canvas, view, scene):
 
 
 def put_ground(canvas, at, away):
-    """A hatched line normal to a direction."""
+    """Draws a hatched line normal to a direction."""
     way = away / np.linalg.norm(away)
     across = np.array([-way[1], way[0]])
     canvas.line([at - 11 * across, at + 11 * across], INK, 1.3)
@@ -199,27 +200,28 @@ def put_ground(canvas, at, away):
         canvas.line([at + k * across, at + (k - 4) * across + 5 * way], INK, 0.7)
 
 
-# Supports of a structure: clamps, pins, forks, single components.
+# Supports of a structure: clamps, pins, fork supports, single components.
 
-PLATE = 15  # half a side of a clamp's plate [pt]
+PLATE = 15  # half the side of a clamp's plate [pt]
 HATCHES = 9  # lines of a plate
 MOST_LETTERS = 4  # supports with letters; others are in the list below the drawing
 
 
 def held_of(scene, node):
-    """Components that do not move: held ones, those driven by a motion that stays at zero, and held rotations."""
+    """Returns the components that do not move: fixed ones, those driven by a motion that stays at zero, and fixed
+    rotations."""
     still = [c for c, motion in node.driven.items() if scene.motions.get(motion) == (0, 0)]
     turned = [f"turn {i + 1}" for i, t in enumerate(node.turns) if t.angle == "held"]
     return [c for c in COMPONENTS if c in node.held or c in still] + turned
 
 
 def rigid(scene, name):
-    """Nodes that move with a node, including itself."""
+    """Returns the nodes that move with a node, including the node itself."""
     return [name] + [n.name for n in scene.nodes.values() if n.part_of == name]
 
 
 def into(scene, lines, name):
-    """Unit vectors from a node into its members."""
+    """Returns unit vectors from a node into its members."""
     out = []
     for key, member in scene.members.items():
         line = lines[key].points
@@ -230,7 +232,7 @@ def into(scene, lines, name):
 
 
 def put_plate(canvas, view, at, way, mark):
-    """A plate normal to a member in space; 0 if it is seen from its edge."""
+    """Draws a plate normal to a member in space. Returns 0 if it is seen edge-on."""
     side = np.cross(way, [0, 0, 1.0] if abs(way[2]) < 0.9 else [1.0, 0, 0])
     side /= np.linalg.norm(side)
     other, h = np.cross(way, side), PLATE / view.scale
@@ -249,7 +251,7 @@ def put_plate(canvas, view, at, way, mark):
 
 
 def put_edge(canvas, view, at, way, mark):
-    """The plate seen from its edge: a hatched line behind the node."""
+    """Draws the plate seen edge-on: a hatched line behind the node."""
     flat = view(way)
     flat = flat / np.linalg.norm(flat) if np.linalg.norm(flat) > 0.1 * view.scale else \
         np.array([0, 1.0])
@@ -258,7 +260,7 @@ def put_edge(canvas, view, at, way, mark):
 
 
 def put_pin(canvas, at, way, mark, roller):
-    """A triangle on the side `way` of the node; roller: it can slide."""
+    """Draws a triangle on the side `way` of the node; roller: it can slide."""
     across = np.array([-way[1], way[0]])
     foot = at + 11 * way
     canvas.area(np.array([at, foot - 7 * across, foot + 7 * across]), "white", INK, 1.1, mark=mark,
@@ -270,7 +272,7 @@ def put_pin(canvas, at, way, mark, roller):
 
 
 def put_fork(canvas, view, at, fork, mark):
-    """Two guides on both sides of the web."""
+    """Draws two guides on both sides of the web."""
     axis, web = (v / np.linalg.norm(v) for v in fork)
     normal, h = np.cross(web, axis), 13 / view.scale
     for sign in (-1, 1):
@@ -281,7 +283,8 @@ def put_fork(canvas, view, at, fork, mark):
 
 
 def pin_way(view, seen, ways):
-    """The symbol is below the node; if only one direction on paper is held, it is along it, away from the members."""
+    """Returns the direction of the symbol: below the node, or, if only one direction on paper is fixed, along it and
+    away from the members."""
     down = np.array([0, -1.0])
     if not view.face_on or len(seen) != 1:
         return down
@@ -291,7 +294,7 @@ def pin_way(view, seen, ways):
 
 
 def put_support(canvas, view, scene, lines, node):
-    """Symbol of a node with held components."""
+    """Draws the symbol of a node with fixed components."""
     mark, at, held = f"support_{node.name}", view(node.position), held_of(scene, node)
     ways = into(scene, lines, node.name)
     if len(held) == 6:

@@ -1,4 +1,4 @@
-"""A written scene (`beamwork scene CASE`) as plain records; lengths in m, forces in N."""
+"""Reads a scene as `beamwork scene CASE` writes it into plain records; lengths in m, forces in N."""
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,7 +10,7 @@ Loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)  # every scalar is text u
 
 @dataclass
 class Turn:
-    """A rotation about an axis, which is free, held or follows a motion."""
+    """A rotation about an axis, which is free, fixed or prescribed by a motion."""
     axis: np.ndarray
     angle: str
 
@@ -27,16 +27,16 @@ class Node:
     vector: tuple = ()  # motions of a rotation vector
     fork: np.ndarray = None  # axis and web of a fork [2 x 3]
     mass: float = 0
-    centre: np.ndarray = None  # of the mass, from the node [m]
+    centre: np.ndarray = None  # centre of the mass, from the node [m]
 
 
 @dataclass
 class Member:
-    """y: direction of the y axis of its section; released: components at both ends; warping: of
-    both ends fixed, free or shared."""
+    """y: direction of the y axis of its section; released: components at both ends; warping at both ends: fixed, free
+    or shared."""
     name: str
     ends: tuple  # names of two nodes
-    sections: tuple  # names of the sections at both
+    sections: tuple  # names of the sections at both ends
     y: np.ndarray
     curvature: np.ndarray
     released: tuple
@@ -45,14 +45,14 @@ class Member:
 
 @dataclass
 class Load:
-    """kind: force, moment, distributed, distributed_moment, gravity; on: a node or a member.
-    within: the fractions of its length between which it acts, equal for a force or a moment, None at a node; last:
-    the vector at its end."""
+    """kind: force, moment, distributed, distributed_moment, gravity; on: a node or a member. within: the fractions of
+    the member's length between which it acts, equal for a force or a moment, None at a node; last: the vector at
+    its end."""
     name: str
     kind: str
     vector: np.ndarray
     on: str
-    at: np.ndarray  # of a force, from the node or the centroids [m]
+    at: np.ndarray  # point of application of a force, from the node or the centroid [m]
     member_axes: bool
     follower: bool
     grows: bool  # with the path parameter
@@ -71,11 +71,11 @@ class Spring:
     ends: tuple
     stiffness: np.ndarray  # diagonal [6]
     damping: np.ndarray  # diagonal [6]
-    tables: tuple  # of these components, True or False
+    tables: tuple  # True for each of these components that a table defines
 
     @property
     def acts(self):
-        """Axes along and about which it acts."""
+        """Returns the axes along and about which the spring acts."""
         return (self.stiffness != 0) | (self.damping != 0) | np.array(self.tables)
 
 
@@ -95,9 +95,9 @@ class Scene:
     members: dict
     loads: list
     springs: list
-    motions: dict  # name -> (least, largest value), () of time, or None where it is unknown
+    motions: dict  # name -> (smallest, largest value), () for a function of time, or None if unknown
     spin: Spin = None
-    asked: set = field(default_factory=set)  # nodes that quantities are of
+    asked: set = field(default_factory=set)  # nodes at which quantities are defined
     omitted: tuple = ()  # omitted physics
 
 
@@ -106,7 +106,7 @@ def numbers(values):
 
 
 def words_of(said):
-    """One word or a list of them."""
+    """Returns one word, or the words of a list, as a list."""
     return said if isinstance(said, (list, tuple)) else [said]
 
 
@@ -137,12 +137,12 @@ def read_member(name, said):
                   tuple("shared" if isinstance(word, dict) else word for word in warping))
 
 
-IN_TIME = ("time", "pieces", "table")  # how a motion that is a function of time is said
+IN_TIME = ("time", "pieces", "table")  # keys of a motion that is a function of time
 KINDS = ("force", "moment", "distributed", "distributed_moment", "gravity")
 
 
 def read_load(name, said):
-    """None: a temperature, which has no arrow."""
+    """Reads a load; returns None for a temperature, which has no arrow."""
     kind = next((k for k in KINDS if k in said), None)
     if kind is None:
         return None
@@ -189,7 +189,7 @@ def read_spin(analyses):
 
 
 def nodes_asked(said):
-    """Names of the nodes that quantities are of."""
+    """Returns the names of the nodes at which quantities are defined."""
     own = {name: next(iter(what.values())) for name, what in said["analyses"].items()}
     out = set()
     for quantity in (said.get("quantities") or {}).values():
@@ -199,7 +199,7 @@ def nodes_asked(said):
 
 
 def read(text):
-    """The scene in the text of a file, or None if there is no text."""
+    """Reads the scene from the text of a file, or returns None if the text is empty."""
     if not text:
         return None
     said = yaml.load(text, Loader)

@@ -1,1 +1,1 @@
-"""Sweeps: over which range of its parameters a formulation is within a tolerance."""
+"""Sweeps: the range of the parameters over which a formulation is within a tolerance."""

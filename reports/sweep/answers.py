@@ -1,21 +1,21 @@
-"""First statements of the page of a sweep: for every formulation the ranges in which it is within the
-tolerance, from the counts of one pass."""
+"""First statements of the page of a sweep: for every formulation, the ranges in which it is within the tolerance, from
+the counts of one pass."""
 from dataclasses import dataclass, field
 
 from reports.sweep import boxes, gather, stored
 from reports.sweep.boxes import Box
 
-ENOUGH = 0.9  # of the largest range, with which fewer elements are listed first
-FEWER = 0.15  # of the first one, from which a range of fewer elements is listed
-BEHIND = 0.95  # of the points of the next quantity, below which one decides
-WIDER = 1.01  # of the first one, for which a range of more elements is listed, too
+ENOUGH = 0.9  # of the largest range: fewer elements that reach this share are listed first
+FEWER = 0.15  # of the first range: a range with fewer elements is listed from this share on
+BEHIND = 0.95  # of the points of the next quantity: below this share, one quantity alone decides
+WIDER = 1.01  # of the first range: a range with more elements is also listed from this factor on
 
 
 @dataclass
 class Range:
     """Range in which a formulation with this number of elements is within the tolerance. box: or None; reached: all
-    points within it; known: points with a reference; whole: all points; exceptions: points of the box that are not
-    within it."""
+    points within it; known: points with a reference value; whole: all points; exceptions: points of the box that are
+    not within the tolerance."""
 
     mesh: int
     box: object
@@ -31,8 +31,8 @@ class Range:
 
 @dataclass
 class Answer:
-    """of: ranges in all quantities by mesh; single: {quantity: the same}; first: the one that is listed first, or
-    None; fewer: one with fewer elements; wider: one with more; absent: it does not support what is needed at any
+    """of: ranges in all quantities by mesh; single: {quantity: the same}; first: the range that is listed first, or
+    None; fewer: a range with fewer elements; wider: one with more; absent: it does not support the physics at any
     point; decided: the quantity that needs the most elements, empty if no single one does."""
 
     key: str
@@ -45,7 +45,8 @@ class Answer:
     decided: str = ""
 
     def decide(self):
-        """With the most elements that are not enough in all quantities: is one of these the reason?"""
+        """Determines, for the largest number of elements that is not enough in all quantities, whether a single
+        quantity is the reason."""
         short = [i for i, r in enumerate(self.of) if r.reached < r.known]
         if not short or not self.single:
             return
@@ -70,14 +71,14 @@ class Answer:
         return [r for r in (self.first, self.fewer, self.wider) if r]
 
     def same(self):
-        """Key of answers that are printed together."""
+        """Returns the key of answers that are printed together."""
         if not self.first:
             return self.absent, self.of[-1].reached
         return self.first.mesh, self.first.box.lattice, self.first.box.chosen
 
 
 def ranges(found, meshes, f, q):
-    """[Range] of a formulation and a quantity for every mesh."""
+    """Returns [Range] of a formulation and a quantity for every mesh."""
     whole, reach, out = int(found.points.sum()), [table[:, f, q] for table in found.reaches], []
     for m, n in enumerate(meshes):
         counts = [(r[:, :m + 1].sum(axis=1), r[:, m + 1:].sum(axis=1)) for r in reach]
@@ -89,7 +90,7 @@ def ranges(found, meshes, f, q):
 
 
 def answer(sweep, found, f):
-    """The Answer of a formulation."""
+    """Returns the Answer of a formulation."""
     count = len(sweep.quantities)
     of = ranges(found, sweep.meshes, f, count)
     single = {q.name: ranges(found, sweep.meshes, f, i) for i, q in enumerate(sweep.quantities)
@@ -103,7 +104,7 @@ def answer(sweep, found, f):
 
 
 def of_sweep(sweep, found):
-    """[Answer]: the nearly widest ranges first, of these the fewest elements; exceptions named."""
+    """Returns [Answer]: the nearly widest ranges first, sorted by the number of elements, with the exceptions."""
     made = [answer(sweep, found, f) for f in range(len(sweep.keys))]
     told = [(a, r) for a in made for r in a.told]
     asked = [(r.box, sweep.keys.index(a.key), len(sweep.quantities), sweep.meshes.index(r.mesh))
@@ -123,9 +124,9 @@ def of_sweep(sweep, found):
 
 @dataclass
 class Group:
-    """Answers of the same range with as many elements, printed in one sentence. least: of those with
-    the fewest points that hold; worst: [(formulation, exception)], the worst first; exceptions:
-    their number; fewer, wider: what all of them say, or None; more: some have further ranges that are not printed."""
+    """Answers with the same range and number of elements, printed in one sentence. least: the answer with the fewest
+    points within the tolerance; worst: [(formulation, exception)], the worst first; exceptions: their number; fewer,
+    wider: what they have in common, or None; more: some have further ranges that are not printed."""
 
     answers: list
 
@@ -135,7 +136,7 @@ class Group:
 
     @property
     def alike(self):
-        """Do as many points hold for all?"""
+        """Do all answers have the same number of points within the tolerance?"""
         return len({(a.first.good, a.first.box.points) for a in self.answers}) == 1
 
     @property
@@ -148,7 +149,7 @@ class Group:
         return sorted(found, key=lambda row: -row[1].error)
 
     def common(self, name):
-        """A range that all have in common, or None."""
+        """Returns a range that all answers have in common, or None."""
         found = {(r.mesh, r.box) if r else None for r in (getattr(a, name) for a in self.answers)}
         return getattr(self.answers[0], name) if len(found) == 1 else None
 
@@ -167,7 +168,7 @@ class Group:
 
 
 def together(made):
-    """[Group], in the order of the answers."""
+    """Returns [Group], in the order of the answers."""
     groups = {}
     for each in made:
         groups.setdefault(each.same(), []).append(each)
@@ -175,7 +176,7 @@ def together(made):
 
 
 def unknown(sweep, found, q):
-    """(points, Box or None) that lack a reference for a quantity."""
+    """Returns (points, Box or None) without a reference value for a quantity."""
     known = found.known[:, q]
     without = found.points - known
     if not without.any():
@@ -185,8 +186,8 @@ def unknown(sweep, found, q):
 
 
 def outcomes(sweep, found):
-    """[(formulation, outcome, cells, of so many, [(axis, low, high)])] of what has no solution; of
-    axes those that it does not occur all over."""
+    """Returns [(formulation, outcome, runs, total, [(axis, low, high)])] of outcomes without a solution; only axes
+    that the outcome does not cover completely."""
     out = []
     for f, key in enumerate(sweep.keys):
         for s, name in enumerate(sweep.statuses):
@@ -201,8 +202,8 @@ def outcomes(sweep, found):
 
 
 def proven(rows):
-    """(quantities, most of their points that are measured by truths) where others of their points
-    are measured by limits only; rows: as of references."""
+    """Returns the quantities that have reference values at some points and only limits at others, and the largest
+    number of their points with reference values. rows: those of references()."""
     mixed = []
     for quantity, kinds, *_ in rows:
         truths = sum(n for kind, n in kinds.items() if kind.startswith("truth"))
@@ -212,7 +213,8 @@ def proven(rows):
 
 
 def references(sweep, found):
-    """[(quantity, {kind: points}, largest uncertainty, uncertain points, points without, Box of these)]"""
+    """Returns [(quantity, {kind: points}, largest uncertainty, uncertain points, points without a reference value, Box
+    of these)]."""
     rows = []
     for q, quantity in enumerate(sweep.quantities):
         kinds = {name: int(n) for name, n in zip(sweep.kinds, found.kinds[q])
@@ -222,7 +224,7 @@ def references(sweep, found):
     return rows
 
 
-# Ranges, boxes and counts in words.
+# Formats ranges, boxes and counts as text.
 
 SMALL = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
@@ -233,7 +235,7 @@ def count(number):
 
 
 def plenty(number):
-    """A number with separated thousands."""
+    """Returns a number with separated thousands."""
     return f"{number:,}".replace(",", "\u202f")
 
 
@@ -243,7 +245,7 @@ def many(number, noun):
 
 
 def percent(share):
-    """Returns the percentage of all points; never 0 or 100 unless exact."""
+    """Returns the percentage of all points; 0 and 100 only if exact."""
     value = 100 * share
     if 0 < value < 1:
         return "less than 1 %"
@@ -253,7 +255,7 @@ def percent(share):
 
 
 def error(value):
-    """The size of a relative error, in percent."""
+    """Returns the magnitude of a relative error in percent."""
     value = abs(value)
     if value == float("inf"):
         return "no solution"
@@ -269,7 +271,7 @@ def elements(number):
 
 
 def bounds(part, chosen):
-    """[(sign, number)] of an axis with numbers."""
+    """Returns [(sign, number)] of an axis with numbers."""
     low, high, found = chosen[0], chosen[-1], []
     if low > 0:
         found.append(("≥", part.low[low] if part.exact else part.cuts[low - 1]))
@@ -307,7 +309,7 @@ def where(box):
 
 
 def held(box):
-    """The counts behind a statement."""
+    """Returns the counts on which a statement is based."""
     there = " there" if box.conditions else ""
     if box.bad:
         said = f"{plenty(box.good)} of {many(box.points, 'point')}{there}"
@@ -317,5 +319,5 @@ def held(box):
 
 
 def unjudged(whole, asked):
-    """Points at which something has no reference."""
+    """Describes the number of points without a reference value."""
     return f"; {plenty(whole - asked)} of all {plenty(whole)} cannot be judged" if asked < whole else ""

@@ -1,29 +1,29 @@
-"""The largest box of a lattice in which nearly all points hold, simple before large.
+"""Finds the largest box of a lattice in which nearly all points are within the tolerance; simple boxes take precedence
+over large ones.
 
-A box has for each axis nothing, a bound, two bounds, or some words. Each bound is a condition, and
-so are words. One with more conditions is taken only where it has many more points."""
+A box has for each axis no condition, one bound, two bounds, or a set of words. Each bound is a condition, and so is a
+set of words. A box with more conditions is preferred only if it contains many more points."""
 import functools
 import itertools
 from dataclasses import dataclass, field
 
 import numpy as np
 
-ALLOWED = 0.03  # share of the points of a box that may be exceptions
+ALLOWED = 0.03  # maximum share of exceptions among the points of a box
 LEAST = 0.05  # share of all points below which a box is not printed
 FEWEST = 3  # points
-GAIN = 1.2  # of points, for which another condition is taken
-WEIGHT = 3  # of an exception against a point that holds: a box ends before mixed ground
-CLIMBS = (1, 3, 10, 30)  # weights of exceptions on the way up
+GAIN = 1.2  # minimum factor on the number of points that justifies another condition
+WEIGHT = 3  # of an exception relative to a point within the tolerance, so that a box ends before mixed regions
+CLIMBS = (1, 3, 10, 30)  # weights of exceptions while a box grows
 ROUNDS = 20  # over all axes
-FINE = 8  # parts of an axis beyond which three axes are tried at every second part first
-WORDS = 6  # up to which all choices of words are tried
+FINE = 8  # number of parts of an axis above which three axes are first tried at every second part
+WORDS = 6  # number of words up to which all choices of words are tried
 
 
 @dataclass(frozen=True)
 class Box:
-    """lattice: of whose columns is chosen None, or the indices of their parts; good, bad: points
-    that hold and do not; whole: all points; asked: of them those that can be judged; conditions:
-    their number."""
+    """lattice: for each of its columns, chosen is None or the indices of the parts; good, bad: points inside and
+    outside the tolerance; whole: all points; asked: those with a reference value; conditions: their number."""
 
     lattice: object = field(repr=False)
     chosen: tuple
@@ -43,7 +43,7 @@ class Box:
         return self.points / self.whole if self.whole else 0.0
 
     def holds(self, at):
-        """Which points lie in it; at: [points, axes]."""
+        """Returns a mask of the points that lie in the box; at: [points, axes]."""
         inside = np.ones(len(at), bool)
         for chosen, index in zip(self.chosen, self.lattice.index(at).T):
             if chosen is not None:
@@ -53,8 +53,8 @@ class Box:
 
 @dataclass(frozen=True)
 class Choices:
-    """All that can be chosen of an axis, simple first. member: [choices, parts]; cost: conditions
-    of each; coarse: rows of those that end at every second part only, where there are many."""
+    """All choices on an axis, simple ones first. member: [choices, parts]; cost: conditions of each; coarse: rows of
+    those that end only at every second part, if there are many."""
 
     member: np.ndarray
     cost: np.ndarray
@@ -71,7 +71,7 @@ class Choices:
         return cls(member, cost, rows)
 
     def rows(self, cost):
-        """Those of so many conditions."""
+        """Returns the rows of the choices with this number of conditions."""
         return np.flatnonzero(self.cost == cost)
 
 
@@ -102,20 +102,20 @@ def choices_of(parts):
 
 
 def fewest(whole):
-    """Number of points from which a box is printed."""
+    """Returns the number of points from which a box is printed."""
     return max(min(FEWEST, whole), LEAST * whole)
 
 
 def scored(good, bad, whole):
-    """Points that hold minus the weight of exceptions; -infinite if a box is not allowed."""
+    """Returns the good points minus the weighted exceptions; -infinite if a box is not allowed."""
     points = good + bad
     fine = (bad <= ALLOWED * points) & (points >= fewest(whole))
     return np.where(fine, good - WEIGHT * bad, -np.inf)
 
 
 class Search:
-    """good, bad: points of each cell of a lattice [cells]; whole: all, also those that are neither;
-    None: there are no others."""
+    """good, bad: points of each cell of a lattice [cells]; whole: all points, including those that are neither; None:
+    there are no others."""
 
     def __init__(self, lattice, good, bad, whole=None):
         self.lattice = lattice
@@ -126,7 +126,7 @@ class Search:
         self.best = {}  # conditions: (score, {axis: row of its choices})
 
     def reduced(self, table, axes, fixed):
-        """A table over some axes; of the others what is chosen {axis: row}, or all."""
+        """Returns a table over some axes; fixed: {axis: row} chosen on other axes; the rest are summed."""
         for axis in reversed(range(table.ndim)):
             if axis not in axes:
                 of = self.choices[axis].member
@@ -135,9 +135,8 @@ class Search:
         return table
 
     def keep(self, score, rows, fixed):
-        """The best of all choices for each number of conditions.
-        score: [rows of each axis of rows]; rows: {axis: its choices, simple first}; fixed: {axis:
-        row} of others."""
+        """Keeps the best of all choices for each number of conditions. score: [rows of each axis of rows]; rows:
+        {axis: its choices, simple ones first}; fixed: {axis: row} of other axes."""
         costs = [self.choices[a].cost[r] for a, r in rows.items()]
         base = sum(int(self.choices[a].cost[r]) for a, r in fixed.items())
         for kinds in itertools.product(*map(np.unique, costs)):
@@ -149,7 +148,7 @@ class Search:
                 self.best[cost] = float(of[at]), fixed | chosen
 
     def one(self, axis, fixed):
-        """All choices of an axis, the others as they are; their (good, bad) points."""
+        """Tries all choices on an axis with the others fixed; uses their (good, bad) points."""
         of = self.choices[axis]
         good, bad = (of.member @ self.reduced(t, (axis,), fixed) for t in (self.good, self.bad))
         other = {a: row for a, row in fixed.items() if a != axis}
@@ -157,7 +156,7 @@ class Search:
         return good, bad
 
     def two(self, a, b):
-        """All choices of two axes."""
+        """Tries all choices on two axes."""
         first, second = self.choices[a], self.choices[b]
         good, bad = (first.member @ self.reduced(t, (a, b), {}) @ second.member.T
                      for t in (self.good, self.bad))
@@ -165,7 +164,7 @@ class Search:
                   {a: np.arange(len(first.cost)), b: np.arange(len(second.cost))}, {})
 
     def three(self, a, b, c):
-        """Coarse choices of two axes with all of one condition of a third one."""
+        """Tries the coarse choices on two axes with all choices of one condition on a third axis."""
         rows = {a: self.choices[a].coarse, b: self.choices[b].coarse, c: self.choices[c].rows(1)}
         if not len(rows[c]):
             return
@@ -180,8 +179,8 @@ class Search:
         self.keep(score, {c: rows[c], a: rows[a], b: rows[b]}, {})
 
     def climb(self, weight):
-        """Restricts one axis after the other, starting from everything, with this weight of exceptions: finds boxes
-        with many conditions if those with few are not allowed."""
+        """Restricts one axis after the other, starting without conditions, with this weight of exceptions. It finds
+        boxes with many conditions if those with few are not allowed."""
         fixed, before = {}, None
         for _ in range(ROUNDS):
             if fixed == before:
@@ -193,7 +192,7 @@ class Search:
                 fixed[axis] = int(value.argmax())
 
     def ascend(self):
-        """Changes one axis after the other, starting from the best box, until nothing is gained."""
+        """Changes one axis after the other, starting from the best box, until nothing improves."""
         before = None
         while self.best and before != self.best:
             before = dict(self.best)
@@ -202,7 +201,7 @@ class Search:
                     self.one(axis, fixed)
 
     def enough(self):
-        """Is there a box that no further condition gains enough for?"""
+        """Is there a box to which no further condition would add enough points?"""
         most = max((score for score, _ in self.best.values()), default=0)
         return most >= self.good.sum() / GAIN
 
@@ -239,7 +238,7 @@ class Search:
 
 
 def candidates(lattice, good, bad, whole):
-    """[Box], the best for each number of conditions."""
+    """Returns [Box], the best for each number of conditions."""
     search = Search(lattice, good, bad, whole)
     if search.asked:
         search.run()
@@ -247,9 +246,8 @@ def candidates(lattice, good, bad, whole):
 
 
 def largest(lattices, counts, whole=None):
-    """The Box, or None if points hold in no box that is large enough.
-    counts: [(good, bad)] of the cells of each lattice; the first one is preferred. whole: as in
-    Search."""
+    """Returns the Box, or None if no box with enough points is within the tolerance. counts: [(good, bad)] of the
+    cells of each lattice; the first lattice is preferred. whole: see Search."""
     every = [box for lattice, (good, bad) in zip(lattices, counts)
              for box in candidates(lattice, good, bad, whole)]
     found = None

@@ -1,5 +1,5 @@
-"""One pass over a sweep: collects the data of the page for any number of points, counted in the cells of a lattice.
-The last quantity of every table represents all of them together."""
+"""Makes one pass over a sweep: collects the data of the page for any number of points, counted in the cells of a
+lattice. The last quantity of every table represents all quantities together."""
 import itertools
 import math
 from dataclasses import dataclass, field
@@ -8,22 +8,21 @@ import numpy as np
 
 from reports.sweep import stored
 
-# Points of a sweep in cells: every axis is cut into few parts, so that any number of points takes
-# the same memory. Parts hold whole values of a grid; those of scattered points end at short
-# numbers.
+# Points of a sweep in cells. Every axis is cut into a few parts, so that any number of points takes the same memory.
+# Parts contain whole values of a grid; those of scattered points end at short numbers.
 
 MOST = 20  # parts of an axis
-CELLS = 1_500_000  # numbers that are kept of all cells together
+CELLS = 1_500_000  # maximum number of values stored for all cells together
 RATIOS = 6  # of two axes that are tried
-EACH = 4  # scattered points in a cell of two axes, in the mean
-AXES = 8  # that are cut; of more the others are one part each
-LEVELS = 4096  # different values by which an axis counts as a grid
+EACH = 4  # average number of scattered points in a cell of two axes
+AXES = 8  # that are cut; beyond this number, an axis is a single part
+LEVELS = 4096  # number of different values up to which an axis counts as a grid
 
 
 @dataclass
 class Parts:
-    """An axis in parts. cuts: between them, len - 1; low, high: least and largest value in each;
-    exact: their values are those of a grid, so that low and high are what was tried."""
+    """An axis in parts. cuts: between the parts, len - 1; low, high: smallest and largest value in each; exact: the
+    values are those of a grid, so that low and high were actually run."""
 
     axis: object  # stored.Axis
     low: np.ndarray
@@ -50,7 +49,7 @@ class Parts:
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
-    """Cells of some columns. columns: an axis (i,), or the ratio of two (i, j); parts: of each."""
+    """Cells of some columns. columns: an axis (i,), or the ratio of two (i, j); parts: of each column."""
 
     columns: tuple
     parts: tuple
@@ -64,11 +63,11 @@ class Lattice:
         return int(np.prod(self.shape))
 
     def index(self, at):
-        """The part of each point in each column [points, columns]; at: [points, axes]."""
+        """Returns the part of each point in each column [points, columns]; at: [points, axes]."""
         return np.stack([p.index(values_of(c, at)) for c, p in zip(self.columns, self.parts)], 1)
 
     def cell_of(self, at):
-        """The cell of each point."""
+        """Returns the cell of each point."""
         found = np.zeros(len(at), np.int64)
         for k, part in enumerate(self.index(at).T):
             found = found * len(self.parts[k]) + part
@@ -76,13 +75,13 @@ class Lattice:
 
 
 def values_of(column, at):
-    """Values of a column at points [points, axes]."""
+    """Returns the values of a column at points [points, axes]."""
     return at[:, column[0]] / at[:, column[1]] if len(column) > 1 else at[:, column[0]]
 
 
 @dataclass
 class Extent:
-    """Range of an axis: its different values while they are few, least and largest one."""
+    """Range of an axis: its different values if they are few, its smallest and its largest value."""
 
     levels: np.ndarray
     low: float = math.inf
@@ -95,13 +94,13 @@ class Extent:
 
 
 def shortened(edges, width):
-    """Numbers with as few digits as a tenth of a width allows."""
+    """Rounds numbers to as few digits as a tenth of a width allows."""
     return np.array([round(e, max(0, 1 - math.floor(math.log10(w)))) if w < 1 else
                      round(e, 1 - math.floor(math.log10(w))) for e, w in zip(edges, width)])
 
 
 def parts_of(axis, extent, most):
-    """An axis in at most so many parts."""
+    """Divides an axis into at most this number of parts."""
     if axis.words:
         number = np.arange(len(axis.words), dtype=float)
         return Parts(axis, number, number, number[1:] - 0.5, True, levels=number)
@@ -131,7 +130,7 @@ def most_parts(sweep):
 
 
 def ratios_of(sweep, extents):
-    """Columns of ratios that may say more than their axes: of one unit, all values positive."""
+    """Returns pairs of columns whose ratio may be more informative than the axes: same unit, all values positive."""
     pairs = []
     for i, j in itertools.combinations(range(min(AXES, len(sweep.axes))), 2):
         a, b = sweep.axes[i], sweep.axes[j]
@@ -142,7 +141,7 @@ def ratios_of(sweep, extents):
 
 
 def with_ratio(sweep, parts, pair, extent):
-    """The lattice of a ratio and the axes that are not in it."""
+    """Returns the lattice of a ratio and the axes that are not in it."""
     names = "/".join(sweep.axes[k].name for k in pair)
     axis = stored.Axis(names, "1", "ratio", 0, True)
     rest = [k for k in range(len(parts)) if k not in pair]
@@ -160,7 +159,7 @@ def extents_of(sweep, columns):
 
 
 def lattice_of(sweep):
-    """[Lattice], all axes first, then those with a ratio: two passes over the points."""
+    """Returns [Lattice], all axes first, then those with a ratio. It makes two passes over the points."""
     columns = tuple((k,) for k in range(len(sweep.axes)))
     extents = extents_of(sweep, columns)
     most = most_parts(sweep)
@@ -172,25 +171,27 @@ def lattice_of(sweep):
             *(with_ratio(sweep, parts, pair, extent) for pair, extent in zip(pairs, found))]
 
 
-NAMED = 3  # exceptions of a box that are stored, the worst ones
+NAMED = 3  # stored exceptions of a box, the worst ones
 
 
 @dataclass
 class Gathered:
-    """F formulations, M meshes, Q quantities and their whole, C cells of the first lattice.
+    """Counts of F formulations, M meshes, Q quantities (and all of them together) in the C cells of the first lattice.
 
     reaches: for each lattice, points by the first mesh at and above which all are within the tolerance
-    [C, F, Q+1, M+2], of which the first is also reach; M:
-    none, M+1: none, and the finest mesh has no solution. Only points at which the formulation is
-    measured. known: points with a reference [C, Q+1]. worst: largest error [C, F, Q+1, M], infinite
-    without a solution, -1 where nothing is measured.
-    wins, winner_cost: points where a formulation is the cheapest within the tolerance in all
-    quantities, or ties within the uncertainty of the cost model, and the sum of what that costs, s
-    [C, F]; unwon: points with a reference where none is. kinds: references by kind [Q, kinds];
-    `doubt`: largest relative uncertainty [Q]; doubtful: references whose uncertainty exceeds the tolerance [Q];
-    status: cells by outcome [F, M, S]; failed: least and largest value of each axis where an
-    outcome occurs [F, S, 2, A]; points: all [C]; ranked: has a formulation costs of counted work at
-    any point? [F]"""
+    [C, F, Q+1, M+2]; M: none, M+1: none, and the finest mesh has no solution. It contains only points at which the
+    formulation is compared; reach is that of the first lattice.
+    known: points with a reference value [C, Q+1].
+    worst: largest error [C, F, Q+1, M], infinite without a solution, -1 if nothing is compared.
+    wins, winner_cost: points where a formulation is the cheapest within the tolerance in all quantities, or ties within
+    the uncertainty of the cost model, and the sum of its costs there, s [C, F].
+    unwon: points with a reference value but without a winner.
+    kinds: reference values by kind [Q, kinds].
+    `doubt`: largest relative uncertainty [Q]; doubtful: reference values whose uncertainty exceeds the tolerance [Q].
+    status: runs by outcome [F, M, S].
+    failed: smallest and largest value of each axis where an outcome occurs [F, S, 2, A].
+    points: all [C].
+    ranked: has a formulation counted costs at any point? [F]"""
 
     lattices: list
     reaches: list
@@ -240,15 +241,16 @@ def empty(sweep, lattices):
 
 
 def known_in(sweep, piece):
-    """Is there a reference? [points, Q+1]; last: for at least one quantity."""
+    """Is there a reference value? [points, Q+1]; last: for at least one quantity."""
     own = ~np.isin(piece.kind, sweep.without)
     return np.concatenate([own, own.any(axis=1, keepdims=True)], axis=1)
 
 
 def asked_in(sweep, piece):
-    """Is a formulation measured by it? Not where it does not support what is needed, and not by a
-    reference of another theory, against which it has a value and no error. By all quantities: not
-    where one has a value and no error, but where another is never within. [points, F, Q+1]"""
+    """Is a formulation compared with the reference value? [points, F, Q+1]. It is not if it does not support the
+    physics, nor if the reference value belongs to another theory (then there is a value but no error). All
+    quantities together are not compared if one has a value but no error, unless another is never within the
+    tolerance."""
     own = np.repeat(known_in(sweep, piece)[:, None, :-1], len(sweep.keys), axis=1)
     own &= ~np.isin(piece.status, sweep.outcomes(stored.ABSENT)).any(axis=2)[..., None]
     open_ = (np.isfinite(piece.value) & np.isnan(piece.error)).any(axis=2)
@@ -259,7 +261,7 @@ def asked_in(sweep, piece):
 
 
 def errors_in(piece, asked):
-    """[points, F, Q+1, M]: -1 where nothing is measured, infinite without a solution."""
+    """Returns [points, F, Q+1, M]: -1 if nothing is compared, infinite without a solution."""
     own = np.where(np.isnan(piece.error), np.inf, np.abs(piece.error)).transpose(0, 1, 3, 2)
     own = np.where(asked[:, :, :-1, None], own, -1)
     whole = np.where(asked[:, :, -1:, None], own.max(axis=2, initial=-1, keepdims=True), -1)
@@ -267,7 +269,8 @@ def errors_in(piece, asked):
 
 
 def reached_in(sweep, piece, asked):
-    """The first mesh at and above which all are within, as in Gathered.reach; [points, F, Q+1]."""
+    """Returns the first mesh at and above which all are within the tolerance, as in Gathered.reach; [points, F,
+    Q+1]."""
     count = len(sweep.meshes)
     own = np.searchsorted(sweep.meshes, piece.least)
     own = np.where(piece.least == 0, count, own)
@@ -278,7 +281,7 @@ def reached_in(sweep, piece, asked):
 
 
 def take_winners(into, sweep, piece, cell, asked, reached):
-    """The formulation of lowest cost within the tolerance in all quantities."""
+    """Counts the formulations of lowest cost within the tolerance in all quantities."""
     into.ranked |= np.isfinite(piece.cost).any(axis=(0, 2))
     count = len(sweep.meshes)
     mesh = np.minimum(reached[:, :, -1], count - 1)
@@ -292,7 +295,7 @@ def take_winners(into, sweep, piece, cell, asked, reached):
 
 
 def take_outcomes(into, sweep, piece):
-    """Kinds of references, their uncertainties, and outcomes of the runs."""
+    """Counts the kinds of reference values, their uncertainties, and the outcomes of the runs."""
     for k in range(len(sweep.kinds)):
         into.kinds[:, k] += (piece.kind == k).sum(axis=0)
     there = ~np.isin(piece.kind, sweep.without)
@@ -337,7 +340,7 @@ def take(into, sweep, piece):
 
 
 def of_sweep(sweep):
-    """Gathered, with every point read once more."""
+    """Returns Gathered, reading every point once more."""
     into = empty(sweep, lattice_of(sweep))
     for piece in sweep.pieces():
         take(into, sweep, piece)
@@ -346,7 +349,7 @@ def of_sweep(sweep):
 
 @dataclass
 class Outlier:
-    """A point in a box that is not within. error: of the mesh of the box."""
+    """A point in a box that is not within the tolerance. error: that of the mesh of the box."""
 
     point: int
     at: np.ndarray
@@ -354,7 +357,7 @@ class Outlier:
 
 
 def exceptions(sweep, boxes):
-    """The worst points that contradict boxes: [[Outlier]] for [(box, f, q, m)]."""
+    """Returns the worst exceptions of boxes: [[Outlier]] for [(box, f, q, m)]."""
     found = [[] for _ in boxes]
     wanted = [i for i, (box, *_) in enumerate(boxes) if box.bad]
     for piece in sweep.pieces() if wanted else ():

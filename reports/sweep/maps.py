@@ -1,6 +1,6 @@
-"""Maps of a sweep as SVG of their own: a field for each cell of two axes, with a colour and a sign
-that says the same. Equal adjacent fields of a row are joined, so that maps are short. assets/sweep.js draws the same
-maps over other axes; change both together."""
+"""Maps of a sweep as separate SVG images: a field for each cell of two axes, with a colour and a sign of the same
+meaning. Equal adjacent fields of a row are joined, so that maps are short. assets/sweep.js draws the same maps over
+other axes; change both together."""
 import numpy as np
 from markupsafe import escape
 from matplotlib import colormaps
@@ -12,7 +12,7 @@ from reports.figures import FONT, Image, number
 
 EMPTY, UNKNOWN = -2, -1  # no point; no reference
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-WIDE, LEAST_FIELD, MOST_FIELD = 230, 11.5, 40  # of a map, of a field, pixels
+WIDE, LEAST_FIELD, MOST_FIELD = 230, 11.5, 40  # width of a map, smallest and largest size of a field, in pixels
 LEFT, TOP, BELOW, RIGHT = 52, 36, 38, 12
 LETTER = 5.6  # mean width of a letter of 9 pixels
 DOT = 6  # radius of a point
@@ -23,20 +23,20 @@ def luminance(colour):
 
 
 def ink(fill):
-    """Returns the colour of text that is legible on it."""
+    """Returns a text colour that is legible on the fill."""
     if not fill.startswith("#"):
         return "currentColor"
     return "#111418" if luminance(fill) > 130 else "#ffffff"
 
 
 def steps(count):
-    """Colours from light to dark, for few to many elements."""
+    """Returns colours from light to dark, for few to many elements."""
     at = np.linspace(0.95, 0.25, count) if count > 1 else [0.8]
     return [to_hex(colormaps["viridis"](x)) for x in at]
 
 
 class Look:
-    """Colour, sign and words of every state. Meshes come first, then what is not reached."""
+    """Colour, sign and label of every state: first the meshes, then the states that no mesh reaches."""
 
     def __init__(self, meshes):
         count = len(meshes)
@@ -51,14 +51,15 @@ class Look:
             self.failed: f"no solution with {meshes[-1]}", UNKNOWN: "nothing to measure by"}
 
     def legend(self, used):
-        """[(fill, ink, sign, words)] of the states that are drawn."""
+        """Returns [(fill, ink, sign, label)] of the states that are drawn."""
         order = [*(k for k in self.fill if k >= 0), UNKNOWN]
         return [(self.fill[k], ink(self.fill[k]), self.sign[k], self.words[k]) for k in order
                 if k in used]
 
 
 def states(reach, points, look):
-    """State of fields; reach: points by the first mesh within [..., M + 2], points: in each."""
+    """Returns the states of fields. reach: points by the first mesh within the tolerance [..., M + 2]; points: number
+    in each field."""
     count = look.none
     total, out = reach.sum(axis=-1), reach[..., count:].sum(axis=-1)
     top = count - 1 - np.argmax(reach[..., count - 1::-1] > 0, axis=-1)
@@ -68,7 +69,7 @@ def states(reach, points, look):
 
 
 def runs(row):
-    """[(first, length, state)] of the fields that are drawn in a row."""
+    """Returns [(first, length, state)] of the fields that are drawn in a row."""
     ends = np.flatnonzero(np.diff(row, prepend=row[0] - 1, append=row[-1] - 1))
     return [(int(a), int(b - a), int(row[a])) for a, b in zip(ends, ends[1:]) if row[a] != EMPTY]
 
@@ -78,7 +79,7 @@ def text(x, y, words, more=""):
 
 
 def bounds(part):
-    """Where the parts of an axis with numbers begin and end."""
+    """Returns where the parts of an axis with numbers begin and end."""
     if part.exact and len(part) > 1:
         first, last = 2 * part.cuts[0] - part.cuts[1:2], part.cuts[-2:-1]
         single = (part.low == part.high).all() and len(part) > 2
@@ -89,12 +90,12 @@ def bounds(part):
 
 
 def place_of(part, values):
-    """Where values are along an axis, in parts."""
+    """Returns the positions of values along an axis, in parts."""
     return np.interp(values, bounds(part), np.arange(len(part) + 1.0))
 
 
 def marks(part):
-    """[(position in parts, words)] of possible ticks: at fields of one value, or at round numbers."""
+    """Returns [(position in parts, label)] of possible ticks: at fields of one value, or at round numbers."""
     if part.axis.words or (part.exact and (part.low == part.high).all()):
         return [(i + 0.5, part.name(i)) for i in range(len(part))]
     low, high = part.low[0], part.high[-1]
@@ -104,7 +105,8 @@ def marks(part):
 
 
 def ticks(part, field, room):
-    """[(place in pixels, words)] along an axis with fields of that size, no nearer than room."""
+    """Returns [(position in pixels, label)] along an axis with fields of this size; ticks are at least `room`
+    apart."""
     kept = []
     for place, words in marks(part):
         if not kept or place * field - kept[-1][0] >= room:
@@ -113,13 +115,13 @@ def ticks(part, field, room):
 
 
 def title_of(part):
-    """An axis with its unit."""
+    """Returns the name of an axis with its unit."""
     axis = part.axis
     return axis.name + (f" [{axis.unit}]" if axis.unit not in ("", "1") else "")
 
 
 class Map:
-    """One map. x, y: gather.Parts, or names in place of y; table: states [x, y]."""
+    """One map. x, y: gather.Parts, or names instead of y; table: states [x, y]."""
 
     def __init__(self, x, y, wide=WIDE):
         self.x, self.y = x, y
@@ -131,7 +133,7 @@ class Map:
         self.size = self.field * len(x), self.high * len(y)
 
     def fields(self, table, fill, sign):
-        """Fields gathered by state: one path, and the signs on it."""
+        """Draws fields by state: one path, and the signs on it."""
         paths, signs = {}, {}
         for j, row in enumerate(table.T):
             y = TOP + self.size[1] - (j + 1) * self.high
@@ -152,7 +154,7 @@ class Map:
         return out
 
     def dots(self, at, found, fill, sign):
-        """Scattered points. at: [points, 2]; found: their states."""
+        """Draws scattered points. at: [points, 2]; found: their states."""
         out = ""
         for state in np.unique(found[found != EMPTY]):
             here = at[found == state]
@@ -187,7 +189,7 @@ class Map:
         return out + (text(4, 12, title, ' font-weight="bold"') if title else "")
 
     def image(self, name, drawn, title=""):
-        """The Image of what fields() or dots() drew."""
+        """Returns the Image drawn by fields() or dots()."""
         width = max(self.left + self.size[0] + RIGHT, 7.5 * len(title) + 8)
         above = 0 if title else TOP - 6 if isinstance(self.y, list) else TOP - 22
         height = TOP + self.size[1] + BELOW - above
@@ -199,8 +201,8 @@ class Map:
 
 
 def winners(wins, known, keys):
-    """(states, fill, sign) of the formulation of lowest cost in fields; 2 k: formulation k at every point, 2
-    k + 1: at most of them. wins: [..., F]; known: points with a reference."""
+    """Returns (states, fill, sign) of the formulation of lowest cost in fields; 2 k: formulation k at every point, 2 k
+    + 1: at most of them. wins: [..., F]; known: points with a reference value."""
     count = len(keys)
     best, most = wins.argmax(axis=-1), wins.max(axis=-1)
     state = np.where(most == 0, 2 * count, 2 * best + (most < known))

@@ -8,8 +8,8 @@ import numpy as np
 from reports.data import Unreadable, text
 
 MARK, VERSION = "beamwork_sweep", 1
-GROUP = "experiments/sweep"  # in older files: the root
-PIECE = 1_000_000  # values of one table that are read at once
+GROUP = "experiments/sweep"  # in older files, the root
+PIECE = 1_000_000  # number of values of one table that are read at once
 SCATTERED = ("sobol", "halton", "random")
 NONE = "none"  # prefix of kinds of missing references
 OTHER = "other_model"  # the outcome of a formulation that omits relevant physics
@@ -18,7 +18,7 @@ ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of runs that were not re
 
 @dataclass(frozen=True)
 class Axis:
-    """A parameter that was varied. log: its range is divided by equal factors; words: its texts, by index; empty if
+    """A parameter that was varied. log: its range is divided by equal factors; words: its strings, by index; empty if
     it has numbers."""
 
     name: str
@@ -33,7 +33,7 @@ class Axis:
         return self.kind in SCATTERED
 
     def value(self, number):
-        """A value of a point, as text for readers."""
+        """Returns the value at a point as text for readers."""
         if self.words:
             return self.words[int(number)]
         return f"{number:.4g}" + (f" {self.unit}" if self.unit not in ("", "1") else "")
@@ -48,7 +48,7 @@ class Quantity:
 @dataclass(frozen=True)
 class Worst:
     """A worst point of a formulation. quantity: empty if there is no solution (see status); error: relative; scene:
-    name of the scene file that was kept, or empty."""
+    name of the stored scene file, or empty."""
 
     point: int
     formulation: str
@@ -61,10 +61,10 @@ class Worst:
 
 @dataclass
 class Piece:
-    """Some consecutive points. at: [points, axes]; reference, its uncertainty `doubt`, kind: [points, quantities];
-    value, error: [points, formulations, meshes, quantities], NaN if there is none; error is relative;
-    status, cost [s]: [points, formulations, meshes]; least: elements at and above which every mesh is
-    within the tolerance, 0 for none [points, formulations, quantities]."""
+    """Some consecutive points. at: [points, axes]; reference value, its uncertainty `doubt`, its kind: [points,
+    quantities]; value, error: [points, formulations, meshes, quantities], NaN if there is none; error is relative;
+    status, cost [s]: [points, formulations, meshes]; least: number of elements at and above which every mesh is within
+    the tolerance, 0 for none [points, formulations, quantities]."""
 
     first: int
     at: np.ndarray
@@ -81,9 +81,8 @@ class Piece:
 class Sweep:
     """Header of a file; pieces() reads its tables.
 
-    subject: the scene file or the case; fixed: values of all its parameters where they do not vary;
-    noise: costs whose ratio is below it tie; points: their number; statuses, kinds: names by
-    number."""
+    subject: the scene file or the case; fixed: values of all parameters that do not vary; noise: cost ratio below
+    which costs tie; points: their number; statuses, kinds: names by number."""
 
     path: str
     subject: str
@@ -102,11 +101,11 @@ class Sweep:
 
     @property
     def without(self):
-        """Numbers of the kinds of missing references."""
+        """Returns the numbers of the kinds of missing reference values."""
         return [k for k, name in enumerate(self.kinds) if name.startswith(NONE)]
 
     def outcomes(self, names):
-        """Numbers of the outcomes with these names."""
+        """Returns the numbers of the outcomes with these names."""
         return [s for s, name in enumerate(self.statuses) if name in names]
 
     @property
@@ -115,7 +114,7 @@ class Sweep:
         return pathlib.PurePath(self.subject).name
 
     def scene_of(self, worst):
-        """The scene file of a worst point: in a folder beside the sweep."""
+        """Returns the scene file of a worst point, in a folder next to the sweep."""
         return str(pathlib.PurePath(self.path).with_suffix(".worst") / worst.scene)
 
     @property
@@ -123,7 +122,7 @@ class Sweep:
         return self.points * len(self.keys) * len(self.meshes)
 
     def pieces(self):
-        """Every point once, in order."""
+        """Yields every point once, in order."""
         names = {"at": "points", "doubt": "reference_doubt", "kind": "reference_kind"}
         names |= {name: name for name in ("value", "error", "status", "cost", "least")}
         whole = len(self.keys) * len(self.meshes) * len(self.quantities)
@@ -137,12 +136,12 @@ class Sweep:
             yield Piece(first, **columns)
 
     def points_only(self):
-        """The parameters of all points, in pieces."""
+        """Yields the parameters of all points, in pieces."""
         for _, (at, ) in self.read(["points"], PIECE // len(self.axes)):
             yield at
 
     def read(self, names, step):
-        """(first point, [rows of tables]) in pieces of some points."""
+        """Yields (first point, [rows of tables]) in pieces."""
         step = max(1, step)
         try:
             with h5py.File(self.path) as file:
@@ -154,12 +153,12 @@ class Sweep:
                              ) from why
 
     def place(self, values):
-        """The parameters of a point in words."""
+        """Describes the parameters of a point."""
         return ", ".join(f"{a.name} = {a.value(v)}" for a, v in zip(self.axes, values))
 
 
 def home(file):
-    """Location of the tables of a sweep in a file, or None."""
+    """Returns the location of the tables of a sweep in a file, or None."""
     return file if MARK in file.attrs else file.get(GROUP)
 
 
@@ -173,7 +172,7 @@ def is_there(path):
 
 
 def is_alone(path):
-    """Does it contain a sweep and no results of verify?"""
+    """Does the file contain a sweep, but no results of verify?"""
     if not is_there(path):
         return False
     with h5py.File(path) as file:
@@ -186,14 +185,14 @@ def program_of(told):
 
 
 def listed(value):
-    """Texts of an attribute: a list of them, or one with a line for each."""
+    """Returns the strings of an attribute: a list, or one string with a line for each."""
     if isinstance(value, (str, bytes)):
         return [line for line in text(value).split("\n") if line]
     return [text(each) for each in np.asarray(value).ravel().tolist()]
 
 
 def axes_of(file):
-    """Texts of words are an attribute of the points, named as their axis."""
+    """Returns the axes of a file. The strings of an axis are an attribute of the points with the name of the axis."""
     told, out = file["points"].attrs, []
     for row in file["axes"][()]:
         name, unit, kind, scale = (text(row[c]) for c in ("name", "unit", "kind", "scale"))
@@ -215,14 +214,14 @@ def check(file, sweep):
 
 
 def worst_of(file):
-    """The table of worst points."""
+    """Returns the table of worst points."""
     return [Worst(int(r["point"]), text(r["formulation"]), int(r["mesh"]), text(r["quantity"]),
                   float(r["error"]), text(r["status"]), text(r["scene"]))
             for r in file["worst"][()]]
 
 
 def read(path):
-    """The Sweep of a file; raises Unreadable with the reason."""
+    """Returns the Sweep of a file; raises Unreadable with the reason."""
     try:
         with h5py.File(path) as whole:
             file = home(whole)
