@@ -12,13 +12,13 @@ enum { CASE_MAX_PARAMETERS = 32 };
 typedef struct case_type {
     const char *name, *summary, *source;
     const parameter_type *parameters[PARAMETER_PARTS];
-    /* value[i] belongs to parameter i of all parts and is inside its range. Refuses invalid
+    /* value[i] belongs to parameter i of all parts and is within its range. Rejects invalid
      * combinations. */
     status (*build)(const double value[], scene *s, fault *f);
-    /* As build, for a case made from a scene file, where build is NULL; context: the file. */
+    /* Like build, for a case made from a scene file, for which build is NULL; context: the file. */
     status (*build_from)(const void *context, const double value[], scene *s, fault *f);
     const void *context;
-    const char *file; /* of a scene file; NULL: built-in */
+    const char *file; /* path of the scene file; NULL: built-in */
 } case_type;
 
 /* Last part of the parameters of every built-in case: `omit` chooses between the physics that the
@@ -27,8 +27,8 @@ typedef struct case_type {
 extern const parameter_type case_omit[], case_mass_omit[];
 int case_is_omit(const parameter_type *);
 int case_is_mass(const parameter_type *);
-/* Does the point omit nothing although the source omits physics? Reference values of the case then
- * belong to another model. */
+/* Does the point omit nothing although the source omits physics? The reference values of the case
+ * then belong to another model. */
 int case_omits_nothing(const case_type *, const double value[]);
 
 status case_build(const case_type *, const double value[], scene *s, fault *f);

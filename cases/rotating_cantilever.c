@@ -1,7 +1,8 @@
-/* A cantilever in steady rotation: flap and lag frequencies, stretch of the end, force on the root
- * [EI/L^2].  L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that frequencies are in sqrt(EI/(rho A
- * L^4)).  The root is at a distance from the axis, which is normal to the beam or inclined towards
- * it; flap is motion in the plane of beam and axis, lag across it.  No shear, no rotary inertia. */
+/* A cantilever in steady rotation: flap and lag frequencies, stretch of the end, and force on the
+ * root [EI/L^2]. L = 1 m, EI = 1 N m^2, rho A = 1 kg/m, so that frequencies are in sqrt(EI/(rho A
+ * L^4)). The root is at a distance from the axis, which is normal to the beam or inclined towards
+ * it. Flap is motion in the plane of beam and axis; lag is motion across it. No shear deformation,
+ * no rotary inertia. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -44,7 +45,7 @@ static void make_curve(scene_quantity *q, double omega)
     scene_set_curve(q, "angular velocity", "1", omega, 0);
 }
 
-/* If the axis is along the beam, modes whirl: they are neither flap nor lag, and are counted
+/* If the axis is along the beam, modes whirl: they are neither flap nor lag modes, and are counted
  * together. */
 static void add_frequencies(scene *s, int rotation, double omega, int curves, int whirl)
 {
@@ -63,7 +64,7 @@ static void add_frequencies(scene *s, int rotation, double omega, int curves, in
         }
 }
 
-/* Only the products matter, therefore E = G = 1 Pa. */
+/* Only the products matter; therefore E = G = 1 Pa. */
 static void add_beam(scene *s, double area, double stiffness_ratio, int *root, int *tip)
 {
     const double y_axis[3] = {0, 1, 0};

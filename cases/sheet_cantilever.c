@@ -1,5 +1,5 @@
-/* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z: compliance of
- * the deformed sheet. N section 4.1, Fig. 5. */
+/* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z. Computes the
+ * compliance of the deformed sheet. N section 4.1, Fig. 5. */
 #include "cases/shared/shared.h"
 
 #include <math.h>
@@ -22,8 +22,8 @@ static const parameter_type parameters[] = {
     {0},
 };
 
-/* In the plane of bending nothing couples to the motion out of it: the other 18 entries are zero by
- * symmetry. */
+/* Deformation in the plane of bending is uncoupled from deformation out of it: the other 18 entries
+ * are zero by symmetry. */
 static const int entries[][2] = {
     {0, 0}, {0, 1}, {0, 5}, {1, 0}, {1, 1}, {1, 5}, {5, 0}, {5, 1}, {5, 5},
     {2, 2}, {2, 3}, {2, 4}, {3, 2}, {3, 3}, {3, 4}, {4, 2}, {4, 3}, {4, 4},
@@ -36,7 +36,7 @@ static void add_curve(scene *s, const char *name, int analysis, int component, d
     scene_set_curve(q, "tip_deflection", "m", deflection, 0);
 }
 
-/* N's closed-form solution next to the elements, where it applies to them. */
+/* Adds N's closed-form solution next to the elements, if it applies to them. */
 static void add_predictions(const double value[], scene *s)
 {
     section c;
@@ -103,8 +103,8 @@ static status build(const double value[], scene *s, fault *f)
     if (s->sections > 0)
         add_predictions(value, s);
     if (value[MODES] > 0) {
-        /* About the last state of the path.  The rotation about z is fixed in the sense of the
-         * rotation vector from there. */
+        /* About the last state of the path. The rotation about z is fixed, in the sense of the
+         * rotation vector from that state. */
         add_frequencies(s, scene_add_modal(s, path_analysis), (int)value[MODES]);
         if (value[ROTARY] == 0)
             scene_omit(s, FEATURE_ROTARY_INERTIA);

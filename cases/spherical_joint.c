@@ -1,6 +1,6 @@
 /* Spherical flexure joint: its end effector is tilted about an axis in the xy plane that rotates
- * once around z; support stiffness along z with the rotations held. N section 4.2, Fig. 8, Table 1.
- */
+ * once around z. Computes the support stiffness along z with the rotations fixed. N section 4.2,
+ * Fig. 8, Table 1. */
 #include "cases/shared/shared.h"
 #include "elements/math/scalar.h"
 

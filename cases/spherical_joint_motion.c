@@ -1,7 +1,7 @@
-/* Spherical flexure joint whose end effector is driven through its tilt in a given time, about the
- * x axis, and stops there; a body of a tenth of the effector's mass is free between the two sets of
- * sheets. After N section 4.2, where motion is slow; the masses are chosen here. No reference value
- * is stored: the limit of the meshes is evaluated by its own uncertainty. */
+/* Spherical flexure joint whose end effector is driven through its tilt about the x axis in a given
+ * time, and stops there. A body of a tenth of the effector's mass is free between the two sets of
+ * sheets. After N section 4.2, where the motion is slow; the masses are chosen here. There is no
+ * reference value; the limit of the meshes is evaluated by its uncertainty. */
 #include "cases/shared/shared.h"
 
 #include <stddef.h>

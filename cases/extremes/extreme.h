@@ -1,4 +1,4 @@
-/* An extreme: a named case with a parameter varied to values where numerical errors become
+/* An extreme: a named case with a parameter varied to values at which numerical errors become
  * critical. Pure data. */
 #ifndef BEAMWORK_EXTREME_H
 #define BEAMWORK_EXTREME_H
@@ -15,17 +15,17 @@ typedef struct extreme_setting {
 
 typedef struct extreme_quantity {
     const char *name; /* NULL ends the list */
-    double power;     /* for EXTREME_SAME: value/x^power is the same for every x */
+    double power;     /* for EXTREME_SAME: value/x^power is equal for all x */
 } extreme_quantity;
 
-/* Effect of x in addition to setting parameters. */
+/* Effect of x other than setting parameters. */
 typedef enum extreme_knob {
     EXTREME_PARAMETERS, /* nothing */
     EXTREME_ELEMENTS,   /* x is the number of elements per member */
     EXTREME_STEPS,      /* x is the number of load steps between two stations */
     EXTREME_SPLIT,      /* the first member is split at fraction x of its length */
     EXTREME_REVERSE,    /* 1: every member is reversed; 0: unchanged */
-    EXTREME_WHOLE       /* steps of a motion are not halved */
+    EXTREME_WHOLE       /* the steps of a motion are not halved */
 } extreme_knob;
 
 typedef enum extreme_judge {
@@ -47,8 +47,8 @@ typedef struct extreme {
     int values;
     double value[EXTREME_MAX_VALUES]; /* of x */
     extreme_judge judge;
-    double same_as;   /* x of the value with which others are compared */
-    double tolerance; /* relative; values within it are neither under-resolved nor wrong */
+    double same_as;   /* x of the value with which the others are compared */
+    double tolerance; /* relative; a value within it is neither under-resolved nor wrong */
 } extreme;
 
 extern const extreme extremes[];

@@ -1,8 +1,8 @@
-/* The extremes: base case and settings of each, and the value that its results are compared with.
- * SI.
+/* The extremes: the base case and the settings of each, and the value with which its results are
+ * compared. SI units.
  *
  * Order of the fields: name, group | summary | base case, its parameters | settings | quantities |
- * x, its unit, what it does | elements, count and values of x | judge, the x to compare with,
+ * x, its unit, its effect | elements, count and values of x | judge, the x to compare with,
  * tolerance. */
 #include <stddef.h>
 
@@ -57,7 +57,7 @@ const extreme extremes[] = {
      {{"width", 0, 0.6, 1}},
      {{"buckling_load", 0}, {"frequency_1", 0}}, "width/height", "1", EXTREME_PARAMETERS,
      16, 5, {1, 1e-1, 1e-2, 1e-3, 1e-4}, EXTREME_EXACT, 0, 1e-4},
-    /* Torsion between uniform and restrained. */
+    /* Torsion in the range between uniform and restrained warping. */
     {"decay_free", "lambda", "length times sqrt(GJ/EIw), warping free at the tip",
      "warping_torsion", "",
      {{"kL", 0, 1, 1}},
@@ -105,7 +105,8 @@ const extreme extremes[] = {
      {{"buckling_load", 0}}, "short/whole", "1", EXTREME_SPLIT,
      8, 6, {0.5, 1e-1, 1e-2, 1e-4, 1e-6, 1e-8}, EXTREME_EXACT, 0, 1e-4},
     /* Equivalent scenes in another form. */
-    /* In another unit of length, x of them per metre, with the second shortened by the same factor: moduli and density are multiplied by x^-2. */
+    /* With another unit of length, x of them per metre; the second scene is smaller by the same
+     * factor. Moduli and density are multiplied by x^-2. */
     {"units_sheet", "units", "sheet flexure in m, mm and um",
      "sheet_cantilever", "",
      {{"length", 0, 0.1, 1}, {"width", 0, 0.1, 1}, {"thickness", 0, 0.00225, 1}, {"tip_deflection", 0, 0.015, 1},
@@ -196,7 +197,7 @@ const extreme extremes[] = {
      {{"axial", 0, 12, 2}},
      {{"tip", 0}}, "length/thickness", "1", EXTREME_PARAMETERS,
      8, 3, {10, 1e2, 1e3}, EXTREME_EXACT, 0, 5e-3},
-    /* pi/8000 s: lumped at nodes an eighth of the length apart. */
+    /* pi/8000 s: the mass is lumped at nodes that are an eighth of the length apart. */
     {"long_steps_alpha", "long steps", "step size of alpha relative to the period of the fastest mode, an axial one",
      "release", "integrator=alpha;tolerance=0",
      {{"step", 0, 0.000392699081698724, 1}},
@@ -228,7 +229,7 @@ const extreme extremes[] = {
      {{"w_z", 0}, {"R_xx", 0}, {"energy", 0}}, "turn in a step", "rad", EXTREME_WHOLE,
      1, 4, {0.1, 0.9, 2, 3}, EXTREME_EXACT, 0, 1e-9},
     /* The rotation of conserving steps, 2 atan(x/2), has an error of order 2 and is not requested. */
-    /* 3627.6 s: the first period; four steps in each. */
+    /* 3627.6 s: the first period, with four steps in each period. */
     {"long_motion", "long motion", "energy over many periods of a cantilever with a heavy body, integrated by conserving",
      "release", "body=1e6;integrator=conserving;step=907;tolerance=0",
      {{"time", 0, 3628, 1}},

@@ -9,7 +9,7 @@ static int add(const fields *f, const scene_load *what)
     scene *s = f->b->scene;
     double *path, *factor;
     const int load = scene_add_load(s, what->kind, what->where, 0, 0, 0);
-    *scene_load_at(s, load) = *what; /* so far without name and factors */
+    *scene_load_at(s, load) = *what; /* name and factors are still missing */
     if (fields_have(f, "path") || fields_have(f, "factor")) {
         const int stations = builder_stations(f, "factor", &path, &factor);
         if (stations > 0 && load >= 0)
@@ -53,8 +53,8 @@ static scene_load at_centre(const scene_load *what)
     return out;
 }
 
-/* Adds gravity for each member with a density and each body with a mass; an error is reported once.
- */
+/* Adds gravity for each member with a density and each body with a mass. An error is reported only
+ * once. */
 static void weigh_all(const fields *f, scene_load *what)
 {
     const scene *s = f->b->scene;
@@ -85,7 +85,7 @@ static void check_weight(const fields *f, const scene_load *what)
                    "gravity on a node that has no mass; give it mass: [kg], or name a member");
 }
 
-/* The entry whose gravity is on all; -1: none. */
+/* Returns the entry whose gravity acts on all; -1: none. */
 static int whole_of(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_LOADS].count; i++) {
@@ -108,7 +108,7 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
 
-/* Keys of the table up to gravity are kinds of loads; a temperature follows. */
+/* The keys of the table up to gravity are kinds of loads; temperature follows. */
 enum { OF_TEMPERATURE = SCENE_GRAVITY + 1 };
 
 static int spreads(int given)
@@ -117,7 +117,8 @@ static int spreads(int given)
            given == OF_TEMPERATURE;
 }
 
-/* A force or a moment at a position inside a member is of another kind than one at a node. */
+/* Returns the kind of a load. A force or a moment at a position inside a member has another kind
+ * than one at a node. */
 static scene_load_kind kind_of(const fields *f, int given)
 {
     const int within = fields_have(f, "where");
@@ -127,7 +128,7 @@ static scene_load_kind kind_of(const fields *f, int given)
                                      : (scene_load_kind)given;
 }
 
-/* A fraction of the member's length, or `otherwise` if the key is missing. */
+/* Reads a fraction of the member's length; returns `otherwise` if the key is missing. */
 static double part_of(const fields *f, const char *key, double otherwise)
 {
     const double part = fields_number(f, key, otherwise);
@@ -161,7 +162,7 @@ static void check_keys(const fields *f, int given)
     }
 }
 
-/* Reads the range on its member. */
+/* Reads the part of the member on which the load acts. */
 static void read_range(const fields *f, int given, scene_load *what)
 {
     check_keys(f, given);
@@ -180,7 +181,7 @@ static void read_range(const fields *f, int given, scene_load *what)
                      what->range[0], what->range[1]);
 }
 
-/* The node or the member on which a load acts. */
+/* Returns the node or the member on which a load acts. */
 static int place_of(const fields *f, const scene_load *what)
 {
     const int node = fields_names(f, "on", SCENE_NODES),
@@ -208,7 +209,7 @@ static int place_of(const fields *f, const scene_load *what)
     return fields_entry(f, "on", scene_load_along(what) ? SCENE_MEMBERS : SCENE_NODES);
 }
 
-/* Rotates the vector to the axes of the scene, unless it is given in those of a member, which
+/* Rotates the vector to the axes of the scene, unless it is given in the axes of a member, which
  * rotate with an instance. */
 static void turn_load(const fields *f, scene_load *what)
 {
@@ -280,7 +281,7 @@ static void turn_stiffness(const placement *placed, double K[36])
         K[i] = (turned[i] + turned[i / 6 + 6 * (i % 6)]) / 2;
 }
 
-/* Reads six numbers, or a matrix, of a spring; returns 0 if the key is missing. */
+/* Reads six numbers or a matrix of a spring; returns 0 if the key is missing. */
 static int spring_matrix(builder *b, const fields *f, const char *key, double out[36])
 {
     double *given;
@@ -328,7 +329,7 @@ void builder_springs(builder *b)
     }
 }
 
-/* Nodes of 'equal' or of a diaphragm. */
+/* Reads the nodes of 'equal' or of a diaphragm. */
 static void read_nodes(const fields *f, const char *key, int least, int index)
 {
     const document_node *n = document_find(f->map, key);
@@ -343,7 +344,7 @@ static void read_nodes(const fields *f, const char *key, int least, int index)
 
 enum { FORMS = 3, OF_FORM = 4 };
 
-/* 0: equal, 1: a ratio, 2: a diaphragm; -1: none of them. */
+/* Returns 0 for equal, 1 for a ratio, 2 for a diaphragm, -1 for none of them. */
 static int form_of(const fields *f)
 {
     static const char *const form[FORMS][OF_FORM] = {{"equal", "components", NULL, NULL},
@@ -432,7 +433,7 @@ void builder_imperfections(builder *b)
 
 /* Load cases and combinations. */
 
-/* One that a load or a motion names and none before it. */
+/* Adds a load case named by a load or a motion, unless it has been added. */
 static void add_case(builder *b, const unrolled *entry)
 {
     const fields f = fields_of(b, entry);
@@ -443,7 +444,7 @@ static void add_case(builder *b, const unrolled *entry)
         return;
     *list = arena_grow(b->arena, *list, *count, sizeof **list);
     if (*list == NULL) {
-        *count = 0; /* memory ran out, which the arena knows */
+        *count = 0; /* out of memory, which the arena records */
         return;
     }
     (*list)[(*count)++] = (unrolled){fields_called(&f, n), n, n, n, b->names, NULL};
@@ -459,7 +460,7 @@ void builder_cases(builder *b)
         scene_add_case(b->scene, b->list[SCENE_CASES].entry[i].name);
 }
 
-/* Does an entry of the map have this case, whether its conditions hold or not? */
+/* Does an entry of the map have this case, regardless of its conditions? */
 static int names_case(const document_node *entries, const char *name)
 {
     for (int i = 0; entries != NULL && entries->kind == DOCUMENT_MAP && i < entries->count; i++) {
@@ -500,7 +501,7 @@ void builder_combinations(builder *b)
     }
 }
 
-/* In a combination, or what an analysis or a quantity is of. */
+/* Is the load case used by a combination, an analysis or a quantity? */
 static int is_read(const scene *s, int load_case)
 {
     for (int i = 0; i < s->combinations; i++)

@@ -58,7 +58,7 @@ static void read_warping(const fields *f, scene_member *m)
     m->warp_q = warping_of(f, n->kind == DOCUMENT_LIST ? n->item[1] : n);
 }
 
-/* Checks that only properties that may change along a member differ between its two sections. */
+/* Checks that the two sections of a member differ only in properties that may change along it. */
 static void check_taper(const fields *f, const document_node *n, const int profile[2])
 {
     const scene *s = f->b->scene;
@@ -157,7 +157,7 @@ static void check_unit(const fields *f, int motion)
                          angle == 1 ? "a translation" : "an angle", angle == 1 ? "m" : "rad");
 }
 
-/* Is the motion known along a path, in time, in both, or unknown? */
+/* Checks that the motion has either values (along a path or in time) or a condition. */
 static void check_given(const fields *f)
 {
     const int known = fields_have(f, "value") || builder_has_function(f),
@@ -198,7 +198,7 @@ void builder_motions(builder *b)
 
 /* Analyses of a scene. */
 
-/* Sets members of an analysis that its table of keys does not describe. */
+/* Sets members of an analysis that its key table does not describe. */
 static void complete(const fields *f, int index, scene_analysis *a)
 {
     const fields control = fields_below(f, "continuation"), motion = fields_below(f, "motion"),
@@ -249,7 +249,7 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
                          : "");
 }
 
-/* Functions of time: one expression of t, pieces of them, or a table. */
+/* Functions of time: an expression of t, pieces of such expressions, or a table. */
 
 enum { MOST_TEXT = 4000 };
 
@@ -261,7 +261,7 @@ typedef struct written_out {
     size_t used;
 } written_out;
 
-/* Returns 0 when there is no room. */
+/* Returns 0 if there is no room. */
 static int put(written_out *to, const char *text, size_t length, int place)
 {
     if (to->used + length >= MOST_TEXT)
@@ -274,7 +274,7 @@ static int put(written_out *to, const char *text, size_t length, int place)
     return 1;
 }
 
-/* Writes a word of functions of time unchanged, and any other name as its value; *at moves past it.
+/* Copies a word of functions of time, and replaces any other name by its value; *at moves past it.
  * Returns 0 after an error. */
 static int put_name(const fields *f, const document_node *n, int *at, written_out *to)
 {
@@ -313,7 +313,7 @@ static int write_out(const fields *f, const document_node *n, written_out *to)
     while (n->text[at] != '\0') {
         const int length = (int)expression_name_length(n->text + at);
         const char before = at > 0 ? n->text[at - 1] : ' ';
-        /* the e of 1e-3 belongs to its number */
+        /* the e of 1e-3 belongs to the number */
         const int named = length > 0 && before != '.' && !(before >= '0' && before <= '9');
         const int taken = length > 0 ? length : 1, errors = f->b->mistakes->count;
         int behind = at;
@@ -367,8 +367,8 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
     }
 }
 
-/* Slopes of the cubic spline that starts and ends at rest and has a continuous second derivative:
- * m[k-1]/h + 2 m[k] (1/h + 1/g) + m[k+1]/g = 3 (rise/h^2 + next rise/g^2). */
+/* Computes the slopes of the cubic spline that starts and ends at rest and has a continuous second
+ * derivative: m[k-1]/h + 2 m[k] (1/h + 1/g) + m[k+1]/g = 3 (rise/h^2 + next rise/g^2). */
 static void spline_slopes(int count, const double at[], const double value[], double m[],
                           double room[])
 {

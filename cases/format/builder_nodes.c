@@ -8,11 +8,11 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/choice.h"
 
-/* Deviations of a unit vector below this are round-off. */
+/* Deviations of a unit vector below this value are round-off. */
 static const double round_off = 1e-12;
 
-/* Component of the scene along the instance's component c, *same: 1: with the same sign;
- * SCENE_NONE: the axes are not parallel. */
+/* Returns the component of the scene parallel to component c of the instance, or SCENE_NONE if the
+ * axes are not parallel. *same: 1 if the signs are equal. */
 static int component_of(const fields *f, int c, int *same)
 {
     double axis[3] = {0};
@@ -30,8 +30,8 @@ static int component_of(const fields *f, int c, int *same)
 
 static const char held_choices[] = "all|ux|uy|uz|rx|ry|rz";
 
-/* Are its components along axes of their own: given ones, or those of a part that is turned? Then
- * sets the latter. */
+/* Does the node have its own axes, either given or those of a rotated instance? In the latter case,
+ * sets them. */
 static int has_axes(const fields *f, scene_node *n)
 {
     const unsigned held = fields_words(f, "hold", held_choices);
@@ -64,7 +64,7 @@ static void read_hold(const fields *f, int node, int own)
     }
 }
 
-/* Directions: two of x, y and z. */
+/* Reads the directions: two of x, y and z. */
 static void read_directions(const fields *axes, scene_node *n)
 {
     double z[3] = {0};
@@ -87,7 +87,7 @@ static void read_directions(const fields *axes, scene_node *n)
                          "axes: they are not at right angles; give two that are");
 }
 
-/* Those of a straight member at the end that is there. */
+/* Reads the axes of a straight member that ends at the node. */
 static void read_member_axes(const fields *axes, int node, scene_node *n)
 {
     const document_node *name = document_find(axes->map, "member");
@@ -118,7 +118,8 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     }
 }
 
-/* One turn that moves is a sequence of one angle; several about axes of its own have no order. */
+/* A single rotation that moves is a sequence of one angle; several rotations about the node's own
+ * axes have no order. */
 static void turn_about_axes(const fields *f, scene_node *n)
 {
     double R[9];
@@ -182,7 +183,7 @@ static void read_drive(const fields *f, int node, int own)
     }
 }
 
-/* free, held or a motion. */
+/* Reads an angle: free, held or a motion. */
 static int angle_of(const fields *f, const document_node *n)
 {
     if (n->kind == DOCUMENT_TEXT && strcmp(n->text, "free") == 0)
@@ -240,7 +241,7 @@ static void read_rotation(const fields *f, scene_node *n)
         n->angle[i] = fields_entry_of(&rotation, vector->item[i], SCENE_DRIVERS);
 }
 
-/* Rotations have one definition: components, a rotation or a fork. */
+/* Checks that rotations are defined only once: by components, a rotation or a fork. */
 static void check_masters(const fields *f, const scene_node *n)
 {
     const int held =
@@ -293,7 +294,7 @@ void builder_nodes(builder *b)
 
 /* Sections of a scene. */
 
-/* Index of the point that a wall names; -1 after an error. */
+/* Returns the index of the point that a wall names; -1 after an error. */
 static int point_of(const fields *wall, const char *key, const document_node *points)
 {
     const document_node *name = document_find(wall->map, key);
@@ -355,7 +356,7 @@ static int are_zero(int count, const double value[])
     return i == count;
 }
 
-/* Reads members of section constants that the table of keys does not describe. */
+/* Reads section constants that the key table does not describe. */
 static void read_rest(const fields *f, section_spec *spec)
 {
     const fields those = fields_below(f, "constants");
@@ -367,7 +368,7 @@ static void read_rest(const fields *f, section_spec *spec)
         spec->zeros |= SECTION_ZERO_SHEAR;
 }
 
-/* Reads 36 numbers, or the six of the diagonal. */
+/* Reads 36 numbers, or the six diagonal entries. */
 static void read_matrix(const fields *f, const char *key, double out[36])
 {
     double *given;
@@ -390,8 +391,8 @@ static void read_matrices(const fields *f, section_spec *spec)
     read_matrix(f, "mass", spec->constants.mass);
 }
 
-/* Material and overrides are allowed for all sections except those given by matrices; separate
- * masses only for these. */
+/* Checks the material: material and overrides are allowed for all sections except those given by
+ * matrices; separate masses only for the latter. */
 static void check_material(const fields *f)
 {
     static const struct {
@@ -466,11 +467,11 @@ void builder_sections(builder *b)
 
 /* Motions in time. */
 
-/* Used if neither a step nor a tolerance is given: 0.1 % of the motion. The step is relative to the
- * last station. */
+/* Defaults if neither a step nor a tolerance is given: 0.1 % of the motion. The step is relative to
+ * the last station. */
 static const double usual_tolerance = 1e-3, usual_of_radau = 1e-5, usual_step = 1e-3;
 
-/* Reads a number of one parameter set of alpha, between two limits. */
+/* Reads a parameter of alpha, which must lie between two limits. */
 static double between(const fields *f, const char *key, double otherwise, double least, double most,
                       const char *range)
 {
@@ -497,7 +498,8 @@ static scene_alpha alpha_of(const fields *f)
 
 static const char *const of_alpha[] = {"rho", "hht", "trapezoidal", "parameters"};
 
-/* Without an integrator, alpha is chosen by a parameter that only it has, or by constant steps. */
+/* Without an integrator, alpha is chosen by a parameter that only alpha has, or by constant
+ * steps. */
 static int asks_for_alpha(const fields *f)
 {
     int asks = fields_have(f, "step") && !fields_have(f, "tolerance");

@@ -6,7 +6,7 @@
 
 #include "cases/scene/scene.h"
 
-/* Default unit of a value. */
+/* Returns the default unit of a value. */
 static const char *usual_unit(const scene *s, const scene_quantity *q)
 {
     if (q->reduction == SCENE_PER_SECOND)
@@ -28,7 +28,8 @@ static void make_density(char unit[SCENE_UNIT])
         snprintf(unit, SCENE_UNIT, "%s%.8s%s^2/Hz", plain ? "" : "(", of, plain ? "" : ")");
 }
 
-/* Is the unit the same in the units of the scene: of neither lengths nor forces? */
+/* Is the unit the same in the units of the scene, because it contains neither lengths nor
+ * forces? */
 static int is_kept(const unit_system *u, const char *unit)
 {
     char own[SCENE_UNIT];
@@ -43,7 +44,7 @@ static void read_unit(const fields *f, scene_quantity *q)
     units_translate(&f->b->units, usual_unit(f->b->scene, q), sizeof own, own);
     if (q->transform == SCENE_PSD)
         make_density(own);
-    /* a factor may give any unit; an envelope has that of its quantities: take_envelopes */
+    /* a factor may have any unit; an envelope has the unit of its quantities: take_envelopes */
     if (unit != NULL && !fields_have(f, "factor") && q->what.kind != SCENE_ENVELOPE_OF) {
         if (!f->b->units.given)
             units_check(unit, f->b->mistakes);
@@ -76,7 +77,7 @@ static void read_abscissa_of(const fields *x, scene_quantity *q)
     scene_set_curve_over(q, over >= 0 ? x->b->list[SCENE_QUANTITIES].entry[over].name : "", "");
 }
 
-/* Call when all quantities are known. */
+/* Sets units of abscissae; call it when all quantities are known. */
 static void take_abscissa_units(scene *s)
 {
     for (int i = 0; i < s->quantities; i++) {
@@ -86,7 +87,7 @@ static void take_abscissa_units(scene *s)
     }
 }
 
-/* Quantities of an envelope; all names are known, all units are not. */
+/* Reads the quantities of an envelope; all names are known by then, but not all units. */
 static void read_members(const fields *what, scene_quantity *q)
 {
     const document_node *n = document_find(what->map, "quantities");
@@ -103,7 +104,7 @@ static void read_members(const fields *what, scene_quantity *q)
     }
 }
 
-/* The unit and the analysis of an envelope are those of its first quantity. */
+/* Sets the unit and the analysis of an envelope to those of its first quantity. */
 static void take_envelopes(builder *b)
 {
     scene *s = b->scene;
@@ -171,7 +172,7 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
                          "an abscissa requires a curve; add take: curve, or remove it");
 }
 
-/* The source of the prediction keeps its text when the scene is built again. */
+/* Reads the prediction; the text of its source survives a second build of the scene. */
 static void read_prediction(const fields *f, const unrolled *entry, scene_quantity *q)
 {
     const fields prediction = fields_below(f, "prediction");
@@ -181,7 +182,7 @@ static void read_prediction(const fields *f, const unrolled *entry, scene_quanti
     q->prediction.source = document_find(written, "source")->text;
 }
 
-/* Number of eigenvalues of an analysis that the quantities request. */
+/* Returns the number of eigenvalues of an analysis that the quantities request. */
 static int asked_of(const scene *s, int analysis)
 {
     int most = 0;
@@ -198,7 +199,8 @@ static int asked_of(const scene *s, int analysis)
     return most;
 }
 
-/* The quantities determine how many eigenvalues are computed; `wanted` must not contradict them. */
+/* Sets the number of eigenvalues, which the quantities determine; `wanted` must not contradict
+ * them. */
 static void check_wanted(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
@@ -212,7 +214,7 @@ static void check_wanted(builder *b)
     }
 }
 
-/* Combinations of an envelope: one name, or a list of them. */
+/* Reads the combinations of an envelope: one name or a list. */
 static void read_overs(const fields *what, scene_quantity *q)
 {
     const document_node *n = document_find(what->map, "combinations");
@@ -231,7 +233,7 @@ static void read_overs(const fields *what, scene_quantity *q)
     }
 }
 
-/* Sets members of a quantity that the table of keys of its kind does not describe. */
+/* Sets members of a quantity that the key table of its kind does not describe. */
 static void settle(const fields *what, const quantity_type *type, scene_quantity *q)
 {
     const scene *s = what->b->scene;
@@ -273,7 +275,7 @@ void builder_quantities(builder *b)
 /* Default analysis and quantities for a scene file that requests none: one analysis and its visible
  * results. */
 
-/* A path to the last station of the motions; without motions a linear solution. */
+/* Adds a path to the last station of the motions, or a linear solution if there are no motions. */
 static int add_analysis(builder *b)
 {
     double end = 0;
@@ -297,7 +299,7 @@ static int is_asked(const scene *s, int node)
     return 0;
 }
 
-/* Largest extent of the positions [m]; far smaller values count as zero. */
+/* Returns the largest extent of the positions [m]; far smaller values count as zero. */
 static double size_of(const scene *s)
 {
     double least[3] = {INFINITY, INFINITY, INFINITY}, most[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -327,9 +329,9 @@ static void add_displacements(builder *b, int analysis, int node, int prefixed)
     }
 }
 
-/* Adds translations of the nodes that are loaded or driven; of all free nodes if there is none. Of
- * a linear analysis that solves all load cases and combinations it adds their largest magnitudes.
- */
+/* Adds translations of the nodes that are loaded or driven, or of all free nodes if there are
+ * none. For a linear analysis that solves all load cases and combinations, adds their largest
+ * magnitudes. */
 static void add_states(builder *b, int analysis, int prefixed)
 {
     const scene *s = b->scene;
@@ -383,7 +385,7 @@ static void add_quantities(builder *b)
                 scene_add_quantity(s, name, "N/m", i, scene_stiffness_entry(SCENE_UX + k));
             }
             break;
-        case SCENE_HARMONIC: /* which input is not known */
+        case SCENE_HARMONIC: /* the unknown input */
             break;
         case SCENE_CONTINUATION:
             scene_add_quantity(s, b->list[SCENE_ANALYSES].entry[i].name, "1", i, scene_factor_at());
@@ -401,7 +403,7 @@ void builder_defaults(builder *b)
         add_quantities(b);
 }
 
-/* Returns the text after a word of the SI and its power; NULL: it is not one. */
+/* Returns the text after an SI unit and its power; NULL if it is not one. */
 static const char *word_end(const char *at)
 {
     static const char *const si[] = {"1", "m", "rad", "s", "kg", "N", "Pa", "J", "W", "Hz", "K"};
@@ -422,7 +424,8 @@ static const char *product_end(const char *at)
     return at;
 }
 
-/* Checks "N m", "kg/m^3", "rad/(N m)": after the slash one word, or several in parentheses. */
+/* Checks a unit such as "N m", "kg/m^3" or "rad/(N m)": after the slash comes one word, or several
+ * in parentheses. */
 static int is_si(const char *unit)
 {
     const char *at = product_end(unit);

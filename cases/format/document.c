@@ -23,7 +23,7 @@ static void *refuse(document_reader *r, yaml_mark_t at, const char *what)
     return NULL;
 }
 
-/* Reports a syntax error, in beamwork's words if it is a known one, else in those of the parser. */
+/* Reports a syntax error: in beamwork's words if it is known, otherwise in those of the parser. */
 static void tell_syntax(document_reader *r)
 {
     const yaml_parser_t *p = &r->parser;
@@ -52,7 +52,7 @@ static void tell_syntax(document_reader *r)
                      context, context[0] != '\0' ? ": " : "", problem);
 }
 
-/* Returns 1 when there is another event; the caller deletes it. */
+/* Returns 1 if there is another event; the caller deletes it. */
 static int next(document_reader *r, yaml_event_t *event)
 {
     if (yaml_parser_parse(&r->parser, event))
@@ -129,7 +129,7 @@ static int add_entry(document_reader *r, document_node *n, document_node *key, d
     return 1;
 }
 
-/* Reads a key of a map; errors that leave it readable are only reported. */
+/* Reads a key of a map; errors after which reading can continue are only reported. */
 static int check_key(document_reader *r, const document_node *map, const document_node *key)
 {
     if (key->kind != DOCUMENT_TEXT) {
@@ -307,7 +307,7 @@ void document_mistake(mistakes *m, const document_node *n, int offset, const cha
 }
 
 enum { BLOCK = 1 << 10, ALIGNMENT = 16 };
-/* The largest allowed file needs less. */
+/* Sufficient for the largest allowed file. */
 static const size_t most = (size_t)1 << 28;
 
 typedef struct arena_block {
@@ -370,7 +370,7 @@ void arena_free(arena *a)
     memset(a, 0, sizeof *a);
 }
 
-/* Is the position before that of the error? */
+/* Does the position precede that of the error? */
 static int is_before(int line, int column, const mistake *other)
 {
     return line < other->line || (line == other->line && column < other->column);

@@ -6,7 +6,7 @@
 
 #include "cases/scene/scene.h"
 
-/* Index of the name of a constant of sections, or -1. */
+/* Returns the index of a section constant by its name, or -1. */
 static int section_names_index(const char *name, size_t length);
 
 static int tell_unknown(const name_context *c, const char *text, int from, int length,
@@ -29,7 +29,7 @@ static int tell_unknown(const name_context *c, const char *text, int from, int l
     return 0;
 }
 
-/* SECTION.CONSTANT; `length` of the section's name with its point. */
+/* Reads SECTION.CONSTANT; length: of the section's name including the point. */
 static int constant(const name_context *c, const char *text, int *at, int length, double *out,
                     expression_mistake *why)
 {
@@ -48,7 +48,7 @@ static int constant(const name_context *c, const char *text, int *at, int length
                          rest < 40 ? rest : 40, text + behind, section_names_all);
     else
         *out = known->constants[index];
-    return known != NULL && index >= 0 && !isnan(*out); /* its error is already reported */
+    return known != NULL && index >= 0 && !isnan(*out); /* the error has already been reported */
 }
 
 int names_number(const void *context, const char *text, int *at, double *out,
@@ -67,10 +67,10 @@ int names_number(const void *context, const char *text, int *at, double *out,
         expression_wrong(why, from, "'%s' is a choice of words ('%.40s'), not a number",
                          known->name, known->word);
     *out = known->number;
-    return known->word == NULL && !isnan(*out); /* its error is already reported */
+    return known->word == NULL && !isnan(*out); /* the error has already been reported */
 }
 
-/* As expression_number, for `length` bytes of the text from `from`. */
+/* Like expression_number, for `length` bytes of the text from `from`. */
 static int expression_part(const document_node *n, int from, int length, const scope *names,
                            mistakes *m, double *out)
 {
@@ -111,7 +111,7 @@ int expression_vector(const document_node *n, int count, const scope *names, mis
 
 enum { MOST = 10000 };
 
-/* Last position of a text outside parentheses, after `from`; -1: none. */
+/* Returns the last position of a string outside parentheses, after `from`; -1: none. */
 static int find_outside(const char *text, int from, const char *what)
 {
     int depth = 0, found = -1;
@@ -138,7 +138,8 @@ static int fill(double from, double to, double step, int count, arena *a, mistak
     return count;
 }
 
-/* a..b/n: the ends, and n - 1 points between them; a..b/n:log: of equal ratios. */
+/* Divides a range: a..b/n has both ends and n - 1 points between them; a..b/n:log has equal
+ * ratios. */
 static int divide(const document_node *n, double from, double to, int at, const scope *names,
                   arena *a, mistakes *m, double **out)
 {

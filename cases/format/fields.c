@@ -1,4 +1,4 @@
-/* Values of a map by their keys. */
+/* Reads values of a map by their keys. */
 #include "cases/format/format_impl.h"
 
 #include <math.h>
@@ -134,7 +134,7 @@ void builder_call(builder *b, scene_list list, int index, int i)
     scene_set_name(b->scene, list, index, b->list[list].entry[i].name);
 }
 
-/* One list of a builder, for the nearest name in it. */
+/* One list of a builder, used to find the nearest name. */
 typedef struct named_list {
     const builder *b;
     scene_list list;
@@ -146,7 +146,7 @@ static const char *entry_at(const void *context, int i)
     return i < those->b->list[those->list].count ? those->b->list[those->list].entry[i].name : NULL;
 }
 
-/* Finds the entry of that name; inside an instance its own entries come first. */
+/* Finds the entry of that name; inside an instance, the entries of the instance take precedence. */
 static int find_entry(const fields *f, const char *text, scene_list list, int own)
 {
     const size_t prefix = own && f->placed != NULL ? strlen(f->placed->name) : 0;
@@ -162,7 +162,8 @@ static int find_entry(const fields *f, const char *text, scene_list list, int ow
     return found;
 }
 
-/* Name given by a node of the tree: of a loop, of a port, or plain; *port: of a port. */
+/* Returns the name in a node of the tree, which may be plain or refer to a loop or a port. Sets
+ * *port if it is a port. */
 static const char *name_of(const fields *f, const document_node *n, scene_list list, int *port)
 {
     const scope *known = scope_find(f->names, n->text, strlen(n->text));
@@ -202,7 +203,8 @@ int fields_entry_of(const fields *f, const document_node *n, scene_list list)
     const int found = find_entry(f, text, list, !port);
     if (found >= 0)
         return found;
-    if (!substitute_is_left(text) && !f->b->list[list].incomplete) /* else it is already reported */
+    if (!substitute_is_left(text) &&
+        !f->b->list[list].incomplete) /* otherwise it has already been reported */
         document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
                          mistakes_remedy(choice_nearest(text, entry_at, &those),
                                          list == SCENE_CASES

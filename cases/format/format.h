@@ -13,12 +13,12 @@
 
 typedef struct arena {
     struct arena_block *block;
-    size_t used, total; /* bytes in the first block, and in all */
+    size_t used, total; /* bytes used in the first block; bytes in all blocks */
     int failed;         /* 1: out of memory, or above the limit for a file */
 } arena;
 
-/* Makes room for one more entry in a list of `count`: returns the list, or a copy with twice the
- * room; NULL when out of memory. */
+/* Makes room for one more entry in a list of `count` entries. Returns the list, or a copy with
+ * twice the room; NULL if out of memory. */
 void *arena_grow(arena *a, void *list, int count, size_t size);
 void arena_free(arena *a);
 
@@ -35,33 +35,34 @@ typedef struct mistakes {
     const char *file; /* name used in messages */
     int count;
     int more;                    /* number of errors that did not fit */
-    int out_of_memory;           /* 1: memory ran out, and the file was not read to its end */
+    int out_of_memory;           /* 1: memory ran out before the end of the file was read */
     mistake list[MISTAKES_MOST]; /* ordered by position */
 } mistakes;
 
-/* Adds an error, unless there is one at that position. */
+/* Adds an error, unless there is already one at that position. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
 void mistakes_add(mistakes *m, int line, int column, const char *format, ...);
 
-/* "; did you mean 'near'?", or the remedy if near is NULL. */
+/* Returns "; did you mean 'near'?", or the remedy if near is NULL. */
 const char *mistakes_remedy(const char *near, const char *remedy, char text[FAULT_TEXT]);
 
-/* OK if there are none; else REFUSED, or FAULT (out of memory), with the first of them in f. */
+/* Returns OK if there are none, otherwise REFUSED or FAULT (out of memory), with the first error in
+ * f. */
 status mistakes_status(const mistakes *m, fault *f);
 
-/* Prints "file:line:column: what", one per line; then the number of further errors. */
+/* Prints "file:line:column: what", one error per line, then the number of further errors. */
 void mistakes_print(const mistakes *m, FILE *to);
-/* {"file": ..., "mistakes": [{"line", "column", "text"}, ...], "more": n}, for editors; FAULT out
- * of memory. */
+/* Writes {"file": ..., "mistakes": [{"line", "column", "text"}, ...], "more": n} for editors; FAULT
+ * if out of memory. */
 status mistakes_json(const mistakes *m, FILE *to, fault *f);
 
-/* A YAML document as a tree of maps, lists and texts, each with its position in the file.
+/* A YAML document as a tree of maps, lists and strings, each with its position in the file.
  *
- * Every scalar is a text until a number or a word is read from it: there are no implicit types.
+ * Every scalar is a string until a number or a word is read from it: there are no implicit types.
  * Anchors, aliases, tags, merge keys, several documents, duplicate keys, and documents that are too
- * deep or too large are refused. */
+ * deep or too large are rejected. */
 
 enum { DOCUMENT_BYTES = 1 << 20, DOCUMENT_DEPTH = 16, DOCUMENT_ENTRIES = 10000 };
 
@@ -69,28 +70,28 @@ typedef enum document_kind { DOCUMENT_TEXT, DOCUMENT_LIST, DOCUMENT_MAP } docume
 
 typedef struct document_node {
     document_kind kind;
-    int line, column; /* of its first character, starting at 1 */
-    /* For a text that appears unchanged in the file: columns from `column` to its beginning (a
-     * quote); -1: its characters have no position of their own (several lines, escapes, an inserted
-     * name). */
+    int line, column; /* position of the first character, starting at 1 */
+    /* For a string that appears unchanged in the file: number of columns from `column` to its start
+     * (a quote). -1: its characters have no positions of their own (several lines, escapes, an
+     * inserted name). */
     int inset;
     const char *text;            /* without control characters */
     int count;                   /* number of entries of a list or map */
     struct document_node **item; /* [count] */
-    struct document_node **key;  /* [count] texts; NULL for a list */
+    struct document_node **key;  /* [count] strings; NULL for a list */
 } document_node;
 
-/* Reads the bytes into a tree, owned by the arena; NULL after an error. */
+/* Reads the bytes into a tree, which the arena owns; NULL after an error. */
 document_node *document_read(const char *bytes, size_t size, arena *a, mistakes *m);
-/* The entry of a map, or NULL; also NULL if `map` is not a map. */
+/* Returns the entry of a map; NULL if there is none or `map` is not a map. */
 const document_node *document_find(const document_node *map, const char *key);
-/* Adds an error at character `offset` of the text, or at the beginning of the node. */
+/* Adds an error at character `offset` of the string, or at the start of the node. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
 void document_mistake(mistakes *m, const document_node *n, int offset, const char *format, ...);
 
-/* The keys of scene files as a list for readers. */
+/* Lists the keys of scene files for readers. */
 
 /* Text before the list: two paragraphs. */
 extern const char *const key_list_head[2];
@@ -105,82 +106,81 @@ void key_list_all(key_list_take *take, void *context);
 
 /* Writes a text after `at` columns of a line, indents continuation lines, and ends the line. */
 typedef void key_list_say(FILE *to, int at, int indent, const char *text);
-/* Writes name, form, unit, summary and words of each key. */
+/* Writes the name, form, unit, summary and words of each key. */
 void key_list_write(FILE *to, key_list_say *say);
 
-/* Lines of other programs' files as text, fields, numbers. Every line is checked. */
+/* Reads lines of other programs' files as text, fields and numbers. Every line is checked. */
 
-/* Opens a text file; skips a byte order mark at its beginning. Returns NULL with errno after a
+/* Opens a text file and skips a byte order mark at its start. Returns NULL with errno after a
  * failure. */
 FILE *line_open(const char *path);
-/* As line_open, for an open stream. */
+/* Skips the byte order mark of an open stream. */
 void line_skip_mark(FILE *from);
 /* Removes blanks at both ends, in place. */
 char *line_trim(char *line);
 /* UTF-8 without control characters? */
 int line_is_text(const char *line);
-/* Splits fields at commas, trimmed, possibly in quotes ("" inside them is one quote). Returns their
- * number, or more than `most` if there are too many. Changes the line. */
+/* Splits fields at commas and trims them. Fields may be in quotes ("" inside is one quote). Returns
+ * their number, or more than `most` if there are too many. Changes the line. */
 int line_split(char *line, char *field[], int most);
-/* As line_split, for words between blanks. */
+/* Like line_split, for words separated by blanks. */
 int line_words(char *line, char *word[], int most);
-/* A finite number and nothing else; the exponent may be marked D. */
+/* Reads a finite number that fills the text; its exponent may be marked D. */
 int line_number(const char *text, double *value);
 
 /* Description of a quantity of a scene, made from the data of the scene. */
 
 enum { MEANING_ROOM = 512 };
 
-/* One line without a full stop: kind, component, node or member with its position, station, and the
- * analysis if another one would have the same line. Quantities that differ in any of these have
- * different lines. Nodes and members are named as by write_scene. The text is truncated if it does
- * not fit. */
+/* Writes one line without a full stop: kind, component, node or member with its position, station,
+ * and the analysis if the line would otherwise be ambiguous. Quantities that differ in any of these
+ * have different lines. Nodes and members are named as by write_scene. The text is truncated if it
+ * does not fit. */
 void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size);
 
-/* A scene file as a case: parameters, a function that builds the scene, reference values. */
+/* A scene file as a case: parameters, a function that builds the scene, and reference values. */
 
 typedef struct scene_file scene_file;
 
-/* Reference value that a file gives for a quantity, at a point of its parameters. */
+/* Reference value that a file gives for a quantity at a parameter point. */
 typedef struct scene_truth {
     const double *parameter;       /* [CASE_MAX_PARAMETERS] */
     double value, uncertainty, at; /* at: abscissa of a curve; NAN: not a curve */
     const char *quantity, *unit, *kind, *formulation, *theory, *model, *convention, *source;
 } scene_truth;
-/* Receives a reference value, whose texts and numbers are valid during the call. */
+/* Receives a reference value; its strings and numbers are valid only during the call. */
 typedef status scene_truth_taker(void *to, const scene_truth *, fault *);
 
-/* Reads the file and builds its defaults once to check them. After a failure *out is NULL; REFUSED
- * with all errors in m (and the first in f), FAULT when it cannot be read. path must outlive m and
- * the file. */
+/* Reads the file and builds its defaults once to check them. After a failure *out is NULL: REFUSED
+ * with all errors in m (and the first in f), or FAULT if the file cannot be read. path must outlive
+ * m and the file. */
 status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f);
-/* Reads only form and parameters, if values other than the defaults are requested; scene_file_check
- * then checks the scene at these values. */
+/* Reads only the form and the parameters, for use with values other than the defaults;
+ * scene_file_check then checks the scene at these values. */
 status scene_file_read_form(const char *path, scene_file **out, mistakes *m, fault *f);
-/* Is it a valid scene at these values of its parameters? REFUSED with all errors in m, the first in
- * f. */
+/* Checks the scene at these parameter values. REFUSED: all errors are in m, the first in f. */
 status scene_file_check(const scene_file *, const double value[], mistakes *m, fault *f);
-/* As scene_file_read, from memory (for the fuzzer); path: used in messages. */
+/* Like scene_file_read, from memory (for the fuzzer); path: used in messages. */
 status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,
                              mistakes *m, fault *f);
 void scene_file_free(scene_file *);
 
-/* Valid as long as the file. */
+/* Returns the case, which is valid as long as the file. */
 const case_type *scene_file_case(const scene_file *);
-/* Path of the file from which a case is made; NULL: none. */
+/* Returns the path of the file from which a case was made; NULL: none. */
 const char *scene_file_path(const case_type *type);
 const struct document_node *scene_file_document(const scene_file *);
 /* Does the file contain this key? */
 int scene_file_states(const scene_file *, const char *key);
-/* Passes the reference values that apply at a point of the parameters to `taker`, with their values
+/* Passes the reference values that apply at a parameter point to `taker`, with their values
  * there. */
 status scene_file_truths(const scene_file *, const double value[], scene_truth_taker *, void *to,
                          fault *f);
-/* As scene_file_truths, at the defaults and at every point that a reference value names; values may
- * repeat. */
+/* Like scene_file_truths, at the defaults and at every point that a reference value names; values
+ * may repeat. */
 status scene_file_truths_all(const scene_file *, scene_truth_taker *, void *to, fault *f);
 
-/* The keys of scene files as JSON Schema, for completion and checks in editors. */
+/* Writes the keys of scene files as JSON Schema, for completion and checks in editors. */
 
 status schema_file_write(FILE *to, fault *f);
 
@@ -190,11 +190,11 @@ typedef struct write_head {
     const char *name, *summary, *source;
 } write_head;
 
-/* Loops and expressions are expanded; numbers have as many digits as necessary. REFUSED: the scene
- * contains something that a file cannot express. */
+/* Writes the scene with loops and expressions expanded; numbers have as many digits as necessary.
+ * REFUSED: the scene contains something that a file cannot express. */
 status write_scene(FILE *to, const scene *s, const write_head *head, fault *f);
-/* As write_scene, in memory; the caller frees it. "" if there is no scene (NULL), or if a file
- * cannot express it. NULL: out of memory. */
+/* Like write_scene, in memory; the caller frees the string. Returns "" if there is no scene (NULL)
+ * or a file cannot express it, and NULL if out of memory. */
 char *write_scene_text(const scene *s, const write_head *head);
 
 #endif

@@ -9,8 +9,8 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Zeroed memory, aligned for every type; NULL when out of memory, which `failed` records. {0} is an
- * empty arena. */
+/* Returns zeroed memory, aligned for every type; NULL if out of memory, which `failed` records. {0}
+ * is an empty arena. */
 void *arena_take(arena *a, size_t size);
 /* Copies the first `length` bytes of a text, and adds a zero. */
 const char *arena_copy(arena *a, const char *text, size_t length);
@@ -20,14 +20,14 @@ const char *arena_copy(arena *a, const char *text, size_t length);
 /* The name added last; earlier ones remain visible. NULL: no names. */
 typedef struct scope {
     const char *name;
-    double number;           /* NAN: its expression has an error, which has been reported */
-    const char *word;        /* of a choice; NULL: it is a number */
+    double number;           /* NAN: its expression has an error that has been reported */
+    const char *word;        /* word of a choice; NULL: a number */
     const char *choices;     /* "a|b|c" of a parameter; NULL: unknown */
     const double *constants; /* of a section, whose name ends with a point; NULL: not a section */
     const struct scope *before;
 } scope;
 
-/* Adds a name for a number or a word; returns the same scope when out of memory. */
+/* Adds a name for a number or a word; returns the same scope if out of memory. */
 const scope *scope_number(const scope *names, const char *name, double number, arena *a);
 const scope *scope_word(const scope *names, const char *name, const char *word, arena *a);
 /* Adds a word of a parameter with these choices. */
@@ -35,15 +35,15 @@ const scope *scope_choice(const scope *names, const char *name, const char *word
                           const char *choices, arena *a);
 /* Adds the constants of a section as names. */
 const scope *scope_constants(const scope *names, const char *name, const double value[], arena *a);
-/* The entry of a name of that length, or NULL. */
+/* Returns the entry of a name of that length, or NULL. */
 const scope *scope_find(const scope *names, const char *name, size_t length);
-/* Known name, constant or function nearest to a misspelt one, or NULL. */
+/* Returns the known name, constant or function that is nearest to a misspelt one, or NULL. */
 const char *scope_nearest(const scope *names, const char *name);
-/* Can `key` be a new name: a letter, then letters, digits and _, at most 40 characters, not used by
- * another name or a function? Reports an error otherwise. */
+/* Can `key` be a new name: a letter followed by letters, digits and _, at most 40 characters, not
+ * used by another name or function? Reports an error otherwise. */
 int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 
-/* Builds a scene from a checked tree and values of its parameters. */
+/* Builds a scene from a checked tree and parameter values. */
 
 /* names: the parameters. The scene is valid if no error was found. The caller frees it in any case.
  */
@@ -55,24 +55,24 @@ void build_sections(struct builder *b);
 
 /* Expands loops and local names: the entries of a map or list with `for` and `let`. */
 
-/* One expanded entry: $i in its name and texts is replaced, and its names are known. */
+/* One expanded entry: $i is replaced in its name and texts, and its names are known. */
 typedef struct unrolled {
     const char *name;           /* for an entry of a map; NULL for a list */
-    const document_node *place; /* position for messages: its key, or the entry itself */
+    const document_node *place; /* position for messages: the key, or the entry itself */
     const document_node *value;
     const document_node *written; /* the value as written in the file */
     const scope *names;
     const struct placement
-        *placed; /* instance of a part to which it belongs; NULL: the scene itself */
+        *placed; /* instance of a part to which the entry belongs; NULL: the scene itself */
 } unrolled;
 
 enum { UNROLL_MOST = 10000 };
 
-/* Number of entries in the order of the file; the first loop of an entry is the outermost. An error
- * in a loop is reported, and the entry is omitted. */
+/* Returns the number of entries, in the order of the file; the first loop of an entry is the
+ * outermost. An error in a loop is reported, and the entry is omitted. */
 int unroll_entries(const document_node *collection, const scope *names, arena *a, mistakes *m,
                    unrolled **out);
-/* NAME: EXPR, in order; each name is known to the following ones. */
+/* Reads NAME: EXPR in order; each name is known to the following ones. */
 const scope *unroll_let(const document_node *let, const scope *names, arena *a, mistakes *m);
 
 /* Parts and their instances: sub-assemblies described once in their own axes, and placed in the
@@ -80,10 +80,10 @@ const scope *unroll_let(const document_node *let, const scope *names, arena *a, 
 
 /* Position and orientation of an instance. */
 typedef struct placement {
-    const char *name;             /* name of the instance: its entries are NAME.ENTRY */
+    const char *name;             /* name of the instance, whose entries are NAME.ENTRY */
     double origin[3];             /* [m] */
     int turned;                   /* 0: its axes are those of the scene */
-    double R[9];                  /* columns: its axes in the scene, row-major */
+    double R[9];                  /* columns: axes of the instance in the scene, row-major */
     const document_node *connect; /* PORT: NODE; NULL: none */
 } placement;
 
@@ -98,7 +98,7 @@ void placement_unroll(const document_node *root, const scope *names, arena *a, m
 /* v <- R v; p <- origin + R p. NULL: no change. */
 void placement_turn(const placement *, double v[3]);
 void placement_move(const placement *, double p[3]);
-/* Node of the scene connected to a port of the instance; NULL: not a port. */
+/* Returns the node of the scene connected to a port of the instance; NULL: not a port. */
 const document_node *placement_port(const placement *, const char *name);
 
 /* Units: SI throughout; others are rejected with the correct form. */
@@ -106,7 +106,7 @@ const document_node *placement_port(const placement *, const char *name);
 /* Reports an error if the text is not one of the allowed units. */
 void units_check(const document_node *unit, mistakes *m);
 
-/* Units of a scene: of length and force; those of stress and mass (force s^2/length) follow. */
+/* Units of a scene: length and force; those of stress and mass (force s^2/length) follow. */
 typedef struct unit_system {
     int given;            /* 0: SI */
     double length, force; /* size of one unit [m], [N] */
@@ -130,7 +130,7 @@ typedef struct builder {
     scene *scene;
     const document_node *root;
     const scope *names; /* parameters and derived values */
-    unit_system units;  /* of the numbers in the file */
+    unit_system units;  /* units of the numbers in the file */
     struct {
         unrolled *entry;
         int count;
@@ -138,7 +138,7 @@ typedef struct builder {
     } list[SCENE_LISTS]; /* in the order of the scene's indices */
     const char **shared; /* names of warping coordinates shared by members */
     int shares;
-    int unsaid_warping; /* number of ends whose warping is not specified */
+    int unsaid_warping; /* number of ends without a specified warping condition */
 } builder;
 
 /* One map: an entry, or a map inside one. */
@@ -160,43 +160,43 @@ double fields_number(const fields *f, const char *key, double otherwise);
 int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
 /* Leaves out[count] unchanged and returns 0 if the key is missing. */
 int fields_vector(const fields *f, const char *key, int count, double out[]);
-/* A list or range: returns the count; 0 if the key is missing or after an error; *out belongs to
- * the arena. */
+/* Reads a list or range. Returns the count, or 0 if the key is missing or after an error; *out
+ * belongs to the arena. */
 int fields_values(const fields *f, const char *key, double **out);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);
-/* Index in "a|b|c" of a word, or of the word that a parameter of that name has. */
+/* Returns the index in "a|b|c" of a word, or of the word of a parameter with that name. */
 int fields_word(const fields *f, const char *key, const char *choices, int otherwise);
 int fields_word_of(const fields *f, const document_node *word, const char *what,
                    const char *choices, int otherwise);
-/* Bits of one word or of a list. */
+/* Returns the bits of one word or of a list. */
 unsigned fields_words(const fields *f, const char *key, const char *choices);
-/* Index of the named entry; SCENE_NONE: none. */
+/* Returns the index of the named entry; SCENE_NONE: none. */
 int fields_entry(const fields *f, const char *key, scene_list list);
 int fields_entry_of(const fields *f, const document_node *name, scene_list list);
-/* The name that a text says: itself, or the word of a name. */
+/* Returns the name in a text: the text itself, or the word of a name. */
 const char *fields_called(const fields *f, const document_node *name);
-/* Returns 1 when there is an entry of that name. Reports nothing. */
+/* Returns 1 if there is an entry of that name. Reports nothing. */
 int fields_names(const fields *f, const char *key, scene_list list);
 int fields_names_entry(const fields *f, const document_node *name, scene_list list);
 /* "ux|uy|uz|rx|ry|rz" */
 extern const char fields_components[];
 
-/* Gives an entry of the scene the name that entry i of a list has. */
+/* Gives an entry of the scene the name of entry i of a list. */
 void builder_call(builder *b, scene_list list, int index, int i);
 
 void builder_sections(builder *b);
 void builder_nodes(builder *b);
-/* Axes of their supports, after the members. */
+/* Reads the axes of node supports, after the members. */
 void builder_axes(builder *b);
 void builder_members(builder *b);
 void builder_springs(builder *b);
 void builder_constraints(builder *b);
 void builder_imperfections(builder *b);
 void builder_motions(builder *b);
-/* Names of load cases, which loads and motions have; then the combinations. */
+/* Reads the names of load cases in loads and motions, then the combinations. */
 void builder_cases(builder *b);
 void builder_combinations(builder *b);
-/* Load cases that nothing reads are mistakes. */
+/* Reports load cases that nothing uses as errors. */
 void builder_read_cases(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
@@ -208,7 +208,7 @@ typedef void builder_piece(scene *, int index, double until, const char *text);
 /* Adds the function given by `time`, `pieces` or `table`; a table is interpolated linearly, or by a
  * cubic spline that starts and ends at rest. */
 void builder_function(const fields *f, int index, builder_piece *add, int spline);
-/* Reports that the analysis does not have the quantity, and which kinds of analysis do. */
+/* Reports that the analysis does not have the quantity, and lists the kinds of analysis that do. */
 void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q);
 /* Reads `path` and as many `values` as it has stations. Returns their number; 0 after an error or
  * if there are none. */
@@ -216,18 +216,18 @@ int builder_stations(const fields *f, const char *values, double **path, double 
 /* Adds default analyses and quantities if the file has none. */
 void builder_defaults(builder *b);
 
-/* Sections given by sizes: I, channel, Z, angle, box. */
+/* Sections given by dimensions: I, channel, Z, angle, box. */
 
-/* Returns 1, with points and walls, when the section is one of them. */
+/* Returns 1, with points and walls, if the section is one of them. */
 int build_shapes_read(const fields *f, section_spec *spec);
 
 /* Entries and values that depend on the values of names. */
 
-/* {NAME: VALUE, NAME: [VALUE, ...], ...}: has each name one of its values? 0 after an error.
- * NULL: 1. */
+/* {NAME: VALUE, NAME: [VALUE, ...], ...}: does each name have one of its values? Returns 0 after an
+ * error, 1 for NULL. */
 int choose_holds(const document_node *conditions, const scope *names, mistakes *m);
-/* {NAME: {VALUE: ..., else: ...}}: the value for the present value of the name; anything else is
- * returned unchanged. NULL after an error. */
+/* Returns the value in {NAME: {VALUE: ..., else: ...}} for the present value of the name; anything
+ * else is returned unchanged. NULL after an error. */
 const document_node *choose_value(const document_node *n, const scope *names, mistakes *m);
 
 /* Numbers given as expressions (cases/scene/expression.c); errors are reported with the position of
@@ -242,15 +242,15 @@ int names_number(const void *context, const char *text, int *at, double *out, ex
 
 /* Returns 1 and the value, or 0 after an error. */
 int expression_number(const document_node *n, const scope *names, mistakes *m, double *out);
-/* Exactly `count` numbers of a list. */
+/* Reads exactly `count` numbers of a list. */
 int expression_vector(const document_node *n, int count, const scope *names, mistakes *m,
                       double out[]);
 
-/* Replaces `file`, `at`, `value` of tables below the node by the numbers of these files; scene:
+/* Replaces `file`, `at`, `value` of tables below the node by the numbers in these files; scene:
  * path of the scene file, NULL: none. */
 void table_files_read(document_node *, const char *beside, arena *a, mistakes *m);
 
-/* Tables of the keys of scene files, used to check and describe a file, and to suggest corrections
+/* Tables of the keys of scene files, used to check and describe a file and to suggest corrections
  * of keys. */
 
 extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], keys_parameter[],
@@ -260,25 +260,24 @@ extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], 
 extern const entry_field keys_loop[];
 /* May its entries have loops? */
 int keys_loops(const entry_field *table);
-/* Is it one of them? */
+/* Is it a key of a loop? */
 int keys_is_loop(const char *name);
-/* For a table whose keys are arbitrary names, the table of its values; NULL for any other table.
- */
+/* Returns the value table of a table whose keys are arbitrary names; NULL for any other table. */
 const entry_field *keys_any(const entry_field *table);
 
-/* Checks the whole tree for unknown, missing and misplaced keys and values of the wrong form.
- * Returns 1 when there are none. */
+/* Checks the whole tree for unknown, missing and misplaced keys and for values of the wrong form.
+ * Returns 1 if there are none. */
 int keys_check(const document_node *root, mistakes *m);
 
 /* Parts of the description of a quantity. */
 
-/* A scene file stored in the program by the build (harness/tools/pack_case.c): read and checked
- * there, without pointers, and a case like any other. */
+/* A scene file stored in the program by the build (harness/tools/pack_case.c): it is read and
+ * checked there, contains no pointers, and is a case like any other. */
 
 typedef struct document_packed {
     int kind, line, column, inset; /* as in document_node */
-    /* Text: its position in all texts. List: its first entry, followed by the others. Map: its
-     * first key, followed by the other keys, then its entries. */
+    /* String: its position among all strings. List: its first entry, followed by the others. Map:
+     * its first key, followed by the other keys, then its entries. */
     int first;
     int count;
 } document_packed;
@@ -295,9 +294,9 @@ status scene_packed_build(const void *context, const double value[], scene *s, f
 
 /* Lists of numbers, explicit or as a range. */
 
-/* A list of numbers, or a range: a..b (steps of 1), a..b step c, a..b/n (n equal parts; the last /
- * after .. always divides so, otherwise put b in parentheses). Both ends are included. Returns the
- * count, or -1 after an error; *out belongs to the arena. */
+/* Reads a list of numbers, or a range: a..b (steps of 1), a..b step c, a..b/n (n equal parts; the
+ * last / after .. always divides, otherwise put b in parentheses). Both ends are included. Returns
+ * the count, or -1 after an error; *out belongs to the arena. */
 int range_values(const document_node *n, const scope *names, arena *a, mistakes *m, double **out);
 /* Is the text a range? */
 int range_is(const document_node *n);
@@ -305,7 +304,7 @@ int range_is(const document_node *n);
 /* Parts of a scene file, for the files that read it. */
 
 struct scene_file {
-    arena arena; /* holds the document and all texts */
+    arena arena; /* holds the document and all strings */
     const char *path;
     const document_node *root;
     case_type type;
@@ -313,30 +312,30 @@ struct scene_file {
     int parameters;
 };
 
-/* Reads the table of parameters; defaults are inside their ranges if there is no error. */
+/* Reads the parameter table; without errors, the defaults are within their ranges. */
 void parameter_table_read(scene_file *file, mistakes *m);
 /* Names of the parameters of a table, with these values. */
 const scope *parameter_table_names(const parameter_type *, const double value[], arena *a);
 
 /* Constants of sections as names in expressions: SECTION.A. */
 
-/* Adds the constants of a section to the scope; c NULL: the section has an error, which has been
+/* Adds the constants of a section to the scope. c NULL: the section has an error that has been
  * reported. */
 const scope *section_names_add(const scope *names, const char *section_name, const section *c,
                                arena *a);
-/* All of them, for messages. */
+/* Names of all constants, for messages. */
 extern const char section_names_all[];
 
-/* Names of loops in texts: $i, or ${i} before letters, is replaced by the value of the loop, an
- * integer or a word. */
+/* Loop names in texts: $i, or ${i} before letters, is replaced by the value of the loop, an integer
+ * or a word. */
 
-/* The tree with all names replaced: the same tree if there are none, else a copy; NULL when out of
- * memory. A name that cannot be replaced is reported and remains. */
+/* Returns the tree with all names replaced: the same tree if there are none, otherwise a copy; NULL
+ * if out of memory. A name that cannot be replaced is reported and remains. */
 const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
                                      mistakes *m);
-/* Text for messages: numbers with six digits. */
+/* Returns text for messages, in which numbers have six digits. */
 const char *substitute_said(const document_node *n, const scope *names, arena *a, mistakes *m);
-/* Returns 1 when a loop name remains in the text; the error has been reported. */
+/* Returns 1 if a loop name remains in the text; the error has been reported. */
 int substitute_is_left(const char *text);
 
 /* Parts of a scene file, for the files that write it. */
@@ -345,40 +344,40 @@ typedef struct writer {
     FILE *to;
     const scene *scene;
     int unwritable; /* 1: a number is not finite */
-    int begun;      /* 1: the map already has a key */
+    int begun;      /* 1: the map already contains a key */
 } writer;
 
-/* Functions that write an entry in a special form: its key, and everything after it. */
+/* Functions that write an entry in a special form: its key and everything after it. */
 typedef struct write_own {
-    const char *key; /* "where": of any map; "stress.where": of that map; NULL ends a list */
+    const char *key; /* "where": in any map; "stress.where": in that map; NULL ends a list */
     void (*write)(writer *, const void *entry);
 } write_own;
 
-/* Writes a map with the keys of an entry whose values are not the default. own: special forms, also
- * for maps inside it; NULL: none. */
+/* Writes a map with the keys of an entry whose values differ from the defaults. own: special forms,
+ * also for maps inside it; NULL: none. */
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
-/* "key: ", after ", " if it is not the first of its map. */
+/* Writes "key: ", after ", " if it is not the first key of its map. */
 void write_values_key(writer *w, const char *key);
 /* Writes words between [ and ], one for each bit. */
 void write_values_bits(writer *w, const char *words, unsigned bits);
 
-/* Writes six digits, or more if necessary to give the same number. */
+/* Writes six digits, or as many as are necessary to reproduce the number. */
 void write_values_number(writer *w, double value);
 /* [a, b, c] */
 void write_values_numbers(writer *w, int count, const double value[]);
 /* Writes the diagonal of a 6 x 6 matrix, or the whole matrix if other entries are not zero. */
 void write_values_matrix(writer *w, const double A[36]);
-/* Is any of them nonzero? */
+/* Is any value nonzero? */
 int write_values_any(int count, const double value[]);
-/* Writes key and number if it differs from the default. */
+/* Writes key and number if the number differs from the default. */
 void write_values_if(writer *w, const char *key, double value, double otherwise);
 /* In double quotes. */
 void write_values_quoted(writer *w, const char *text);
-/* Name of an entry in the file: as in the scene if it is unique and allowed in a file, else from
- * its index. */
+/* Writes the name of an entry in the file: as in the scene if it is unique and allowed in a file,
+ * otherwise from its index. */
 void write_values_name(writer *w, scene_list list, int index);
 void write_values_motion(writer *w, int index);
-/* `before` and the name of an entry. */
+/* Writes `before` and the name of an entry. */
 void write_values_named(writer *w, const char *before, scene_list list, int index);
 /* "ux" .. "rz" */
 extern const char *const write_values_component[6];

@@ -42,7 +42,7 @@ static const char *form_of(const entry_field *k, char text[32])
     return "...";
 }
 
-/* "summary [unit] (word, word); default: 0", or "... *". */
+/* Describes a key: "summary [unit] (word, word); default: 0", or "... *". */
 static void describe(const entry_field *k, char text[DESCRIPTION])
 {
     int used =
@@ -97,7 +97,7 @@ const char *const key_list_head[2] = {
 
 typedef struct key_rows {
     FILE *to;
-    int depth; /* depth of the part that is walked */
+    int depth; /* depth of the current part */
     key_list_say *say;
 } key_rows;
 
@@ -121,13 +121,14 @@ void key_list_write(FILE *to, key_list_say *say)
 
 static json_t *map_of(const entry_field *table, const entry_field *loop);
 
-/* An expression is a text or a number; a word may also be the name of a parameter. */
+/* Returns the schema of a scalar. An expression is a text or a number; a word may also be the name
+ * of a parameter. */
 static json_t *scalar(void)
 {
     return json_pack("{s:[s, s]}", "type", "number", "string");
 }
 
-/* "a|b|c" -> examples, which editors offer. */
+/* "a|b|c" -> examples that editors offer. */
 static json_t *words_of(const char *words)
 {
     json_t *list = json_array();
@@ -186,7 +187,7 @@ static json_t *value_of(const entry_field *k)
     return json_object();
 }
 
-/* A number, a list of them, or a word. */
+/* Returns the schema of a number, a list of numbers, or a word. */
 static json_t *usual_of(const entry_field *k)
 {
     json_t *value = json_loads(k->usual, JSON_DECODE_ANY, NULL);

@@ -172,7 +172,7 @@ const entry_field keys_root[] = {
 
 /* Names of both tables in one list. */
 typedef struct known_keys {
-    const entry_field *table, *loop; /* loop NULL: no entry that may have loops */
+    const entry_field *table, *loop; /* loop NULL: entries cannot have loops */
 } known_keys;
 
 static const char *name_at(const void *context, int i)
@@ -299,7 +299,7 @@ static void check_value(const document_node *n, const entry_field *k, const docu
     }
 }
 
-/* Keys of other programs that resemble no key here, with the equivalent key. */
+/* Returns the key that corresponds to a key of another program that resembles no key here. */
 static const char *elsewhere(const entry_field *table, const char *name)
 {
     static const char *const poisson[] = {"poisson", "poissons_ratio", "poisson_ratio", "nu"};
@@ -316,7 +316,7 @@ static const char *elsewhere(const entry_field *table, const char *name)
     return NULL;
 }
 
-/* Remedy for an unknown key: the nearest known one, or where all are listed. */
+/* Returns the remedy for an unknown key: the nearest known one, or where all keys are listed. */
 static const char *remedy_of(const known_keys *known, const char *name, char text[FAULT_TEXT])
 {
     const char *other = elsewhere(known->table, name);
@@ -325,7 +325,7 @@ static const char *remedy_of(const known_keys *known, const char *name, char tex
                            text);
 }
 
-/* Is a missing key probably meant by a misspelt one, or replaced by a refused one? */
+/* Is a missing key probably meant by a misspelt one, or replaced by a rejected one? */
 static int is_meant(const document_node *map, const known_keys *known, const char *name)
 {
     for (int i = 0; i < map->count; i++) {
@@ -342,7 +342,7 @@ static int is_meant(const document_node *map, const known_keys *known, const cha
     return 0;
 }
 
-/* The names of a group, for messages. */
+/* Lists the names of a group, for messages. */
 static void group_words(const entry_field *table, int group, char text[FAULT_TEXT])
 {
     size_t used = 0;
@@ -387,7 +387,7 @@ static void check_missing(const document_node *map, const known_keys *known,
     }
 }
 
-/* "a map: {mass: ..., stiffness: ..., ratio: ...}". */
+/* Reports "a map: {mass: ..., stiffness: ..., ratio: ...}". */
 static void tell_map(const document_node *n, const known_keys *known, const document_node *name,
                      mistakes *m)
 {

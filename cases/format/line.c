@@ -47,8 +47,8 @@ char *line_trim(char *line)
     return line;
 }
 
-/* Number of continuation bytes after the first byte of a character; 0: not a multi-byte character.
- */
+/* Returns the number of continuation bytes after the first byte of a character; 0: not a multi-byte
+ * character. */
 static int following(unsigned char first)
 {
     if (first < 0xc2 || first >= 0xf5)
@@ -58,7 +58,7 @@ static int following(unsigned char first)
     return first < 0xf0 ? 2 : 3;
 }
 
-/* Number of bytes of the character that begins here; 0: not allowed. */
+/* Returns the number of bytes of the character that starts here; 0: not allowed. */
 static int character_length(const unsigned char *at)
 {
     if (at[0] < 0x80)
@@ -84,7 +84,7 @@ int line_is_text(const char *line)
     return 1;
 }
 
-/* Ends the field that begins at `at`; returns the position of the next one, or NULL. */
+/* Ends the field that starts at `at`; returns the position of the next one, or NULL. */
 static char *end_field(char *at)
 {
     char *end = at;
@@ -151,7 +151,7 @@ int line_number(const char *text, double *value)
     return *end == '\0' && isfinite(*value);
 }
 
-/* Without the name of its analysis. */
+/* Writes the description without the name of its analysis. */
 static void put_sentence(const scene *s, const scene_quantity *q, char *text, size_t size)
 {
     FILE *to = fmemopen(text, size, "w");
@@ -198,9 +198,9 @@ void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size)
         snprintf(text, size, "%s", sentence);
 }
 
-/* States, and their analysis, that a quantity belongs to. */
+/* States to which a quantity belongs, and their analysis. */
 
-/* [rad/s] at path parameter 1. */
+/* Returns the angular velocity [rad/s] at path parameter 1. */
 static double speed(const scene_analysis *a)
 {
     const double *omega = scene_walk_of(a)->frame.omega;
@@ -216,7 +216,7 @@ static const char *path_name(const scene_analysis *a)
     return a->kind == SCENE_CONTINUATION ? "path of the load factor" : "static path";
 }
 
-/* Analysis along whose path stations are counted; NULL: none. */
+/* Returns the analysis along whose path stations are counted; NULL: none. */
 static const scene_analysis *path_of(const scene *s, const scene_analysis *a)
 {
     const scene_analysis *walked =
@@ -308,7 +308,7 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
     }
 }
 
-/* Writes which loads act, where they have cases. */
+/* Writes which loads act, if the scene has load cases. */
 static void acting(FILE *to, const scene *s, const scene_quantity *q)
 {
     static const char *const of[] = {"", "largest of", "least of", "largest magnitude of"};

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Checks the reference values and their quantities, at a point. */
+/* Checks the reference values and their quantities at a point. */
 static void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
                                     mistakes *m);
 
@@ -21,7 +21,8 @@ static void check_version(const scene_file *file, mistakes *m)
         document_mistake(m, file->root, 0, "'beamwork: 1' must be the first key; move it up");
 }
 
-/* Name of the file without its ending, with '_' for characters that a name cannot have. */
+/* Returns the file name without its extension, with '_' for characters that a name cannot
+ * contain. */
 static const char *name_of_file(scene_file *file)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_"
@@ -33,7 +34,7 @@ static const char *name_of_file(scene_file *file)
     if (*at == '\0' || *at == '.' || (*at >= '0' && *at <= '9'))
         count = (size_t)snprintf(name, sizeof name, "scene_");
     for (; *at != '\0' && *at != '.' && count < SCENE_NAME - 1; at++)
-        if (((unsigned char)*at & 0xc0) != 0x80) /* else it continues a character */
+        if (((unsigned char)*at & 0xc0) != 0x80) /* otherwise it continues a character */
             name[count++] = strspn(at, letters) > 0 ? *at : '_';
     return arena_copy(&file->arena, name, count);
 }
@@ -75,8 +76,8 @@ static status build_from(const void *context, const double value[], scene *s, fa
     return mistakes_status(&m, f);
 }
 
-/* Reads tree, tables of other files, form and parameters, each only if the previous part has no
- * errors. folder: of a file in it; NULL: none. */
+/* Reads the tree, the tables of other files, the form and the parameters, each only if the previous
+ * part has no errors. folder: path of a file in the folder of the tables; NULL: none. */
 static void read_form(scene_file *file, const char *bytes, size_t size, const char *folder,
                       mistakes *m)
 {
@@ -93,7 +94,7 @@ static void read_form(scene_file *file, const char *bytes, size_t size, const ch
     parameter_table_read(file, m);
 }
 
-/* Scene and truths at values of the parameters. */
+/* Checks the scene and the reference values at parameter values. */
 static void check_at(const scene_file *file, const double value[], mistakes *m)
 {
     scene s;
@@ -112,8 +113,8 @@ status scene_file_check(const scene_file *file, const double value[], mistakes *
     return mistakes_status(m, f);
 }
 
-/* folder: path of a file in the folder of its tables; built: also builds the scene at its defaults.
- */
+/* Reads a file. folder: path of a file in the folder of its tables; built: also builds the scene at
+ * its defaults. */
 static status read_from(const char *bytes, size_t size, const char *path, const char *folder,
                         int built, scene_file **out, mistakes *m, fault *f)
 {
@@ -148,7 +149,7 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
     return read_from(bytes, size, path, NULL, 1, out, m, f);
 }
 
-/* Reads a file, at most one byte more than allowed, so that a longer one is refused. */
+/* Reads a file, at most one byte more than allowed, so that a longer file is rejected. */
 static status read_bytes(const char *path, char *bytes, size_t room, size_t *size, fault *f)
 {
     FILE *from = fopen(path, "rb");
@@ -221,7 +222,7 @@ const char *scene_file_path(const case_type *type)
     return type->build_from == build_from ? ((const scene_file *)type->context)->path : NULL;
 }
 
-/* Truths of a scene file. */
+/* Reference values of a scene file. */
 
 /* A reference value at a point. */
 typedef struct file_truth {
@@ -237,7 +238,8 @@ static const scene_quantity *quantity_of(const scene *s, const char *name)
     return NULL;
 }
 
-/* Index of a parameter that a reference value names, and its value there; -1 after an error. */
+/* Returns the index of a parameter that a reference value names, and its value there; -1 after an
+ * error. */
 static int named_value(const scene_file *file, const fields *f, const document_node *those, int i,
                        double *value)
 {
@@ -258,8 +260,7 @@ static int named_value(const scene_file *file, const fields *f, const document_n
     return index;
 }
 
-/* Moves `point` to the values that the reference value names; returns 1 when it was that point.
- */
+/* Moves `point` to the values that the reference value names; returns 1 if it was that point. */
 static int visit_point(const scene_file *file, const fields *f, double point[])
 {
     const document_node *those = document_find(f->map, "parameters");
@@ -326,7 +327,7 @@ static truth_reader open_truths(const scene_file *file, const double value[], ar
     truth_reader r = {.b = {.arena = a, .mistakes = m, .root = file->root}};
     r.b.names = unroll_let(document_find(file->root, "let"),
                            parameter_table_names(file->parameter, value, a), a, m);
-    /* constants of sections are names, too */
+    /* constants of sections are also names */
     scene of_sections;
     scene_init(&of_sections, "");
     r.b.scene = &of_sections;
@@ -386,7 +387,7 @@ status scene_file_truths(const scene_file *file, const double value[], scene_tru
     return outcome;
 }
 
-/* At the defaults, and at every other point with a reference value. */
+/* Passes reference values at the defaults and at every other point that has one. */
 static status give_everywhere(const scene_file *file, arena *a, scene_truth_taker *take, void *to,
                               fault *f)
 {

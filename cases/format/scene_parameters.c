@@ -68,7 +68,8 @@ static void read_choice(parameter_type *p, const document_node *value, mistakes 
                          p->choices);
 }
 
-/* any_unit: the scene has its own units, and its parameters may too. */
+/* Reads a number. any_unit: the scene has its own units, so that its parameters may have them,
+ * too. */
 static void read_number(parameter_type *p, const document_node *entry, int any_unit, mistakes *m)
 {
     const document_node *unit = document_find(entry, "unit"), *at = document_find(entry, "value");
@@ -199,8 +200,8 @@ static void list_entries(builder *b)
             check_name(b, (scene_list)i, k);
 }
 
-/* Key of earlier versions, replaced by `omit`: physics that it does not list is omitted, except
- * warping, which every section that warps had. */
+/* Reads a key of earlier versions, now replaced by `omit`. Physics that it does not list is
+ * omitted, except warping, which every section that warps had. */
 static void read_needs(const fields *f)
 {
     static const char choices[] =
@@ -219,7 +220,7 @@ static void read_needs(const fields *f)
                                                   : SCENE_SHEAR_OWN;
 }
 
-/* Value of a word of 'omit': yes, or the values of names for which it is omitted. */
+/* Reads a word of 'omit': yes, or the values of names for which it is omitted. */
 static int is_omitted(const fields *f, const document_node *n)
 {
     if (n->kind == DOCUMENT_MAP)
@@ -231,7 +232,7 @@ static int is_omitted(const fields *f, const document_node *n)
     return 0;
 }
 
-/* A list of words, or a map of them. */
+/* Reads a list of words, or a map of them. */
 static unsigned read_omit(const fields *f, const char *choices)
 {
     const document_node *n = document_find(f->map, "omit");
@@ -279,7 +280,7 @@ static void read_plane(builder *b)
 
 static void read_meshes(builder *b)
 {
-    int usual[] = {1, 2, 4, 8}, least = 1; /* meshes that show every imperfection */
+    int usual[] = {1, 2, 4, 8}, least = 1; /* meshes that reveal every imperfection */
     for (int i = 0; i < b->scene->members; i++) {
         const scene_member *m = &b->scene->member[i];
         if ((m->bow[0] != 0 || m->bow[1] != 0) && 2 * m->half_waves > least)
@@ -308,7 +309,7 @@ static void read_meshes(builder *b)
     scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }
 
-/* Finds the entry that a refusal names ("node tip: ..."), and its text. */
+/* Finds the entry that a rejection names ("node tip: ..."), and its text. */
 static void tell_refusal(const builder *b, const char *text)
 {
     static const char *const word[SCENE_LISTS] = {
@@ -331,7 +332,7 @@ static void tell_refusal(const builder *b, const char *text)
     document_mistake(b->mistakes, b->root, 0, "%s", text);
 }
 
-/* Returns 1 when the values of the parameters are refused. */
+/* Returns 1 if the parameter values are rejected. */
 static int refuses(const builder *b)
 {
     const document_node *all = document_find(b->root, "refuse");
@@ -347,7 +348,7 @@ static int refuses(const builder *b)
 }
 
 /* Converts from the units of the file, in which quantities are reported. own: number of quantities
- * of the file. */
+ * in the file. */
 static void to_si(const builder *b, int own)
 {
     fault f = {""};
@@ -367,8 +368,8 @@ static void hold_warping(builder *b)
     scene_warping_by_supports(b->scene);
 }
 
-/* Each list refers to previous ones; stops when out of memory. Returns the number of quantities in
- * the file. */
+/* Builds the lists, each of which refers to previous ones; stops if out of memory. Returns the
+ * number of quantities in the file. */
 static int build_lists(builder *b)
 {
     static void (*const own[])(
@@ -416,7 +417,7 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
         tell_refusal(&b, f.text);
 }
 
-/* The tree, owned by the arena; NULL out of memory. */
+/* Returns the tree, owned by the arena; NULL if out of memory. */
 static const document_node *unpack(const scene_packed *p, arena *a)
 {
     const size_t nodes = (size_t)p->nodes;
@@ -447,7 +448,7 @@ status scene_packed_build(const void *context, const double value[], scene *s, f
         build_scene(root, parameter_table_names(p->parameters, value, &a), &a, &m, s);
     m.out_of_memory |= a.failed;
     arena_free(&a);
-    /* of a case of the program it says more by itself than with the place in a file */
+    /* for a built-in case, the message is clearer without the position in a file */
     return m.count > 0 && !m.out_of_memory ? fault_set(f, STATUS_REFUSED, "%s", m.list[0].text)
                                            : mistakes_status(&m, f);
 }

@@ -103,7 +103,7 @@ static int has_name(const document_node *n)
     return 0;
 }
 
-/* Length of the loop name at $ or ${ in the text; 0: none. */
+/* Returns the length of the loop name at $ or ${ in the text; 0: none. */
 static size_t substitute_name_at(const char *at, int *braces)
 {
     *braces = at[0] == '$' && at[1] == '{';
@@ -120,7 +120,7 @@ int substitute_is_left(const char *text)
     return 0;
 }
 
-/* Text of a name; said: for messages. Returns 0 when an error was reported. */
+/* Writes the value of a name as text; said: for messages. Returns 0 if an error was reported. */
 static int value_text(const document_node *n, int at, size_t length, int said, const scope *names,
                       mistakes *m, char out[64])
 {

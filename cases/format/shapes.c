@@ -1,5 +1,5 @@
-/* Sections by their sizes, and rolled ones by their name, as thin walls; all sizes are of the
- * walls' centre lines. */
+/* Sections by their dimensions, and rolled ones by their name, as thin walls. All dimensions refer
+ * to the centre lines of the walls. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -36,8 +36,8 @@ static flanged flanged_of(const fields *f)
                      .web_thickness = fields_number(f, "web_thickness", 1)};
 }
 
-/* An open line of three walls: upper flange from y = `upper` to the web, web, lower flange to y =
- * `lower`. */
+/* Adds an open line of three walls: the upper flange from y = `upper` to the web, the web, and the
+ * lower flange to y = `lower`. */
 static void add_line(section_spec *spec, const flanged *s, double upper, double lower)
 {
     add_point(spec, upper, s->half);
@@ -118,10 +118,9 @@ static void angle(const fields *f, section_spec *spec)
               fields_number(f, "thickness", 1));
 }
 
-/* Rolled sections.  Sizes [mm]: depth, flange, web and flange thickness, root radius; of UPN the
- * constants too [cm^2, cm^4, cm^4, cm^4, 10^3 cm^6] and the shear centre from the centroid [cm],
- * since its flanges are inclined.  EN 10365:2017
- * (IPE, HEA, HEB, HEM, UPN). */
+/* Rolled sections. Dimensions [mm]: depth, flange, web and flange thickness, root radius. UPN also
+ * have constants [cm^2, cm^4, cm^4, cm^4, 10^3 cm^6] and the shear centre from the centroid [cm],
+ * since their flanges are tapered. EN 10365:2017 (IPE, HEA, HEB, HEM, UPN). */
 enum { UPN = 12 };
 
 typedef struct rolled {
@@ -254,9 +253,9 @@ static const double angle_root[][3] = {
     {150, 150, 16}, {160, 160, 17}, {180, 180, 18}, {200, 100, 15}, {200, 150, 15}, {200, 200, 18},
     {250, 250, 18}};
 
-/* Area between a corner of a square of side r and its inscribed quarter circle: area over r^2,
- * distance of its centroid from the sides over r, second moment about an axis through the centroid
- * along a side over r^4. */
+/* Area between a corner of a square of side r and its inscribed quarter circle: the area over r^2,
+ * the distance of its centroid from the sides over r, and the second moment about an axis through
+ * the centroid parallel to a side over r^4. */
 static const double spandrel_area = 1 - PI / 4, spandrel_at = (10 - 3 * PI) / (12 - 3 * PI),
                     spandrel_moment = 1. / 3 - PI / 16 - 1 / (36 - 9 * PI);
 
@@ -267,8 +266,8 @@ static void give(double *to, double value)
         *to = value;
 }
 
-/* Constants with fillets, exact except It (El Darwish and Johnston, J. Struct. Div. ASCE 91, 1965,
- * as in tables of producers). */
+/* Adds constants with fillets, exact except It (El Darwish and Johnston, J. Struct. Div. ASCE 91,
+ * 1965, as in manufacturers' tables). */
 static void add_rolled_i(section_spec *spec, const rolled *p, double mm)
 {
     const double h = p->h * mm, b = p->b * mm, tw = p->tw * mm, tf = p->tf * mm, r = p->r * mm,
@@ -299,8 +298,8 @@ static patch rectangle_patch(double y0, double y1, double z0, double z1)
     return (patch){w * h, (y0 + y1) / 2, (z0 + z1) / 2, w * h * h * h / 12, h * w * w * w / 12, 0};
 }
 
-/* Between a corner and its inscribed quarter circle, which lies towards +y, +z (ky = kz = 1) or
- * the other way; sign: -1 where it is cut off. */
+/* Returns the area between a corner and its inscribed quarter circle, towards +y and +z if ky = kz
+ * = 1, otherwise towards the opposite direction. sign: -1 if the area is cut off. */
 static patch spandrel_patch(double y, double z, double r, int ky, int kz, int sign)
 {
     const double area = spandrel_area * r * r, at = spandrel_at * r,
@@ -329,9 +328,9 @@ static patch sum_of(int count, const patch p[])
     return all;
 }
 
-/* Legs of outer lengths b along y and h along z with fillets, exact except It (Roark's Formulas for
- * Stress and Strain, 7th ed., table 10.7, case 26, legs of one thickness). The origin is where the
- * centre lines meet, which is the shear centre. */
+/* Adds legs of outer lengths b along y and h along z with fillets, exact except It (Roark's
+ * Formulas for Stress and Strain, 7th ed., table 10.7, case 26, legs of equal thickness). The
+ * origin is the intersection of the centre lines, which is the shear centre. */
 static void add_rolled_angle(section_spec *spec, double h, double b, double t, double root)
 {
     const double o = -t / 2, toe = root / 2,
@@ -356,7 +355,8 @@ static void add_rolled_angle(section_spec *spec, double h, double b, double t, d
              (0.07 + 0.076 * root / t) * pow(circle, 4));
 }
 
-/* Hot finished (EN 10210-2:2019, outer radius 1.5 t, inner one t); the same formulas. */
+/* Adds a hot finished hollow section (EN 10210-2:2019, outer radius 1.5 t, inner radius t) with the
+ * same formulas. */
 static void add_hollow(section_spec *spec, double h, double b, double t)
 {
     const double outer = 1.5 * t, inner = t, round = (outer + inner) / 2 * (outer + inner) / 2,
@@ -381,7 +381,8 @@ static void add_hollow(section_spec *spec, double h, double b, double t)
     give(&spec->given.It, t * t * t * line / 3 + 4 * enclosed * enclosed * t / line);
 }
 
-/* Sizes after the letters of a name: "200x100x5". How many; -1: something else stands there. */
+/* Reads the dimensions after the letters of a name: "200x100x5". Returns their number; -1:
+ * something else follows. */
 static int sizes_of(const char *text, double size[3])
 {
     int count = 0;
@@ -398,8 +399,8 @@ static int sizes_of(const char *text, double size[3])
     return -1;
 }
 
-/* Adds the rolled section of a name without blanks, in capitals; mm: a millimetre in the scene's
- * unit of length. Returns 0 where there is none of that name. */
+/* Adds the rolled section of a name without blanks, in capitals. mm: a millimetre in the scene's
+ * unit of length. Returns 0 if there is none of that name. */
 static int add_profile(section_spec *spec, const char *name, double mm)
 {
     static const struct {
@@ -465,7 +466,7 @@ static int add_profile(section_spec *spec, const char *name, double mm)
     return 0;
 }
 
-/* The sizes of a family, or what names look like. */
+/* Lists the dimensions of a family, or describes the form of names. */
 static void known_profiles(const char *name, char *text, size_t size)
 {
     static const struct {
@@ -489,7 +490,7 @@ static void known_profiles(const char *name, char *text, size_t size)
              " RHS200x100x5 or CHS114.3x5 (outer sizes, thickness) in mm, or give sizes");
 }
 
-/* Blanks do not count, nor do small letters. */
+/* Reads the name of a profile; blanks are ignored, and so is the case of letters. */
 static void profile(const fields *f, section_spec *spec)
 {
     char name[40] = "", known[FAULT_TEXT / 2];

@@ -1,5 +1,5 @@
-/* Tables from CSV files: `table: {file: drive.csv, at: t, value: ux}` becomes the table that one
- * would write there, before anything else reads the tree. */
+/* Tables from CSV files: `table: {file: drive.csv, at: t, value: ux}` is replaced by the equivalent
+ * table before anything else reads the tree. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,13 +11,13 @@ enum { LINE_BYTES = 8192, COLUMNS = 256, NAME_BYTES = 64, COLUMNS_TOLD = 160 };
 
 /* A file that is read for a table. */
 typedef struct table_file {
-    const document_node *place; /* its name in the scene file */
+    const document_node *place; /* file name in the scene file */
     arena *arena;
     mistakes *mistakes;
-    const char *name;              /* as in the scene file */
-    const document_node *of[2];    /* what the scene file says of the columns */
-    int column[2], columns, begun; /* from 0; of the first row; 1: columns are known */
-    double last;                   /* in the first of them */
+    const char *name;              /* path as written in the scene file */
+    const document_node *of[2];    /* how the scene file describes the columns */
+    int column[2], columns, begun; /* from 0; in the first row; 1: the columns are known */
+    double last;                   /* last value in the first of them */
     document_node *list[2];
     int line;
     char text[LINE_BYTES], *field[COLUMNS];
@@ -30,7 +30,7 @@ static int wrong(const table_file *t, const char *what, const char *which, const
     return 0;
 }
 
-/* Fields between commas or semicolons, or else blanks. */
+/* Splits fields separated by commas or semicolons, or otherwise by blanks. */
 static int split(table_file *t, char *line)
 {
     if (strchr(line, ',') == NULL)
@@ -40,8 +40,8 @@ static int split(table_file *t, char *line)
                                      : line_words(line, t->field, COLUMNS);
 }
 
-/* Column by its name in the header (if there is one), or by its number; -1: none, which is
- * reported. */
+/* Returns the column given by its name in the header (if there is one) or by its number; -1: none,
+ * which is reported. */
 static int column_of(const table_file *t, const document_node *of, int header)
 {
     char known[COLUMNS_TOLD] = "";
@@ -91,8 +91,8 @@ static int add_number(table_file *t, int k, double value)
     return n->text != NULL;
 }
 
-/* The first row: a header if a column is found by its name, or neither is a number there. Returns 1
- * if it is one. */
+/* Reads the first row. It is a header if a column is found by its name, or if neither column
+ * contains a number. Returns 1 for a header. */
 static int begin(table_file *t)
 {
     double number;
@@ -145,7 +145,7 @@ static int read_row(table_file *t, char *line)
     return 1;
 }
 
-/* Blank lines and lines that begin with # do not count. */
+/* Reads the rows; blank lines and lines that start with # are ignored. */
 static int read_rows(table_file *t, FILE *from)
 {
     while (fgets(t->text, sizeof t->text, from) != NULL) {
@@ -167,7 +167,7 @@ static int read_rows(table_file *t, FILE *from)
     return 1;
 }
 
-/* Rows NODE, dx, dy, dz of `shifts: {file: CSV}`, by the names of a header. */
+/* Reads rows NODE, dx, dy, dz of `shifts: {file: CSV}`, by the names in a header. */
 typedef struct shift_file {
     table_file t;
     int column[4];
@@ -252,7 +252,7 @@ static int read_shifts_from(shift_file *s, FILE *from)
     return s->map->count > 0 ? 1 : wrong(t, "no rows", "", "; give one per node");
 }
 
-/* Path from the folder of the scene file. */
+/* Opens a path relative to the folder of the scene file. */
 static FILE *open_beside(const char *beside, const char *name, arena *a)
 {
     const char *slash = strrchr(beside, '/');
@@ -266,7 +266,7 @@ static FILE *open_beside(const char *beside, const char *name, arena *a)
     return line_open(path);
 }
 
-/* The file that a map names, open; NULL: none, or after an error. */
+/* Opens the file that a map names; NULL: none, or after an error. */
 static FILE *open_file(table_file *t, const char *beside)
 {
     const document_node *file = t->place;
@@ -308,7 +308,7 @@ static void read_shifts(document_node *map, const char *beside, arena *a, mistak
     fclose(from);
 }
 
-/* Replaces what a map says of a file by its numbers. */
+/* Replaces the file reference in a map by the numbers of the file. */
 static void read_table(document_node *map, const char *beside, arena *a, mistakes *m)
 {
     const document_node *file = document_find(map, "file");

@@ -12,7 +12,7 @@ typedef struct unroller {
     mistakes *mistakes;
     unrolled *list;
     int count, failed;
-    const document_node *key, *value; /* of the present entry; key NULL: in a list */
+    const document_node *key, *value; /* of the current entry; key NULL: in a list */
 } unroller;
 
 static void add(unroller *u, const scope *names)
@@ -43,7 +43,7 @@ static void add(unroller *u, const scope *names)
 
 static void unroll_loops(unroller *u, const document_node *loops, int depth, const scope *names);
 
-/* Is it a word of a loop's list, and not an expression with known names? */
+/* Is it a word in the list of a loop, and not an expression with known names? */
 static int is_word(const document_node *n, const scope *names)
 {
     const size_t length = n->kind == DOCUMENT_TEXT ? expression_name_length(n->text) : 0;
@@ -110,8 +110,8 @@ int unroll_entries(const document_node *collection, const scope *names, arena *a
     return u.count;
 }
 
-/* NAME: EXPR, or a choice among expressions and words. After an error the name is still defined, so
- * that the error is reported only once. */
+/* Reads NAME: EXPR, or a choice among expressions and words. After an error the name is still
+ * defined, so that the error is reported only once. */
 static const scope *add_let(const document_node *key, const document_node *said, const scope *names,
                             arena *a, mistakes *m)
 {
@@ -150,7 +150,7 @@ static const scope *find(const document_node *key, const scope *names, mistakes 
     return known;
 }
 
-/* Is this the value? -1 after an error. */
+/* Is this the value? Returns -1 after an error. */
 static int has_value(const scope *known, const document_node *n, const scope *names, mistakes *m)
 {
     double value;
@@ -186,7 +186,7 @@ int choose_holds(const document_node *conditions, const scope *names, mistakes *
     return holds;
 }
 
-/* The value after the matching key, or after else; NULL: none, or after an error. */
+/* Returns the value after the matching key or after else; NULL: none, or after an error. */
 static const document_node *entry_of(const scope *known, const document_node *map,
                                      const scope *names, mistakes *m)
 {
@@ -247,7 +247,7 @@ const document_node *placement_port(const placement *p, const char *name)
     return p != NULL ? document_find(p->connect, name) : NULL;
 }
 
-/* axes: {x: [3], z: [3]}, of any length, orthogonal. */
+/* Reads axes: {x: [3], z: [3]}, of any length, orthogonal. */
 static void read_axes(const document_node *axes, const scope *names, mistakes *m, placement *p)
 {
     double x[3], z[3], y[3];
@@ -262,7 +262,7 @@ static void read_axes(const document_node *axes, const scope *names, mistakes *m
     p->turned = 1;
 }
 
-/* turn: {z: angle}: rotation about one axis of the scene. */
+/* Reads turn: {z: angle}, a rotation about one axis of the scene. */
 static void read_turn(const document_node *turn, const scope *names, mistakes *m, placement *p)
 {
     static const char axis[] = "x|y|z";
@@ -280,7 +280,7 @@ static void read_turn(const document_node *turn, const scope *names, mistakes *m
     p->turned = 1;
 }
 
-/* Checks that all ports of the part are connected, and no others. */
+/* Checks that all ports of the part are connected, and that there are no other ports. */
 static void check_ports(const document_node *part, const unrolled *instance, const placement *p,
                         mistakes *m)
 {
@@ -326,7 +326,7 @@ static const placement *read_placement(const document_node *part, const unrolled
     return p;
 }
 
-/* "INSTANCE.ENTRY"; NULL when memory ran out. */
+/* Returns "INSTANCE.ENTRY"; NULL if out of memory. */
 static const char *full_name(const placement *p, const char *name, arena *a)
 {
     char text[200];

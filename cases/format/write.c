@@ -77,7 +77,7 @@ char *write_scene_text(const scene *s, const write_head *head)
 
 /* Nodes, members, springs, motions and loads of a scene file. */
 
-/* Number of components whose motion is given along the global axes. */
+/* Returns the number of components whose motion is given along the global axes. */
 static int components_of(const scene_node *n)
 {
     return n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3;
@@ -304,7 +304,7 @@ static void write_on(writer *w, const void *entry)
     write_values_name(w, scene_load_along(load) ? SCENE_MEMBERS : SCENE_NODES, load->where);
 }
 
-/* Writes zero too, if there is a gradient. */
+/* Writes a temperature, including zero if there is a gradient. */
 static void write_temperature(writer *w, const void *entry)
 {
     const scene_load *load = entry;
@@ -314,7 +314,7 @@ static void write_temperature(writer *w, const void *entry)
     write_values_number(w, load->temperature);
 }
 
-/* Writes the range of a member on which a load acts. */
+/* Writes the part of a member on which a load acts. */
 static void write_range(writer *w, const void *entry)
 {
     const scene_load *load = entry;
@@ -349,7 +349,7 @@ static void write_terms(writer *w, const void *entry)
     }
 }
 
-/* With a ratio of one component of two nodes. */
+/* Writes a constraint, with the ratio if it couples one component of two nodes. */
 static void write_constraint(writer *w, const void *entry)
 {
     const scene_constraint *c = entry;

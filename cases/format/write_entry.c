@@ -7,7 +7,7 @@
 
 #include "elements/shared/choice.h"
 
-/* The word of that index in "a|b|c". */
+/* Writes the word with that index in "a|b|c". */
 static void write_values_word(writer *w, const char *words, int index);
 
 static void write_value(writer *w, const entry_field *k, const void *entry)
@@ -64,14 +64,14 @@ static const write_own *find_own(const write_own own[], const char *of, const ch
     return NULL;
 }
 
-/* Must the key be written, because no other key expresses it, or in any case? */
+/* Must the key be written, either always or because no other key expresses it? */
 static int is_due(const entry_field *k, const void *entry)
 {
     const int must = k->always || (k->needed && k->group == 0);
     return (must && (k->kind != ENTRY_NAME || k->size > 0)) || !entry_is_usual(k, entry);
 }
 
-/* of: key of the map. */
+/* Writes a map. of: its key. */
 static void write_map(writer *w, const entry_field *table, const void *entry, const write_own own[],
                       const char *of)
 {
@@ -178,7 +178,7 @@ void write_values_quoted(writer *w, const char *text)
     fputc('"', w->to);
 }
 
-/* Would `gravity` be ambiguous, because a node with mass and a member have the same name? It refers
+/* Would `gravity` be ambiguous because a node with mass and a member have the same name? It refers
  * to members first. */
 static int is_mistaken(const scene *s, int node, const char *name)
 {
@@ -234,9 +234,9 @@ void write_values_matrix(writer *w, const double A[36])
     write_values_numbers(w, whole ? 36 : 6, whole ? A : diagonal);
 }
 
-/* Sections of a scene file: by their constants, walls or sizes. */
+/* Sections of a scene file: by their constants, walls or dimensions. */
 
-/* Writes the one of D and F that was given: see section_compute. */
+/* Writes the given one of D and F: see section_compute. */
 static void write_shear(writer *w, const void *entry)
 {
     const section_spec *spec = entry;
@@ -373,7 +373,7 @@ static void write_where(writer *w, const void *entry)
     write_values_number(w, scene_stress_of(q)->place);
 }
 
-/* Only if the position is given. */
+/* Writes the side, only if the position is given. */
 static void write_side(writer *w, const void *entry)
 {
     const scene_quantity *q = entry;

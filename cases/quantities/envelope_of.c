@@ -1,4 +1,4 @@
-/* The largest or least of other quantities, whatever their analyses are. */
+/* The largest or smallest of other quantities, from any analyses. */
 #include "cases/scene/scene.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@ static const entry_field fields[] = {
      ENTRY_IN(scene_quantity, what.of.envelope), .first = SCENE_ENVELOPE_MAX},
     {.name = NULL}};
 
-/* The values are those reported, which have their units already. */
+/* Returns "1": the values are as reported and already have their units. */
 static const char *unit(const scene *s, const scene_quantity *q)
 {
     (void)s;

@@ -1,4 +1,4 @@
-/* Largest growth rate of a small motion; 0: stable. */
+/* Largest growth rate of a mode; 0: stable. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {QUANTITY_ANALYSIS, QUANTITY_TAKEN, {.name = NULL}};

@@ -1,4 +1,4 @@
-/* What an end of a member has turned or shifted against its node, where it is released. */
+/* Rotation or displacement of a member end relative to its node, where the end is released. */
 #include "cases/scene/scene.h"
 
 enum { MEMBER, COMPONENT = 0, END };

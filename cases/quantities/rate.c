@@ -29,7 +29,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(q->what.of.component.component));
 }
 
-/* For a jerk the acceleration, whose slope it is: harness/time. */
+/* Reads the rate; for a jerk, reads the acceleration, whose slope the jerk is (harness/time). */
 static double read(const scene_quantity *q, const quantity_state *state)
 {
     const scene_component *what = &q->what.of.component;
@@ -56,7 +56,7 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* The rotation that it reads. */
+/* Returns the rotation that the quantity reads. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     (void)s;

@@ -38,7 +38,8 @@ static double read(const scene_quantity *q, const quantity_state *state)
     return state->relative(state, what->from, what->node, what->component);
 }
 
-/* The rotation that it reads, and all of the node whose axes it uses. */
+/* Returns the rotation that the quantity reads, and all rotations of the node whose axes it
+ * uses. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     (void)s;

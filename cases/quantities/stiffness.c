@@ -32,7 +32,7 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
     return NULL;
 }
 
-/* Returns the rotations that the quantity depends on: all of the node at which the load acts. */
+/* Returns the rotations on which the quantity depends: all rotations of the loaded node. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     const scene_entry *what = &q->what.of.entry;

@@ -1,4 +1,4 @@
-/* Largest stress of a member, or of a section of it. */
+/* Largest stress in a member or in one of its sections. */
 #include <math.h>
 
 #include "cases/scene/scene.h"
@@ -42,7 +42,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     meaning_member(to, s, c->member);
 }
 
-/* Sections given by constants have no points. */
+/* Does the member's section have points? Sections given by constants have none. */
 static int has_points(const scene *s, int member)
 {
     const int profile = member >= 0 && member < s->members ? s->member[member].section : SCENE_NONE;

@@ -87,8 +87,8 @@ along_path_words along_path_end(const scene *s, int acting)
     return out;
 }
 
-/* Returns 1 when the values at all stations between 0 and 1 are on the line from the value at 0 to
- * that at 1. */
+/* Returns 1 if the values at all stations between 0 and 1 lie on the straight line from the value
+ * at 0 to that at 1. */
 static int is_straight(int stations, const double path[], const double value[])
 {
     for (int i = 0; i < stations; i++) {
@@ -146,7 +146,7 @@ static int called(const scene *s, scene_list list, int i, char *who, int size)
     return 1;
 }
 
-/* The first load for which `is` is true, of those that act in the analysis. */
+/* Returns the first load acting in the analysis for which `is` is true. */
 static int load_that(const scene *s, int analysis, int (*is)(const scene_load *), char *who,
                      int size)
 {
@@ -263,7 +263,7 @@ static int has_unsymmetric_dashpot(const scene *s, int analysis, char *who, int 
     return 0;
 }
 
-/* Damped modes have no row of their own: they use it. */
+/* Damped modes have no row of their own; they use this one. */
 static int has_unsymmetric_spring(const scene *s, int analysis, char *who, int size)
 {
     for (int i = 0; i < s->springs && !s->analysis[analysis].damped; i++)
@@ -375,7 +375,7 @@ static int has_drive_of_case(const scene *s, int analysis, char *who, int size)
     return 0;
 }
 
-/* Does the analysis, or its base analysis, have a rotating frame? *who names that one. */
+/* Does the analysis or its base analysis have a rotating frame? *who names the one that has it. */
 static int has_spin(const scene *s, int analysis, char *who, int size)
 {
     const int follows = s->analysis[analysis].follows;
@@ -404,7 +404,7 @@ static const char *const
     *const no_spin = "rotates, but this analysis omits the Coriolis forces on moving masses; use a "
                      "'rotation' analysis with that omega for frequencies";
 
-/* Columns: linear, static, continuation, buckling and about a path, modal and about a linear
+/* Columns: linear, static, continuation, buckling, buckling about a path, modal and about a linear
  * analysis and a path, compliance and about a path, rotation, motion, harmonic and about a linear
  * analysis and a path. */
 const scene_input scene_inputs[] = {
@@ -499,7 +499,7 @@ int scene_inputs_flutter(const scene *s, int analysis)
 {
     if (s->analysis[analysis].follows == SCENE_NONE)
         return 0;
-    for (int i = 0; i < s->loads; i++) /* tangents are stored whole for all analyses */
+    for (int i = 0; i < s->loads; i++) /* tangents are stored in full for all analyses */
         if (s->load[i].load_case != SCENE_NONE && scene_load_unsymmetric(&s->load[i]))
             return 1;
     for (const scene_input *i = scene_inputs; i->name != NULL; i++)
@@ -510,7 +510,7 @@ int scene_inputs_flutter(const scene *s, int analysis)
     return 0;
 }
 
-/* Refuses an unknown that is solved for along a path, because a linear solution would treat it as
+/* Rejects an unknown that is solved for along a path, because a linear solution would treat it as
  * zero. */
 static status check_unknown(const scene *s, int analysis, scene_column column, fault *f)
 {

@@ -11,7 +11,7 @@ const char *scene_moments_name(scene_moments moments)
     return name[moments];
 }
 
-/* Index of a new analysis, or -1. */
+/* Returns the index of a new analysis, or -1. */
 static int add(scene *s, scene_analysis analysis)
 {
     const int i = scene_grow(s, &s->analysis, &s->analyses, sizeof *s->analysis);
@@ -159,7 +159,7 @@ int scene_spreads(const scene_analysis *a)
     return a->kind == SCENE_MOTION && scene_motion_of(a)->mass == SCENE_CONSISTENT;
 }
 
-/* The first motion of a chain of continued motions. */
+/* Returns the first motion in a chain of continued motions. */
 static int first_motion(const scene *s, int analysis)
 {
     const int before = s->analysis[analysis].follows;
@@ -227,7 +227,7 @@ int scene_rotates(const scene_analysis *a)
     return frame != NULL && (frame->omega[0] != 0 || frame->omega[1] != 0 || frame->omega[2] != 0);
 }
 
-/* Lists double when their count is a power of two. */
+/* Doubles a list if its count is a power of two. */
 int scene_grow(scene *s, void *list, int *count, size_t size)
 {
     void *entries;

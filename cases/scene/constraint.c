@@ -1,4 +1,4 @@
-/* Constraints: which coordinate of a node is a multiple of which other one. */
+/* Constraints: which coordinate of a node is a multiple of which other coordinate. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ int scene_add_constraint(scene *s, unsigned components, double ratio)
     return i;
 }
 
-/* Gives a node that turns by spatial components a sequence that begins with the normal. */
+/* Gives a node that rotates by spatial components a sequence that begins with the normal. */
 static void turn_across(scene_node *n, int normal)
 {
     if (n->rotation != SCENE_ROTATION_SPATIAL)
@@ -83,7 +83,7 @@ static status refuse(const scene *s, int constraint, int node, int component, co
                      scene_called(s, SCENE_NODES, node).text, why);
 }
 
-/* Are the node's turns free, of one constraint that makes all of them equal? */
+/* Are the node's rotations free and coupled by a single constraint that makes all of them equal? */
 static int turns_together(const scene_node *n, const scene_constraint *c)
 {
     return n->rotation == SCENE_ROTATION_SPATIAL && n->angle[0] == SCENE_FREE &&
@@ -91,8 +91,8 @@ static int turns_together(const scene_node *n, const scene_constraint *c)
            (c->components & SCENE_TURNS) == SCENE_TURNS;
 }
 
-/* The angle that is the turn about the axis of a component: the only one that moves; SCENE_NONE:
- * there is none. */
+/* Returns the angle about the axis of a component if it is the only one that moves, otherwise
+ * SCENE_NONE. */
 static int angle_of(const scene *s, int node, int component)
 {
     const scene_node *n = &s->node[node];
@@ -138,7 +138,7 @@ static int is_condition(const scene *s, int node, int component, int motion)
     return 0;
 }
 
-/* The coordinate that is the component of a node, and what moves it. */
+/* Finds the coordinate that is the component of a node, and the motion that prescribes it. */
 static status coordinate_of(const scene *s, int constraint, int node, int component,
                             int *coordinate, int *motion, fault *f)
 {
@@ -174,7 +174,7 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
     return STATUS_OK;
 }
 
-/* The coordinate that is followed in the end, and its multiple. */
+/* Returns the coordinate at the end of the chain of ties, and the accumulated ratio. */
 static scene_tie follow(const scene_tie tie[], int node, int coordinate)
 {
     scene_tie at = {node, coordinate, 1};
@@ -195,7 +195,7 @@ static int motion_at(const scene *s, scene_tie at)
                                     : n->angle[at.coordinate - SCENE_RX];
 }
 
-/* Does a diaphragm move the component? */
+/* Does a diaphragm prescribe the component? */
 static int is_across(const scene *s, int node, int component)
 {
     for (int i = 0; i < s->constraints; i++)
@@ -206,7 +206,8 @@ static int is_across(const scene *s, int node, int component)
     return 0;
 }
 
-/* The component of node k is the ratio times that of the first: joins what they follow. */
+/* Component of node k = ratio times that of the first node: joins the coordinates at the ends of
+ * their chains. */
 static status join(const scene *s, int constraint, int k, int component, scene_tie tie[], fault *f)
 {
     const scene_constraint *c = &s->constraint[constraint];
@@ -236,7 +237,7 @@ static status join(const scene *s, int constraint, int k, int component, scene_t
     return STATUS_OK;
 }
 
-/* What a node must be that a diaphragm moves. */
+/* Checks that a diaphragm can move the node. */
 static status check_across(const scene *s, int i, int node, fault *f)
 {
     const scene_constraint *c = &s->constraint[i];
@@ -265,8 +266,8 @@ static status check_across(const scene *s, int i, int node, fault *f)
     return STATUS_OK;
 }
 
-/* The translations of all nodes across the normal and their first angles are those of the master.
- */
+/* The translations of all nodes across the normal and their first angles are those of the
+ * master. */
 static status join_across(const scene *s, int i, scene_tie tie[], fault *f)
 {
     const scene_constraint *c = &s->constraint[i];

@@ -7,9 +7,9 @@
 
 extern const quantity_type quantity_hinge;
 
-/* The section seen from the other end, rotated by pi about z: y' = -y, z' = z, and sectorial
- * coordinates change sign with x. Face and axis rotate together, so that Qy and Mw keep their signs
- * and Qz does not. */
+/* Mirrors a section: seen from the other end and rotated by pi about z, y' = -y, z' = z, and
+ * sectorial coordinates change sign with x. Face and axis rotate together, so that Qy and Mw keep
+ * their signs and Qz does not. */
 static void mirror_section(section_spec *spec)
 {
     section *c = &spec->constants;
@@ -27,7 +27,7 @@ static void mirror_section(section_spec *spec)
         }
 }
 
-/* Another place of the same quantity, whose file stays. */
+/* Moves a quantity to another position; its file stays. */
 static void replace(scene_quantity *q, scene_extract what)
 {
     what.type = q->what.type;
@@ -125,8 +125,8 @@ static status reverse(scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Transforms a position on the first member, which now ends at `fraction`: to that member, or to
- * the second. */
+/* Transforms a position on the first member, which now ends at `fraction`: to that member or to the
+ * second. */
 static double split_place(double place, int before, double fraction, int second, int *member)
 {
     const int first = before ? place <= fraction : place < fraction;
@@ -174,7 +174,7 @@ static int unused_name(const scene *s)
     return name;
 }
 
-/* Index of the section there; a new one if the member is tapered. */
+/* Returns the index of the section there; a new one if the member is tapered. */
 static int section_between(scene *s, const scene_member *m, double fraction)
 {
     section_spec spec;
@@ -200,8 +200,8 @@ static void cut_load(scene_load *load, double from, double to)
     }
 }
 
-/* Splits a load of the first member, which now ends at `fraction`: between that one and the second.
- */
+/* Splits a load of the first member, which now ends at `fraction`, between that member and the
+ * second. */
 static void split_load(scene *s, int load, double fraction, int second)
 {
     const scene_load whole = *scene_load_at(s, load);

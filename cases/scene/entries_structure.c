@@ -386,7 +386,7 @@ static const entry_field given[] = {
      GIVEN(wagner_torque)},
     {.name = NULL}};
 
-/* Sizes refer to the centre lines of the walls. */
+/* Dimensions refer to the centre lines of the walls. */
 static const entry_field flanged[] = {
     {"depth", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "distance between the flanges"},
     {"flange", ENTRY_NUMBER, .needed = 1, .unit = "m",

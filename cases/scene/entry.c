@@ -6,7 +6,7 @@
 
 #include "elements/shared/choice.h"
 
-/* For a map in a group: is it the one that is given? For others: 1. */
+/* For a map in a group: is it the one that is given? Returns 1 for all others. */
 static int entry_stands(const entry_field *, const void *entry);
 
 /* Returns the member of the entry that the key sets. */
@@ -22,7 +22,7 @@ static int whole_of(const entry_field *k, const void *entry)
     return value;
 }
 
-/* Number of values, and position of the first; 0: the value is not numeric. */
+/* Returns the number of values, and the position of the first; 0: the value is not numeric. */
 static int numbers_of(const entry_field *k, const void *entry, const double **out)
 {
     const scene_path *path = place_of(k, entry);
@@ -156,7 +156,7 @@ static status check_number(const entry_field *k, double value, fault *f)
                                                         k->name, value, entry_range(k, range));
 }
 
-/* Does the named entry exist, or is there none where none is needed? */
+/* Does the named entry exist, or is there no name and none is needed? */
 static status check_name(const scene *s, const entry_field *k, int index, fault *f)
 {
     const char *what = scene_list_word(k->of);
@@ -168,7 +168,7 @@ static status check_name(const scene *s, const entry_field *k, int index, fault 
                      index, what);
 }
 
-/* An optional word may have another value if it is missing. */
+/* Checks a word; an optional word may have another value if it is missing. */
 static status check_word(const entry_field *k, int value, fault *f)
 {
     char word[SCENE_NAME] = "";

@@ -1,5 +1,5 @@
-/* Expressions are read once, for numbers and for functions of time, as operations on a stack of
- * values with their derivatives. Parts without t are combined to one number at once, so that a
+/* Expressions are read once, both for numbers and for functions of time, as operations on a stack
+ * of values with their derivatives. Parts without t are combined into one number at once, so that a
  * number is an expression with a single operation. */
 #include "cases/scene/scene.h"
 
@@ -41,7 +41,7 @@ typedef enum jet_operation {
     JET_SQRT
 } jet_operation;
 
-/* g(x), with g' and g'' at its value. */
+/* Returns g(x), with g' and g'' at its value. */
 static jet chain(jet x, double g, double d, double dd)
 {
     return (jet){g, d * x.d, dd * x.d * x.d + d * x.dd};
@@ -111,8 +111,8 @@ static jet of_function(jet_operation what, jet x)
     }
 }
 
-/* Applies the operation to a, and to b if it has two operands; not finite where it has no value or
- * no derivative. Not for JET_NUMBER and JET_TIME. */
+/* Applies the operation to a, and to b if it has two operands. The result is not finite where the
+ * value or a derivative does not exist. Not for JET_NUMBER and JET_TIME. */
 static jet jet_of(jet_operation what, jet a, jet b)
 {
     switch (what) {
@@ -272,8 +272,8 @@ static status emit(reader *r, jet_operation what, double number, int grows)
                : WRONG(r, r->at, "too deeply nested; compute parts with 'let'");
 }
 
-/* Position of the last value if it is a single number; NULL if it contains t. first: its first
- * operation. */
+/* Returns the position of the last value if it is a single number; NULL if it contains t. first:
+ * its first operation. */
 static double *number_from(const reader *r, int first)
 {
     instruction *step = &r->to->step[first];
@@ -297,8 +297,8 @@ static double of_numbers(jet_operation what, double a, double b)
 }
 
 /* Applies an operation at that position of the text to the last two values, which begin at these
- * operations. Without t the result is one number, with zero derivatives even if those of a function
- * are not finite. */
+ * operations. Without t, the result is one number, with zero derivatives even if those of a
+ * function are not finite. */
 static status operate(reader *r, jet_operation what, int place, int left, int right)
 {
     const double *b = number_from(r, right);
@@ -322,7 +322,8 @@ static int is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Digits, a point that is not the first of "..", digits, an exponent. */
+/* Returns the length of a number: digits, a point that is not the first of "..", digits, an
+ * exponent. */
 static int number_length(const char *text, int most)
 {
     int n = 0;
@@ -368,7 +369,7 @@ static status read_literal(reader *r)
 
 static status read_sum(reader *r);
 
-/* Reads arguments after "("; those that are numbers are combined as they are read. */
+/* Reads arguments after "("; those that are numbers are combined at once. */
 static status read_arguments(reader *r, const expression_function *f, int word, int *count)
 {
     do {
@@ -477,7 +478,7 @@ static status read_power(reader *r)
     return operate(r, JET_POWER, place, left, right);
 }
 
-/* A sign has lower precedence than ^. */
+/* Reads a sign, which has lower precedence than ^. */
 static status read_signed(reader *r)
 {
     const int minus = takes(r, '-'), first = r->to->count;
@@ -494,7 +495,7 @@ static status read_signed(reader *r)
     return STATUS_OK;
 }
 
-/* Terms joined by one of two operators. */
+/* Reads terms joined by one of two operators. */
 static status read_terms(reader *r, const char sign[2], const jet_operation what[2],
                          status (*term)(reader *))
 {

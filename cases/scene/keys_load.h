@@ -1,4 +1,4 @@
-/* Keys of a load, as keys_member.h has those of a member. The first six are its kinds: see
+/* Keys of a load, like those of a member in keys_member.h. The first six are its kinds: see
  * entry_of_load. */
 ROW("force", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
     .summary = "at a node, or at 'where' of a member")
@@ -10,10 +10,10 @@ ROW("distributed_moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .un
     .summary = "moment per length of a member")
 ROW("gravity", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "m/s^2",
     .summary = "on a member whose section has a density, on a node with a mass, or on all of these")
-/* for SCENE_TEMPERATURE, whose vector is 0 */
+/* for SCENE_TEMPERATURE, whose vector is zero */
 KEY(double, temperature, , "temperature", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "K",
     .summary = "temperature change of a member, at its centroids")
-/* for SCENE_FORCE, with the vector 0: pulls the nodes `where` and `towards` together */
+/* for SCENE_FORCE with a zero vector: pulls the nodes `where` and `towards` together */
 KEY(double, tension, , "tension", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "N",
     .summary = "force that pulls the node and the node 'towards' together, along their line")
 KEY(int, towards, , "towards", ENTRY_NAME, .summary = "of a tension: the other node",
@@ -35,7 +35,7 @@ ROW("to", ENTRY_NUMBER, .summary = "its end, as a fraction of the length", .usua
 ROW("to_value", ENTRY_VECTOR, .count = 3,
     .summary = "distributed load at 'to', varying linearly from its value at 'from'",
     .left_out = "constant")
-/* 0: work on the displacements inside the elements */
+/* 0: the load does work on the displacements inside the elements */
 KEY(int, lumped, , "lumped", ENTRY_FLAG, .words = "no|yes|false|true",
     .summary = "distributed load or gravity: half of the load of an element on each of its nodes; "
                "second-order accurate",

@@ -1,11 +1,11 @@
 /* Keys of a member that are members of scene_member (scene.h): KEY(type, name there, dimensions,
- * row of entry_member (entries_structure.c)). ROW: keys that are read and written in another way. A
+ * row of entry_member (entries_structure.c)). ROW: keys that are read and written differently. A
  * new key is one KEY. */
 KEY(int, p, , "from", ENTRY_NAME, .needed = 1, .summary = "start node", .of = SCENE_NODES)
 KEY(int, q, , "to", ENTRY_NAME, .needed = 1, .summary = "end node", .of = SCENE_NODES)
 ROW("section", ENTRY_FORMS, .needed = 1,
     .summary = "NAME, or [at from, at to]: sizes vary linearly, each element is prismatic")
-/* its component normal to the member */
+/* its component normal to the member is used */
 KEY(double, y_axis, [3], "y", ENTRY_DIRECTION, .needed = 1, .count = 3,
     .summary = "direction of the section's y axis", .mirrors = "---")
 ROW("warping", ENTRY_FORMS,
@@ -13,7 +13,7 @@ ROW("warping", ENTRY_FORMS,
     .left_out =
         "fixed if all six components of the node are held or driven, or it is tied by part_of, "
         "and no rotation is released; shared if two members continue in one line; else free")
-/* about local y and z; the position of interior nodes follows the arc */
+/* about local y and z; the positions of interior nodes follow the arc */
 KEY(double, curvature, [3], "curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m",
     .summary = "initial twist and curvatures", .usual = "[0, 0, 0]", .mirrors = "++-")
 /* temperature, a misfit */

@@ -31,8 +31,8 @@ void scene_add_term(scene *s, int combination, int load_case, double factor)
         c->term[i] = (scene_term){load_case, factor};
 }
 
-/* What acts, as a number: 0: everything, in scenes without load cases; from 1 the combinations, and
- * after them the load cases. */
+/* Returns the active loads as a number: 0 for all loads in scenes without load cases; from 1 the
+ * combinations, then the load cases. */
 static int scene_acting_number(const scene *s, scene_acting what)
 {
     if (what.combination != SCENE_NONE)
@@ -83,7 +83,7 @@ scene_words scene_acting_called(const scene *s, int number)
                                     : scene_called(s, SCENE_COMBINATIONS, number - 1);
 }
 
-/* A load without a case would act in all of them, or in none. */
+/* Checks that every load has a case; otherwise it would act in all cases or in none. */
 static status check_loads(const scene *s, fault *f)
 {
     for (int i = 0; i < s->loads; i++)
@@ -137,7 +137,7 @@ status scene_validate_cases(const scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* "combination: ULS", to show what to write. */
+/* Returns "combination: ULS" as an example of what to write. */
 static scene_words example(const scene *s)
 {
     scene_words out;
@@ -180,7 +180,7 @@ status scene_validate_acting(const scene *s, int i, fault *f)
 
 status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
 {
-    if (q->what.kind == SCENE_ENVELOPE_OF) /* of quantities that say it */
+    if (q->what.kind == SCENE_ENVELOPE_OF) /* of quantities that specify it */
         return STATUS_OK;
     const int all = scene_solves_all(s, q->analysis),
               says = q->envelope != SCENE_ENVELOPE_NONE || scene_acting_number(s, q->acting) > 0;

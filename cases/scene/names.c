@@ -1,4 +1,4 @@
-/* Names of entries; nodes, coordinates and ordinals in words. */
+/* Names of entries; descriptions of nodes, coordinates and ordinals. */
 #include "cases/scene/scene.h"
 
 #include <stdlib.h>
@@ -39,7 +39,7 @@ const char *scene_list_word(scene_list list)
     return word_of[list];
 }
 
-/* Memory of a name; NULL if there is no such entry. */
+/* Returns the memory of a name; NULL if there is no such entry. */
 static char *room_of(const scene *s, scene_list list, int i)
 {
     if (i < 0 || i >= scene_count(s, list))
@@ -127,7 +127,7 @@ scene_words scene_called(const scene *s, scene_list list, int i)
     return out;
 }
 
-/* Nodes, coordinates and ordinals in words. */
+/* Descriptions of nodes, coordinates and ordinals. */
 
 char meaning_axis(int component)
 {

@@ -9,7 +9,7 @@
 #define DECLARED(name) extern const quantity_type quantity_##name;
 QUANTITY_TYPES(DECLARED)
 
-/* An extract of the file of that name. */
+/* An extract of the kind defined in the file of that name. */
 #define EXTRACT(name, ...) ((scene_extract){quantity_##name.kind, &quantity_##name, {__VA_ARGS__}})
 
 scene_extract scene_coordinate(int node, int component)

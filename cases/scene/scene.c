@@ -184,8 +184,8 @@ void scene_release_end(scene *s, int member, int end, int component)
     r->count++;
 }
 
-/* Sets A to `given`, or to its symmetric part where that differs by rounding; returns the
- * difference, relative to the diagonal. */
+/* Sets A to `given`, or to its symmetric part if the two differ only by rounding. Returns the
+ * difference relative to the diagonal. */
 static double take_matrix(const double given[36], double A[36])
 {
     memcpy(A, given, 36 * sizeof *A);
@@ -249,7 +249,7 @@ void scene_set_table(scene *s, int spring, int component, int points, const doub
     t->value = (scene_path){points, scene_copy(s, points, value)};
 }
 
-/* The line at x, between points i and i + 1. */
+/* Returns the line at x, between points i and i + 1. */
 static int line_of(const scene_table *t, double x)
 {
     int i = 0;
@@ -266,7 +266,7 @@ double scene_table_at(const scene_table *t, double x, double *slope)
     const int i = line_of(t, x);
     const double *at = t->at.value + i, *value = t->value.value + i;
     *slope = (value[1] - value[0]) / (at[1] - at[0]);
-    /* from the nearer point, so that it is exact at both */
+    /* measured from the nearer point, so that it is exact at both */
     return fabs(x - at[0]) <= fabs(x - at[1]) ? value[0] + *slope * (x - at[0])
                                               : value[1] + *slope * (x - at[1]);
 }
@@ -387,7 +387,7 @@ scene_load *scene_load_at(scene *s, int i)
     return i >= 0 && i < s->loads ? &s->load[i] : &s->scrap.load;
 }
 
-/* Has the member a stress-free elongation or curvature? */
+/* Does the member have a stress-free elongation or curvature? */
 static int scene_member_is_free(const scene_member *m)
 {
     return m->pretension != 0 || m->unstressed_length != 0 || m->free_curvature[0] != 0 ||
@@ -411,7 +411,7 @@ int scene_is_free(const scene *s, scene_words *who)
     return 0;
 }
 
-/* EA [N]; 0: an axial force causes more than an elongation, or a varying one. */
+/* Returns EA [N]; 0 if an axial force causes more than an elongation, or a varying one. */
 static double axial_stiffness(const scene *s, const scene_member *m)
 {
     section c;
@@ -423,10 +423,10 @@ static double axial_stiffness(const scene *s, const scene_member *m)
     return coupled ? 0 : c.matrices ? c.stiffness[0] : c.young * c.A;
 }
 
-/* Strains are measured from the length as drawn: N = EA (L - Lo)/L instead of EA (L - Lo)/Lo. */
+/* Strains are relative to the length as drawn: N = EA (L - Lo)/L instead of EA (L - Lo)/Lo. */
 static const double most_misfit = 0.01;
 
-/* Do shifts move the nodes in every analysis? Nothing then has the lengths as drawn. */
+/* Do shifts move the nodes in every analysis? No member then has its length as drawn. */
 static int is_moved(const scene *s)
 {
     int moved = 0;

@@ -1,8 +1,8 @@
 /* scene/: structure, loads and prescribed coordinates, analyses and quantities.
  *
  * Sections, in this order: analysis; expression, formula and function of time; quantity; scene;
- * values along a path; edit; names; entry (keys of scene files); inputs of analyses; lists; words
- * of quantities and omission; quantity type; unit of length; warping of ends. */
+ * values along a path; edit; names; entry (keys of scene files); inputs of analyses; lists;
+ * descriptions of quantities and omission; quantity type; unit of length; warping of ends. */
 #ifndef BEAMWORK_CASES_SCENE_SCENE_H
 #define BEAMWORK_CASES_SCENE_SCENE_H
 
@@ -14,8 +14,8 @@
 #include "elements/shared/status.h"
 
 /* Analyses: a kind, and the data of that kind. Every scene_add_* returns the index of the new
- * analysis, or -1 when out of memory. Read the data of a kind through its function below, which
- * ends the program when the analysis is of another kind; the union is used nowhere else. */
+ * analysis, or -1 if out of memory. Read the data of a kind through its function below, which ends
+ * the program if the analysis is of another kind; the union is used nowhere else. */
 
 typedef struct scene scene;
 
@@ -25,13 +25,13 @@ typedef enum scene_analysis_kind {
     SCENE_LINEAR,     /* one linear solution with the loads at factor 1 */
     SCENE_STATIC,     /* nonlinear equilibrium along the path */
     SCENE_BUCKLING,   /* linear prestress about the undeformed state: loads at path 0 are constant,
-                         their increase up to path 1 is multiplied by the factor; or about the last
-                         state of a path */
+                         and their increase up to path 1 is multiplied by the factor. Or about the
+                         last state of a path */
     SCENE_MODAL,      /* natural frequencies about the present state */
     SCENE_COMPLIANCE, /* at every station of the preceding static path */
     SCENE_CONTINUATION, /* path of a load factor, by arc length or by one coordinate */
-    SCENE_ROTATION,     /* stationary: equilibrium and frequencies in the rotating frame */
-    SCENE_MOTION,       /* in time: the path parameter is the time [s] */
+    SCENE_ROTATION,     /* stationary rotation: equilibrium and frequencies in the rotating frame */
+    SCENE_MOTION,       /* motion in time: the path parameter is the time [s] */
     SCENE_HARMONIC /* steady small vibration about a state: the path parameter is a frequency [Hz]
                     */
 } scene_analysis_kind;
@@ -45,14 +45,14 @@ typedef enum scene_moments {
 #define SCENE_MOMENTS_CHOICES "spatial|semitangential|symmetrised"
 const char *scene_moments_name(scene_moments);
 
-/* Output points: path parameters, ascending; for a continuation values of its control coordinate
+/* Output points: path parameters, ascending. For a continuation: values of its control coordinate
  * [m], in the order in which they are reached. */
 typedef struct scene_path {
     int stations;
     double *value; /* [stations] */
 } scene_path;
 
-/* Rotation of the axes of the scene: constant on a static path or a continuation; multiplied by the
+/* Rotation of the axes of the scene: constant on a static path or a continuation, multiplied by the
  * path parameter in a stationary rotation. Zero: no rotation. */
 typedef struct scene_rotating_frame {
     double omega[3];  /* angular velocity [rad/s] */
@@ -63,7 +63,8 @@ typedef struct scene_rotating_frame {
 typedef struct scene_walk {
     scene_path path;
     int steps_between; /* initial number of load steps between two stations; >= 1 */
-    int modes; /* rotation: number of modes, of all families together, that are searched first */
+    int modes; /* rotation: number of modes, of all families together, that are searched for first
+                */
     scene_rotating_frame frame;
 } scene_walk;
 
@@ -74,8 +75,8 @@ typedef struct scene_compliance {
                           dead load */
 } scene_compliance;
 
-/* How the path of proportional loads is followed. The control coordinate is a translation of any
- * node, also of an attached one; with arc length it is only the abscissa of curves. The arc is the
+/* Control of the path of proportional loads. The control coordinate is a translation of any
+ * node, including attached nodes; with arc length it is only the abscissa of curves. The arc is the
  * root of the mean, over all nodes, of (displacement/size of the scene)^2 + rotation^2,
  * dimensionless. */
 typedef struct scene_control {
@@ -105,16 +106,16 @@ typedef enum scene_scheme {
 
 /* Distribution of the mass of members. */
 typedef enum scene_mass {
-    SCENE_MASS_USUAL, /* consistent if the formulation and all integrators of the chain of motions
-                         support it, and the scene does not lump it */
+    SCENE_MASS_USUAL, /* consistent if the formulation and all integrators in the chain of motions
+                         support it and the scene does not request lumped mass */
     SCENE_LUMPED,     /* at the nodes, for all formulations */
     SCENE_CONSISTENT  /* along the elements, if the formulation supports it */
 } scene_mass;
 
 #define SCENE_MASS_CHOICES "lumped|consistent"
 
-/* Parameters of generalized-alpha: alpha_m, alpha_f from rho, the spectral radius at infinite
- * frequency; or given. */
+/* Parameters of generalized-alpha: alpha_m and alpha_f, either given or computed from rho, the
+ * spectral radius at infinite frequency. */
 typedef struct scene_alpha {
     double mass, force; /* alpha_m, alpha_f */
 } scene_alpha;
@@ -124,14 +125,14 @@ typedef struct scene_start {
     double velocity[3], spin[3], centre[3]; /* [m/s], [rad/s], [m] */
 } scene_start;
 
-/* A motion starts at rest or with `start`; or from the last state of the path it follows; after a
- * motion with its rates and time. */
+/* A motion starts at rest, with `start`, or from the last state of the path that it follows; after
+ * another motion, it starts with the rates and the time of that motion. */
 typedef struct scene_motion {
     scene_path path; /* instants of output [s] */
     scene_scheme scheme;
     scene_alpha alpha;
-    double step;      /* [s] first step; without a tolerance, all steps */
-    double tolerance; /* of the error of a step, relative to the size; 0: constant steps */
+    double step;      /* [s] first step; without a tolerance, every step */
+    double tolerance; /* of a step, relative to the size; 0: constant steps */
     scene_start start;
     scene_mass mass;
 } scene_motion;
@@ -144,7 +145,7 @@ typedef struct scene_proportional {
     scene_path ratios;      /* ... the first ones, which have these ratios */
 } scene_proportional;
 
-/* Loads that act: those of a load case, or of a combination, each with its factor; SCENE_NONE both:
+/* Active loads: those of a load case or of a combination, each with its factor; both SCENE_NONE:
  * see scene_acting_of. */
 typedef struct scene_acting {
     int load_case, combination;
@@ -152,7 +153,8 @@ typedef struct scene_acting {
 
 typedef struct scene_analysis {
     scene_analysis_kind kind;
-    int follows; /* analysis whose states this one is about, or SCENE_NONE: the undeformed state */
+    int follows; /* analysis whose states this analysis is about, or SCENE_NONE: the undeformed
+                    state */
     scene_acting acting;
     union {
         scene_walk walk;
@@ -170,7 +172,7 @@ typedef struct scene_analysis {
 
 int scene_add_linear(scene *s);
 int scene_add_static(scene *s, int stations, const double path[], int steps_between);
-/* With as many eigenvalues as the quantities request. */
+/* Adds a buckling analysis with as many eigenvalues as the quantities request. */
 int scene_add_buckling(scene *s, int follows);
 int scene_add_modal(scene *s, int follows);
 int scene_add_compliance(scene *s, int follows, scene_compliance what);
@@ -184,23 +186,23 @@ scene_alpha scene_alpha_of_radius(double rho);
 /* Sets the rotation of the axes of a static path or a continuation. */
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
 
-/* "linear", "static", ...: key in a scene file. */
+/* Returns "linear", "static", ...: the key in a scene file. */
 const char *scene_analysis_name(scene_analysis_kind);
 
 const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);
 const scene_motion *scene_motion_of(const scene_analysis *a);
-/* 1: modes of a harmonic analysis have damping ratios. */
+/* Do the modes of a harmonic analysis have damping ratios? */
 int scene_has_ratios(const scene_analysis *a);
-/* 1: a motion for which the scene requests consistent mass. */
+/* Is it a motion for which the scene requests consistent mass? */
 int scene_spreads(const scene_analysis *a);
 /* Is it a motion whose elements use consistent mass where possible? */
 int scene_may_spread(const scene *s, int analysis);
-/* NULL: the kind has no path. */
+/* Returns the path; NULL: the kind has no path. */
 const scene_path *scene_path_of(const scene_analysis *a);
-/* The analysis from whose state a chain of motions starts: a static path, a continuation, a
- * rotation; SCENE_NONE: the undeformed state. */
+/* Returns the analysis from whose state a chain of motions starts: a static path, a continuation or
+ * a rotation; SCENE_NONE: the undeformed state. */
 int scene_origin_of(const scene *s, int analysis);
 const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);
 /* Do the axes rotate? */
@@ -210,31 +212,33 @@ int scene_rotates(const scene_analysis *a);
  * functions and constants (expression_word), names; in functions of time also the time t [s].
  *
  * Precedence: ^ (right-associative: -2^2 = -4, 2^3^2 = 512), then signs, then * and /, then + and
- * -. Values are SI, angles in radians (30*deg*t); parts without t must be finite. A function with
- * slope discontinuities, or without derivatives here, accepts only arguments without t: functions
- * of time with discontinuities are given in pieces (scene_piece), so that steps can end there. */
+ * -. Values are SI, angles are in radians (30*deg*t); parts without t must be finite. A function
+ * with slope discontinuities, or without derivatives here, accepts only arguments without t.
+ * Functions of time with discontinuities are given in pieces (scene_piece), so that steps can end
+ * there. */
 
 typedef struct expression_mistake {
     int at;                /* position of the character in the text, from 0 */
-    char what[FAULT_TEXT]; /* with the remedy; "": already reported */
+    char what[FAULT_TEXT]; /* message with the remedy; "": already reported */
 } expression_mistake;
 
-/* Number of the name at text[*at]; *at moves past it. Returns 0 after an error. */
+/* Finds the number of the name at text[*at]; *at moves past it. Returns 0 after an error. */
 typedef int expression_name(const void *names, const char *text, int *at, double *out,
                             expression_mistake *);
 
-/* Length of the name at the beginning of the text: letters, digits, _, not starting with a digit;
- * 0: none. */
+/* Returns the length of the name at the start of the text: letters, digits, _, not starting with a
+ * digit; 0: none. */
 size_t expression_name_length(const char *text);
-/* Function or constant number i, or NULL after the last. */
+/* Returns function or constant number i, or NULL after the last. */
 const char *expression_word(int i);
 /* Is it a function or a constant? */
 int expression_is_word(const char *name, size_t length);
 
-/* text[from .. end - 1] as a number; find NULL: no names are allowed. REFUSED: gives the reason. */
+/* Evaluates text[from .. end - 1] as a number; find NULL: no names are allowed. REFUSED: gives the
+ * reason. */
 status expression_value(const char *text, int from, int end, expression_name *find,
                         const void *names, double *out, expression_mistake *);
-/* REFUSED: sets the error and its position; `of`: format of printf. */
+/* Sets the error and its position and returns REFUSED; `of`: a printf format. */
 status expression_wrong(expression_mistake *, int at, const char *of, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -247,7 +251,8 @@ status formula_parse(const char *text, formula **out, expression_mistake *);
 /* REFUSED: gives the error and the position of the character (from 1). */
 status formula_read(const char *text, formula **out, fault *f);
 void formula_free(formula *);
-/* Value and first two derivatives with respect to t; not finite where undefined. */
+/* Computes the value and the first two derivatives with respect to t; not finite where
+ * undefined. */
 void formula_at(const formula *, double t, double out[3]);
 
 /* A function of time in pieces, each a formula. Slope discontinuities and jumps are allowed between
@@ -265,25 +270,26 @@ typedef struct scene_function {
     double scale;       /* factor of its value; 0: 1 */
 } scene_function;
 
-/* Appends a piece; copies the text. Returns -1 when out of memory. */
+/* Appends a piece; copies the text. Returns -1 if out of memory. */
 int function_add(scene_function *, double until, const char *text);
-/* Copies the pieces and the scale of another function; `to` must be empty. Returns -1 when out of
+/* Copies the pieces and the scale of another function; `to` must be empty. Returns -1 if out of
  * memory. */
 int function_copy(scene_function *to, const scene_function *from);
 void function_free(scene_function *);
 /* REFUSED: gives the error. */
 status function_check(const scene_function *, fault *);
-/* Value and first two derivatives at t; at the end of a piece those of the next one. */
+/* Computes the value and the first two derivatives at t; at the end of a piece, those of the next
+ * piece. */
 void function_at(const scene_function *, double t, double out[3]);
-/* Is the function, with that many derivatives (0 to 2), finite from 0 to `end`, at both ends of all
- * pieces and at 63 instants between? If 0, *time is where it is not. */
+/* Is the function, with this number of derivatives (0 to 2), finite from 0 to `end`, at both ends
+ * of all pieces and at 63 instants between? If not, *time is an instant at which it is not. */
 int function_finite(const scene_function *, double end, int derivatives, double *time);
-/* Returns 1 when value and velocity are continuous between pieces before `end`. If 0, at *time the
- * value (*derivative 0) or the velocity (1) is discontinuous. */
+/* Returns 1 if value and velocity are continuous between pieces before `end`. Returns 0 if the
+ * value (*derivative 0) or the velocity (1) is discontinuous at *time. */
 int function_smooth(const scene_function *, double end, double *time, int *derivative);
 
 /* Quantities of an analysis: a name, the extracted value with one struct for each kind, and the
- * statistic. Read the data of a kind through its function below, which ends the program when the
+ * statistic. Read the data of a kind through its function below, which ends the program if the
  * quantity is of another kind; the union is used nowhere else. */
 
 typedef enum scene_quantity_kind {
@@ -293,7 +299,7 @@ typedef enum scene_quantity_kind {
     SCENE_STIFFNESS_ENTRY,  /* 1 / compliance entry (i, i), where only the coordinates that are not
                                fixed are free */
     SCENE_CRITICAL_FACTOR,  /* load factor of linear buckling */
-    SCENE_GROWTH,           /* largest growth rate of a small motion [1/s]; 0: stable */
+    SCENE_GROWTH,           /* largest growth rate of a mode [1/s]; 0: stable */
     SCENE_FREQUENCY,        /* [Hz] */
     SCENE_FACTOR_AT,        /* load factor of a continuation where the control coordinate is ... */
     SCENE_CRITICAL_POINT,   /* of a continuation */
@@ -306,8 +312,8 @@ typedef enum scene_quantity_kind {
     SCENE_RESPONSE,      /* of a harmonic analysis */
     SCENE_DAMPING_RATIO, /* damping ratio of a damped mode, or its decay rate */
     SCENE_DEFLECTION,    /* displacement or rotation of a section of a member */
-    SCENE_ENVELOPE_OF,   /* largest or least of other quantities */
-    SCENE_READING        /* of nodes, of which nothing outside its file knows more */
+    SCENE_ENVELOPE_OF,   /* largest or smallest of other quantities */
+    SCENE_READING        /* of nodes; nothing outside its file uses its details */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -339,8 +345,8 @@ typedef enum scene_reduction {
     SCENE_REDUCTIONS
 } scene_reduction;
 
-/* Largest and smallest values are those reported: where the factor is negative, the others of those
- * extracted. Times are those of extracted values. */
+/* Largest and smallest values refer to reported values: if the factor is negative, they are the
+ * smallest and largest extracted values. Times are those of extracted values. */
 
 /* Is it a time or a frequency, and not a value of the extracted quantity? */
 static inline int scene_is_timed(scene_reduction how)
@@ -355,12 +361,14 @@ typedef enum scene_direction { SCENE_RISING, SCENE_FALLING, SCENE_EITHER } scene
 #define SCENE_TAKE_CHOICES                                                                         \
     "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean|rms|spectrum|psd"
 
-/* A curve of a motion over time, or over frequency: for stations x[0 .. N], evenly spaced by d,
- * where x[N] starts the next period. X[k] = sum w[n] x[n] exp(-2 pi i k n/N) at k/(N d). */
+/* A curve of a motion over time, transformed to a curve over frequency: for stations x[0 .. N],
+ * evenly spaced by d, where x[N] starts the next period, X[k] = sum w[n] x[n] exp(-2 pi i k n/N) at
+ * k/(N d). */
 typedef enum scene_transform {
     SCENE_HISTORY,
-    SCENE_SPECTRUM, /* amplitudes 2 |X|/sum w, half of that at 0 and 1/(2 d) */
-    SCENE_PSD       /* one-sided power density 2 d |X|^2/sum w^2 [per Hz], half likewise */
+    SCENE_SPECTRUM, /* amplitudes 2 |X|/sum w, half of this at 0 and 1/(2 d) */
+    SCENE_PSD       /* one-sided power density 2 d |X|^2/sum w^2 [per Hz], half of this at the same
+                       frequencies */
 } scene_transform;
 /* The weights w: 1, or sin^2(pi n/N). */
 typedef enum scene_taper { SCENE_TAPER_NONE, SCENE_TAPER_HANN } scene_taper;
@@ -387,11 +395,11 @@ typedef struct scene_rated {
     scene_rate_of rate;
 } scene_rated;
 
-/* Resultants: action of the part towards the end q of a member on the part towards p, in the
- * principal axes of the rotated section, moments about its centroid. The parts of the torque add up
- * to the torque about the shear centre, Mx - (ys Qz - zs Qy): Saint-Venant torsion, restrained
- * warping (the rate at which the bimoment decreases along the member), and the contribution of
- * stresses along the fibres, which the twist rotates. */
+/* Resultants: action of the part of a member towards end q on the part towards p, in the principal
+ * axes of the rotated section, with moments about its centroid. The parts of the torque add up to
+ * the torque about the shear centre, Mx - (ys Qz - zs Qy): Saint-Venant torsion, restrained warping
+ * (the rate at which the bimoment decreases along the member), and the contribution of stresses
+ * along the fibres, which the twist rotates. */
 typedef enum scene_resultant {
     SCENE_N,
     SCENE_QY,
@@ -411,7 +419,7 @@ typedef enum scene_along {
     SCENE_ALONG_PLACE,  /* at a position */
     SCENE_ALONG_MAX,    /* of the largest value */
     SCENE_ALONG_MIN,    /* of the smallest value */
-    SCENE_ALONG_LARGEST /* of the largest magnitude, which is the result */
+    SCENE_ALONG_LARGEST /* at the section of the largest magnitude, which is the result */
 } scene_along;
 
 typedef struct scene_internal {
@@ -422,7 +430,7 @@ typedef struct scene_internal {
     int before;   /* at a discontinuity: 1 on the side of p, 0 on that of q */
 } scene_internal;
 
-/* Of the centroid, or of the section, in fixed axes. */
+/* Displacement of the centroid, or rotation of the section, in fixed axes. */
 typedef struct scene_deflection {
     int member, component;
     double place; /* 0 at p .. 1 at q, of the initial length */
@@ -461,20 +469,20 @@ typedef enum scene_balance {
 } scene_balance;
 #define SCENE_BALANCE_CHOICES "kinetic|strain|energy|work|dissipated|drift|px|py|pz|lx|ly|lz"
 
-/* Displacement of a node relative to another: change of its position in the axes of that node, and
- * its rotation relative to it. */
+/* Displacement of a node relative to another node: change of its position in the axes of that node,
+ * and its rotation relative to that node. */
 typedef struct scene_relative {
     int node, component, from;
 } scene_relative;
 
-/* Members used by kinds without their own struct; their tables of keys list them. */
+/* Members used by kinds without their own struct; their key tables list them. */
 typedef struct scene_reading {
     int node[4], component[4];
     double number[4];
 } scene_reading;
 
-/* Steady vibration of a node for a harmonic force or a harmonic motion of a driver of amplitude 1.
- */
+/* Steady vibration of a node due to a harmonic force, or to a harmonic motion of a driver, of
+ * amplitude 1. */
 typedef enum scene_vibration {
     SCENE_DISPLACED,
     SCENE_VELOCITY,
@@ -491,8 +499,8 @@ typedef enum scene_vibration_part {
 #define SCENE_VIBRATION_PARTS   "amplitude|phase|real|imaginary"
 typedef struct scene_response {
     int node, component;
-    int from;                 /* minus the same value of this node; SCENE_NONE: none */
-    int forced, forced_along; /* node and component of a force or moment; or ... */
+    int from;                 /* the same value of this node is subtracted; SCENE_NONE: none */
+    int forced, forced_along; /* node and component of a force or moment; otherwise ... */
     int driver;               /* ... the driver that moves; SCENE_NONE: a force */
     scene_vibration of;
     scene_vibration_part part;
@@ -504,7 +512,7 @@ typedef struct scene_entry {
 
 typedef struct scene_critical_load {
     int sign;  /* 1: positive factors, -1: negative factors */
-    int order; /* index among those of the sign by size, from 0 */
+    int order; /* index among the factors of this sign, sorted by magnitude, from 0 */
 } scene_critical_load;
 
 typedef struct scene_mode {
@@ -524,8 +532,8 @@ typedef struct scene_point {
 
 /* The extracted value; use the functions of the kinds to make one. */
 typedef struct scene_extract {
-    scene_quantity_kind kind;         /* that of the type: what an analysis is asked for */
-    const struct quantity_type *type; /* all else: its file in cases/quantities */
+    scene_quantity_kind kind;         /* kind of the type: the value requested from an analysis */
+    const struct quantity_type *type; /* its file in cases/quantities, with everything else */
     union {
         scene_component component; /* for coordinate, reaction; position of a rate */
         scene_rated rated;
@@ -565,10 +573,11 @@ scene_extract scene_response_to(scene_response what);
 /* place: 0 at p .. 1 at q, on the side of q */
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
-/* The maximum over the sections of a member; for SCENE_NORMAL_MIN the minimum. */
+/* Takes the maximum over the sections of a member; for SCENE_NORMAL_MIN the minimum. */
 scene_extract scene_stress_along(int member, scene_stress_measure measure);
 scene_extract scene_stress_at(int member, double place, scene_stress_measure measure);
-/* A resultant or a stress at a position, at a discontinuity on the side of p (before) or of q. */
+/* Takes a resultant or a stress at a position; at a discontinuity, on the side of p (before) or of
+ * q. */
 scene_extract scene_beside(scene_extract what, int before);
 /* Words of scene files. */
 #define SCENE_STRESS_CHOICES    "von_mises|normal_max|normal_min"
@@ -588,7 +597,7 @@ typedef struct scene_prediction {
     const char *source; /* NULL: no prediction */
 } scene_prediction;
 
-/* What is taken over load cases or combinations. */
+/* Statistic over load cases or combinations. */
 typedef enum scene_envelope {
     SCENE_ENVELOPE_NONE,
     SCENE_ENVELOPE_MAX,
@@ -600,11 +609,11 @@ typedef enum scene_envelope {
 typedef struct scene_quantity {
     char name[SCENE_NAME], unit[SCENE_UNIT];
     int analysis;
-    scene_acting acting; /* of a linear analysis that solves all: one, or */
+    scene_acting acting; /* loads of a linear analysis that solves all: one of them, or ... */
     scene_envelope envelope;
     int overs;
-    int *over; /* [overs] combinations of the envelope; 0: all, where there are none all cases; of
-                  SCENE_ENVELOPE_OF: quantities */
+    int *over; /* [overs] combinations of the envelope; 0: all combinations, or all cases if there
+                  are none. For SCENE_ENVELOPE_OF: quantities */
     scene_extract what;
     scene_reduction reduction; /* statistic over the stations of a path */
     scene_transform transform; /* of a curve */
@@ -619,28 +628,30 @@ typedef struct scene_quantity {
     scene_prediction prediction;
 } scene_quantity;
 
-/* Adds a quantity, to be completed; never NULL: value at the last station, factor 1, tolerance
- * SCENE_TOLERANCE, other members 0. */
+/* Adds a quantity to be completed; never NULL. Defaults: value at the last station, factor 1,
+ * tolerance SCENE_TOLERANCE, other members 0. */
 scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, int analysis,
                                    scene_extract what);
-/* Makes it a curve over the path parameter or the control coordinate, times factor plus offset. */
+/* Makes the quantity a curve over the path parameter or the control coordinate, times factor plus
+ * offset. */
 void scene_set_curve(scene_quantity *q, const char *x_name, const char *x_unit, double factor,
                      double offset);
-/* Makes it a curve over another quantity, whose curve has the same stations. */
+/* Makes the quantity a curve over another quantity whose curve has the same stations. */
 void scene_set_curve_over(scene_quantity *q, const char *quantity, const char *unit);
-/* Index of the quantity on the abscissa of a curve; SCENE_NONE: the path. */
+/* Returns the index of the quantity on the abscissa of a curve; SCENE_NONE: the path. */
 int scene_abscissa_of(const scene *s, const scene_quantity *q);
-/* Value at one path parameter or control coordinate. */
+/* Takes the value at one path parameter or control coordinate. */
 void scene_set_at(scene_quantity *q, double at);
-/* Statistic over the whole time of a motion: SCENE_MAX_TIME to SCENE_RMS, SCENE_MAX, SCENE_MIN. */
+/* Takes a statistic over the whole time of a motion: SCENE_MAX_TIME to SCENE_RMS, SCENE_MAX,
+ * SCENE_MIN. */
 void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
-/* Stations of a spectrum, including the last: *count from *first. REFUSED: they are not evenly
- * spaced. */
+/* Counts the stations of a spectrum, including the last: *count from *first. REFUSED: they are not
+ * evenly spaced. */
 status scene_spectrum_stations(const scene *, const scene_quantity *, int *first, int *count,
                                fault *);
 /* Is it evaluated between the stations of a motion? */
 int scene_is_passed(const scene_quantity *q, scene_analysis_kind);
-/* 1, -1: is the largest or the smallest extracted value taken? */
+/* Returns 1 if the largest extracted value is taken, -1 if the smallest, otherwise 0. */
 int scene_extreme_sign(const scene_quantity *q);
 
 const scene_component *scene_component_of(const scene_quantity *q);
@@ -656,21 +667,22 @@ const scene_stress *scene_stress_of(const scene_quantity *q);
 int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
 /* Does it read reactions, resultants or stresses? */
 int scene_reads_forces(const scene_quantity *q);
-/* Is the analysis used by a quantity, or by an analysis that follows it and is used itself? Without
- * quantities all analyses are. */
+/* Is the analysis used by a quantity, or by an analysis that follows it and is itself used? Without
+ * quantities, all analyses are used. */
 int scene_reads(const scene *s, int analysis);
 /* Removes the quantities whose names the other scene does not have. */
 void scene_keep_quantities(scene *s, const scene *of);
-/* Unit of a response to a force or a moment; both SCENE_UX to SCENE_RZ. */
+/* Returns the unit of a response to a force or a moment; both arguments are SCENE_UX to
+ * SCENE_RZ. */
 const char *scene_compliance_unit(int row, int column);
-/* Can it be extracted from an analysis of this kind? */
+/* Can the quantity be extracted from an analysis of this kind? */
 int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
 
 /* A scene: a structure, its supports and prescribed motions, its analyses and the requested
- * quantities, as pure data. No solver is called here and no formulation is used: a file could
+ * quantities, as pure data. No solver is called and no formulation is used here: a file could
  * contain the same data.
  *
- * Every scene_* function that adds an entry returns its index in its list, or -1 when out of memory
+ * Every scene_* function that adds an entry returns its index in its list, or -1 if out of memory
  * (scene_valid reports this once, at the end). */
 
 /* Largest number of meshes in a scene or a command. */
@@ -724,46 +736,46 @@ typedef struct scene_node {
                      the vector */
     double axis[3][3]; /* axes of the sequence; a zero axis ends it. For a fork: the section's own
                           axis, and the direction of the web */
-    double axes[2][3]; /* x and y, of any length, of the axes that its translations above are along;
-                          zero: those of the scene */
+    double axes[2]
+               [3]; /* x and y axes of its translations, of any length; zero: those of the scene */
     scene_body body;
     char name[SCENE_NAME]; /* "": no name, as for every entry */
 } scene_node;
 
-/* Released components of a member end, which it does not transmit to its node, in the member's axes
- * there (y as in scene_member): rotations, in order, and translations. The end is at r + R_end s,
- * R_end = R exp(a_1 t_1) exp(a_2 t_2) with the node's r, R: with the node's r and R. Of two
- * rotations the first axis belongs to the node and the second to the member (a universal joint);
- * translations are along the rotated end. Three rotations are a ball joint. */
+/* Released components of a member end, which it does not transmit to its node, in the axes of the
+ * member there (y as in scene_member): rotations, in order, and translations. With the node's r and
+ * R, the end is at r + R_end s, R_end = R exp(a_1 t_1) exp(a_2 t_2). Of two rotations, the first
+ * axis belongs to the node and the second to the member (a universal joint); translations are along
+ * the rotated end. Three rotations are a ball joint. */
 enum { SCENE_RELEASED = 5 };
 typedef struct scene_release {
     int count;                     /* 0: joined */
     int component[SCENE_RELEASED]; /* SCENE_UX .. SCENE_RZ, each once */
 } scene_release;
 
-/* Its members that are keys of scene files are in keys_member.h, one line for both. */
+/* The members that are keys of scene files are in keys_member.h, one line for both. */
 #define KEY(type, name, dimensions, ...) type name dimensions;
 #define ROW(...)
 typedef struct scene_member {
 #include "cases/scene/keys_member.h"
-    int section, section_q; /* at p and at q; in between, its numbers change linearly
-                               (elements/section/section.h), and each element has the section of its
+    int section, section_q; /* at p and at q; the section constants change linearly in between
+                               (elements/section/section.h), and each element has the section at its
                                middle */
     int warp_p, warp_q;     /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
-    double bow[2];  /* amplitude of the initial shape relative to the line, along y and z [m],
-                       stress-free: bow sin(half_waves pi s/length) */
+    double bow[2];  /* amplitude of the initial shape relative to the straight line, along y and z
+                       [m], stress-free: bow sin(half_waves pi s/length) */
     int half_waves; /* >= 1 */
     scene_release release[2]; /* at p, q */
     double offset[2][3];  /* from the nodes p, q to the ends of the member, which move rigidly with
                              them; undeformed, in global axes [m] */
-    double foundation[6]; /* springs to the ground along it, acting on displacements and rotations
-                             of its sections since the undeformed state, along its initial axes (y
-                             as above), which do not rotate [N/m^2, N] */
+    double foundation[6]; /* springs to the ground along the member. They act on displacements and
+                             rotations of its sections since the undeformed state, along its initial
+                             axes (y as above), which do not rotate [N/m^2, N] */
     char name[SCENE_NAME];
 } scene_member;
 
-/* A force as a function of a displacement, or a moment of a rotation: linear between points,
- * extrapolated at both ends. */
+/* A force as a function of a displacement, or a moment as a function of a rotation: linear between
+ * points, extrapolated at both ends. */
 typedef struct scene_table {
     scene_path at,
         value; /* ascending [m, rad], not decreasing, zero at zero [N, N m]; none: no table */
@@ -775,31 +787,32 @@ typedef struct scene_table {
  * than 3 rad. */
 typedef struct scene_spring {
     int p, q;             /* p: SCENE_NONE: the ground */
-    double stiffness[36]; /* K, row-major [N/m, N, N m]; not symmetric: forces K d without energy */
-    double asymmetry;     /* 0, or that of the given K relative to its diagonal where it is rounding
-                             and the symmetric part is used */
-    double damping[36];   /* in motions: forces gain damping x rates of d [N s/m, N s, N m s] */
+    double stiffness[36]; /* K, row-major [N/m, N, N m]; if not symmetric: forces K d without a
+                             potential */
+    double asymmetry;     /* 0, or the asymmetry of the given K relative to its diagonal if it is
+                             rounding, so that the symmetric part is used */
+    double damping[36];   /* in motions, adds forces damping x rates of d [N s/m, N s, N m s] */
     scene_table table[6]; /* of its components, in addition to K */
     char name[SCENE_NAME];
 } scene_spring;
 
-/* Components of nodes that are the same, or two in a fixed ratio: of each node after the first one,
- * `ratio` times those of the first one. Along the nodes' axes. */
+/* Components of nodes that are equal, or two components in a fixed ratio: those of each node after
+ * the first are `ratio` times those of the first. Along the nodes' axes. */
 typedef struct scene_constraint {
     int nodes, *node;    /* [nodes] */
     unsigned components; /* bits 1 << SCENE_UX .. SCENE_RZ */
     double ratio;
-    int master, normal; /* of a diaphragm, rigid across the axis `normal` (0, 1 or 2), the node that
-                           the others follow; else SCENE_NONE */
+    int master, normal; /* of a diaphragm, which is rigid across the axis `normal` (0, 1 or 2): the
+                           node that the others follow; otherwise SCENE_NONE */
     char name[SCENE_NAME];
 } scene_constraint;
 
-/* A part of the initial shape of the structure, free of stress: a mode of an analysis, which is of
- * the perfect structure, or shifts of nodes, between which members keep their form. */
+/* A part of the stress-free initial shape of the structure: a mode computed for the perfect
+ * structure, or shifts of nodes, between which members keep their form. */
 typedef struct scene_imperfection {
     int analysis, order; /* buckling or modal, and its mode from 0; SCENE_NONE: shifts */
-    double amplitude;    /* of the mode: largest shift of a point of a member [m] */
-    double direction[3]; /* of the shift there; zero: along an axis, positive */
+    double amplitude;    /* of a mode: largest displacement of a point of a member [m] */
+    double direction[3]; /* direction of that displacement; zero: positive along an axis */
     int nodes, *node;    /* [nodes] */
     double (*shift)[3];  /* [nodes] [m] */
     double factor;       /* of the shifts */
@@ -817,7 +830,7 @@ typedef struct scene_driver {
     int condition_node,
         condition_component; /* unknown driver: this coordinate is prescribed instead, by ... */
     int condition_driver;    /* ... the value of this driver; SCENE_NONE for a known driver */
-    int load_case;           /* SCENE_NONE: it moves in all of them */
+    int load_case;           /* SCENE_NONE: it moves in all load cases */
 } scene_driver;
 
 /* Does it rotate nodes? */
@@ -835,15 +848,15 @@ typedef enum scene_load_kind {
     SCENE_TEMPERATURE         /* [K] change for a member, which expands */
 } scene_load_kind;
 
-/* Axes of a load: global, or those of its undeformed member, y as in scene_member. */
+/* Axes of a load: global, or those of the undeformed member, y as in scene_member. */
 typedef enum scene_load_axes { SCENE_AXES_FIXED, SCENE_AXES_MEMBER } scene_load_axes;
 
 /* The factor of a load at a node in a motion: proportional e + derivative e' + integral (int e dt),
- * at most `limit` in size, of the error e: the load's function of time (the reference; none: 0)
- * minus the measured component of a node. */
+ * limited to the magnitude `limit`. The error e is the load's function of time (the reference;
+ * none: 0) minus the measured component of a node. */
 typedef struct scene_feedback {
     int node, component; /* SCENE_NONE: no feedback */
-    int from;            /* minus the same component of this node; SCENE_NONE: none */
+    int from;            /* the same component of this node is subtracted; SCENE_NONE: none */
     double proportional, derivative, integral; /* per m or rad, times s, by s */
     double limit;                              /* 0: none */
 } scene_feedback;
@@ -853,15 +866,15 @@ typedef struct scene_feedback {
 typedef struct scene_load {
 #include "cases/scene/keys_load.h"
     scene_load_kind kind;
-    int where; /* node, or member: scene_load_along */
-    double
-        vector[3]; /* in `axes`, of the undeformed structure; if it varies, the value at range[0] */
-    double last[3];  /* if it varies, the value at range[1]; linear in between */
-    int varies;      /* 0: constant over the range */
-    double range[2]; /* range on a member, relative to its initial length from p: of a distributed
-                        load (0 and 1: all of it, as for gravity); for a force or a moment inside a
-                        member both are its position. 0 and 0 for loads at nodes */
-    int stations;    /* 0: proportional to the path parameter (factor = path) */
+    int where;        /* node, or member: scene_load_along */
+    double vector[3]; /* in `axes` of the undeformed structure; if the load varies, the value at
+                         range[0] */
+    double last[3];   /* if the load varies, the value at range[1]; linear in between */
+    int varies;       /* 0: constant over the range */
+    double range[2];  /* range on a member, relative to its initial length from p. For a distributed
+                         load: 0 and 1 are the whole member, as for gravity. For a force or a moment
+                         inside a member: both are its position. 0 and 0 for loads at nodes */
+    int stations;     /* 0: proportional to the path parameter (factor = path) */
     double *path, *factor;
     scene_function function; /* factor as a function of time instead of these; no pieces: none */
     scene_feedback feedback;
@@ -899,16 +912,16 @@ enum {
                       FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA | FEATURE_WARPING
 };
 
-/* Theory of shear in stability that a scene asks for. */
+/* Shear theory in stability that a scene requests. */
 typedef enum scene_shear {
     SCENE_SHEAR_HARINGX,
     SCENE_SHEAR_ENGESSER,
     SCENE_SHEAR_OWN /* each formulation uses its own */
 } scene_shear;
-/* Theories of shear in stability on which a reference value can depend. */
+/* Shear theories in stability on which a reference value can depend. */
 #define SCENE_SHEAR_THEORIES "engesser|haringx"
 
-/* The name of an entry, in a message. */
+/* The name of an entry for use in a message. */
 typedef struct scene_words {
     char text[SCENE_NAME + 16];
 } scene_words;
@@ -959,15 +972,16 @@ int scene_add_attached(scene *s, int body, double x, double y,
                        double z); /* absolute undeformed position */
 int scene_add_member(scene *s, int p, int q, int profile,
                      const double y_axis[3]); /* profile: section at both ends */
-/* Stress-free elongation of a member of that length [m], from its pretension or its unstressed
- * length. REFUSED: the section does not determine an elongation for the pretension. */
+/* Computes the stress-free elongation of a member of that length [m] from its pretension or its
+ * unstressed length. REFUSED: the section does not determine an elongation for the pretension. */
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
-/* Has the scene such a member, or a temperature? who: describes it; may be NULL. */
+/* Does the scene have such a member, or a temperature? who: describes it; may be NULL. */
 int scene_is_free(const scene *s, scene_words *who);
-/* Is the member tapered? The second function: is any? */
+/* Is the member tapered? The second function: is any member tapered? */
 int scene_member_tapers(const scene_member *m);
 int scene_tapers(const scene *s);
-/* Position of an end of a member (0 at p, 1 at q), and vector from its start to its end. */
+/* Computes the position of an end of a member (0 at p, 1 at q), and the vector from its start to
+ * its end. */
 void scene_end(const scene *s, int member, int end, double at[3]);
 void scene_chord(const scene *s, int member, double chord[3]);
 /* Is one of its ends offset from its node? */
@@ -976,44 +990,47 @@ int scene_is_founded(const scene_member *m);
 /* Sets the table of one component. */
 void scene_set_table(scene *s, int spring, int component, int points, const double at[],
                      const double value[]);
-/* Value of a table of a spring at x; *slope: of its line there, at a point that of the next one. */
+/* Returns the value of a spring's table at x. *slope: the slope of its line there; at a point, that
+ * of the next line. */
 double scene_table_at(const scene_table *, double x, double *slope);
-/* Integral of the table between two values. */
+/* Returns the integral of the table between two values. */
 double scene_table_work(const scene_table *, double from, double to);
 /* Releases this component at an end of a member (0 at p, 1 at q), in addition to earlier ones;
- * scene_validate refuses more than SCENE_RELEASED. */
+ * scene_validate rejects more than SCENE_RELEASED. */
 void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
-/* Without nodes; the first of these is the one that others follow. */
+/* Adds a constraint without nodes; the first node added to it is the one that the others follow. */
 int scene_add_constraint(scene *s, unsigned components, double ratio);
 void scene_constrain(scene *s, int constraint, int node);
-/* A diaphragm of the nodes that scene_constrain adds, which turn by a sequence of angles from then
- * on: about the normal, then about the two other axes. */
+/* Adds a diaphragm for nodes that scene_constrain adds. These rotate by a sequence of angles from
+ * then on: about the normal, then about the two other axes. */
 int scene_add_diaphragm(scene *s, int master, int normal);
 
-/* Without a mode or shifts. */
+/* Adds an imperfection without a mode or shifts. */
 int scene_add_imperfection(scene *s);
 void scene_shift_node(scene *s, int imperfection, int node, const double shift[3]);
-/* Is the analysis of the perfect structure: one whose mode is an imperfection, one whose state that
- * is about, or one about the same state? */
+/* Does the analysis use the perfect structure: does it compute a mode used as an imperfection, the
+ * state about which this mode is computed, or another result about the same state? */
 int scene_is_perfect(const scene *s, int analysis);
 
-/* A coordinate of a node, 0 .. 5 as in translation and angle, that is `ratio` times another one. */
+/* A coordinate of a node, 0 .. 5 as in translation and angle, that is `ratio` times another
+ * coordinate. */
 typedef struct scene_tie {
-    int node, coordinate; /* the other one; of itself: others follow it; SCENE_NONE: not tied */
+    int node, coordinate; /* the other coordinate; the coordinate itself if others follow it;
+                             SCENE_NONE: not tied */
     double ratio;
 } scene_tie;
-/* Fills tie[6 nodes]; REFUSED: constraints that contradict each other or supports. */
+/* Fills tie[6 nodes]; REFUSED: constraints that contradict each other or the supports. */
 status scene_ties(const scene *, scene_tie tie[], fault *);
 /* Adds a dashpot to the spring. */
 void scene_damp_spring(scene *s, int spring, const double damping[36]);
 int scene_spring_damps(const scene_spring *);
-/* Is its stiffness, or its damping, not symmetric? */
+/* Is its stiffness or its damping unsymmetric? */
 int scene_spring_circulates(const scene_spring *);
 int scene_spring_gyrates(const scene_spring *);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],
                      const double value[]);
-/* A driver given by a function of time, whose pieces are added later. */
+/* Adds a driver given by a function of time, whose pieces are added later. */
 int scene_add_moving_driver(scene *s, const char *name);
 /* Appends a piece to the function of a driver or of the factor of a load; until [s]: ignored for
  * the last one. */
@@ -1021,13 +1038,13 @@ void scene_drive_piece(scene *s, int driver, double until, const char *text);
 void scene_load_piece(scene *s, int load, double until, const char *text);
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component,
                              int condition_driver);
-/* A dead load; if distributed, along the whole member. */
+/* Returns a dead load; a distributed load acts along the whole member. */
 scene_load scene_load_of(scene_load_kind kind, int where, double x, double y, double z);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);
-/* A force or a moment inside a member at position 0 (p) .. 1 (q) of the initial length. */
+/* Adds a force or a moment inside a member at position 0 (p) .. 1 (q) of the initial length. */
 int scene_add_load_within(scene *s, scene_load_kind kind, int member, double place, double x,
                           double y, double z);
-/* Entry of the list, to be completed; never NULL. */
+/* Returns an entry of the list, to be completed; never NULL. */
 scene_load *scene_load_at(scene *s, int index);
 /* Does it act on a member: along it, or at a position inside it? */
 int scene_load_along(const scene_load *load);
@@ -1035,31 +1052,34 @@ int scene_load_along(const scene_load *load);
 int scene_load_within(const scene_load *load);
 /* Is its vector a moment, not a force? */
 int scene_load_turns(const scene_load *load);
-/* "a temperature" or "an elongation". */
+/* Returns "a temperature" or "an elongation". */
 const char *scene_heat_word(const scene_load *load);
 int scene_has_feedback(const scene *s);
 /* Is it nonzero somewhere on its range? */
 int scene_load_acts(const scene_load *load);
-/* Can its stiffness make a tangent unsymmetric? Not that of a zero load. */
+/* Can the stiffness of the load make a tangent unsymmetric? Not if the load is zero. */
 int scene_load_unsymmetric(const scene_load *load);
-/* The load is its vector times a factor that is piecewise linear in the path parameter. */
+/* Makes the load its vector times a factor that is piecewise linear in the path parameter. */
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[]);
 int scene_add_case(scene *s, const char *name);
 int scene_add_combination(scene *s, const char *name);
-/* A load case more in a combination. */
+/* Adds a load case to a combination. */
 void scene_add_term(scene *s, int combination, int load_case, double factor);
-/* Load case or combination that acts in the analysis, or in its base analysis; 0 also if all of
- * them act one after the other (scene_solves_all), or none does: the structure without loads. */
+/* Returns the load case or combination that acts in the analysis, or in its base analysis. Returns
+ * 0 also if all of them act one after the other (scene_solves_all), or if none does: the structure
+ * without loads. */
 int scene_acting_of(const scene *s, int analysis);
-/* Is it linear, and solves every load case and combination? */
+/* Is the analysis linear, and does it solve every load case and combination? */
 int scene_solves_all(const scene *s, int analysis);
-/* The i-th of those that a quantity is of, i from 0; 0: there are no more, or all act. */
+/* Returns the i-th load case or combination that a quantity uses, i from 0; 0: there are no more,
+ * or all act. */
 int scene_acting_in(const scene *s, const scene_quantity *q, int i);
-/* Factor of what belongs to a load case, where a number acts. */
+/* Returns the factor of entries of a load case under the load case or combination of that
+ * number. */
 double scene_acting_factor(const scene *s, int number, int load_case);
-/* "combination ULS", "case dead"; "" of 0. */
+/* Returns "combination ULS" or "case dead"; "" for 0. */
 scene_words scene_acting_called(const scene *s, int number);
-/* Entry of a list, to be completed; never NULL. */
+/* Returns an entry of a list, to be completed; never NULL. */
 scene_node *scene_node_at(scene *s, int index);
 scene_member *scene_member_at(scene *s, int index);
 void scene_hold(scene *s, int node, int first,
@@ -1067,58 +1087,60 @@ void scene_hold(scene *s, int node, int first,
 void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component,
                  int driver); /* a translation, or a spatial rotation component */
-/* Unit vectors of the axes of its supports, in columns. 0: they are those of the scene. */
+/* Computes the unit vectors of the axes of its supports, in columns. Returns 0 if they are those of
+ * the scene. */
 int scene_node_axes(const scene_node *n, double R[9]);
 /* The coordinate of a component: of a sequence, the angle about that axis, if there is one. */
 int scene_node_coordinate(const scene_node *n, int component);
 /* A fork has guides on both sides of the web with the fixed normal n = web x axis. The web remains
- * between them, R web . n = 0, for any bending of the section: R = exp(n t_1) exp(web t_2). For
- * bending in the plane of axis and web, the section does not rotate about its present axis, R axis,
- * and the moment of the fork is along it. (A held SCENE_RX is a moment along the fixed x axis.)
- * axis, web: of the undeformed section, at right angles, of any length. Translations are fixed
+ * between them, R web . n = 0, however the section bends: R = exp(n t_1) exp(web t_2). For bending
+ * in the plane of axis and web, the section does not rotate about its present axis, R axis, and the
+ * moment of the fork is along this axis. (A fixed SCENE_RX is a moment along the fixed x axis.)
+ * axis, web: of the undeformed section, perpendicular, of any length. Translations are fixed
  * separately. */
 void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
 /* Adds a rigid body to the node, with its centre at or next to it. */
 void scene_set_body(scene *s, int node, scene_body body);
-/* Has the node a mass or an inertia? */
+/* Does the node have a mass or an inertia? */
 int scene_has_body(const scene_node *n);
 /* Has anything? */
 int scene_has_mass(const scene *s);
-/* Rotations of a node that all its members release and nothing else resists, so that they are
- * undefined and are fixed: 0: none; SCENE_IDLE_AXIS: about `axis`, which rotates with the node. */
+/* Finds rotations of a node that all its members release and nothing else resists, so that they are
+ * undefined and are fixed. 0: none; SCENE_IDLE_AXIS: about `axis`, which rotates with the node. */
 enum { SCENE_IDLE_AXIS = 1, SCENE_IDLE_ALL };
 int scene_idle_turn(const scene *s, int node, double axis[3]);
-/* Convention of moments that a quantity depends on, or NULL. */
+/* Returns the convention of moments on which a quantity depends, or NULL. */
 const char *scene_convention(const scene *s, const scene_quantity *q);
-/* Normal of the plane to which the scene is restricted, 0 to 2, or SCENE_NONE. */
+/* Returns the normal of the plane to which the scene is restricted, 0 to 2, or SCENE_NONE. */
 int scene_normal(const scene *s);
-/* "xy"; "" without a plane. */
+/* Returns "xy", for example; "" without a plane. */
 const char *scene_plane_name(const scene *s);
-/* Omits physics (bits of SCENE_OMITTABLE). Otherwise a scene has all physics that its sections,
+/* Omits physics (bits of SCENE_OMITTABLE). By default a scene has all physics that its sections,
  * loads and analyses require. */
 void scene_omit(scene *s, unsigned features);
-/* FEATURE_* bits that a formulation must support in addition to those that the data require. */
+/* Demands FEATURE_* bits that a formulation must support in addition to those that the data
+ * require. */
 void scene_demand(scene *s, unsigned features);
 void scene_meshes(scene *s, int count, const int mesh[]);
-/* first, twice that, and so on up to last. */
+/* Sets meshes of first, 2 first, 4 first, ... elements, up to last. */
 void scene_meshes_doubled(scene *s, int first, int last);
 
-/* Constants of section i; cached until its description changes. Not thread-safe. */
+/* Computes the constants of section i; cached until its description changes. Not thread-safe. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
-/* REFUSED, naming the cause: indices out of range, members of zero length, contradictory supports,
+/* REFUSED, with the cause: indices out of range, members of zero length, contradictory supports,
  * unused drivers, names of curves or entries that are not unique. */
 status scene_validate(const scene *s, fault *f);
 
 /* Values along the path of a static analysis: linear between stations, constant before the first
  * and after the last. */
 
-/* Factor of the load at a path parameter; without stations the parameter itself. */
+/* Returns the factor of the load at a path parameter; without stations, the parameter itself. */
 double along_path_factor(const scene_load *, double path);
-/* Derivative of the factor with respect to the path parameter; at a station that of the following
- * interval. */
+/* Returns the derivative of the factor with respect to the path parameter; at a station, that of
+ * the following interval. */
 double along_path_rate(const scene_load *, double path);
-/* Value of a known driver [m or rad]. */
+/* Returns the value of a known driver [m or rad]. */
 double along_path_value(const scene_driver *, double path);
 /* For messages: "; nothing changes outside path 0 to 1 ..."; empty if loads change on the whole
  * path. */
@@ -1135,7 +1157,7 @@ typedef enum scene_edit_kind {
     SCENE_EDIT_NONE,
     SCENE_EDIT_REVERSE, /* every member is reversed, from q to p */
     SCENE_EDIT_SPLIT,   /* the first member is split in two at fraction `amount` of its length */
-    SCENE_EDIT_UNIT /* all lengths in another unit, `amount` of them per metre; quantities are still
+    SCENE_EDIT_UNIT /* all lengths in another unit, of which 1 m has `amount`; quantities are still
                        reported in metres */
 } scene_edit_kind;
 
@@ -1165,27 +1187,27 @@ typedef enum scene_list {
 } scene_list;
 enum { SCENE_LISTS = SCENE_IMPERFECTIONS + 1 };
 
-/* Number of entries of a list; its singular, "node". */
+/* Returns the number of entries of a list; its singular, such as "node". */
 int scene_count(const scene *s, scene_list list);
 const char *scene_list_word(scene_list list);
-/* Truncates a longer name; does nothing if there is no such entry. */
+/* Sets the name of an entry. Truncates a longer name; does nothing if there is no such entry. */
 void scene_set_name(scene *s, scene_list list, int index, const char *name);
-/* "" if it has no name, or does not exist. */
+/* Returns "" if the entry has no name or does not exist. */
 const char *scene_own_name(const scene *s, scene_list list, int index);
-/* "node_3", made unique in the list. */
+/* Returns "node_3", made unique in the list. */
 scene_words scene_numbered(const scene *s, scene_list list, int index);
-/* "tip"; for an entry without name as scene_numbered. */
+/* Returns "tip"; for an entry without a name, the result of scene_numbered. */
 scene_words scene_name(const scene *s, scene_list list, int index);
-/* For messages: "node tip"; without name "node 3". */
+/* Returns "node tip" for messages, or "node 3" without a name. */
 scene_words scene_called(const scene *s, scene_list list, int index);
 
-/* Tables of the keys of entries of a scene: a line for each key, with its name in files, the
- * position of its value, its unit and range. These lines are used to read, check, describe and
- * write files, to change units, to reverse members, and to compare scenes. */
+/* Tables of the keys of entries of a scene: a row for each key, with its name in files, the
+ * position of its value, its unit and range. The rows are used to read, check, describe and write
+ * files, to change units, to reverse members, and to compare scenes. */
 
 typedef enum entry_kind {
     ENTRY_TEXT,   /* any text */
-    ENTRY_NAME,   /* name of another entry: int, its index, or SCENE_NONE */
+    ENTRY_NAME,   /* name of another entry: int (its index or SCENE_NONE) */
     ENTRY_WORD,   /* one of `words`, or a parameter with such choices: int; double: unchanged if the
                      key is missing */
     ENTRY_FLAG,   /* one of `words`, where odd indices mean 1: int */
@@ -1198,19 +1220,19 @@ typedef enum entry_kind {
     ENTRY_NUMBERS,   /* a list of any length, or a range: scene_path */
     ENTRY_FORMS,     /* several forms, described in the summary */
     ENTRY_MAP,       /* a map with the keys `below`, whose values are in the same struct */
-    ENTRY_ENTRIES,   /* entries with names, each such a map */
+    ENTRY_ENTRIES,   /* entries with names, each a map of this kind */
     ENTRY_LIST,      /* a list of such maps */
     ENTRY_NAMES,     /* user-defined names, each with one value as described by `below` (its
                         first key) */
-    ENTRY_LATER      /* refused; summary: by what it is replaced; NULL: not implemented yet */
+    ENTRY_LATER      /* rejected; summary: its replacement; NULL: not implemented yet */
 } entry_kind;
 
 /* How a word changes with a rotation of the axes. */
 typedef enum entry_turns {
     ENTRY_STAYS,
-    ENTRY_COMPONENT, /* as a displacement or a rotation along them */
+    ENTRY_COMPONENT, /* like a displacement or a rotation along the axes */
     ENTRY_AXIS,      /* as a direction */
-    ENTRY_DIAGONAL   /* as a component, without change of sign */
+    ENTRY_DIAGONAL   /* like a component, without change of sign */
 } entry_turns;
 
 enum { ENTRY_MOST_ORDER = 100000 }; /* of an eigenvalue, a critical point, a crossing */
@@ -1225,27 +1247,28 @@ typedef struct entry_field {
     int count;
     const char *words; /* "a|b|c" */
     const struct entry_field *below;
-    /* of a number: its powers of length and force determine scaling; for other kinds only
-     * information */
+    /* of a number: the powers of length and force determine scaling; for other kinds, the unit is
+     * only information */
     const char *unit, *summary;
     /* Default of every optional key: the value as written in a file, or a description. */
     const char *usual, *left_out;
-    /* Position of the value in the struct of the entry: ENTRY_IN. size 0: none; special functions
-     * read and write it. For a map: position of the int that selects the member of a group. */
+    /* Position of the value in the struct of the entry: ENTRY_IN. size 0: none; special
+     * functions read and write the value. For a map: position of the int that selects the member
+     * of a group. */
     size_t at, size;
     int first,
-        falls; /* value of the first word, or of the map; decrement for each following word */
+        falls; /* value of the first word, or of the map; decremented for each following word */
     double otherwise;   /* numeric default if `usual` does not give it; NAN: none */
     double least, most; /* range of a number; both 0: no limits */
-    const char *range;  /* range in words; NULL: from least and most */
+    const char *range;  /* description of the range; NULL: derived from least and most */
     scene_list of;      /* NAME: the list to which it refers */
     size_t zeros;       /* position of the unsigned whose bit `zero` records that zero was given
                            explicitly */
     unsigned zero;      /* 0: not recorded */
-    int always;         /* 1: also written if it has the default value */
+    int always;         /* 1: also written if it has its default value */
     entry_turns turns;
     const struct quantity_type
-        *type;           /* of a map: kind of quantity with its summary, keys and value */
+        *type;           /* of a map: the kind of quantity, with its summary, keys and value */
     const char *mirrors; /* "++-": signs of its numbers when the ends of the member are exchanged */
 } entry_field;
 
@@ -1257,19 +1280,19 @@ extern const entry_field entry_section[], entry_node[], entry_member[], entry_sp
     entry_driver[], entry_load[], entry_combination[], entry_constraint[], entry_imperfection[],
     entry_analysis[], entry_quantity[];
 
-/* The key of the vector of a load: "force", with its unit. */
+/* Returns the key of the vector of a load: "force", with its unit. */
 const entry_field *entry_of_load(scene_load_kind);
 
-/* Keys of a map; summary of a key. */
+/* Returns the keys of a map; the summary of a key. */
 const entry_field *entry_below(const entry_field *);
 const char *entry_summary(const entry_field *);
-/* Default of a numeric key. */
+/* Returns the default of a numeric key. */
 double entry_usual(const entry_field *);
-/* For a word: its index for an int; the int for an index. */
+/* For a word, returns its index for an int, or the int for an index. */
 int entry_value(const entry_field *, int index);
 int entry_index(const entry_field *, int value);
 int entry_word(const entry_field *, const char *word);
-/* Returns 1 when the value is the default. */
+/* Returns 1 if the value is the default. */
 int entry_is_usual(const entry_field *, const void *entry);
 /* "at least 0" */
 const char *entry_range(const entry_field *, char text[FAULT_TEXT]);
@@ -1279,16 +1302,17 @@ int entry_in_range(const entry_field *, double value);
 status entry_check(const scene *s, const entry_field *table, const void *entry, fault *f);
 
 typedef enum entry_base { ENTRY_LENGTH, ENTRY_FORCE } entry_base;
-/* Power of length or force in a unit, with seconds and angles unchanged: for "kg/m^3" -4 and 1. */
+/* Returns the power of length or force in a unit, with seconds and angles unchanged: -4 and 1 for
+ * "kg/m^3". */
 int entry_power(const char *unit, entry_base);
-/* Scales all numbers with a unit, when there are `times` units instead of one. */
+/* Scales all numbers with a unit if there are `times` units instead of one. */
 void entry_scale(const entry_field *table, void *entry, entry_base, double times);
 /* Exchanges the ends of its member. */
 void entry_mirror(const entry_field *table, void *entry);
-/* Bit-for-bit comparison, without values that special functions read and write. */
+/* Compares bit for bit, except values that special functions read and write. */
 int entry_same(const entry_field *table, const void *a, const void *b);
 
-/* Which entries of a scene affect which analysis. Analyses are refused by this table only;
+/* Which entries of a scene affect which analysis. Analyses are rejected by this table only;
  * `beamwork explain inputs` prints it, and a test checks every cell. */
 
 /* Column of an analysis: eigenvalues and compliances about a loaded state have columns of their
@@ -1314,19 +1338,19 @@ typedef enum scene_column {
 
 typedef enum scene_part {
     SCENE_PART_USED = 'u',
-    SCENE_PART_STATE = 's', /* used; refused about a state with an unsymmetric tangent */
+    SCENE_PART_STATE = 's', /* used; rejected about a state with an unsymmetric tangent */
     /* used in rotating axes, and about a path with an unsymmetric tangent, where stability depends
-       on inertia; else without effect */
+     * on inertia; otherwise without effect */
     SCENE_PART_INERTIA = 'i',
     SCENE_PART_NONE = '-',   /* without effect by the nature of the analysis */
-    SCENE_PART_REFUSED = 'x' /* refused by name, for that analysis only */
+    SCENE_PART_REFUSED = 'x' /* rejected by name, for that analysis only */
 } scene_part;
 
 typedef struct scene_input {
     const char *name;                   /* "loads that follow" */
     const char part[SCENE_COLUMNS + 1]; /* scene_part */
-    const char *why; /* why it is refused, and the remedy; NULL: it is refused nowhere */
-    /* Returns 1 when the scene, or that analysis, has it; who: "load p". */
+    const char *why; /* reason for the rejection, and the remedy; NULL: never rejected */
+    /* Returns 1 if the scene, or that analysis, has the entry; who: "load p". */
     int (*stands)(const scene *, int analysis, char *who, int size);
 } scene_input;
 
@@ -1347,61 +1371,61 @@ status scene_inputs_check(const scene *, int analysis, fault *);
 /* Makes room for an entry of `list` (the address of its pointer), set to zero. Returns its index,
  * or -1. */
 int scene_grow(scene *s, void *list, int *count, size_t size);
-/* Copies [n] numbers; NULL: out of memory. */
+/* Copies [n] numbers; NULL if out of memory. */
 double *scene_copy(scene *s, int n, const double from[]);
 
-/* Parts of the words of a quantity: nodes, members, coordinates and ordinals. */
+/* Parts of the description of a quantity: nodes, members, coordinates and ordinals. */
 
-/* " of node_1 (0.1, 0, 0)" after the preposition. */
+/* Writes " of node_1 (0.1, 0, 0)" with the given preposition. */
 void meaning_node(FILE *to, const scene *s, const char *preposition, int node);
-/* " of member_0 (node_0 to node_1)" */
+/* Writes " of member_0 (node_0 to node_1)". */
 void meaning_member(FILE *to, const scene *s, int member);
-/* " at the end", " at 0.5 of the length"; before: side at a discontinuity. */
+/* Writes " at the end" or " at 0.5 of the length"; before: side at a discontinuity. */
 void meaning_place(FILE *to, double where, int before);
-/* "x" of SCENE_UX and SCENE_RX. */
+/* Returns 'x' for SCENE_UX and SCENE_RX. */
 char meaning_axis(int component);
 /* "force along", "moment about". */
 const char *meaning_load(int component);
-/* "first", "second", ... of 0, 1, ... */
+/* Writes "first", "second", ... for 0, 1, ... */
 void meaning_ordinal(FILE *to, int order);
-/* "displacement of node_1 (...) along x", "rotation of ... about x". */
+/* Writes "displacement of node_1 (...) along x" or "rotation of ... about x". */
 void meaning_coordinate(FILE *to, const scene *s, int node, int component);
 
-/* Words for physics that a scene may omit, as in scene files. */
+/* Words for physics that a scene may omit, as used in scene files. */
 
 typedef struct scene_omission {
     unsigned feature; /* a bit of SCENE_OMITTABLE */
     const char *word;
 } scene_omission;
 
-/* All words in the order of writing; the last is NULL. */
+/* All words in the order in which they are written; the last is NULL. */
 extern const scene_omission scene_omissions[];
 
 enum { SCENE_OMISSION_WORDS = 100 };
-/* "shear, trapeze"; empty if none. */
+/* Writes "shear, trapeze"; empty if none. */
 void scene_omission_words(unsigned omits, char words[SCENE_OMISSION_WORDS]);
 
 /* "haringx" */
 const char *scene_shear_word(scene_shear theory);
 
-/* A kind of quantity: all that is to be said of it. One file each in cases/quantities: the build
- * finds it. */
+/* A kind of quantity with everything that defines it. Each has a file in cases/quantities, which
+ * the build finds. */
 
-/* Values that a kind reads: of one state of a structure. Those below `path` are of the kinds that
- * ask for them (scene_quantity_kind); NAN: not known, which whoever asks for the quantity says. */
+/* Values of one state of a structure that a kind can read. The members below `path` belong to the
+ * kinds that request them (scene_quantity_kind). NAN: unknown; the analysis reports this. */
 typedef struct quantity_state {
     /* displacement [m] or rotation-vector component [rad]; NAN: its direction is lost */
     double (*component)(const struct quantity_state *, int node, int component);
     /* the same relative to another node, in its axes */
     double (*relative)(const struct quantity_state *, int from, int node, int component);
-    /* position [m], and rotation matrix by rows */
+    /* position [m], and rotation matrix, row-major */
     void (*frame)(const struct quantity_state *, int node, double place[3], double R[9]);
     /* in a motion: velocity [m/s], or angular velocity in the node's axes [rad/s] */
     double (*rate)(const struct quantity_state *, int node, int component);
     /* its derivative: acceleration [m/s^2], or angular acceleration in the node's axes [rad/s^2] */
     double (*acceleration)(const struct quantity_state *, int node, int component);
     double (*driver)(const struct quantity_state *, int driver);
-    /* what an end of a member (0 at p, 1 at q) has turned or shifted against its node, of a
+    /* rotation or displacement of an end of a member (0 at p, 1 at q) relative to its node, for a
      * component that is released there */
     double (*released)(const struct quantity_state *, int member, int end, int component);
     double path; /* parameter, load factor or time */
@@ -1416,11 +1440,11 @@ typedef struct quantity_state {
     double (*compliance)(const struct quantity_state *, int row, int column);
 } quantity_state;
 
-/* Eigenvalue of the mode that is asked for. */
+/* Eigenvalue of the requested mode. */
 typedef struct quantity_eigenvalue {
     double value; /* SCENE_CRITICAL_FACTOR: load factor; SCENE_FREQUENCY, SCENE_DAMPING_RATIO:
                      angular frequency [rad/s] */
-    double decay; /* of a damped mode: its rate [1/s] */
+    double decay; /* decay rate of a damped mode [1/s] */
 } quantity_eigenvalue;
 
 /* Events that are evaluated between the stations of a motion. */
@@ -1432,34 +1456,35 @@ typedef enum quantity_passing {
 
 typedef struct quantity_type {
     const char *key, *summary;
-    /* SCENE_READING, of nodes alone; or one of the others: its struct, and what an analysis is
-     * asked for; several files may have the same */
+    /* SCENE_READING for quantities of nodes alone; otherwise the kind that an analysis computes,
+     * with its struct; several files may have the same kind */
     scene_quantity_kind kind;
     const entry_field *field; /* of the map below the key */
     unsigned analyses;        /* 1 << kind of analysis, for all kinds that have it */
     quantity_passing passing;
     /* default unit of the value; its powers of length and force determine scaling */
     const char *(*unit)(const scene *, const scene_quantity *);
-    /* Description in words; names_analysis: including the analysis. */
+    /* Describes the quantity; names_analysis: including the analysis. */
     void (*meaning)(FILE *, const scene *, const scene_quantity *);
     int names_analysis;
-    /* As extracted, without factor and offset: from a state, or from an eigenvalue, where *part is
-     * what of it the error of the quantity is of. */
+    /* Reads the extracted value, without factor and offset, from a state or from an eigenvalue;
+     * *part is the part of the value to which the error of the quantity refers. */
     double (*read)(const scene_quantity *, const quantity_state *);
     double (*eigenvalue)(const scene_quantity *, const quantity_eigenvalue *, double *part);
-    /* NULL of most: the components of turns that it needs, where nodes may turn by themselves: 1:
-     * *out is the one of index i, 0: there are no more; what follows from what is read of a file:
-     * what is wrong with the key, or NULL; REFUSED: what the table does not say. */
+    /* The following are NULL for most kinds. turns: rotations that the quantity needs; 1: *out is
+     * the i-th component, 0: there are no more. settle: completes the data read from a file;
+     * returns what is wrong with *key, or NULL. check: REFUSED for errors that the table does not
+     * cover. */
     int (*turns)(const scene *, const scene_quantity *, int i, scene_component *out);
     const char *(*settle)(const scene *, scene_quantity *, const char **key);
     status (*check)(const scene *, const scene_quantity *, fault *);
 } quantity_type;
 
 const quantity_type *quantity_type_of(const scene_quantity *q);
-/* Makes it one, to be filled. */
+/* Starts a quantity of this kind, to be filled in. */
 void quantity_type_begin(const quantity_type *, scene_quantity *q);
 
-/* Keys common to most kinds: at the beginning and at the end. */
+/* Keys common to most kinds: at the start and at the end. */
 #define QUANTITY_ANALYSIS                                                                          \
     {"analysis",                                                                                   \
      ENTRY_NAME,                                                                                   \
@@ -1509,7 +1534,7 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
      .summary = (text),                                                                            \
      ENTRY_IN(scene_quantity, what.of.member),                                                     \
      .turns = ENTRY_COMPONENT}
-/* Of a linear analysis that solves every load case and combination: which. */
+/* Load case or combination of a linear analysis that solves all of them. */
 #define QUANTITY_ACTING                                                                            \
     {"case",                                                                                       \
      ENTRY_NAME,                                                                                   \
@@ -1552,14 +1577,14 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
 /* A scene in another unit of length. */
 
 /* Converts all lengths to a unit of which 1 m has x > 0; newtons and seconds do not change, so that
- * masses are divided by x. Quantities are reported as before. REFUSED: x is not such a number, or a
+ * masses are divided by x. Quantities are reported as before. REFUSED: x is not positive, or a
  * driver prescribes both lengths and angles. */
 status scene_change_unit(scene *s, double x, fault *f);
 /* Converts all forces to a unit of which 1 N has y, and masses accordingly; metres and seconds do
  * not change. Quantities are reported as before. */
 void scene_change_force(scene *s, double y);
-/* Do the numbers suggest units other than SI? Writes which and why; 0: no. Scenes without
- * dimensions are not checked. */
+/* Do the numbers suggest units other than SI? Writes the units and the reason; 0: no. Scenes
+ * without dimensions are not checked. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT]);
 
 /* Warping at an end of a member if the scene does not specify it. */
@@ -1570,9 +1595,9 @@ enum { SCENE_WARP_BY_SUPPORT = -3 };
 /* Sets the warping of every end that is SCENE_WARP_BY_SUPPORT. Fixed: all six components of its
  * node are fixed or prescribed, or the node is part of a rigid body to which members or springs are
  * joined at other nodes. Free: a rotation is released there, or the node is a fork, is free, or has
- * only a mass. Where exactly two members meet at such a node and continue in one line with one
- * section in the same axes, without releases and without specified warping, they share it: a node
- * does not cut a beam. */
+ * only a mass. If exactly two members meet at such a node and continue in one line with the same
+ * section and axes, without releases and without specified warping, they share the coordinate: a
+ * node does not interrupt a beam. */
 void scene_warping_by_supports(scene *s);
 
 #endif

@@ -5,7 +5,7 @@
 #include "cases/scene/scene.h"
 
 /* Relative tolerance of a limit: the accuracy that engineers require of a model. A biased limit
- * within it is still detected, by its uncertainty. */
+ * within it is still detected by its uncertainty. */
 #define SCENE_TOLERANCE 1e-3
 
 /* Component whose table has a slope discontinuity at zero, so that its undeformed stiffness is
@@ -14,7 +14,7 @@ int scene_spring_kink(const scene_spring *);
 
 /* Bits of rx, ry and rz. */
 #define SCENE_TURNS (7u << SCENE_RX)
-/* Is a component of the node in a constraint: one of the bits? */
+/* Is any of these components of the node in a constraint? */
 int scene_is_constrained(const scene *, int node, unsigned components);
 
 /* Requirements on transient analyses, and on the functions of time that they contain. */
@@ -27,26 +27,27 @@ status scene_validate_functions(const scene *s, fault *f);
 /* REFUSED: names the cause and the remedy, for node i. */
 status scene_validate_node(const scene *s, int i, fault *f);
 
-/* Checks that a scene restricted to a plane has all geometry, motion and loads in it. */
+/* Checks that the geometry, motion and loads of a scene restricted to a plane are all in that
+ * plane. */
 
-/* REFUSED: an entry lies, moves or acts out of the plane; names it and the remedy. */
+/* REFUSED: an entry lies, moves or acts out of the plane; gives the entry and the remedy. */
 status scene_validate_plane(const scene *s, fault *f);
 
 /* Requirements on released ends of members: parts of scene_validate. */
 
-/* For one member: released components exist, each once; not all are released, and not so many at
+/* Checks one member: released components exist, each once; not all are released, and not so many at
  * both ends that the member is loose. */
 status scene_validate_release(const scene *s, int member, fault *f);
 /* Checks that something resists the rotations of a node: a member, a support or a spring. */
 status scene_validate_turns(const scene *s, int node, fault *f);
 
-/* REFUSED: constraints that name a node twice, a support or a body, or close on themselves. */
+/* REFUSED: constraints that name a node twice, a support or a body, or that form a loop. */
 status scene_validate_constraints(const scene *s, fault *f);
 
-/* REFUSED: imperfections without a mode or shifts, or that no analysis has. */
+/* REFUSED: imperfections without a mode or shifts, or used by no analysis. */
 status scene_validate_imperfections(const scene *s, fault *f);
 
-/* Requirements on load cases and combinations, and on what says which of them act. */
+/* Requirements on load cases and combinations, and on the entries that select them. */
 
 status scene_validate_cases(const scene *s, fault *f);
 status scene_validate_acting(const scene *s, int analysis, fault *f);

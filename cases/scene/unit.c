@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Multiplies each number by x to its power of length. */
+/* Multiplies each number by x raised to its power of length. */
 typedef struct scaled {
     double *number;
     int power;
@@ -51,7 +51,8 @@ static void scale_section(section_spec *spec, double x)
     scale_constants(&spec->constants, x);
 }
 
-/* 1: the driver prescribes translations, or is determined by one; 0: only angles; -1: both. */
+/* Returns 1 if the driver prescribes translations or is determined by one, 0 for angles only, -1
+ * for both. */
 static int is_length(const scene *s, int driver)
 {
     int lengths = 0, angles = 0;
@@ -93,7 +94,7 @@ static void scale_spring(scene_spring *p, double x)
     }
 }
 
-/* Gains and reference of lengths. */
+/* Scales gains and references of lengths. */
 static void scale_feedback(scene_load *load, double times)
 {
     scene_feedback *b = &load->feedback;
@@ -114,7 +115,7 @@ static void scale_load(scene_load *load, entry_base base, double times)
     scale_vector(load->last, factor);
 }
 
-/* Scales the extracted value and the values that it is compared with. */
+/* Scales the extracted value and the values with which it is compared. */
 static void scale_extract(const scene *s, scene_quantity *q, entry_base base, double times)
 {
     const int power = entry_power(quantity_type_of(q)->unit(s, q), base);
@@ -149,7 +150,7 @@ static void scale_entries(scene *s, entry_base base, double times)
     }
 }
 
-/* Steps along the control coordinate are lengths, steps of arc are not. */
+/* Scales steps along the control coordinate, which are lengths; steps of arc length are not. */
 static void scale_steps(scene_analysis *a, double x)
 {
     if (a->kind != SCENE_CONTINUATION || a->of.continuation.control.by_arc)
@@ -217,7 +218,7 @@ void scene_change_force(scene *s, double y)
         }
 }
 
-/* Largest size of a section given by sizes; 0: there is none. */
+/* Returns the largest dimension of a section given by dimensions; 0: there is none. */
 static double size_of(const section_spec *spec)
 {
     double low[2] = {0}, high[2] = {0};
@@ -245,8 +246,8 @@ static double longest(const scene *s)
     return most;
 }
 
-/* Bounds that a structure in SI units satisfies: in solids that are stiffer and heavier than foam,
- * waves travel faster than 30 m/s, and in no solid faster than 30 km/s. */
+/* Bounds that a structure in SI units satisfies: in solids stiffer and heavier than foam, waves
+ * travel faster than 30 m/s, and in no solid faster than 30 km/s. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT])
 {
     static const double soft[2] = {1e3, 1e6}, stiff = 1e8, wide = 15, slow = 30, fast = 3e4;

@@ -50,7 +50,7 @@ static status check_member(const scene *s, int i, fault *f)
     return scene_validate_release(s, i, f);
 }
 
-/* Is it symmetric and positive semidefinite? Elimination then has no negative pivot. */
+/* Is the matrix symmetric and positive semidefinite? Elimination then has no negative pivot. */
 static int is_stiffness(const double K[36])
 {
     double A[36], largest[6];
@@ -79,7 +79,7 @@ static int is_stiffness(const double K[36])
     return 1;
 }
 
-/* Checks that a table of a spring has ascending lines; returns an error message or NULL. */
+/* Checks that a spring's table is ascending; returns an error message or NULL. */
 static const char *table_mistake(const scene_table *t)
 {
     const int n = t->at.stations;
@@ -233,7 +233,7 @@ static status check_range(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* A temperature has no direction, and no position except its range. */
+/* Checks a temperature, which has no direction, and no position except its range. */
 static status check_temperature(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
@@ -266,7 +266,7 @@ static status check_temperature(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Refuses members that a kind of load cannot have. */
+/* Rejects members that a kind of load cannot have. */
 static status check_load_kind(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];

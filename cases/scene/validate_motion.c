@@ -47,7 +47,7 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
     return STATUS_OK;
 }
 
-/* An analysis that continues a motion uses its time and its rates. */
+/* Checks an analysis that continues a motion: it uses the time and the rates of that motion. */
 static status check_resumed(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_path *before = scene_path_of(&s->analysis[a->follows]);
@@ -94,7 +94,7 @@ static status check_follows(const scene *s, int i, fault *f)
     return scene_validate_mass(s, i, f);
 }
 
-/* Value of a table at a path parameter, interpolated. */
+/* Returns the value of a table at a path parameter, interpolated. */
 static double along_table(int stations, const double at[], const double value[], double path)
 {
     int k = 0;
@@ -106,7 +106,7 @@ static double along_table(int stations, const double at[], const double value[],
     return value[k - 1] + part * (value[k] - value[k - 1]);
 }
 
-/* A driver starts at the present value and continues without a jump of its velocity. */
+/* Checks that a driver starts at the present value and continues without a jump in velocity. */
 static status check_driver(const scene *s, int d, int i, fault *f)
 {
     const scene_driver *driver = &s->driver[d];
@@ -152,7 +152,7 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     return STATUS_OK;
 }
 
-/* A temperature must not jump: strains would jump with it. */
+/* Checks that a temperature does not jump: strains would jump with it. */
 static status check_temperature(const scene *s, int l, int i, fault *f)
 {
     const scene_load *load = &s->load[l];
@@ -331,7 +331,7 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
     return STATUS_OK;
 }
 
-/* Checks the state that critical loads and frequencies are about. */
+/* Checks the state about which critical loads and frequencies are computed. */
 static status check_about(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_analysis_kind about = s->analysis[a->follows].kind;
@@ -358,7 +358,7 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
                          : "");
 }
 
-/* Does a quantity read it? */
+/* Does a quantity read the analysis? */
 static int is_asked(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++)
@@ -479,7 +479,7 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
     return scene_spectrum_stations(s, q, &first, &count, f);
 }
 
-/* Only positions and rates are evaluated between the stations of a motion. */
+/* Checks that only positions and rates are evaluated between the stations of a motion. */
 static status check_passing(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_analysis *a = &s->analysis[q->analysis];
@@ -518,8 +518,8 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* Path whose stations are the points of the curve, and whether it has further points between them.
- */
+/* Returns the path whose stations are the points of the curve, and whether it has further points
+ * between them. */
 static int path_of_curve(const scene *s, const scene_quantity *q, int *points)
 {
     const scene_analysis *a = &s->analysis[q->analysis];

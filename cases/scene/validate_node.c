@@ -6,8 +6,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Is a straight member of the node along the direction, or does a curved one end there? Also 1 when
- * no member ends there. */
+/* Is a straight member of the node along the direction, or does a curved one end there? Also
+ * returns 1 if no member ends there. */
 static int has_member_along(const scene *s, int node, const double direction[3])
 {
     int ends = 0, along = 0;
@@ -25,7 +25,7 @@ static int has_member_along(const scene *s, int node, const double direction[3])
     return along || ends == 0;
 }
 
-/* A fork defines all rotations, and its axis is that of a member. */
+/* Checks a fork: it defines all rotations, and its axis is that of a member. */
 static status check_fork(const scene *s, int i, fault *f)
 {
     const scene_node *n = &s->node[i];
@@ -49,7 +49,7 @@ static status check_fork(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Checks the inertia of a body: no negative principal moment, and none above the sum of the other
+/* Checks the inertia of a body: no principal moment is negative or exceeds the sum of the other
  * two. */
 static int is_inertia(const double I[6])
 {
@@ -149,7 +149,7 @@ status scene_validate_node(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Directions and positions are in the plane within this fraction of their size. */
+/* Directions and positions count as in the plane within this fraction of their size. */
 static const double within = 1e-9;
 
 static int is_across(const scene *s, const double v[3])
@@ -157,7 +157,7 @@ static int is_across(const scene *s, const double v[3])
     return fabs(v[scene_normal(s)]) > within * vec3_norm(v);
 }
 
-/* Is it nonzero and not along the normal? */
+/* Is the vector nonzero and not along the normal? */
 static int is_beside(const scene *s, const double v[3])
 {
     double in[3] = {v[0], v[1], v[2]};
@@ -188,7 +188,7 @@ static int is_out(const scene *s, const double place[3])
     return fabs(place[n] - s->node[0].position[n]) > within * size_of(s);
 }
 
-/* Axis of rotation k of a node. */
+/* Computes axis of rotation k of a node. */
 static void axis_of(const scene_node *n, int k, double axis[3])
 {
     memset(axis, 0, 3 * sizeof *axis);
@@ -243,8 +243,8 @@ static status check_node(const scene *s, int i, fault *f)
     return check_turns(s, i, f);
 }
 
-/* Axes at the start: x along the chord. For a member in the plane, the same one of y and z is
- * normal to the plane at every point. */
+/* Computes the axes at the start of a member: x along the chord. For a member in the plane, one of
+ * y and z is normal to the plane at every point. */
 static void axes_of(const scene *s, int member, double R[9])
 {
     const scene_member *m = &s->member[member];
@@ -325,8 +325,8 @@ static status check_load(const scene *s, int i, fault *f)
     return is_across(s, at) ? refuse(s, who, "it acts outside the plane", f) : STATUS_OK;
 }
 
-/* A rotation axis in the plane, or normal to it, causes forces in the plane; an oblique one does
- * not. */
+/* Checks the axis of rotation: an axis in the plane or normal to it causes forces in the plane; an
+ * oblique one does not. */
 static status check_frame(const scene *s, int i, fault *f)
 {
     const scene_rotating_frame *r = scene_rotating_frame_of(&s->analysis[i]);
@@ -369,7 +369,7 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* A fixed coordinate has no stiffness, compliance or growth rate. */
+/* Checks a quantity: a fixed coordinate has no stiffness, compliance or growth rate. */
 static status check_quantity(const scene *s, int i, fault *f)
 {
     const scene_quantity *q = &s->quantity[i];

@@ -47,7 +47,7 @@ status scene_validate_release(const scene *s, int member, fault *f)
     return STATUS_OK;
 }
 
-/* P += 1 - the projection on the span of `count` axes: rotations that are resisted. */
+/* P += 1 - the projection on the span of `count` axes: the rotations that are resisted. */
 static void add_kept(int count, double (*axis)[3], double P[9])
 {
     double basis[3][3];
@@ -95,8 +95,8 @@ static void add_supports(const scene_node *n, double P[9])
     add_kept(count, axis, P);
 }
 
-/* Rotations that the end of a straight member releases; none for a curved one, whose axes are known
- * later. */
+/* Adds the rotations that the end of a straight member releases; none for a curved one, whose axes
+ * are known later. */
 static void add_end(const scene_member *m, const scene *s, int end, double P[9])
 {
     const scene_release *r = &m->release[end];
@@ -122,7 +122,7 @@ static void add_springs(const scene *s, int node, double P[9])
                         s->spring[k].table[3 + i].at.stations > 0;
 }
 
-/* An axis about which P resists nothing; 0: there is none. */
+/* Finds an axis about which P resists nothing; 0: there is none. */
 static int loose_axis(const double P[9], double axis[3])
 {
     double A[9], largest = 0;
@@ -204,7 +204,7 @@ static int turn_matters(const scene *s, int node)
     }
     for (int i = 0; i < s->springs; i++) {
         const scene_spring *spring = &s->spring[i];
-        matters |= spring->p == node; /* with which its axes turn */
+        matters |= spring->p == node; /* its axes rotate with the node */
         for (int k = 3; k < 6; k++)
             matters |= spring->q == node && spring->table[k].at.stations > 0;
         for (int k = 0; k < 36 && spring->q == node; k++)
@@ -214,7 +214,7 @@ static int turn_matters(const scene *s, int node)
     return matters;
 }
 
-/* Bits of the free angles of the node. */
+/* Returns bits of the free angles of the node. */
 static int free_angles(const scene_node *n)
 {
     int bits = 0;
@@ -236,7 +236,7 @@ int scene_idle_turn(const scene *s, int node, double axis[3])
         return what == LOOSE_AXIS && n->angle[0] == SCENE_FREE ? SCENE_IDLE_AXIS : 0;
     if (what == LOOSE_ALL)
         return free_angles(n) == 7 ? SCENE_IDLE_ALL : 0;
-    for (int k = 0; k < 3; k++) /* a node of a plane frame: the others are fixed */
+    for (int k = 0; k < 3; k++) /* a node of a plane frame: the other angles are fixed */
         if (free_angles(n) == 1 << k)
             return SCENE_IDLE_AXIS;
     return free_angles(n) == 7 ? SCENE_IDLE_AXIS : 0;
@@ -260,7 +260,7 @@ status scene_validate_turns(const scene *s, int node, fault *f)
                            scene_called(s, SCENE_NODES, node).text);
 }
 
-/* Directions that differ by less are equal: round-off of positions. */
+/* Directions that differ by less count as equal: round-off of positions. */
 static const double round_off = 1e-9;
 
 static int is_held(const scene_node *n)
@@ -284,7 +284,8 @@ static int releases_turn(const scene_release *r)
     return 0;
 }
 
-/* Unit vectors of a straight member: along it, and along its y axis. Returns 0 for a curved one. */
+/* Computes unit vectors of a straight member: along the member, and along its y axis. Returns 0 for
+ * a curved one. */
 static int frame_of(const scene *s, const scene_member *m, double x[3], double y[3])
 {
     if (m->p < 0 || m->p >= s->nodes || m->q < 0 || m->q >= s->nodes)
@@ -308,7 +309,7 @@ static int frame_of(const scene *s, const scene_member *m, double x[3], double y
     return 1;
 }
 
-/* 1: same direction, -1: opposite, 0: other. */
+/* Returns 1 for the same direction, -1 for the opposite, 0 for another. */
 static int sense_of(const double a[3], const double b[3])
 {
     double same = 0, opposite = 0;

@@ -48,7 +48,8 @@ static void place_mass(scene *s, scene_mass mass)
             s->analysis[i].of.motion.mass = mass;
 }
 
-/* Only if the case leaves the choice to its user; otherwise a scene file specifies it. */
+/* Sets the mass only if the case leaves the choice to its user; otherwise a scene file specifies
+ * it. */
 static void choose_mass(const case_type *c, const double value[], scene *s)
 {
     const parameter_type *p;
@@ -79,8 +80,8 @@ const parameter_type hexapod_parameters[] = {
     {0},
 };
 
-/* Joint axes for a rod: z along `direction`, x in the plane of the rod and the global z axis on the
- * upper side. */
+/* Computes joint axes for a rod: z along `direction`, x in the plane of the rod and the global z
+ * axis, on the upper side. */
 static void joint_axes(const double direction[3], double axes[9])
 {
     double x[3] = {-direction[2] * direction[0], -direction[2] * direction[1],
@@ -199,7 +200,7 @@ status joint_prepare(const double value[], scene *s, int *profile, fault *f)
     return STATUS_OK;
 }
 
-/* A point given in the joint's axes, in global coordinates. */
+/* Transforms a point from the joint's axes to global coordinates. */
 static void to_global(const double centre[3], const double axes[9], const double local[3],
                       double global[3])
 {
@@ -208,7 +209,8 @@ static void to_global(const double centre[3], const double axes[9], const double
                     axes[3 * i + 2] * local[2];
 }
 
-/* The direction of its elements matters to formulations that do not treat both ends alike. */
+/* Adds a sheet. The direction of its elements matters for formulations that do not treat both ends
+ * alike. */
 static void add_sheet(const double value[], scene *s, int profile, int body, const double end[3],
                       int fold, const double normal[3], int side)
 {
@@ -222,8 +224,8 @@ static void add_sheet(const double value[], scene *s, int profile, int body, con
     *(from_fold ? &sheet->warp_p : &sheet->warp_q) = at_fold[(int)value[JOINT_FOLD_WARPING]];
 }
 
-/* Fold at one azimuth; up = +1: first set (fold line above the centre), -1: its mirror image in the
- * xy plane. The sheet on the +azimuth side goes to body[0], the other to body[1]. */
+/* Adds a fold at one azimuth; up = +1: first set (fold line above the centre), -1: its mirror image
+ * in the xy plane. The sheet on the +azimuth side is attached to body[0], the other to body[1]. */
 static void add_fold(const double value[], scene *s, int profile, const double centre[3],
                      const double axes[9], double azimuth, int up, const int body[2])
 {

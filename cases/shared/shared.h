@@ -6,8 +6,8 @@
 #include "cases/scene/scene.h"
 
 /* The spherical flexure joint of N section 4.2: base - three folded sheets - intermediate body -
- * three more - end effector. All fold lines pass through the joint's centre. Geometry reconstructed
- * from N Table 1 and its published stiffnesses. */
+ * three more folded sheets - end effector. All fold lines pass through the joint's centre. The
+ * geometry is reconstructed from N Table 1 and the published stiffnesses. */
 
 /* The first parameters of every case with such joints, in this order. */
 enum {
@@ -31,8 +31,8 @@ extern const parameter_type joint_parameters[];
 
 #define JOINT_DEGREE 0.017453292519943295
 
-/* Section and physics that all joints of a scene share; refuses sheets that would reach through the
- * centre. Returns the section's index in *profile. */
+/* Sets the section and the physics that all joints of a scene share; rejects sheets that would
+ * extend through the centre. Returns the section's index in *profile. */
 status joint_prepare(const double value[], scene *s, int *profile, fault *f);
 
 /* Adds one joint between two bodies (nodes of the scene): centre [m], axes: columns are the joint's
@@ -41,8 +41,8 @@ status joint_prepare(const double value[], scene *s, int *profile, fault *f);
 int joint_add(const double value[], scene *s, int profile, const double centre[3],
               const double axes[9], int base, int effector);
 
-/* The flexure hexapod of N section 4.3: six legs, each of a crank, a rod and two spherical joints,
- * carry a platform.  The published sizes are not in the paper: synthetic. */
+/* The flexure hexapod of N section 4.3: a platform carried by six legs, each of a crank, a rod and
+ * two spherical joints. The paper does not give the dimensions, so they are synthetic. */
 
 enum { HEXAPOD_LEGS = 6 };
 
@@ -64,15 +64,15 @@ typedef struct hexapod_leg {
     int rod, joint[2];
 } hexapod_leg;
 
-/* The platform's node at the centre of its joints; it is left free. */
+/* Adds the platform's node at the centre of its joints; the node is left free. */
 int hexapod_platform(const double value[], scene *s);
-/* All legs, cranks turned by the driver `angle` [rad] about horizontal tangents, positive upwards.
- * Refuses cranks that reach beyond the centre. */
+/* Adds all legs, with the cranks rotated by the driver `angle` [rad] about horizontal tangents,
+ * positive upwards. Rejects cranks that reach beyond the centre. */
 status hexapod_add(const double value[], scene *s, int angle, int platform, int *profile,
                    hexapod_leg legs[HEXAPOD_LEGS], fault *f);
 
-/* The clamped sheet flexure that several scenes share (N section 4.1): along x, its width along z,
- * its thickness along y. */
+/* The clamped sheet flexure shared by several scenes (N section 4.1): along x, with its width along
+ * z and its thickness along y. */
 
 /* The first parameters of every such case, in this order. */
 enum {
@@ -95,22 +95,24 @@ enum {
 /* Their entries. */
 extern const parameter_type sheet_parameters[];
 
-/* Steel-like sheet section; width along the member's local z. shear_factor 0: the formula. */
+/* Sets a steel-like sheet section with its width along the member's local z. shear_factor 0:
+ * computed by the formula. */
 void sheet_section(double width, double thickness, double young, double poisson,
                    double shear_factor, section_spec *out);
 
-/* Section, nodes, member with a clamped root, physics and meshes.  The tip is left free; root and
- * tip are returned. Refuses a tip deflection that the length cannot reach. */
+/* Adds the section, nodes, a member with a clamped root, physics and meshes. The tip is left free;
+ * root and tip are returned. Rejects a tip deflection that the length cannot reach. */
 status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f);
 
-/* Compliance at the tip along a static path, prescribed motion replaced by its reactions: adds
- * the entries C_<response>_<load> whose row and column are listed, as values at the end of the
- * path. */
+/* Adds the compliance at the tip along a static path, with the prescribed motion replaced by its
+ * reactions: the entries C_<response>_<load> whose row and column are listed, as values at the end
+ * of the path. */
 void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int count);
 
-/* Closed-form solution of a clamped-free sheet flexure (N section 3.5, Eq. 54), by hand for the
- * state of sheet_cantilever: tip displaced along y and not turned.  One Hellinger-Reissner
- * interpolation for the whole sheet: a prediction, with an error of its own. */
+/* Closed-form solution of a clamped-free sheet flexure (N section 3.5, Eq. 54), derived by hand
+ * for the state of sheet_cantilever: tip displaced along y and not rotated. It uses one
+ * Hellinger-Reissner interpolation for the whole sheet, so it is a prediction with a model
+ * error. */
 
 extern const char sheet_prediction_source[];
 
@@ -120,8 +122,8 @@ typedef struct sheet_prediction {
     double C_xx, C_zz; /* compliance of the tip, spatial moments [m/N] */
 } sheet_prediction;
 
-/* tip_warps: 1, the tip is free to warp; shear: 0, rigid in shear; k: shear factor.  Values that do
- * not exist are NAN. */
+/* tip_warps: 1 if the tip is free to warp; shear: 0 if rigid in shear; k: shear factor. Values that
+ * do not exist are NAN. */
 sheet_prediction sheet_prediction_of(const section *c, double length, double deflection,
                                      int tip_warps, int shear, scene_moments moments);
 
@@ -150,15 +152,15 @@ enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETE
         NULL,                                                                                      \
         "tolerance of the time error, relative to the largest motion; 0: all steps are equal"}
 
-/* A motion that ends at the time of observation; follows: SCENE_NONE, or a static path; start:
+/* Adds a motion that ends at the time of observation; follows: SCENE_NONE or a static path; start:
  * initial velocities. */
 int timed_add(scene *s, const double value[], int follows, scene_start start);
-/* Adds the position of a node: those of its coordinates x, y, z that have a name. size: reference
- * length of their errors where they are smaller [m]. */
+/* Adds the position of a node: the coordinates x, y, z that have a name. size: reference length of
+ * their errors if they are smaller [m]. */
 void timed_places(scene *s, int motion, int node, double size, const char *const name[3]);
 
-/* A driver from 0 to `end` [m or rad] within that time [s], then constant: 10 s^3 - 15 s^4 + 6 s^5,
- * which starts and ends without acceleration. */
+/* Adds a driver from 0 to `end` [m or rad] within that time [s], then constant: 10 s^3 - 15 s^4 + 6
+ * s^5, which starts and ends without acceleration. */
 int timed_driver(scene *s, double end, double duration);
 
 #endif

@@ -103,7 +103,7 @@ typedef struct plane {
     double F;
 } plane;
 
-/* V and its derivatives at (u, zp, zq). */
+/* Computes V and its derivatives at (u, zp, zq). */
 static void energy(plane *p, double u, double zp, double zq)
 {
     const double L = p->L, a = (zp + zq) / 2, c = (zq - zp) / 2, flexible = L * L * L / p->EIz;
@@ -136,8 +136,8 @@ static void energy(plane *p, double u, double zp, double zq)
     }
 }
 
-/* Forces and stiffness by the tip's X = L + w, Y and rotation; u = sqrt(X^2 + Y^2) - L, zp =
- * -alpha, zq = rotation - alpha. */
+/* Computes forces and stiffness for the tip's X = L + w, Y and rotation; u = sqrt(X^2 + Y^2) - L,
+ * zp = -alpha, zq = rotation - alpha. */
 static void tip(plane *p, double w, double Y, double force[3], double K[9])
 {
     const double X = p->L + w, l = hypot(X, Y), alpha = atan2(Y, X), n[2] = {X / l, Y / l},
@@ -161,13 +161,13 @@ static void tip(plane *p, double w, double Y, double force[3], double K[9])
     }
 }
 
-/* sinh(lambda x)/sinh(lambda); lambda infinite without warping. */
+/* Returns sinh(lambda x)/sinh(lambda); lambda is infinite without warping. */
 static double hyperbolic(double lambda, double x)
 {
     return isinf(lambda) ? 0 : exp(lambda * (x - 1)) * expm1(-2 * lambda * x) / expm1(-2 * lambda);
 }
 
-/* Twist rate times GJ at x for the polynomial m[4] of M_x, zero at both ends. */
+/* Returns the twist rate times GJ at x for the polynomial m[4] of M_x, zero at both ends. */
 static double twist(double lambda, const double m[4], double x)
 {
     const double more = isinf(lambda) ? 0 : 1 / (lambda * lambda);
@@ -178,7 +178,7 @@ static double twist(double lambda, const double m[4], double x)
     return value - start * hyperbolic(lambda, 1 - x) - end * hyperbolic(lambda, x);
 }
 
-/* K[4 x 4] by (phi_x, yp, yq, Wq) about the plane state. */
+/* Computes K[4 x 4] with respect to (phi_x, yp, yq, Wq) about the plane state. */
 static status local_stiffness(const section *s, const plane *p, double zp, double shear,
                               double K[LOCAL * LOCAL])
 {
@@ -199,7 +199,7 @@ static status local_stiffness(const section *s, const plane *p, double zp, doubl
                      phi[2] = {x * x * (3 - 2 * x), -L * x * x * (1 - x)};
         const double rate[2] = {
             6 * x * (1 - x) / L,
-            -x * (2 - 3 * x) - hyperbolic(lambda, x)}; /* of Wq: less its own share of kappa_x */
+            -x * (2 - 3 * x) - hyperbolic(lambda, x)}; /* of Wq: minus its own share of kappa_x */
         const double curvature =
             (M * (2 * x - 1) + L * zp * x * (1 - x) * (1 - 2 * x) * p->F) / p->EIz;
         for (int i = 0; i < STRESSES; i++) {
@@ -226,7 +226,8 @@ static status local_stiffness(const section *s, const plane *p, double zp, doubl
     return STATUS_OK;
 }
 
-/* Out of the plane by the tip's (u_z, theta_x, theta_y): C_zz. */
+/* Returns C_zz, from the deformation out of the plane, with respect to the tip's (u_z, theta_x,
+ * theta_y). */
 static double compliance_zz(const section *s, const plane *p, double X, double Y,
                             const double force[3], int tip_warps, double shear,
                             scene_moments moments)
