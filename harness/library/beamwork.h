@@ -5,7 +5,7 @@
  * is one line that names the cause and the remedy; for a scene with errors it is a JSON list of all
  * errors, with file, line and column. It is NULL after BW_OK. The caller frees texts returned as
  * char ** with bw_free_text; texts returned as const char * belong to the handle. After a failure
- * the result is NULL. A NULL handle or name is refused where one is required.
+ * the result is NULL. A NULL handle or name is rejected where one is required.
  *
  * The library prints nothing and does not end the program. It does not change signal handlers, the
  * locale, the rounding mode or the handlers of GSL and HDF5, and the host's settings of these do
@@ -41,9 +41,9 @@ typedef enum bw_status {
     BW_NO_VALUE       /* the requested value does not exist */
 } bw_status;
 
-/* A case or a scene file at values of its parameters, with its reference values. */
+/* A case or a scene file at given parameter values, with its reference values. */
 typedef struct bw_scene bw_scene;
-/* One cell: a scene solved with a formulation and a number of elements. */
+/* One run: a scene solved with a formulation and a number of elements. */
 typedef struct bw_result bw_result;
 
 BW_API const char *bw_version(void);                 /* as "0.1.0" */
@@ -52,35 +52,35 @@ BW_API const char *bw_status_name(bw_status status); /* "ok", "not_converged", .
 
 /* Sets the location of the packed reference values of the built-in cases for all later calls. path
  * NULL: BEAMWORK_TRUTHS, or next to the library, or share/beamwork of the installation. FAULT:
- * missing or damaged. Without reference values cases can be solved, but results have no errors. */
+ * missing or damaged. Without reference values, cases can be solved, but results have no errors. */
 BW_API bw_status bw_truths(const char *path, char **why);
 
-/* Lists cases and formulations, as `beamwork list --format json`. what NULL: everything; or
+/* Lists cases and formulations like `beamwork list --format json`. what NULL: everything; otherwise
  * "cases", "formulations", or the name of one case or formulation. */
 BW_API bw_status bw_list(const char *what, char **json, char **why);
-/* Loads an external formulation, given as for --element: "./mine.so", "exec:python3 my_beam.py". It
- * stays loaded until the program ends. A formulation in another process serves one thread at a
+/* Loads an external formulation, given as for --element: "./mine.so" or "exec:python3 my_beam.py".
+ * It stays loaded until the program ends. A formulation in another process serves one thread at a
  * time. *name (may be NULL): name of the formulation. */
 BW_API bw_status bw_formulation_load(const char *path, char **name, char **why);
 
-/* A built-in case at its defaults. */
+/* Makes a scene from a built-in case at its defaults. */
 BW_API bw_status bw_scene_case(const char *name, bw_scene **out, char **why);
 /* Reads a scene from memory; name: used in messages (NULL: "scene"). */
 BW_API bw_status bw_scene_read(const char *text, size_t size, const char *name, bw_scene **out,
                                char **why);
 /* Reads a scene from a file. */
 BW_API bw_status bw_scene_open(const char *path, bw_scene **out, char **why);
-/* Sets a parameter, "NAME=VALUE" as for --set: "thickness=0.5e-3". Existing results do not change.
- */
+/* Sets a parameter with "NAME=VALUE" as for --set, such as "thickness=0.5e-3". Existing results do
+ * not change. */
 BW_API bw_status bw_scene_set(bw_scene *scene, const char *assignment, char **why);
-/* Parameters, quantities, and the formulations that can run the scene, as `beamwork list CASE
- * --format json`. */
+/* Returns the parameters, the quantities, and the formulations that can run the scene, like
+ * `beamwork list CASE --format json`. */
 BW_API bw_status bw_scene_json(const bw_scene *scene, char **json, char **why);
-/* Writes a scene file, as `beamwork scene`. Reading it gives the same scene, bit for bit. */
+/* Writes a scene file like `beamwork scene`. Reading it gives the same scene, bit for bit. */
 BW_API bw_status bw_scene_write(const bw_scene *scene, char **yaml, char **why);
 BW_API void bw_scene_free(bw_scene *scene); /* NULL: does nothing; results remain valid */
 
-/* Solves one cell. formulation: as for -f ("beamw:mass=lumped"); NULL: chosen as by `beamwork
+/* Performs one run. formulation: as for -f ("beamw:mass=lumped"); NULL: chosen as by `beamwork
  * solve`. elements: number per member; 0: the coarsest mesh whose values differ from those of the
  * previous mesh by at most "error"; NOT_CONVERGED if the finest mesh does not achieve this. options
  * (NULL: none): a JSON object with any of "all_dofs" (true: no degree of freedom is eliminated),
@@ -91,61 +91,63 @@ BW_API void bw_scene_free(bw_scene *scene); /* NULL: does nothing; results remai
 BW_API bw_status bw_solve(const bw_scene *scene, const char *formulation, int elements,
                           const char *options, bw_result **out, char **why);
 BW_API void bw_result_free(bw_result *result); /* NULL: nothing */
-/* As `beamwork solve --format json`. */
+/* Returns the result like `beamwork solve --format json`. */
 BW_API bw_status bw_result_json(const bw_result *result, char **json, char **why);
 BW_API const char *bw_result_formulation(const bw_result *result); /* name with its options */
 BW_API int bw_result_elements(const bw_result *result);            /* number per member */
 
-/* Number of quantities; indices start at 0. */
+/* Returns the number of quantities; indices start at 0. */
 BW_API int bw_result_quantities(const bw_result *result);
-/* Name of a quantity; NULL: no such index. */
+/* Returns the name of a quantity; NULL: no such index. */
 BW_API const char *bw_result_name(const bw_result *result, int quantity);
-/* SI unit of a quantity; NULL: no such index. */
+/* Returns the SI unit of a quantity; NULL: no such index. */
 BW_API const char *bw_result_unit(const bw_result *result, int quantity);
-/* Value in the unit of the quantity; NaN: no value, or no such quantity. */
+/* Returns the value in the unit of the quantity; NaN: no value, or no such quantity. */
 BW_API double bw_result_value(const bw_result *result, const char *quantity);
-/* (value - reference)/|reference|, as `beamwork solve` prints it; NaN: no reference value. */
+/* Returns (value - reference)/|reference|, as `beamwork solve` prints it; NaN: no reference
+ * value. */
 BW_API double bw_result_error(const bw_result *result, const char *quantity);
-/* Position of the value on the path: the time [s] of an extremum of a motion or of a value at an
- * instant; on other paths the path parameter; NaN: none, or no value. */
+/* Returns the position of the value on the path. For a motion: the time [s] of an extremum, or of a
+ * value at an instant; for other paths: the path parameter; NaN: none, or no value. */
 BW_API double bw_result_at(const bw_result *result, const char *quantity);
-/* Number of points of a curve; 0: the quantity is not a curve. The result owns the arrays [points].
- */
+/* Returns the number of points of a curve; 0: the quantity is not a curve. The result owns the
+ * arrays [points]. */
 BW_API size_t bw_result_curve(const bw_result *result, const char *quantity, const double **x,
                               const double **y);
-/* A numeric column of the load steps, named as in `beamwork schema` ("path", "iterations",
- * "correction", ...). Returns the number of steps; 0: no steps, or no such column. The result owns
- * the array. */
-BW_API size_t bw_result_steps(bw_result *result, const char *column, const double **values);
-/* A numeric column of the motions, with one row for the initial state and one for the end of each
- * step. Names as in `beamwork schema` ("time", "step", "kinetic", "strain", "work", "drift", "px",
- * "lz", ...). Returns the number of rows; 0: no motion, or no such column. The result owns the
+/* Returns a numeric column of the load steps, named as in `beamwork schema` ("path", "iterations",
+ * "correction", ...), and the number of steps; 0: no steps, or no such column. The result owns the
  * array. */
+BW_API size_t bw_result_steps(bw_result *result, const char *column, const double **values);
+/* Returns a numeric column of the motions, with one row for the initial state and one for the end
+ * of each step, and the number of rows; 0: no motion, or no such column. Names are those in
+ * `beamwork schema` ("time", "step", "kinetic", "strain", "work", "drift", "px", "lz", ...). The
+ * result owns the array. */
 BW_API size_t bw_result_motion(bw_result *result, const char *column, const double **values);
-/* Requested shapes. *points: number of points of all centre lines; *position [states x points x 3]
- * [m]. Returns the number of states, the first of which is undeformed. */
+/* Returns the requested shapes. *points: number of points of all centre lines; *position [states x
+ * points x 3] [m]. Returns the number of states, the first of which is undeformed. */
 BW_API size_t bw_result_shapes(bw_result *result, size_t *points, const double **position);
-/* *first [members + 1]: index of the first point of each member. Returns the number of members. */
+/* Returns the number of members. *first [members + 1]: index of the first point of each member. */
 BW_API size_t bw_result_members(const bw_result *result, const int **first);
-/* Kind of a state: "path", "buckling", "motion", ...; NULL: no such state. */
+/* Returns the kind of a state: "path", "buckling", "motion", ...; NULL: no such state. */
 BW_API const char *bw_result_shape_kind(const bw_result *result, size_t state);
-/* Path parameter, load factor, frequency [Hz] or time [s] of a state; NaN: no such state. */
+/* Returns the path parameter, load factor, frequency [Hz] or time [s] of a state; NaN: no such
+ * state. */
 BW_API double bw_result_shape_value(const bw_result *result, size_t state);
 
-/* Compares formulations, as `beamwork converge --format json`. formulations: separated by blanks;
- * "all" or NULL: all that support what the scene requires. meshes: "1,2,4"; NULL: those of the
+/* Compares formulations like `beamwork converge --format json`. formulations: separated by blanks;
+ * "all" or NULL: all that support the physics of the scene. meshes: "1,2,4"; NULL: those of the
  * scene. options: "error" (error target of `answers`, default 0.01), "select" (as -k), "jobs"
  * (processes), "stop" (a file descriptor, for example of a pipe: when it becomes readable, the
  * processes end and the call returns TIME_LIMIT). */
 BW_API bw_status bw_converge(const bw_scene *scene, const char *formulations, const char *meshes,
                              const char *options, char **json, char **why);
-/* Verdicts, as `beamwork verify --json`. scene NULL: all built-in cases; else the case, or the
- * scene file at its defaults and at the points of its reference values. select: as -k, NULL: all.
- * results: an HDF5 file to write, NULL: none. options: "jobs", "time_limit" ([s] of a cell, 120),
- * "refine" (number of additional meshes of each series, each with twice the elements), "shapes",
- * "stop", "tolerance" (relative, replaces those of the cases), "not_worse_than" (a results file:
- * larger errors and changed limits fail). Returns OK even if verdicts differ from the expected
- * ones; the document counts these ("unexpected"). */
+/* Computes verdicts like `beamwork verify --json`. scene NULL: all built-in cases; otherwise the
+ * case, or the scene file at its defaults and at the points of its reference values. select: as -k,
+ * NULL: all. results: an HDF5 file to write, NULL: none. options: "jobs", "time_limit" ([s] of a
+ * run, 120), "refine" (number of additional meshes of each series, each with twice the elements),
+ * "shapes", "stop", "tolerance" (relative, replaces those of the cases), "not_worse_than" (a
+ * results file: larger errors and changed limits fail). Returns OK even if verdicts differ from the
+ * expected ones; the document counts these ("unexpected"). */
 BW_API bw_status bw_verify(const bw_scene *scene, const char *formulations, const char *select,
                            const char *options, const char *results, char **json, char **why);
 

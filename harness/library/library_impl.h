@@ -26,7 +26,7 @@ typedef struct call {
 } call;
 
 /* Until call_end, numbers are read, written and rounded as in a C program with the default locale,
- * rounding to nearest and no traps, and errors of GSL are handled by the library. */
+ * rounding to nearest and no traps, and the library handles the errors of GSL. */
 void call_begin(call *, char **why);
 /* Restores the settings of the host, and sets *why. */
 bw_status call_end(call *, status outcome);
@@ -43,11 +43,11 @@ status known_read(const case_type *type, truths *out, fault *f);
 /* Reads the reference values of all cases. */
 status known_read_all(truths *out, fault *f);
 
-/* Locks HDF5 only: if two threads need the same reference values, one of them reads; no process is
- * forked during the reading. */
+/* Locks HDF5 only. If two threads need the same reference values, only one of them reads; no
+ * process is forked during the reading. */
 void known_hold(void);
 void known_let_go(void);
-/* Lock for all other calls of HDF5; known_unlock restores the host's error handling. */
+/* Locks HDF5 for all other calls; known_unlock restores the host's error handling. */
 void known_lock(void);
 void known_unlock(void);
 
@@ -55,7 +55,7 @@ void known_unlock(void);
 
 typedef enum call_option_kind {
     OPTION_SWITCH, /* true or false, stored in an int */
-    OPTION_WHOLE,  /* least .. most, stored in an int */
+    OPTION_WHOLE,  /* in the range least .. most, stored in an int */
     OPTION_FILE,   /* descriptor of an open file, stored in an int */
     OPTION_SHARE,  /* between 0 and 1, stored in a double */
     OPTION_WORDS   /* stored in a const char *, whose text *kept owns */
@@ -68,8 +68,8 @@ typedef struct call_option {
     int least, most;
 } call_option;
 
-/* json NULL: no options. *kept: release with json_decref. REFUSED: not an object, an unknown key,
- * or a value of the wrong type or out of range. */
+/* Reads options. json NULL: no options. *kept: release with json_decref. REFUSED: not an object, an
+ * unknown key, or a value of the wrong type or out of range. */
 status options_read(const char *json, const call_option table[], json_t **kept, fault *f);
 
 /* Data shared by a bw_scene and its results; exists as long as any of them. */
@@ -81,8 +81,8 @@ struct bw_scene {
     double parameter[CASE_MAX_PARAMETERS];
 };
 
-/* For a built-in case, or a file (name: used in messages). Takes ownership of file and name, also
- * after a failure. */
+/* Makes the source of a built-in case, or of a file (name: used in messages). Takes ownership of
+ * file and name, also after a failure. */
 status source_new(const case_type *type, scene_file *file, char *name, source **out, fault *f);
 void source_release(source *); /* NULL: nothing */
 const case_type *source_case(const source *);
@@ -122,7 +122,8 @@ typedef struct document_text {
 } document_text;
 
 status text_begin(document_text *, fault *f);
-/* *out: allocated by malloc; NULL if `written` is a failure or the stream had an error. */
+/* Ends the text. *out: allocated by malloc; NULL if `written` is a failure or the stream had an
+ * error. */
 status text_end(document_text *, status written, char **out, fault *f);
 
 #endif

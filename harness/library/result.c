@@ -55,7 +55,7 @@ const char *bw_result_unit(const bw_result *r, int quantity)
     return q != NULL ? q->unit : NULL;
 }
 
-/* Returns -1 when there is no such quantity. */
+/* Returns the index, or -1 if there is no such quantity. */
 static int index_of(const bw_result *r, const char *name)
 {
     for (int i = 0; name != NULL && i < bw_result_quantities(r); i++)
@@ -64,7 +64,7 @@ static int index_of(const bw_result *r, const char *name)
     return -1;
 }
 
-/* Result of a quantity, or NULL. */
+/* Returns the result of a quantity, or NULL. */
 static const quantity_result *found_of(const bw_result *r, const char *name)
 {
     const int i = index_of(r, name);
@@ -106,9 +106,9 @@ size_t bw_result_curve(const bw_result *r, const char *quantity, const double **
     return (size_t)points;
 }
 
-/* Arrays of numbers of a result, filled on request. */
+/* Number arrays of a result, filled on request. */
 
-/* Index of a numeric field of a type; -1: none. */
+/* Returns the index of a numeric field of a type; -1: none. */
 static int field_of(const record_type *type, const char *name, const schema_field **out)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -141,7 +141,8 @@ static double *read_column(const bw_result *r, const record_type *type, const sc
     return out;
 }
 
-/* Column of `rows` records of a type; kept[RESULT_COLUMNS]: previously requested columns. */
+/* Returns a column of `rows` records of a type; kept[RESULT_COLUMNS]: previously requested
+ * columns. */
 static size_t column_of(const bw_result *r, const record_type *type, double *kept[], int rows,
                         const char *name, const double **values)
 {

@@ -8,7 +8,7 @@
 #include "cases/format/format.h"
 #include "harness/experiments/experiments.h"
 
-/* A scene at its defaults; takes ownership of the file and its name. */
+/* Makes a scene at its defaults; takes ownership of the file and its name. */
 static status new_scene(const case_type *type, scene_file *file, char *name, bw_scene **out,
                         fault *f)
 {
@@ -51,7 +51,7 @@ static void tell(const mistakes *m, call *c)
         text_end(&t, mistakes_json(m, t.to, &f), &c->text, &f);
 }
 
-/* Reads a text of that size; NULL: reads the file of that name. */
+/* Reads a text of that size, or, if it is NULL, the file of that name. */
 static status read_file(const char *bytes, size_t size, const char *name, scene_file **out,
                         mistakes *m, fault *f)
 {
@@ -250,7 +250,7 @@ static int contestants_jobs(void)
     return processors < 1 ? 1 : processors < WORKERS_MOST ? (int)processors : WORKERS_MOST;
 }
 
-/* TIME_LIMIT: the caller stopped the run before all cells were finished. */
+/* Returns TIME_LIMIT if the caller stopped the run before all runs were finished. */
 static status contestants_finished(const sweep *s, fault *f)
 {
     return s->unfinished == 0 ? STATUS_OK
@@ -258,7 +258,7 @@ static status contestants_finished(const sweep *s, fault *f)
                                           s->unfinished);
 }
 
-/* Request and its results; converge frees it. */
+/* Request and results; converge frees it. */
 typedef struct study {
     const bw_scene *scene;
     double level;
@@ -335,7 +335,7 @@ bw_status bw_converge(const bw_scene *from, const char *formulations, const char
 
 enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };
 
-/* Request and its results; verify frees it. */
+/* Request and results; verify frees it. */
 typedef struct verify_trial {
     const bw_scene *scene;
     const char *results;
@@ -343,7 +343,8 @@ typedef struct verify_trial {
     const case_type *type[2];
     formulation formulation[CONTESTANTS_MOST];
     json_t *kept;
-    const char *former_path; /* previous results; this run must not be worse; NULL: none */
+    const char
+        *former_path; /* previous results, than which this run must not be worse; NULL: none */
     stored_results former;
     truths truths;
     sweep sweep;

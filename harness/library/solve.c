@@ -14,8 +14,8 @@
 #include "harness/numerics/numerics.h"
 
 static source *source_hold(source *); /* adds a reference */
-/* Reference values of a case; for a scene file only the known deviations. Read at the first call.
- * NULL after FAULT. May be called by several threads. */
+/* Sets *out to the reference values of a case; for a scene file only to the known deviations. They
+ * are read at the first call. NULL after FAULT. May be called by several threads. */
 static status source_known(source *, const truths **out, fault *f);
 
 enum { STEPS_MOST = 1000000 };
@@ -48,7 +48,7 @@ static status know(bw_result *r, const double parameter[], fault *f)
     return STATUS_OK;
 }
 
-/* Formulation and elements, given or chosen. */
+/* Determines the formulation and the number of elements, given or chosen. */
 static status choose(const bw_result *r, const char *name, solution_request *out,
                      solution_choice *why, fault *f)
 {
@@ -88,7 +88,7 @@ static status compare(bw_result *r, fault *f)
     return bad ? fault_set(f, STATUS_FAULT, "out of memory for errors") : STATUS_OK;
 }
 
-/* *solved: status of the solution, with its message in f. */
+/* Fills the result. *solved: status of the solution, with its message in f. */
 static status fill(bw_result *r, const bw_scene *from, const char *name, solution_request *what,
                    solution_choice *why, status *solved, fault *f)
 {
@@ -161,8 +161,8 @@ void bw_result_free(bw_result *r)
 _Static_assert((int)BW_FAULT == (int)STATUS_FAULT && (int)BW_NO_VALUE == (int)STATUS_NO_VALUE,
                "a bw_status is a status");
 
-/* GSL has one error handler for all threads: the first call disables it, the last one restores it.
- * nested: number of nested calls of this thread. */
+/* GSL has one error handler for all threads: the first call disables it, and the last one restores
+ * it. nested: number of nested calls of this thread. */
 static _Thread_local int nested;
 static struct {
     pthread_mutex_t lock;
@@ -171,8 +171,8 @@ static struct {
     locale_t plain;
 } state = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-/* A forked process has none of the other threads. It must not wait for them, and calls in progress
- * on them do not count there. */
+/* A forked process has none of the other threads: it must not wait for them or count their calls in
+ * progress. */
 static void before_fork(void)
 {
     known_hold();
@@ -232,7 +232,7 @@ void call_begin(call *c, char **why)
     fesetenv(FE_DFL_ENV);
 }
 
-/* Number of bytes of the UTF-8 character that begins here; 0: invalid. */
+/* Returns the number of bytes of the UTF-8 character that starts here; 0: invalid. */
 static int character(const unsigned char *at)
 {
     const int more = (at[0] >= 0xc2) + (at[0] >= 0xe0) + (at[0] >= 0xf0);
@@ -244,7 +244,7 @@ static int character(const unsigned char *at)
     return 1 + more;
 }
 
-/* One line of UTF-8 for any names; replaces invalid characters by '?'. */
+/* Returns one line of valid UTF-8 for any names; invalid characters are replaced by '?'. */
 static char *line_of(const fault *f)
 {
     char *out = strdup(f->text);
@@ -320,7 +320,7 @@ static void place_now(char path[PATH_MAX])
         data_place_truths(path);
 }
 
-/* As known_read, for a thread that holds the lock. */
+/* Like known_read, for a thread that holds the lock. */
 static status known_read_held(const case_type *type, truths *out, fault *f)
 {
     char path[PATH_MAX];
@@ -350,7 +350,7 @@ status known_read_all(truths *out, fault *f)
     return outcome;
 }
 
-/* Sets their location for later calls; NULL: the default. Reads them as a check. */
+/* Sets the location for later calls; NULL: the default. Reads the values as a check. */
 static status known_place(const char *path, fault *f)
 {
     truths t;

@@ -1,5 +1,5 @@
-/* Scenes, solutions and documents made and freed again and again: cycles COUNT. Prints the bytes in
- * use after a tenth of them, and at the end; run by valgrind too (make lab L=valgrind). */
+/* Makes and frees scenes, solutions and documents repeatedly: cycles COUNT. Prints the bytes in use
+ * after a tenth of the cycles and at the end; also run with valgrind (make lab L=valgrind). */
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +29,7 @@ static void cycle(void)
     bw_free_text(why);
 }
 
-/* With truths, and with a static path. */
+/* With reference values and a static path. */
 static void big_cycle(void)
 {
     char *json = NULL;

@@ -1,5 +1,5 @@
-"""Documents of the library are those of the program, byte for byte but for what clocks say: every
-case and every example, with formulation and mesh chosen and with a second formulation."""
+"""The documents of the library equal those of the program byte for byte, except times: for every case and every
+example, with the default formulation and mesh, and with a second formulation."""
 import ctypes
 import pathlib
 import re
@@ -9,7 +9,7 @@ from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, read_json, run
 
 LIBRARY = pathlib.Path(PROGRAM).parent / "libbeamwork.so.0"
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# A part of the motion of twelve joints: all of it takes as long as many other cases together.
+# A part of the motion with twelve joints: the whole motion takes as long as many other cases together.
 PART = {"hexapod_motion": "time=0.05"}
 CLOCKS = re.compile(r'"(seconds_\w+|clock)": ("[^"]*"|[^,\n]+)')
 
@@ -26,7 +26,7 @@ class Library:
         return out
 
     def made(self, name, *arguments):
-        """What the call makes; also a result that did not converge."""
+        """Returns the object that the call makes, even a result that did not converge."""
         out, why = ctypes.c_void_p(), ctypes.c_void_p()
         status = getattr(self.calls, name)(*arguments, ctypes.byref(out), ctypes.byref(why))
         line = self.text(why) if why.value is not None else ""
@@ -69,7 +69,7 @@ class Documents(ProgramTest):
         self.assertEqual(CLOCKS.sub("", ours), CLOCKS.sub("", theirs), arguments)
 
     def check(self, name, *words):
-        """As chosen, and with the last formulation that runs it on two elements."""
+        """Checks the default choice, and two elements with the last formulation that can run it."""
         scene = self.library.scene(name)
         listed = self.library.text(self.library.made("bw_scene_json", scene))
         self.same(listed, "list", *words)
@@ -112,7 +112,7 @@ class Documents(ProgramTest):
                   "w_over_L")
 
     def test_verify(self):
-        """All cases, one, and a file with its truths; results.h5 too."""
+        """Checks all cases, one case, and a file with its reference values; also results.h5."""
         path = self.folder / "verdicts.json"
         stored = self.folder / "ours.h5"
         file = EXAMPLES[0]

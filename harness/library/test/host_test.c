@@ -1,4 +1,4 @@
-/* What a host has set changes no bit and is there afterwards; threads with handles of their own. */
+/* The host's settings change no bit and are restored afterwards; threads use their own handles. */
 #include <fenv.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_gamma.h>
@@ -14,7 +14,7 @@
 
 enum { THREADS = 4, ROUNDS = 6 };
 
-/* The document of a solution without its times; the caller frees it. */
+/* Returns the document of a solution without its times; the caller frees it. */
 static char *solved(const char *name, const char *formulation, int elements)
 {
     char *why = NULL, *json = NULL;
@@ -52,7 +52,7 @@ static void rounding(const char *expected)
 #endif
 }
 
-/* A comma in the place of the point; 0: the machine has no such locale, and none can be made. */
+/* Sets a locale with a decimal comma; returns 0 if the machine has none and none can be made. */
 static int set_comma(char folder[])
 {
     char command[200];
@@ -116,7 +116,7 @@ static void handlers(const char *expected)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
 
-/* Not a byte, whatever goes wrong. */
+/* The library prints not a single byte, even after errors. */
 static void silence(void)
 {
     char *text = NULL, *why = NULL;
@@ -153,7 +153,7 @@ static void silence(void)
 }
 
 /* Cases whose analyses use all libraries, with enough elements for iterated eigenvalues; every
- * thread in another order. */
+ * thread runs them in another order. */
 static const char *const several[] = {"c_column", "c_column", "lateral_buckling", "tip_body"};
 enum { SEVERAL = sizeof several / sizeof several[0], MANY = 150 };
 static char *alone[SEVERAL];
@@ -184,15 +184,15 @@ static void *converge(void *argument)
     return NULL;
 }
 
-/* The allocator of gcc 12's address sanitizer is no good in a process that was started while
- * another thread held it, for ever; glibc's is. */
+/* The allocator of gcc 12's address sanitizer deadlocks in a process that was forked while another
+ * thread held its lock; glibc's does not. */
 #ifdef __SANITIZE_ADDRESS__
 enum { BESIDE = 0 };
 #else
 enum { BESIDE = 1 };
 #endif
 
-/* One scene solved by all of them, and processes started meanwhile, or behind. */
+/* All threads solve one scene, and processes are started meanwhile or afterwards. */
 static void threads(void)
 {
     pthread_t thread[THREADS], other;
@@ -228,7 +228,7 @@ static void *solve_shared(void *scene)
     return value;
 }
 
-/* A scene that nobody changes. */
+/* Several threads share a scene that no thread changes. */
 static void shared_scene(void)
 {
     pthread_t thread[THREADS];
@@ -250,9 +250,8 @@ static void shared_scene(void)
     bw_scene_free(s);
 }
 
-/* A library of numbers that stops the program, as LAPACK's does at a wrong argument, ends it with
- * 0.
- */
+/* A numerical library that stops the program, as LAPACK does for a wrong argument, ends it with
+ * status 0. */
 static int ended;
 
 static void mind_the_end(void)
@@ -261,8 +260,8 @@ static void mind_the_end(void)
         _exit(1);
 }
 
-/* OpenBLAS 0.3.21 with threads of its own now and then gives one of several threads of a host other
- * last digits: it has one here, which it reads when it is loaded. */
+/* OpenBLAS 0.3.21 with its own threads occasionally gives one of several host threads different
+ * last digits. It has one thread here, a setting that it reads when it is loaded. */
 static void begin_again(char **arguments)
 {
     if (getenv("OPENBLAS_NUM_THREADS") != NULL)

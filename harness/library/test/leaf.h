@@ -1,4 +1,4 @@
-/* A scene file in ten lines, and what tests ask of a failure. */
+/* A scene file in ten lines, and the checks of a failed call. */
 #ifndef BEAMWORK_LEAF_H
 #define BEAMWORK_LEAF_H
 
@@ -20,7 +20,7 @@ static const char leaf[] =
     "loads:\n"
     "  push: {force: [0, 1, 0], on: tip}\n";
 
-/* That status, and a line that has the word; the line is freed. */
+/* Checks the status, and that the line contains the word; frees the line. */
 static inline void leaf_fails(bw_status got, bw_status expected, char *why, const char *word)
 {
     const int told = why != NULL && strstr(why, word) != NULL;
@@ -37,7 +37,7 @@ static inline void leaf_is_well(bw_status got, char *why, const char *what)
     bw_free_text(why);
 }
 
-/* The call comes before its reason is read. */
+/* The call is evaluated before its reason is read. */
 #define FAILS(call, expected, word)                                                                \
     do {                                                                                           \
         const bw_status got_ = (call);                                                             \

@@ -1,4 +1,4 @@
-/* Every way in which a call can fail is a status and a line; handles that hold on to each other. */
+/* Every failing call returns a status and a line; handles keep each other alive. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -41,7 +41,7 @@ static void mistakes(void)
     FAILS(bw_scene_read(text, sizeof text - 1, NULL, &s, &why), BW_REFUSED,
           "the scene has no key 'nodess'; did you mean 'nodes'?");
     FAILS(bw_scene_read("", 0, "empty.yaml", &s, &why), BW_REFUSED, "empty.yaml");
-    /* a name that is no UTF-8 does not make a line that is none */
+    /* an invalid UTF-8 name does not make the line invalid */
     FAILS(bw_scene_open("/\xff\n", &s, &why), BW_FAULT, "/?? cannot be read");
 }
 
@@ -90,7 +90,7 @@ static void options(void)
     bw_scene_free(s);
 }
 
-/* Nothing is given: refused, or nothing happens. */
+/* NULL arguments are rejected or have no effect. */
 static void nothing(void)
 {
     char *why = NULL, *text = NULL;
@@ -135,7 +135,7 @@ static void nothing(void)
              "and no curves, steps and shapes");
 }
 
-/* A result keeps what it stands on; what it does not have is told. */
+/* A result keeps the data on which it depends; missing data are reported. */
 static void results(void)
 {
     char *why = NULL, *before = NULL, *after = NULL;
@@ -189,7 +189,7 @@ static void results(void)
     bw_result_free(second);
 }
 
-/* What does not converge is a result all the same. */
+/* A solution that does not converge still returns a result. */
 static void not_converged(void)
 {
     static const char text[] =

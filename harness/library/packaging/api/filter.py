@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Rewrites a header so that doxygen takes comments before and after a declaration as its documentation.
+"""Rewrites a header so that doxygen uses the comments before and after a declaration as its documentation.
 
 usage: filter.py HEADER
 """
@@ -12,19 +12,20 @@ FEATURE = re.compile(r'\{(FEATURE_\w+),\s*"([^"]+)",\s*"([^"]+)"\}')
 
 
 def escaped(text):
-    """Escapes text that doxygen would take for commands and tags; not inside `code`."""
+    """Escapes text that doxygen would interpret as commands or tags, except inside `code`."""
     parts = text.split("`")
     parts[::2] = [re.sub(r"([\\<>@#&]|--)", r"\\\1", part) for part in parts[::2]]
     return "`".join(parts)
 
 
 def is_behind(source, start):
-    """Does it follow something on its line, or continue such a comment?"""
+    """Does the comment follow code on its line, or continue such a comment?"""
     return bool(source[source.rfind("\n", 0, start) + 1:start].strip())
 
 
 def comments(source):
-    """Makes each comment document the following declaration or, if it follows something on its line, that."""
+    """Makes each comment document the following declaration or, if it follows a declaration on its line, that
+    declaration."""
     seen = []
 
     def one(found):
@@ -37,7 +38,7 @@ def comments(source):
 
 
 def features(source):
-    """The bits of physics, each with the row of the table that follows them."""
+    """Returns the bits of physics, each with the table row that follows them."""
     for bit, name, summary in FEATURE.findall(source):
         source = re.sub(rf"^( +{bit} = [^,\n]+,)$", lambda line, text=f"{name}: {summary}":
                         f"{line[1]} /* {text} */", source, count=1, flags=re.MULTILINE)
@@ -52,8 +53,8 @@ def is_alone(code):
 
 
 def groups(source):
-    """Groups members after "Required: ..." or "Optional: ..." under these words, which also document the first one if
-    it has no other comment."""
+    """Groups members after "Required: ..." or "Optional: ..." under these words, which also document the first member
+    if it has no other comment."""
     start = source.find("typedef struct element_type {")
     end = source.find("} element_type;")
     if start < 0:
@@ -76,7 +77,7 @@ def groups(source):
 
 
 def apart(source):
-    """Members that are declared together share the comment after them."""
+    """Separates members that are declared together, so that each has the comment that follows them."""
     return re.sub(r"^( +[\w ]+?)((?: \w+(?:\[\w*\])?,)+)( \w+(?:\[\w*\])?; +)(/\*.*?\*/)",
                   lambda found: found[1] + found[2].replace(",", f" {found[4]},") + found[3]
                   + found[4], source, flags=re.MULTILINE | re.DOTALL)

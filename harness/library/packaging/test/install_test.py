@@ -1,4 +1,4 @@
-"""What is installed, and pages of the interface."""
+"""Tests the installed files and the pages of the interface."""
 import json
 import os
 import pathlib
@@ -12,16 +12,16 @@ from docs.commands import reader_file
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, run
 
 
-# The installed copy, from an empty folder: programs of others built against it in every way, its
-# data found, its examples compiled, nothing left behind.
+# The installed copy, used from an empty folder: user programs build against it in every way, it finds its data, its
+# examples compile, and nothing is left over.
 HERE = pathlib.Path(__file__).parent
 BUILD = pathlib.Path(PROGRAM).parent
 SECONDS = re.compile(r'"seconds_\w+": [^,\n]+')
 
 
 def make(*arguments):
-    """make as it runs these tests, without its processes: they are counted elsewhere. Its files by
-    the same names, or all of them would be linked again, which other tests run."""
+    """Runs make like the make that runs these tests, but without its job slots, which are counted elsewhere. It uses
+    the same file names; otherwise everything would be linked again while other tests run it."""
     given = shlex.split(os.environ.get("MAKEFLAGS", "").partition(" -- ")[2])
     clean = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")
              and not name.startswith("BEAMWORK")}
@@ -55,21 +55,21 @@ class Installed(ProgramTest):
         return done.stdout
 
     def flags(self, *options):
-        """What pkg-config says of the copy, moved to where it is."""
+        """Returns what pkg-config reports for the copy, moved to its location."""
         text = self.installed("--define-variable=prefix=" + str(self.root).replace(" ", r"\ "),
                               *options, "beamwork", program="pkg-config",
                               PKG_CONFIG_PATH=str(self.root / "lib" / "pkgconfig"))
         return shlex.split(text)
 
     def compiled(self, *command):
-        """The consumer, built by that command."""
+        """Returns the consumer, built by that command."""
         source = self.folder / "consumer.c"
         shutil.copy(HERE / "consumer" / "consumer.c", source)
         self.installed("-Wall", "-Wextra", "-Werror", *command[1:], "-o", "consumer",
                        program=command[0])
 
     def check(self, program="./consumer", **changes):
-        """Its values and documents are those of the program, bit for bit."""
+        """The values and documents equal those of the program, bit for bit."""
         text = self.installed(program=str(self.folder / program), **changes)
         version, *_ = text.splitlines()
         self.assertIn(version.split()[1], self.installed("--version"))
@@ -106,7 +106,7 @@ class Installed(ProgramTest):
         self.check(BEAMWORK_TRUTHS=str(self.data / "truths.h5"))
 
     def test_page(self):
-        """The program that the documentation shows, compiled by the line it shows."""
+        """The program in the documentation compiles with the command line given there."""
         text = (ROOT / "docs" / "howto" / "c_and_python.md").read_text(encoding="utf-8")
         self.assertIn("cc column.c $(pkg-config --cflags --libs beamwork) -o column", text)
         (self.folder / "column.c").write_text(reader_file("howto/c_and_python.md", "column.c"),
@@ -131,7 +131,7 @@ class Installed(ProgramTest):
         self.check("build/consumer_static", BEAMWORK_TRUTHS=str(self.data / "truths.h5"))
 
     def test_symbols(self):
-        """Only the functions of beamwork.h are seen from outside, and all of them."""
+        """The library exports exactly the functions of beamwork.h."""
         header = (self.root / "include" / "beamwork" / "beamwork.h").read_text(encoding="utf-8")
         declared = set(re.findall(r"\b(bw_\w+)\(", header))
         for path, options in (("libbeamwork.so.0", ["-D"]), ("libbeamwork.a", ["-g"])):
@@ -150,7 +150,7 @@ class Installed(ProgramTest):
         self.assertIn("PASS", self.installed("verify", "-k", "elastica/default and collocation"))
 
     def test_elements_compile(self):
-        """By the commands that stand in them, from a folder of one's own."""
+        """The example elements compile with the commands they contain, from the user's own folder."""
         for source in sorted((self.data / "examples" / "elements").iterdir()):
             shutil.copy(source, self.folder)
         sources = [path for path in sorted(self.folder.iterdir()) if path.suffix in (".c", ".cpp", ".f90")]
@@ -172,7 +172,7 @@ class Installed(ProgramTest):
             self.assertIn("w_over_L", text)
 
     def test_python(self):
-        """The module, from its own place; it finds the library and its truths."""
+        """The installed module finds the library and its reference values."""
         module, = self.root.glob("lib/python3*/dist-packages")
         text = self.installed("-B", "-c", "import beamwork as bw; print(bw.Scene.case('c_column')"
                               ".solve('beamw', 4).errors['buckling_load'])",
@@ -180,7 +180,7 @@ class Installed(ProgramTest):
         self.assertGreater(abs(float(text)), 0)
 
     def test_formulation_in_python(self):
-        """It finds its module, and what the manual names is there; no compiled file is left."""
+        """The Python formulation finds its module; the files named in the manual exist; no compiled file is left."""
         shutil.copy(self.data / "examples" / "elements" / "timoshenko.py", self.folder / "mine.py")
         text = self.installed("solve", "elastica", "-f", "timoshenko_py", "-n", "2", "--element",
                               "exec:/usr/bin/python3 mine.py")
@@ -202,7 +202,7 @@ class Installed(ProgramTest):
         self.assertEqual((done.returncode, len(done.stderr.splitlines())), (4, 1), done.stderr)
 
     def test_without_data(self):
-        """A program without its data says in one line what is missing."""
+        """Without its data, the program reports in one line what is missing."""
         if pathlib.Path("/usr/local/share/beamwork").exists():
             self.skipTest("a copy is installed in /usr/local, which has its data")
         alone = self.folder / "beamwork"
@@ -229,7 +229,7 @@ class Installed(ProgramTest):
         self.assertEqual(list(self.place.rglob("*.pyc")), [])
 
 
-# Pages of the C interfaces: all that is public is documented, and what they show compiles.
+# Pages of the C interfaces: everything public is documented, and the examples compile.
 API_HERE = ROOT / "harness" / "library" / "packaging" / "api"
 LIBRARY = ROOT / "harness" / "library" / "beamwork.h"
 
@@ -274,7 +274,7 @@ class Filter(ProgramTest):
         return run(path, program=API_HERE / "filter.py").stdout
 
     def test_comments(self):
-        """The first is the file's; others are of what they stand before or behind."""
+        """The first comment documents the file; the others document the declarations next to them."""
         self.assertEqual(self.filtered("/* A <file>. */\n/* x */\nint a; /* of --set */\n"),
                          "/** @file\n * A \\<file\\>. */\n/** x */\nint a; /**< of \\--set */\n")
 

@@ -8,19 +8,18 @@
     scene.converge("sheet_third", "collocation", select="C_zz").limits
     bw.verify("collocation", select="elastica").passed
 
-Scene: a built-in case, a scene file, or one built of dicts.  Result: values, errors, curves, steps.
+Scene: a built-in case, a scene file, or a scene built from dicts.  Result: values, errors, curves, steps.
 Convergence, Verdicts: lists of records; frame() of each is a pandas.DataFrame.
 
-Exceptions, each one line with culprit and remedy: Error, and of it Refused (its mistakes: those of
-a scene with file, line and column), NotConverged, Singular, NoValue, TimeLimit, Fault. What was
-found until then is error.result. Arguments of a wrong type are a TypeError.
+Each exception is one line with the cause and the remedy. Error is the base class of Refused (its mistakes: the errors
+of a scene with file, line and column), NotConverged, Singular, NoValue, TimeLimit and Fault. error.result contains
+partial results. Arguments of a wrong type raise TypeError.
 
-The library is libbeamwork.so.0: BEAMWORK_LIBRARY, or beside this module, in lib of the prefix or
-build of the clone that it stands in, beside the program, or where the system looks (beamwork.path).
+The library is libbeamwork.so.0. It is searched for in BEAMWORK_LIBRARY, next to this module, in lib of the prefix or
+build of the clone that contains this module, next to the program, and where the system looks (beamwork.path).
 
-Threads: other threads run while the library computes; one scene computes one thing at a time.
-Ctrl-C ends the processes in which converge and verify compute, with KeyboardInterrupt; a solution
-comes to its end first.
+Threads: other threads run while the library computes; one scene computes one thing at a time. Ctrl-C ends the
+processes in which converge and verify compute, and raises KeyboardInterrupt; a solution runs to its end first.
 """
 import json as _json
 
@@ -46,34 +45,33 @@ def _listed(what):
 
 
 def cases():
-    """Records of the built-in cases: case, summary, source."""
+    """Returns records of the built-in cases: case, summary, source."""
     return _listed(b"cases")
 
 
 def formulations():
-    """Records of the formulations, built-in and loaded: formulation, summary, source, ..."""
+    """Returns records of the formulations, built-in and loaded: formulation, summary, source, ..."""
     return _listed(b"formulations")
 
 
 def load(element):
-    """Loads your formulation, "./mine.so" or "exec:python3 my_beam.py", and returns its name. It
-    stays for the life of the process; a shared object runs inside it: where that crashes in solve,
-    Python does."""
+    """Loads your formulation, "./mine.so" or "exec:python3 my_beam.py", and returns its name. It stays loaded for the
+    life of the process. A shared object runs inside the process: if it crashes in solve, Python crashes too."""
     return _text_of("formulation_load", _required(element, "element"))
 
 
 def truths(path):
-    """Takes the reference values of the built-in cases from that file (truths.h5) from now on."""
+    """Uses the reference values of the built-in cases in that file (truths.h5) from now on."""
     _call("truths", _required(path, "path"))
 
 
 def verify(*formulations, select=None, results=None, **options):
-    """Verdicts of formulations (none named: all) on the built-in cases.
+    """Computes the verdicts of formulations (none named: all) on the built-in cases.
 
-    select: words with and, or, not, as "c_column and not beamw_first"; None: all, minutes.
-    results: an HDF5 file to write.  options: tolerance (relative; limits within it pass, in place
-    of the tolerances of the cases), not_worse_than (results of a former run: errors of meshes that
-    are larger than there fail, and limits that moved), jobs, time_limit [s] of a cell, refine
-    (more meshes of each series, each with twice the elements), shapes,
-    stop (a file descriptor: once it can be read, the work ends with TimeLimit)."""
+    select: words with and, or, not, such as "c_column and not beamw_first"; None: all, which takes minutes.
+    results: an HDF5 file to write.
+    options: tolerance (relative; replaces the tolerances of the cases), not_worse_than (results of a previous run:
+    larger errors of meshes and changed limits fail), jobs, time_limit [s] of a run, refine (number of additional meshes
+    of each series, each with twice the elements), shapes, stop (a file descriptor: when it becomes readable, the work
+    ends with TimeLimit)."""
     return _verified(None, formulations, select, results, options)

@@ -7,7 +7,7 @@ from .errors import Refused
 
 
 def utf8(value, what):
-    """The bytes of a text or path; None stays None."""
+    """Returns the bytes of a text or path; None stays None."""
     if value is None:
         return None
     if isinstance(value, os.PathLike):
@@ -21,19 +21,19 @@ def utf8(value, what):
 
 
 def required(value, what):
-    """The bytes of a required text."""
+    """Returns the bytes of a required text."""
     if value is None:
         raise TypeError(f"{what}: a text is expected, not None")
     return utf8(value, what)
 
 
 def names(values, what):
-    """Formulations, separated by blanks; None if there are none."""
+    """Returns formulations separated by blanks; None if there are none."""
     return b" ".join(required(v, what) for v in values) if values else None
 
 
 def whole(value, what):
-    """A whole number, at least 1."""
+    """Returns a whole number, at least 1."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -44,7 +44,7 @@ def whole(value, what):
 
 
 def whole_list(values, what):
-    """Whole numbers, separated by commas; None stays None."""
+    """Returns whole numbers separated by commas; None stays None."""
     if values is None:
         return None
     try:
@@ -57,7 +57,7 @@ def whole_list(values, what):
 
 
 def options(values):
-    """Options as JSON; None if there are none."""
+    """Returns the options as JSON; None if there are none."""
     try:
         return json.dumps(values, allow_nan=False,
                           default=lambda v: v.item()).encode() if values else None

@@ -1,4 +1,4 @@
-"""Display in notebooks: small tables of HTML, all texts escaped, digits as far as they are known."""
+"""Display in notebooks: small HTML tables with escaped text and as many digits as are known."""
 import html
 import math
 
@@ -10,14 +10,14 @@ def escape(value):
 
 
 def significant(value, digits):
-    """A number with this number of digits; nothing if there is none."""
+    """Returns a number with this number of digits; an empty string if there is none."""
     if value is None or not math.isfinite(value):
         return ""
     return f"{value:.{max(1, digits)}g}"
 
 
 def known(value, uncertainty):
-    """A value with the digits that its uncertainty leaves, 2 to 12; 7 where it is unknown."""
+    """Returns a value with the digits that its uncertainty allows, 2 to 12; 7 if it is unknown."""
     if value is None or not math.isfinite(value):
         return ""
     if value == 0 or uncertainty is None or not math.isfinite(uncertainty):
@@ -29,7 +29,7 @@ def known(value, uncertainty):
 
 
 def percent(error):
-    """A relative error in percent with its sign and two digits."""
+    """Returns a relative error in percent with its sign and two digits."""
     if error is None or not math.isfinite(error):
         return ""
     return "0 %" if error == 0 else f"{100 * error:+.2g} %"
@@ -47,7 +47,7 @@ def plain(value):
 
 
 def table(head, rows, title=""):
-    """A table: title, names of columns, rows of texts; at most 40 rows, the rest is counted."""
+    """Returns a table: title, names of columns, rows of strings; at most 40 rows, the rest is counted."""
     rows = list(rows)
     parts = ["<table>"]
     if title:
@@ -65,7 +65,7 @@ def folded(title, content):
 
 
 def scene(about, text):
-    """HTML of a scene: summary and parameters; quantities and the file unfold."""
+    """Returns the HTML of a scene: summary and parameters; quantities and the file unfold."""
     parameters = [(p["name"], plain(p["value"]), of_unit(p["unit"]), p["summary"])
                   for p in about["parameters"]]
     quantities = [(q["name"], of_unit(q["unit"]), q["meaning"]) for q in about["quantities"]]
@@ -78,7 +78,7 @@ def scene(about, text):
 
 
 def mistakes(told):
-    """HTML of the errors of a scene that cannot be built."""
+    """Returns the HTML of the errors of a scene that cannot be built."""
     return table(("mistakes", ), ((str(m), ) for m in told))
 
 
@@ -94,7 +94,7 @@ def result(shown):
 
 
 def convergence(shown):
-    """A row for each limit: the errors over the meshes, and its message."""
+    """Returns a row for each limit: the errors over the meshes, and its message."""
     meshes = sorted({r["elements"] for r in shown})
     errors = {(r["formulation"], r["quantity"], r["elements"]): r for r in shown}
 
@@ -115,7 +115,7 @@ def convergence(shown):
 
 
 def outcome(shown):
-    """PASS, FAIL or the absence of verdicts, and the counts."""
+    """Returns PASS, FAIL or the absence of verdicts, and the counts."""
     counted = ", ".join(f"{n} {word}" for word, n in shown.counts.items() if n)
     word = {"pass": "PASS", "fail": "FAIL"}.get(shown.outcome, shown.outcome)
     return f"{word}: {counted}"

@@ -1,4 +1,4 @@
-"""Errors, each with one line that names culprit and remedy."""
+"""Errors, each with one line that names the cause and the remedy."""
 import json
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ class Mistake:
     line: int
     column: int
     text: str
-    entry: str = ""  # of a scene built in Python: which of its entries, as nodes['tip']
+    entry: str = ""  # of a scene built in Python: its entry, such as nodes['tip']
 
     def __str__(self):
         place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
@@ -20,7 +20,7 @@ class Mistake:
 class Error(Exception):
     """Base of all failures of the library; result: the partial result, or None."""
     result = None
-    partial = None  # the library's memory of it
+    partial = None  # the library's memory of the partial result
 
     def __reduce__(self):  # a result stays in its process
         state = {k: v for k, v in vars(self).items() if k not in ("result", "partial")}
@@ -28,20 +28,20 @@ class Error(Exception):
 
 
 class Refused(Error, ValueError):
-    """Invalid input; mistakes: those of a scene, each a Mistake, in their order."""
+    """Invalid input; mistakes: the errors of a scene, each a Mistake, in their order."""
     mistakes = ()
 
 
 class NotConverged(Error):
-    """Newton's method found no state of equilibrium."""
+    """Newton's method found no equilibrium state."""
 
 
 class Singular(Error):
-    """The structure is not held, or has lost its stiffness."""
+    """The structure is insufficiently supported or has lost its stiffness."""
 
 
 class Fault(Error):
-    """A file, the disk, memory, or a process that ended."""
+    """An error of a file, the disk or memory, or a process that ended."""
 
 
 class TimeLimit(Error):
@@ -56,8 +56,8 @@ _OF_STATUS = {1: NotConverged, 2: Singular, 3: Refused, 4: Fault, 5: TimeLimit, 
 
 
 def of_status(status, why, entries=()):
-    """The exception of a status of the library. why: its line, or the JSON of all mistakes of a
-    scene; entries: of each line of a scene's text the entry that wrote it."""
+    """Returns the exception for a status of the library. why: its line, or the JSON of all errors of a scene; entries:
+    for each line of the scene's text, the entry that wrote it."""
     try:
         document = json.loads(why)
     except ValueError:

@@ -12,7 +12,7 @@ FILE = "libbeamwork.so.0"
 
 
 def places():
-    """Where the library is searched for, in this order."""
+    """Yields the places where the library is searched for, in this order."""
     asked = os.environ.get("BEAMWORK_LIBRARY")
     if asked:
         return [pathlib.Path(asked)]
@@ -43,7 +43,7 @@ def _load():
 
 
 _text = POINTER(c_void_p)
-# Arguments behind the status; every one of them ends with 'why'.
+# Arguments after the status; each list ends with 'why'.
 _CALLS = {
     "truths": [c_char_p],
     "list": [c_char_p, _text],
@@ -60,7 +60,7 @@ _CALLS = {
     "verify": [c_void_p, c_char_p, c_char_p, c_char_p, c_char_p, _text],
 }
 _ARRAY = POINTER(POINTER(c_double))
-# Functions without a status: their result, their arguments.
+# Functions without a status: their result and their arguments.
 _OTHERS = {
     "version": (c_char_p, []),
     "free_text": (None, [c_void_p]),
@@ -103,7 +103,7 @@ version = _functions["version"]().decode()
 
 
 class Owned:
-    """A pointer that the library allots, freed with this object; lock: one thread at a time."""
+    """A pointer allocated by the library, freed with this object; lock: one thread at a time."""
     __slots__ = ("pointer", "lock", "_free", "__weakref__")
 
     def __init__(self, kind):
@@ -120,7 +120,7 @@ class Owned:
 
 
 def call(name, *arguments, entries=()):
-    """Calls bw_NAME; raises what its status says. entries: see errors.of_status."""
+    """Calls bw_NAME; raises the exception of its status. entries: see errors.of_status."""
     why = Owned("text")
     status = _functions[name](*arguments, ctypes.byref(why.pointer))
     if status != 0:
@@ -146,9 +146,9 @@ def owned_by(kind, name, *arguments, entries=()):
 
 
 def stoppable(work, options):
-    """Returns the result of work(options), run in another thread: Ctrl-C makes a descriptor readable that the
-    option stop names, which ends the library's processes, and is raised here once they have.
-    Where stop is given, or in another thread, which gets no Ctrl-C: work(options) itself."""
+    """Returns the result of work(options), run in another thread. Ctrl-C makes a descriptor, passed as the option
+    stop, readable; this ends the library's processes, after which the interrupt is raised here. If stop is given,
+    or in another thread, which receives no Ctrl-C, work(options) runs directly."""
     if "stop" in options or threading.current_thread() is not threading.main_thread():
         return work(options)
     outcome, done = [], threading.Event()  # Thread.join takes an interrupted thread for an ended one
@@ -166,11 +166,11 @@ def stoppable(work, options):
     try:
         done.wait()
     finally:
-        os.write(writable, b"x")  # the processes that were forked have it open: an end is not seen
+        os.write(writable, b"x")  # the forked processes have it open, so that closing it would not be noticed
         while not done.is_set():
             try:
                 done.wait()
-            except KeyboardInterrupt:  # asked again while it ends
+            except KeyboardInterrupt:  # repeated Ctrl-C while it ends
                 pass
         os.close(readable)
         os.close(writable)

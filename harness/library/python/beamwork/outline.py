@@ -1,4 +1,4 @@
-"""Constants of a solid section from its outline, by finite elements of sectionproperties (PyPI)."""
+"""Constants of a solid section from its outline, computed with the finite elements of sectionproperties (PyPI)."""
 import math
 
 from .errors import Error
@@ -8,7 +8,7 @@ _RULE = [(0.445948490915965, 0.223381589678011), (0.091576213509771, 0.109951743
 
 
 def _integral(mesh, f):
-    """Integral of f(y, z) over the straight triangles of a mesh."""
+    """Returns the integral of f(y, z) over the straight triangles of a mesh."""
     corner = mesh["vertices"][mesh["triangles"][:, :3]]  # [triangles, 3, 2]
     a, b = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
     area = abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
@@ -23,7 +23,7 @@ def _integral(mesh, f):
 
 
 def _meshed(shape, parts):
-    """A section of sectionproperties; parts: least number of triangles."""
+    """Returns a section of sectionproperties; parts: minimum number of triangles."""
     from sectionproperties.analysis import Section  # pylint: disable=import-outside-toplevel
     from sectionproperties.pre import Geometry  # pylint: disable=import-outside-toplevel
     geometry = Geometry(shape)
@@ -34,16 +34,17 @@ def _meshed(shape, parts):
 
 
 def outline(points, holes=(), parts=2000, **material):
-    """A section of a scene, and the angle [rad] of its principal y axis from the y axis of the
-    points: turn the member's `y` by it.
+    """Returns a section of a scene, and the angle [rad] from the y axis of the points to its principal y axis, by which
+    the member's `y` must be rotated.
 
-    points: [[y, z], ...] of a polygon [m], holes: polygons in it; parts: least number of triangles.
-    material: young and shear_modulus [Pa], density [kg/m^3]. The section has `constants`: A, Iy, Iz,
-    It, Iw, the shear centre, F (shear along y and z, without Poisson's effect), and the Wagner
-    constants (integrals as `wagner_y`, `wagner_z`, `wagner_torque` of the scene's keys say).
-    The torsion and shear functions are those of sectionproperties, whose error falls with `parts`.
-    Raises Error where sectionproperties is not installed, ValueError for an outline that crosses
-    itself or has no area."""
+    points: [[y, z], ...] of a polygon [m]; holes: polygons in it; parts: minimum number of triangles.
+    material: young and shear_modulus [Pa], density [kg/m^3].
+
+    The section has `constants`: A, Iy, Iz, It, Iw, the shear centre, F (shear along y and z, without Poisson's effect),
+    and the Wagner constants (the integrals described under `wagner_y`, `wagner_z`, `wagner_torque` in the scene's
+    keys). The torsion and shear functions are those of sectionproperties, whose error decreases as `parts` increases.
+    Raises Error if sectionproperties is not installed, and ValueError for an outline that crosses itself or has no
+    area."""
     try:
         import shapely  # pylint: disable=import-outside-toplevel
         import sectionproperties  # noqa: F401 pylint: disable=import-outside-toplevel,unused-import
@@ -53,7 +54,7 @@ def outline(points, holes=(), parts=2000, **material):
     shape = shapely.Polygon(points, holes)
     if not shape.is_valid or not shape.area > 0:
         raise ValueError(f"the outline does not enclose an area: {shapely.is_valid_reason(shape)}")
-    size = math.sqrt(shape.area)  # unit in which meshes are made, independent of the size
+    size = math.sqrt(shape.area)  # unit of the meshes, which makes them independent of the size
     shape = shapely.affinity.scale(shape, 1 / size, 1 / size, origin=(0, 0))
     first = _meshed(shape, parts).section_props
     across = first.iyy_c - first.ixx_c

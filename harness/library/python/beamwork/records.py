@@ -1,4 +1,4 @@
-"""Tables of results: lists of records, as arrays and as frames of pandas."""
+"""Tables of results: lists of records, as arrays and as pandas data frames."""
 import numpy
 
 from . import display
@@ -8,7 +8,7 @@ class Records(list):
     """A list of records (dicts with the same keys), with its columns as arrays and a frame."""
 
     def column(self, key):
-        """[records] array of one key: floats if all are numbers (None: NaN), otherwise objects."""
+        """Returns the array [records] of one key: floats if all values are numbers (None: NaN), otherwise objects."""
         values = [record.get(key) for record in self]
         if not any(key in record for record in self):
             known = ", ".join(self[0]) if self else "there are no records"
@@ -18,11 +18,11 @@ class Records(list):
         return numpy.array(values, dtype=object)
 
     def where(self, **wanted):
-        """The records whose keys have these values, as where(formulation="beamw", elements=2)."""
+        """Returns the records whose keys have these values, as in where(formulation="beamw", elements=2)."""
         return Records(r for r in self if all(r.get(k) == v for k, v in wanted.items()))
 
     def frame(self):
-        """The records as a pandas.DataFrame; ImportError if pandas is not installed."""
+        """Returns the records as a pandas.DataFrame; raises ImportError if pandas is not installed."""
         try:
             import pandas
         except ImportError:
@@ -36,14 +36,14 @@ class Records(list):
 
 
 class Convergence(Records):
-    """Cells of all formulations and meshes: a record for each quantity of each.
+    """Runs of all formulations and meshes: a record for each quantity of each run.
 
-    Keys: formulation, elements, quantity, unit, status, value, truth, error (relative, NaN: no
-    truth), cost (of counted work, s), seconds_solve and all that the program writes of a cell.
+    Keys: formulation, elements, quantity, unit, status, value, truth, error (relative, NaN: no reference value), cost
+    (of counted work, s), seconds_solve and everything else that the program writes about a run.
 
     limits: Records of formulation, quantity, limit, limit_uncertainty, order, verdict, message.
-    answers: Records of formulation, elements, cost, rank: by cost at the error `level`.
-    sentence: the conclusion.  document: all as `beamwork converge --format json` writes it."""
+    answers: Records of formulation, elements, cost, rank: sorted by cost at the error `level`.
+    sentence: the conclusion.  document: everything, as `beamwork converge --format json` writes it."""
 
     def __init__(self, document):
         super().__init__()
@@ -69,14 +69,14 @@ class Convergence(Records):
 class Verdicts(Records):
     """Verdicts of formulations on cases: a record for each quantity of each series.
 
-    Keys: case, parameters, formulation, quantity, verdict, expected, as_expected, message, limit,
-    limit_uncertainty, truth, error (relative) and all that `verify --json` writes.
+    Keys: case, parameters, formulation, quantity, verdict, expected, as_expected, message, limit, limit_uncertainty,
+    truth, error (relative) and everything else that `verify --json` writes.
 
-    passed: the outcome of the run is "pass", as `verify` ends with status 0: there is a verdict, and none that affects
-    the exit status is unexpected.  outcome: "pass", "fail" or "nothing was judged".  broken_contracts: formulations
-    that break the
-    interface, and how.  unexpected: records that differ.  counts: {verdict: how many}.
-    document: all as `beamwork verify --json` writes it."""
+    passed: the outcome of the run is "pass" (`verify` then ends with status 0): there is a verdict, and none that
+    affects the exit status is unexpected.  outcome: "pass", "fail" or "nothing was judged".
+    broken_contracts: formulations that violate the interface requirements, and how.
+    unexpected: records that differ from the expected ones.  counts: {verdict: number}.
+    document: everything, as `beamwork verify --json` writes it."""
 
     def __init__(self, document):
         super().__init__(document.get("verdicts", []))

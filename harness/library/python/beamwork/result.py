@@ -20,9 +20,9 @@ class Curve(NamedTuple):
 
 
 class Shapes(NamedTuple):
-    """Centre lines. position: [states, points, 3] m, the first state undeformed; first: [members +
-    1] point where each member begins; kinds, values: [states] what a state is ("path", "buckling",
-    "motion", ...), and its path parameter, load factor, frequency [Hz] or time [s]."""
+    """Centre lines. position: [states, points, 3] m, the first state undeformed; first: [members + 1] point at which
+    each member begins; kinds: [states] kind of each state ("path", "buckling", "motion", ...); values: [states] its path
+    parameter, load factor, frequency [Hz] or time [s]."""
     position: numpy.ndarray
     first: numpy.ndarray
     kinds: list
@@ -45,16 +45,16 @@ class _Memory:
 
 
 class Result:
-    """Results of one cell. `result["k_drive"]` is a value [SI]; curves: `result.curve(name)`.
+    """Results of one run. `result["k_drive"]` is a value [SI]; curves: `result.curve(name)`.
 
     values: {quantity: value}; errors: {quantity: relative error against its reference value}; units.
-    at: {quantity: where its value was taken}: of a motion the time [s], as of a largest value.
+    at: {quantity: position of its value}: for a motion the time [s], for example of a largest value.
     curves: names of the quantities that are curves.
     case, formulation, elements, parameters, cell (status, unknowns, counted work, times).
-    document: all as `beamwork solve --format json` writes it (read once, when it is asked for).
+    document: everything, as `beamwork solve --format json` writes it (read once, on request).
 
-    Its memory is the library's, and is freed with the last of the result and the arrays of its
-    curves. It may be used from several threads; it is not pickled (result.document is)."""
+    Its memory belongs to the library and is freed with the last of the result and the arrays of its curves. It may be
+    used from several threads. It cannot be pickled, but result.document can."""
 
     def __init__(self, handle: Owned):
         self._handle = handle
@@ -98,7 +98,7 @@ class Result:
         return KeyError(f"no quantity {name!r}: {hint}")
 
     def __getitem__(self, name):
-        """A value [its unit in SI]; KeyError for an unknown name, or that of a curve."""
+        """Returns a value [its unit in SI]; raises KeyError for an unknown name or the name of a curve."""
         if name in self.curves:
             raise KeyError(f"{name!r} is a curve: result.curve({name!r})")
         try:
@@ -116,7 +116,7 @@ class Result:
         return name in self.values
 
     def curve(self, name):
-        """Curve(x, y) of a quantity along its path: read-only views of the result's own arrays."""
+        """Returns Curve(x, y) of a quantity along its path: read-only views of the result's own arrays."""
         if name not in self.curves:
             raise self._missing(name, list(self.curves))
         with self._open().lock:
@@ -125,7 +125,7 @@ class Result:
 
     @property
     def shapes(self):
-        """Shapes of the solution if they were requested (solve(..., shapes=20)), otherwise None."""
+        """Returns the shapes of the solution if they were requested (solve(..., shapes=20)), otherwise None."""
         handle, points = self._open(), ctypes.c_size_t()
         position, first = ctypes.POINTER(ctypes.c_double)(), ctypes.POINTER(ctypes.c_int)()
         with handle.lock:
@@ -142,7 +142,7 @@ class Result:
 
     @functools.cached_property
     def document(self):
-        """All data of the cell, as written by `beamwork solve --format json`."""
+        """Returns all data of the run, as `beamwork solve --format json` writes them."""
         with self._open().lock:
             return json.loads(text_of("result_json", self._handle.pointer))
 
@@ -152,12 +152,12 @@ class Result:
 
     @property
     def steps(self):
-        """{column: [steps] array}: path, increment, iterations, rejected, correction, ..."""
+        """Returns {column: [steps] array}: path, increment, iterations, rejected, correction, ..."""
         return self._columns("steps")
 
     @property
     def iterations(self):
-        """{column: [iterations] array}: step, iteration, residual, correction, ..."""
+        """Returns {column: [iterations] array}: step, iteration, residual, correction, ..."""
         return self._columns("iterations")
 
     @property
@@ -192,7 +192,7 @@ class Result:
                 for m in self.document.get("matrices", [])]
 
     def close(self):
-        """Releases the memory of the library; arrays of curves keep theirs."""
+        """Releases the library's memory; arrays of curves keep theirs."""
         self._handle = None
 
     def __enter__(self):

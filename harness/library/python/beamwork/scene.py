@@ -1,4 +1,4 @@
-"""Scenes: a built-in case, a scene file, or one built here of dicts."""
+"""Scenes: a built-in case, a scene file, or a scene built from dicts."""
 import copy
 import json
 import os
@@ -15,7 +15,7 @@ from .writing import ENTRIES, HEAD, LISTS, number, scene_text
 
 
 def verified(scene, formulations, select, results, options, lines=()):
-    """Verdicts by the library; scene: its pointer, or None for all built-in cases."""
+    """Returns verdicts by the library; scene: its pointer, or None for all built-in cases."""
     chosen, words = arguments.names(formulations, "formulation"), utf8(select, "select")
     into = utf8(results, "results")
     return Verdicts(json.loads(stoppable(
@@ -26,7 +26,7 @@ def verified(scene, formulations, select, results, options, lines=()):
 class Scene:
     """A structure, its loads and the requested quantities, as in a scene file; all values are SI.
 
-    scene = Scene.case("c_column"), Scene.open("leaf.yaml"), Scene.text(yaml) or, built here,
+    scene = Scene.case("c_column"), Scene.open("leaf.yaml"), Scene.text(yaml) or, built from dicts,
 
         scene = Scene("leaf")
         scene.sections["leaf"] = dict(rectangle=dict(width=50e-3, thickness=0.5e-3),
@@ -36,20 +36,20 @@ class Scene:
         scene.members["leaf"] = dict(from_="base", to="tip", section="leaf", y=[0, 1, 0])
         scene.loads["push"] = dict(force=[0, 1, 0], on="tip")
 
-    Keys are those of a scene file (`beamwork scene --keys`); `from_` is `from`. Numbers may be
-    numpy's, texts may be expressions ("2*pi/3"). parameters, let, sections, nodes, members,
-    springs, constraints, imperfections, motions, loads, analyses, quantities, parts and instances are dicts of entries; truths,
-    omit and meshes are lists; omit may be one word ("all"), shear_theory and plane ("xy": all is
-    held in it) are words. Entries may be changed between solutions.
+    Keys are those of a scene file (`beamwork scene --keys`); `from_` is `from`. Numbers may be numpy numbers; strings
+    may be expressions ("2*pi/3"). parameters, let, sections, nodes, members, springs, constraints, imperfections,
+    motions, loads, analyses, quantities, parts and instances are dicts of entries; truths, omit and meshes are lists.
+    omit may also be one word ("all"); shear_theory and plane ("xy": everything is restricted to it) are words. Entries
+    may be changed between solutions.
 
-    Mistakes raise Refused, all together (error.mistakes). Threads that share a scene wait for each
+    Invalid entries raise Refused with all errors together (error.mistakes). Threads that share a scene wait for each
     other."""
     __slots__ = ("summary", "source", "plane", "_name", "_make", "_written", "_entries", "_values",
                  "_handle", "_lines", "_lock", "__weakref__")
 
     def __init__(self, name="scene", *, summary="", source="", plane=""):
         self._name, self.summary, self.source, self.plane = name, summary, source, plane
-        self._make = None  # for scenes that are not built here: the function that makes the handle
+        self._make = None  # for scenes not built from dicts: the function that makes the handle
         self._entries = {key: [] if key in LISTS else {} for key in ENTRIES}
         self._values, self._written, self._handle, self._lines = {}, None, None, ()
         self._lock = threading.RLock()
@@ -69,13 +69,13 @@ class Scene:
 
     @classmethod
     def open(cls, path):
-        """A scene file, as it is now."""
+        """Reads a scene file in its present state."""
         raw = required(path, "path")
         return cls._made(os.fspath(path), lambda: owned_by("scene", "scene_open", raw))
 
     @classmethod
     def text(cls, text, name="scene"):
-        """The text of a scene file; name: its name in error messages."""
+        """Reads the text of a scene file; name: its name in error messages."""
         content, label = required(text, "text"), required(name, "name")
         return cls._made(name,
                          lambda: owned_by("scene", "scene_read", content, len(content), label))
@@ -90,7 +90,7 @@ class Scene:
 
     def __setattr__(self, key, value):
         if key in ENTRIES:
-            getattr(self, key)  # AttributeError where there are no entries
+            getattr(self, key)  # AttributeError if there are no entries
             if not isinstance(value, (list, tuple) if key in LISTS else Mapping):
                 raise TypeError(f"{key}: {'a list' if key in LISTS else 'a dict'} is expected")
             self._entries[key] = value
@@ -100,7 +100,7 @@ class Scene:
             raise AttributeError(f"a scene has no {key!r}: {', '.join(ENTRIES)}")
 
     def _ready(self):
-        """The current scene of the library, with all values that were set."""
+        """Returns the current scene of the library, with all values that were set."""
         lines = ()
         if self._make is None:
             head = dict(zip(HEAD, (self._name, self.summary, self.source, self.plane)))
@@ -121,8 +121,8 @@ class Scene:
         return self._handle
 
     def set(self, **values):
-        """Sets values of parameters, such as set(thickness=0.5e-3, kind="wide"): all of them or, if one is rejected,
-        none. Returns the scene."""
+        """Sets parameter values, as in set(thickness=0.5e-3, kind="wide"): all of them or, if one is rejected, none.
+        Returns the scene."""
         assignments = {}
         for key, value in values.items():
             value = value.tolist() if hasattr(value, "tolist") else value
@@ -153,8 +153,8 @@ class Scene:
         return {k: Records(v) if isinstance(v, list) else v for k, v in told.items()}
 
     def write(self, path=None):
-        """The text of the scene as a file, with loops and expressions expanded and 17 digits; with path: also writes
-        that file."""
+        """Returns the text of the scene as a file, with loops and expressions expanded and 17 digits; with path, also
+        writes that file."""
         with self._lock:
             text = text_of("scene_write", self._ready().pointer, entries=self._lines)
         if path is not None:
@@ -163,15 +163,15 @@ class Scene:
         return text
 
     def solve(self, formulation=None, elements=None, **options):
-        """The Result of one formulation on one mesh.
+        """Returns the Result of one formulation on one mesh.
 
-        formulation: as "beamw" or "beamw:mass=lumped"; None: one is chosen that offers all that is
-        needed.  elements: of each member; None: the coarsest mesh at which no value
-        changes by more than error (0.001) from the one before; NotConverged where the finest that
-        was tried still does.  options: error, all_dofs, steps, shapes, threads, ... (see beamwork.h).
+        formulation: such as "beamw" or "beamw:mass=lumped"; None: one that supports the physics of the scene is chosen.
+        elements: per member; None: the coarsest mesh on which no value changes by more than error (0.001) from the
+        previous mesh; NotConverged if the values still change on the finest mesh tried.
+        options: error, all_dofs, steps, shapes, threads, ... (see beamwork.h).
 
-        Raises Refused, NotConverged, Singular or Fault; error.result is what was found until then,
-        or None. Ctrl-C raises KeyboardInterrupt when the solution has ended."""
+        Raises Refused, NotConverged, Singular or Fault; error.result is the partial result, or None. Ctrl-C raises
+        KeyboardInterrupt when the solution has ended."""
         name = utf8(formulation, "formulation")
         count = 0 if elements is None else arguments.whole(elements, "elements")
         asked = arguments.options(options)
@@ -185,11 +185,11 @@ class Scene:
                 raise
 
     def converge(self, *formulations, meshes=None, **options):
-        """The Convergence of formulations (none named: all that can) over meshes (None: the
-        scene's own): errors, limits with their uncertainty, orders, and the formulations ranked by cost.
+        """Returns the Convergence of formulations (none named: all that support the scene) over meshes (None: those of
+        the scene): errors, limits with their uncertainty, orders, and the formulations ranked by cost.
 
-        options: error (0.01: what `answers` asks for), select ("C_zz or C_xx"), jobs (processes),
-        stop (a file descriptor: once it can be read, TimeLimit)."""
+        options: error (0.01: the error target of `answers`), select ("C_zz or C_xx"), jobs (processes), stop (a file
+        descriptor: when it becomes readable, the call raises TimeLimit)."""
         chosen = arguments.names(formulations, "formulation")
         sizes = arguments.whole_list(meshes, "meshes")
         with self._lock:
@@ -199,7 +199,7 @@ class Scene:
                                       arguments.options(given), entries=self._lines), options)))
 
     def verify(self, *formulations, select=None, results=None, **options):
-        """The Verdicts of formulations on this scene by its truths; as beamwork.verify."""
+        """Returns the Verdicts of formulations on this scene from its reference values; see beamwork.verify."""
         with self._lock:
             return verified(self._ready().pointer, formulations, select, results, options,
                             self._lines)

@@ -1,11 +1,11 @@
-"""A scene of dicts and lists as the text of a scene file; numbers with all their bits."""
+"""Writes a scene of dicts and lists as the text of a scene file, with all bits of its numbers."""
 import math
 import re
 from collections.abc import Mapping
 
 from .errors import Refused
 
-# First keys of a scene file, in this order; then the lists of entries, each entry on a line.
+# First keys of a scene file, in this order; then come the lists of entries, with each entry on a line.
 HEAD = ("name", "summary", "source", "plane")
 ENTRIES = ("parameters", "let", "sections", "nodes", "members", "springs", "constraints", "imperfections", "motions", "loads",
            "analyses", "quantities", "truths", "omit", "shear_theory", "needs", "meshes", "parts", "instances")
@@ -16,14 +16,14 @@ _DEEPEST = 40
 
 
 def number(value, where):
-    """A float or an integer with the fewest digits that give the same bits when they are read."""
+    """Returns a float or an integer with the fewest digits that give the same bits when they are read."""
     if not math.isfinite(value):
         raise Refused(f"{where} is {value}: a finite number is expected")
     return repr(value)
 
 
 def quoted(text, where):
-    """Returns the text as a word, or between quotation marks."""
+    """Returns the text as a word, or in quotation marks."""
     if not text.isprintable():
         raise Refused(f"{where}: {text[:40]!r} contains a non-printing character; write it in "
                       "one line, without tabs")
@@ -34,10 +34,10 @@ def quoted(text, where):
 
 
 def written(value, where, depth=0):
-    """On one line: dicts as {key: value}, lists and arrays as [a, b]. A key 'from_' is 'from'."""
+    """Returns a value on one line: dicts as {key: value}, lists and arrays as [a, b]. A key 'from_' is 'from'."""
     if depth > _DEEPEST:
         raise Refused(f"{where} is nested deeper than {_DEEPEST}")
-    if hasattr(value, "tolist"):  # numpy: an array, or a number of its own
+    if hasattr(value, "tolist"):  # numpy: an array or a numpy number
         value = value.tolist()
     if isinstance(value, bool):
         return "yes" if value else "no"
@@ -58,14 +58,14 @@ def written(value, where, depth=0):
 
 
 def name(key, where):
-    """A key as it is written; from_, for_ and is_, which are keywords of Python, without the _."""
+    """Returns a key as it is written; from_, for_ and is_, which are Python keywords without the _, lose the _."""
     if not isinstance(key, str) or not key:
         raise Refused(f"{where}: the key {key!r} is not a name")
     return quoted(key[:-1] if key in ("from_", "for_", "is_") else key, where)
 
 
 def scene_text(head, entries):
-    """Text of a scene file, and of each of its lines which entry wrote it ('' : none).
+    """Returns the text of a scene file and, for each of its lines, the entry that wrote it ('': none).
 
     head: {key of HEAD: text}; entries: {key of ENTRIES: dict of entries, or a list}."""
     lines, owners = ["beamwork: 1"], [""]

@@ -1,4 +1,4 @@
-"""Scenes built in Python, their motions, and how results show themselves."""
+"""Tests scenes built in Python, their motions, and how notebooks display results."""
 import copy
 import importlib.util
 import math
@@ -13,16 +13,16 @@ import numpy
 from harness.library.python.test.module import ModuleTest, bw, leaf
 
 
-# Scenes built of dicts: what is written, with which bits, and how mistakes are told.
+# Scenes built from dicts: their text and bits, and the reports of errors.
 def written(scene):
-    """Its text without the head."""
+    """Returns the text of the scene without the head."""
     return bw.scene.scene_text({}, scene._entries)[0]  # pylint: disable=protected-access
 
 
 class Building(ModuleTest):
 
     def test_solves_like_its_file(self):
-        """A scene of dicts, the text of it, and its file in the program: the same bits."""
+        """A scene of dicts, its text, and its file in the program give the same bits."""
         scene = leaf()
         result = scene.solve("beamw", 2)
         path = self.folder / "leaf.yaml"
@@ -34,7 +34,7 @@ class Building(ModuleTest):
         self.assertEqual(values, dict(bw.Scene.text(text).solve("beamw", 2).values))
 
     def test_plane(self):
-        """Held in it, also as a copy; what leaves it is refused."""
+        """A scene restricted to a plane stays in it, also as a copy; entries that leave the plane are rejected."""
         scene = leaf()
         space = scene.solve("beamw", 2)
         scene.plane = "xy"
@@ -47,7 +47,7 @@ class Building(ModuleTest):
             scene.solve("beamw", 2)
 
     def test_bits_of_numbers(self):
-        """Numbers of every size come back from the library as they were given."""
+        """The library returns numbers of every size with the same bits."""
         draw = random.Random(1)
         numbers = [math.ldexp(draw.uniform(0.5, 1), draw.randint(-30, 30)) for _ in range(60)]
         numbers += [0.1, 1 / 3, 5e-7, 123456789.0, numpy.nextafter(1, 2)]
@@ -70,7 +70,7 @@ class Building(ModuleTest):
                       'f: [1, 2.5], g: 7, from: x, h: "2*pi/3", i: [{is: t}]}', written(scene))
 
     def test_loads_on_parts_of_members(self):
-        """As in a scene file; what is refused is refused at its entry."""
+        """Works as in a scene file; invalid loads are reported at their entry."""
         scene = leaf()
         scene.loads["row_$i"] = {"for_": {"i": "0..1"}, "force": [0, 1, 0], "on": "leaf",
                                  "where": "1/4 + i/2", "follower": True}
@@ -89,7 +89,7 @@ class Building(ModuleTest):
         self.assertIn("loads['wind']", str(caught.exception))
 
     def test_entries_may_change(self):
-        """Entries changed after a solution count in the next one; set values stay."""
+        """Entries changed after a solution take effect in the next one; set values are kept."""
         scene = leaf()
         scene.parameters["push"] = {"value": 1, "unit": "N"}
         scene.loads["push"]["force"] = [0, "push", 0]
@@ -105,7 +105,7 @@ class Building(ModuleTest):
         self.assertEqual(scene.solve("beamw", 1)["tip_uy"], thicker)
 
     def test_loops_of_python(self):
-        """A chain of ten leaves made by a loop is the leaf of ten elements."""
+        """A chain of ten leaves made by a loop equals one leaf of ten elements."""
         whole, chain = leaf(), leaf()
         del chain.members["leaf"]
         chain.nodes["n0"] = chain.nodes.pop("base")
@@ -118,7 +118,7 @@ class Building(ModuleTest):
             chain.solve("beamw", 1)["tip_uy"] / whole.solve("beamw", 10)["tip_uy"], 1, 9)
 
     def test_mistakes_have_places(self):
-        """All mistakes together, each with line, column and the entry that was meant."""
+        """All errors are reported together, each with its line, its column and its entry."""
         scene = leaf(thicknes=1)
         scene.nodes["tip"] = {"at": [0.1, 0]}
         error = self.one_line(bw.Refused, "sections['leaf']|thicknes|thickness|1 more", scene.solve)
@@ -156,9 +156,9 @@ class Building(ModuleTest):
         self.assertEqual((parameters["length"], parameters["thickness"]), (0.1, 0.5e-3))
 
 
-# Motions in time: built of dicts, solved, and read with their steps.
+# Motions in time: built from dicts, solved, and read with their steps.
 def swing():
-    """A tip mass on an arm that a drive turns by 30 degrees."""
+    """Returns a tip mass on an arm that a drive rotates by 30 degrees."""
     scene = bw.Scene("swing")
     scene.sections["tube"] = {"tube": {"diameter": 20e-3, "thickness": 1e-3}, "young": 70e9,
                               "shear_modulus": 26e9, "density": 2700}
@@ -211,7 +211,7 @@ class Motion(ModuleTest):
         self.assertEqual(dict(result.at), {})
 
 
-# What notebooks show: every text escaped, digits as far as they are known, short.
+# Notebooks display escaped text, as many digits as are known, and short tables.
 HOSTILE = "<script>alert(1)</script>"
 ESCAPED = "&lt;script&gt;alert(1)&lt;/script&gt;"
 
@@ -219,7 +219,7 @@ ESCAPED = "&lt;script&gt;alert(1)&lt;/script&gt;"
 class Shown(ModuleTest):
 
     def shown(self, thing):
-        """Its HTML, which is well-formed as far as brackets of tags go."""
+        """Returns the HTML after checking that its tags match."""
         html = thing._repr_html_()  # pylint: disable=protected-access
         for tag in ("table", "tr", "td", "th", "caption", "details", "pre"):
             self.assertEqual(html.count(f"<{tag}>") + html.count(f"<{tag} "),
@@ -250,7 +250,8 @@ class Shown(ModuleTest):
             self.assertNotIn("<script", html)
 
     def test_digits(self):
-        """A limit has the digits that its uncertainty leaves, a value those of its error."""
+        """A limit is displayed with the digits that its uncertainty allows, a value with those that its error
+        allows."""
         known = bw.display.known
         self.assertEqual(known(3.14159265358979, 1e-4), "3.14159")
         self.assertEqual(known(3.14159265358979, 2e-2), "3.142")
@@ -271,7 +272,7 @@ class Shown(ModuleTest):
         self.assertLess(len(html), 6000)
 
     def test_scene(self):
-        """Parameters with their values; mistakes, where there are some."""
+        """Displays parameters with their values, and errors if there are any."""
         html = self.shown(bw.Scene.case("sheet_cantilever").set(thickness=0.00175))
         for words in ("clamped sheet flexure", "<td>thickness</td><td>0.00175</td><td>m</td>",
                       "25 quantities", "beamwork: 1"):
@@ -322,7 +323,7 @@ class Tables(ModuleTest):
         self.assertEqual(len(bw.cases().frame()), len(bw.cases()))
 
     def test_frame(self):
-        """With pandas, of its own kind; without, one line."""
+        """Returns a data frame if pandas is installed; otherwise reports this in one line."""
         records = bw.Records([{"n": 1, "error": 0.5}, {"n": 2, "error": None}])
         made = mock.MagicMock()
         with mock.patch.dict(sys.modules, pandas=made):

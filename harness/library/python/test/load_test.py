@@ -1,4 +1,4 @@
-"""How Python finds, loads and installs the module, and what the module says of itself."""
+"""Tests how Python finds, loads and installs the module, and its documentation."""
 import importlib.util
 import json
 import os
@@ -14,10 +14,10 @@ from harness.library.python.test.module import (FOLDER, LIBRARY, ModuleTest, ROO
 from harness.tools.kit.program import environment
 
 
-# Formulations of one's own from Python, through both doors: the bits of the program.
+# User-defined formulations in Python, loaded in both ways, give the same bits as the program.
 EXAMPLES = ROOT / "elements" / "examples"
 CASE = "tapered_cantilever"
-# Loaded once in the life of a process: each in a Python of its own.
+# A formulation is loaded once in the life of a process, so each test has its own Python process.
 SOLVE = """
 import json, sys
 import beamwork as bw
@@ -51,7 +51,7 @@ class Doors(ModuleTest):
         return str(path)
 
     def asked(self, code, door):
-        """What a Python of its own prints, which ends well."""
+        """Returns the output of a separate Python process, which must end successfully."""
         path = self.folder / "asked.py"
         path.write_text(code, encoding="utf-8")
         done = subprocess.run([sys.executable, path, door], env=environment(**SETTINGS), text=True,
@@ -60,7 +60,7 @@ class Doors(ModuleTest):
         return done.stdout
 
     def test_bits(self):
-        """A shared object and a process: values of the program with the same element."""
+        """A shared object and a process give the same values as the program with the same element."""
         for kind in ("object", "process"):
             with self.subTest(kind):
                 door = self.door(kind)
@@ -70,7 +70,7 @@ class Doors(ModuleTest):
                 self.assertEqual(cell["value"], values[cell["quantity"]])
 
     def test_threads(self):
-        """Four threads share the element."""
+        """Four threads can share the element."""
         for kind in ("object", "process"):
             with self.subTest(kind):
                 self.asked(THREADS, self.door(kind))
@@ -86,11 +86,11 @@ class Doors(ModuleTest):
                 self.assertIn(words, done.stdout)
 
 
-# The module finds its library, or says in one line what to do.
+# The module finds its library, or reports in one line what to do.
 class Finding(ModuleTest):
 
     def test_missing(self):
-        """No library: one line that says what to do."""
+        """Without a library, one line says what to do."""
         settings = {**SETTINGS, "BEAMWORK_LIBRARY": str(self.folder / "none.so")}
         done = python("import beamwork", env=environment(**settings))
         last = done.stderr.strip().splitlines()[-1]
@@ -106,7 +106,7 @@ class Finding(ModuleTest):
         self.assertIn("ImportError: beamwork: ", done.stderr.strip().splitlines()[-1])
 
     def test_another_library(self):
-        """A library that is not ours names what it lacks."""
+        """A library of another project is rejected with the names of the missing functions."""
         path = self.folder / "other.so"
         subprocess.run(["cc", "-shared", "-o", path, "-xc", "/dev/null"], check=True)
         done = python("import beamwork",
@@ -114,7 +114,7 @@ class Finding(ModuleTest):
         self.assertIn("bw_", done.stderr.strip().splitlines()[-1])
 
     def test_beside_and_installed(self):
-        """Without the variable: beside the module, and in lib of the prefix it is installed in."""
+        """Without the variable, the library is found next to the module, and in lib of the installation prefix."""
         source = os.path.dirname(bw.__file__)
         for module, library in (("here/beamwork", "here"), ("here2/beamwork", "here2/beamwork"),
                                 ("p/lib/python3/dist-packages/beamwork", "p/lib"),
@@ -136,7 +136,7 @@ class Finding(ModuleTest):
                                  str(self.folder / library / LIBRARY.name), done.stderr)
 
 
-# The module as pip installs it, without a network.
+# The module can be installed with pip, without a network.
 
 # --no-build-isolation takes them from here.
 NEEDS = [name for name in ("pip", "setuptools", "wheel") if importlib.util.find_spec(name) is None]
@@ -146,7 +146,7 @@ class Installed(ModuleTest):
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
     def test_pip(self):
-        """Into a folder, offline; imported from there it solves."""
+        """Installed offline into a folder and imported from there, the module solves a case."""
         source, target = self.folder / "source", self.folder / "target"
         shutil.copytree(FOLDER, source, ignore=shutil.ignore_patterns("__pycache__"))
         done = subprocess.run([sys.executable, "-m", "pip", "install", "--no-build-isolation",
@@ -163,18 +163,18 @@ class Installed(ModuleTest):
         self.assertEqual((pathlib.Path(path).parent, solved), (target / "beamwork", "True"))
 
 
-# What the module says of itself: the version of the program, and help of every public name.
+# The module reports the version of the program and documents every public name.
 class Said(ModuleTest):
 
     def test_version(self):
-        """One version: of the citation, of the library, and of what pip installs."""
+        """The citation, the library, and the package installed by pip have the same version."""
         cited = re.search(r"^version: (\S+)", (ROOT / "CITATION.cff").read_text("utf-8"), re.M)
         project = (FOLDER / "pyproject.toml").read_text("utf-8")
         packed = re.search(r'^version = "(.*)"', project, re.M)
         self.assertEqual({cited.group(1), packed.group(1)}, {bw.version})
 
     def test_help(self):
-        """Every public name says what it is."""
+        """Every public name has documentation."""
         done = python("import beamwork; help(beamwork)")
         for name in bw.__all__:
             self.assertIn(name, done.stdout)

@@ -1,4 +1,4 @@
-"""Wrong use of the module, and its memory."""
+"""Tests wrong use of the module, and its memory."""
 import copy
 import ctypes
 import gc
@@ -18,12 +18,12 @@ from harness.library.python.test.module import ModuleTest, SETTINGS, bw, leaf, p
 from harness.tools.kit.program import environment
 
 
-# Whatever is done wrong ends as an exception with one line, and never as a crash.
+# Every wrong use raises an exception with one line and never crashes.
 CASE = "sheet_cantilever"
 
 
 def solved_here(elements):
-    """For other processes, whose module is loaded in its own way."""
+    """Solves a case in other processes, which load the module in their own way."""
     return bw.Scene.case(CASE).solve("sheet_third", elements)["C_zz"]
 
 
@@ -54,7 +54,7 @@ class Arguments(ModuleTest):
                 self.one_line(kind, words, call)
 
     def test_entries(self):
-        """What no scene file can say is named by its entry."""
+        """An entry that no scene file can express is reported by its name."""
         endless = {}
         endless["at"] = endless
         for words, entry in (
@@ -132,7 +132,7 @@ class Arguments(ModuleTest):
         error = self.one_line(bw.NotConverged, "converge", scene.solve, "beamw_first", 1)
         self.assertIsInstance(error.result, bw.Result)
         self.assertEqual(error.result.cell["status"], "not_converged")
-        again = pickle.loads(pickle.dumps(error))  # as a pool of processes hands it over
+        again = pickle.loads(pickle.dumps(error))  # as a process pool transfers it
         self.assertEqual((type(again), str(again), again.result),
                          (bw.NotConverged, str(error), None))
 
@@ -158,7 +158,7 @@ class Memory(ModuleTest):
         result.close()
         del result
         gc.collect()
-        for _ in range(50):  # what was freed would be written over
+        for _ in range(50):  # freed memory would be overwritten
             bw.Scene.case(CASE).solve("sheet_third", 1, shapes=5)
         for ours, theirs in zip(kept, (x, y, position)):
             numpy.testing.assert_array_equal(ours, theirs)
@@ -196,7 +196,7 @@ class Memory(ModuleTest):
 class Processes(ModuleTest):
 
     def test_threads(self):
-        """Scenes of their own and one scene together, from eight threads: the same bits."""
+        """Eight threads with their own scenes and with one shared scene get the same bits."""
         shared, found = bw.Scene.case(CASE), []
         expected = solved_here(2)
 
@@ -213,7 +213,7 @@ class Processes(ModuleTest):
         self.assertEqual(found, [expected] * 40)
 
     def test_fork(self):
-        """Processes that are forked after threads and BLAS were used, and verify in them."""
+        """Processes forked after threads and BLAS were used can run verify."""
         numpy.linalg.inv(numpy.eye(300) + 1)
         keep = threading.Event()
         waiting = threading.Thread(target=keep.wait)
@@ -228,7 +228,7 @@ class Processes(ModuleTest):
             waiting.join()
 
     def test_fork_beside_threads(self):
-        """Processes that are forked while other threads solve: no lock of theirs stays closed there."""
+        """Processes forked while other threads solve do not inherit locked locks."""
         expected, done = solved_here(2), threading.Event()
 
         def work():
@@ -257,21 +257,21 @@ class Processes(ModuleTest):
                 thread.join()
 
     def test_stop(self):
-        """A descriptor that can be read ends converge and verify before they are done."""
+        """A readable descriptor ends converge and verify before they finish."""
         readable, writable = os.pipe()
         self.addCleanup(os.close, readable)
         self.addCleanup(os.close, writable)
         scene = bw.Scene.case("elastica")
         self.assertTrue(scene.converge("beamw", meshes=[1, 2], stop=readable))
         os.write(writable, b"x")
-        many = bw.Scene.case(CASE)  # so many cells that not all are done at once
+        many = bw.Scene.case(CASE)  # so many runs that not all end at once
         for call in (lambda: many.converge(stop=readable), lambda: many.verify(stop=readable),
                      lambda: bw.verify(select=CASE, stop=readable)):
             self.one_line(bw.TimeLimit, "stopped before", call)
         self.one_line(bw.Refused, "stop", scene.converge, stop=-1)
 
     def test_interrupt(self):
-        """Ctrl-C ends verify and converge with their processes, and a solution when it is done."""
+        """Ctrl-C ends verify and converge with their processes; a solution ends first."""
         for call in ("bw.verify(refine=3)", "while True: s.solve('collocation', 16)",
                      "bw.Scene.case('hexapod').converge(meshes=[16, 32, 64])"):
             code = ("import beamwork as bw\ns = bw.Scene.case('sheet_cantilever')\n"
@@ -281,25 +281,25 @@ class Processes(ModuleTest):
                     stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
                 process.stdout.readline()
                 threading.Timer(1, process.send_signal, (signal.SIGINT, )).start()
-                _, told = process.communicate(timeout=100)  # or it was not ended by it
+                _, told = process.communicate(timeout=100)  # otherwise Ctrl-C did not end it
                 self.assertIn("KeyboardInterrupt", told)
                 self.assertEqual(process.returncode, -signal.SIGINT)
 
 
 # Memory after a thousand scenes, solutions and results.
 CYCLES = 1000
-BOUND = 300 * CYCLES  # bytes: a third of what a leak of 1 kB in each cycle would be
+BOUND = 300 * CYCLES  # bytes: a third of a leak of 1 kB per cycle
 
 
 class Arena(ctypes.Structure):
-    """struct mallinfo2 of the C library: bytes that malloc has handed out and not got back."""
+    """struct mallinfo2 of the C library: bytes that malloc has allocated and not yet freed."""
     _fields_ = [(name, ctypes.c_size_t) for name in
                 ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks",
                  "fordblks", "keepcost")]
 
 
 def in_use():
-    """Bytes in use, of the library and of Python."""
+    """Returns the bytes in use by the library and Python."""
     gc.collect()
     ask = ctypes.CDLL(None).mallinfo2
     ask.restype = Arena
@@ -308,7 +308,7 @@ def in_use():
 
 
 def cycle(built):
-    """All that is made and must be freed."""
+    """Makes every kind of object that must be freed."""
     scene = bw.Scene.case("sheet_cantilever").set(tip_deflection=0.01)
     result = scene.solve("sheet_third", 1, shapes=3)
     if len(result.curve("C_zz_curve").x) + len(result.steps) + len(result.shapes.kinds) == 0:
@@ -324,7 +324,7 @@ def cycle(built):
 class Leaks(ModuleTest):
 
     def grown(self, work):
-        """Bytes in use after a thousand more times."""
+        """Returns the growth of the bytes in use after a thousand repetitions."""
         for _ in range(50):
             work()
         before = in_use()
@@ -337,7 +337,7 @@ class Leaks(ModuleTest):
         self.assertLess(self.grown(lambda: cycle(built)), BOUND)
 
     def test_a_leak_is_noticed(self):
-        """The same measure sees 1 kB of each cycle that is kept."""
+        """The same measurement detects a leak of 1 kB per cycle."""
         kept = []
         self.assertGreater(self.grown(lambda: kept.append(bytearray(1024))), BOUND)
 

@@ -1,5 +1,4 @@
-"""The module under test, with the library that was built beside the program; other processes of
-Python that use it."""
+"""The module under test, with the library built next to the program, and other Python processes that use it."""
 import importlib
 import os
 import pathlib
@@ -16,7 +15,7 @@ SETTINGS = {"BEAMWORK_LIBRARY": str(LIBRARY), "BEAMWORK_TRUTHS": TRUTHS,
 
 
 def sanitized():
-    """Python without a sanitizer cannot load a library with one."""
+    """Is the library built with a sanitizer, which Python without a sanitizer cannot load?"""
     return LIBRARY.is_file() and b"__asan_" in LIBRARY.read_bytes()
 
 
@@ -26,14 +25,14 @@ bw = None if sanitized() else importlib.import_module("beamwork")
 
 
 def python(code, **options):
-    """Another Python that runs this code; the finished process with its text."""
+    """Runs this code in another Python process; returns the finished process with its output."""
     options = {"env": environment(**SETTINGS), **options}
     return subprocess.run([sys.executable, "-c", code], text=True, check=False,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
 
 
 def leaf(scene=None, **changes):
-    """A leaf spring under a force at its tip, built of dicts."""
+    """Returns a leaf spring with a force at its tip, built from dicts."""
     scene = bw.Scene("leaf") if scene is None else scene
     scene.sections["leaf"] = {"rectangle": {"width": 50e-3, "thickness": 0.5e-3, **changes},
                               "young": 210e9, "shear_modulus": 81e9}
@@ -46,10 +45,10 @@ def leaf(scene=None, **changes):
 
 @unittest.skipIf(sanitized(), "needs a library without sanitizers")
 class ModuleTest(ProgramTest):
-    """A test of the module with an empty folder of its own."""
+    """A test of the module with its own empty folder."""
 
     def one_line(self, kind, words, call, *arguments, **options):
-        """The exception of that kind, whose text is one line with all the words."""
+        """Checks that the call raises an exception of that kind whose text is one line with all the words."""
         with self.assertRaises(kind) as caught:
             call(*arguments, **options)
         text = str(caught.exception)

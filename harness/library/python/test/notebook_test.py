@@ -1,4 +1,4 @@
-"""The notebook of sheet flexures runs, in Jupyter and as a script, and finds what it says."""
+"""The notebook on sheet flexures runs in Jupyter and as a script, and reproduces its statements."""
 import importlib.util
 import json
 import os
@@ -17,7 +17,7 @@ NEEDS = [name for name in ("nbclient", "nbformat", "ipykernel", "matplotlib")
 
 
 def words_of(cell):
-    """All that a cell has shown, as text and HTML."""
+    """Returns everything that a cell has displayed, as text and HTML."""
     shown = []
     for output in cell["outputs"]:
         shown.append(output.get("text", ""))
@@ -35,7 +35,7 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
     def test_in_jupyter(self):
-        """Run headless: figures are drawn, and the claims of the paper are found as written."""
+        """Run headless, the notebook draws its figures and confirms the claims of the paper as written."""
         import nbclient  # pylint: disable=import-outside-toplevel
         import nbformat  # pylint: disable=import-outside-toplevel
         notebook = nbformat.read(NOTEBOOK, as_version=4)
@@ -58,8 +58,8 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
     def test_interrupted(self):
-        """A kernel, which has threads of its own, verifies in processes; interrupted, these end and
-        the scene goes on."""
+        """A kernel, which has its own threads, runs verify in processes; an interrupt ends them, and the scene can
+        still be used."""
         from jupyter_client.manager import run_kernel  # pylint: disable=import-outside-toplevel
         with mock.patch.dict(os.environ, self.settings()), run_kernel() as client:
             self.assertEqual(self.asked(client, "import beamwork as bw, numpy, os\n"
@@ -72,7 +72,7 @@ class Notebook(ModuleTest):
             time.sleep(0.5)
             client.parent.interrupt_kernel()
             self.assertEqual(self.reply(client, long), "KeyboardInterrupt")
-            time.sleep(0.5)  # requests that were waiting at the interrupt are refused by Jupyter
+            time.sleep(0.5)  # Jupyter rejects requests that were waiting during the interrupt
             self.assertEqual(self.asked(client, "assert s.solve('beamw', 1)['w_over_L'] > 0"), "ok")
             self.assertEqual(self.asked(client, "os.waitpid(-1, os.WNOHANG)"), "ChildProcessError")
 
@@ -82,7 +82,7 @@ class Notebook(ModuleTest):
 
     @staticmethod
     def reply(client, request):
-        """How a request ended: ok, or the name of an exception."""
+        """Returns how a request ended: ok, or the name of an exception."""
         while True:
             message = client.get_shell_msg(timeout=100)
             if message["parent_header"].get("msg_id") == request:
@@ -93,7 +93,7 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf("matplotlib" in NEEDS, "needs matplotlib")
     def test_as_a_script(self):
-        """Its code alone, one cell behind the other."""
+        """The code of the cells runs as a script, one cell after the other."""
         stored = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
         path = self.folder / "sheet_flexures.py"
         path.write_text("\n".join("".join(cell["source"]) for cell in stored["cells"]

@@ -1,4 +1,4 @@
-"""Constants of outlines (sectionproperties) against exact ones and against those of our walls."""
+"""Compares constants of outlines (sectionproperties) with exact values and with beamwork's thin-walled sections."""
 import importlib.util
 import math
 import unittest
@@ -10,13 +10,13 @@ MATERIAL = {"young": 210e9, "shear_modulus": 81e9}
 
 
 def rectangle(width, height):
-    """width along z, height along y."""
+    """Returns a rectangle with its width along z and its height along y."""
     y, z = height / 2, width / 2
     return [[-y, -z], [y, -z], [y, z], [-y, z]]
 
 
 def channel(depth, flange, t):
-    """Mid-lines as of `channel`: flanges towards -y."""
+    """Returns an outline with the mid-lines of `channel`: flanges towards -y."""
     out, inner = depth / 2 + t / 2, depth / 2 - t / 2
     return [[t / 2, -out], [t / 2, out], [-flange, out], [-flange, inner], [-t / 2, inner],
             [-t / 2, -inner], [-flange, -inner], [-flange, -out]]
@@ -25,7 +25,7 @@ def channel(depth, flange, t):
 class Outline(ModuleTest):
 
     def ours(self, words):
-        """Constants that the program computes from sizes."""
+        """Returns the constants that the program computes from the dimensions."""
         names = ("A", "Iy", "Iz", "It", "Iw", "ys", "zs")
         text = f"""beamwork: 1
 sections:
@@ -54,7 +54,8 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_thin_channel(self):
-        """The thinner, the nearer to our walls: shear centre, warping and torsion constants."""
+        """As the walls become thinner, the shear centre, warping and torsion constants approach those of thin
+        walls."""
         apart = []
         for t in (4e-3, 2e-3):
             got, _ = bw.outline(channel(0.2, 0.1, t), parts=6000, **MATERIAL)
@@ -68,7 +69,8 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_turned(self):
-        """An outline that is turned and moved has the same constants, and its angle says so."""
+        """A rotated and displaced outline has the same constants, and the angle of its axes is that of the
+        rotation."""
         points, turn = channel(0.2, 0.1, 0.02), 0.3
         c, s = math.cos(turn), math.sin(turn)
         there = [[0.7 + c * y - s * z, -0.2 + s * y + c * z] for y, z in points]
@@ -82,7 +84,7 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_tube_and_solution(self):
-        """A square tube by its outline bends and twists as the scene by constants says."""
+        """A square tube given by its outline bends and twists like the scene given by constants."""
         got, _ = bw.outline(rectangle(0.1, 0.1), [rectangle(0.08, 0.08)], **MATERIAL)
         c = got["constants"]
         self.assertAlmostEqual(c["Iy"] / ((0.1**4 - 0.08**4) / 12), 1, delta=1e-9)

@@ -1,4 +1,4 @@
-"""The program, the library and Python give the same bits, on every case and every example."""
+"""The program, the library and Python give the same bits for every case and every example."""
 import json
 import math
 import unittest
@@ -8,19 +8,19 @@ from harness.library.python.test.module import ROOT, ModuleTest, bw
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
 
 
-# A part of the motion of twelve joints: all of it takes as long as many other cases together.
+# A part of the motion with twelve joints: the whole motion takes as long as many other cases together.
 PART = {"hexapod_motion": {"time": 0.05}}
 
 
 def bits(value):
-    """A float told apart from every other, NaN as one."""
+    """Returns a string that distinguishes a float from every other; all NaNs are equal."""
     return "nan" if value is None or math.isnan(value) else float(value).hex()
 
 
 class SameBits(ModuleTest):
 
     def same(self, record, result):
-        """Every value, error and curve that the program wrote with 17 digits."""
+        """Every value, error and curve equals the one that the program wrote with 17 digits."""
         self.assertEqual((record["formulation"], record["elements"]),
                          (result.document["formulation"], result.elements))
         values = [q for q in record["quantities"] if q["quantity"] not in result.curves]
@@ -38,7 +38,7 @@ class SameBits(ModuleTest):
             self.assertEqual(bits(step["path"]), bits(result.steps["path"][step["step"]]))
 
     def test_every_case(self):
-        """Default formulation and mesh: every value, error, curve and load step."""
+        """Compares every value, error, curve and load step, with the default formulation and mesh."""
         names = [case["case"] for case in bw.cases()]
         self.assertGreater(len(names), 20)
         for name in names:
@@ -57,7 +57,7 @@ class SameBits(ModuleTest):
                 self.same(record, bw.Scene.text(content, path.stem).solve())
 
     def test_chosen(self):
-        """A formulation with options, a mesh, a parameter and load steps of one's own."""
+        """Compares runs with formulation options, a mesh, a parameter and load steps chosen by the user."""
         record = self.record("solve", "sheet_cantilever", "-f", "sheet_third:newton=displacement",
                              "-n", 2, "--set", "tip_deflection=0.01", "--steps", 3)
         scene = bw.Scene.case("sheet_cantilever").set(tip_deflection=0.01)

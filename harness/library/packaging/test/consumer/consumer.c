@@ -1,5 +1,5 @@
-/* A program of somebody else, in C and C++: it solves a case and a scene of its own, prints their
- * values with all digits and their documents, and misspells a name. */
+/* A user's program in C and C++: it solves a case and a scene of its own, prints the values with
+ * all digits and the documents, and misspells a name. */
 #include <beamwork.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,14 +16,14 @@ static const char leaf[] =
     "loads:\n"
     "  push: {force: [0, 1, 0], on: tip}\n";
 
-/* Names that the library uses inside must stay free for programs. */
+/* Internal names of the library must remain available to user programs. */
 int model_alloc(void);
 int model_alloc(void)
 {
     return 1;
 }
 
-/* After a call that has set *why. */
+/* Prints the error after a call that has set *why. */
 static int failed(bw_status status, char **why)
 {
     if (status == BW_OK)
