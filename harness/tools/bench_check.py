@@ -1,12 +1,12 @@
 """Tests `bench`: injects delays of known size, which the comparison must detect.
 
 usage: bench_check.py PROGRAM [-o FILE]
-* 20 % of its own time is added to one of two equal formulations in one process: must be called
-  slower, between 15 % and 25 %.
-* Nothing is added: must be undecided (one process, and two copies of the program).
-* One run keeps all degrees of freedom (--all-dofs): more unknowns, so the work counts must differ; two
-  equal runs must count the same.
-Each part is repeated; the outcome of every one is printed, and written as JSON for the report.
+* 20 % of its own time is added to one of two equal formulations in one process: it must be
+  reported as slower, by 15 to 25 %.
+* Nothing is added: the comparison must be undecided (one process, and two copies of the program).
+* One run keeps all degrees of freedom (--all-dofs): the work counts must differ, because there are more unknowns; the
+  counts of two equal runs must be equal.
+Each part is repeated; the outcome of every repetition is printed, and written as JSON for the report.
 """
 import argparse
 import json

@@ -3,11 +3,11 @@
 
 usage: blind_spots.py FAULTY VERIFY_JSON RESULTS_H5 FINDINGS_CSV -o BLIND_SPOTS_CSV -p PLANTED_FAULTS_CSV
 
-FAULTY is the program with a fault of 1e-3 in one constant of all elements, or in one kind of loads
-(plant.c).  For each constant, the values on the two coarsest meshes with and without the fault give the derivative of
-every limit. VERIFY_JSON, of a run without a fault, contains the band in which a limit may move without changing its
-verdict (harness/study/verdict.c, judgement.c). The band divided by the derivative is the fault. There are two ways of
-detection:
+FAULTY is the program with a fault of 1e-3 in one constant of all elements, or in one kind of loads (plant.c).  For
+each constant, the values on the two coarsest meshes with and without the fault give the derivative of every limit.
+VERIFY_JSON, of a run without a fault, contains the band in which a limit may move without changing its verdict
+(harness/study/verdict.c, judgement.c). The smallest detected fault is the band divided by the derivative. There are
+two ways of detection:
   verdict    the verdict differs, for either sign of the fault;
   baseline   the limit at the default point differs from the committed one by more than 1e-5
              (harness/experiments/verification.c), where no exact reference value checks it as closely. Comparisons of
@@ -29,11 +29,11 @@ CONSTANTS = (
     "body_inertia", "spring", "force", "moment", "distributed", "weight"
 )  # yapf: disable
 SIZE = 1e-3  # of the injected faults
-WANTED = 1e-3  # faults that no row may let pass without a reason
-LEAST = 1e-9  # smallest difference of two faults
-SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # study/verdict.c; of a prediction; experiments/verification.c
-CHANGED = 1e-7  # of a value: smaller changes are treated as round-off or as effects of the steps of a motion
-NEAR = 1e-2  # of a limit: values on coarse meshes with larger errors predict it badly
+WANTED = 1e-3  # larger faults must not remain undetected without a reason
+LEAST = 1e-9  # smallest difference between two faults
+SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # from study/verdict.c; of a prediction; from experiments/verification.c
+CHANGED = 1e-7  # of a value: smaller changes count as round-off or as effects of the steps of a motion
+NEAR = 1e-2  # of a limit: values on coarse meshes with larger errors predict it poorly
 SOUND = 1e-3  # tolerance of a limit, cases/scene/scene.h
 UNJUDGED = ("skip", "other model", "refused", "diverged")
 CLOSELY = ("pass", "biased, as predicted", "wrong limit, as predicted")
@@ -49,7 +49,7 @@ def key_of(verdict):
 
 
 def planted_values(program, folder, constant):
-    """{(case, point, formulation, quantity): value} with the fault in a constant; None: without."""
+    """Returns {(case, point, formulation, quantity): value} with the fault in a constant; None: without a fault."""
     path = os.path.join(folder, "verify.json")
     environment = dict(os.environ, BEAMWORK_PLANT_MESHES="2")
     if constant is not None:
@@ -65,14 +65,14 @@ def planted_values(program, folder, constant):
 
 
 def scale_of(v):
-    """Returns the value that errors are relative to."""
+    """Returns the value to which errors are relative."""
     size = abs(v["limit"] if v["truth"] is None else v["truth"])
     return max(size, v["near_zero"] or 0)
 
 
 def band_of(v, rules):
-    """(largest distance of the limit from its expected value before the verdict differs, actual distance); infinite:
-    it never differs."""
+    """Returns (largest distance of the limit from its expected value before the verdict changes, actual distance);
+    infinite if it never changes."""
     if v["truth"] is None or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf, 0
     scale, doubt = scale_of(v), v["limit_uncertainty"] or 0
@@ -95,7 +95,8 @@ def band_of(v, rules):
 
 
 def moved_of(v):
-    """Returns by how much the limit may differ from the committed one; infinite: an exact reference value checks it."""
+    """Returns by how much the limit may differ from the committed one; infinite if an exact reference value checks
+    it."""
     if v["point"] != "default" or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf
     slack = MOVED * max(abs(v["limit"]), scale_of(v))
@@ -106,8 +107,8 @@ def moved_of(v):
 
 
 def relative(v, values):
-    """({constant: derivative of its value with respect to the size of a fault}, error of that value) of a verdict on
-    the coarse meshes, both relative to its size; None: these have no value."""
+    """Returns ({constant: derivative of its value with respect to the size of a fault}, error of that value) of a
+    verdict on the coarse meshes, both relative to its size; None if these have no value."""
     key, size = key_of(v), max(abs(v["limit"]), scale_of(v))
     whole, changes = values[0].get(key), {}
     if whole is None or size == 0:
@@ -120,8 +121,8 @@ def relative(v, values):
 
 
 def derivatives(verdicts, values):
-    """(verdict, {constant: |derivative| of the limit}) of each, from the values on its coarse meshes; if these have
-    none or large errors, from those of the nearest formulation."""
+    """Returns (verdict, {constant: |derivative| of the limit}) of each, from the values on its coarse meshes; if these
+    have none or large errors, from those of the nearest formulation."""
     own, best = [(v, relative(v, values)) for v in verdicts], {}
     for v, known in own:
         if known is not None and known[1] < best.get(v["point"], ({}, math.inf))[1]:
@@ -137,10 +138,10 @@ def derivatives(verdicts, values):
 
 @dataclass(frozen=True)
 class Notice:
-    """The smallest detected fault of a constant, in one of the two ways, in a verdict; inf: none is."""
+    """The smallest detected fault of a constant, in one of the two ways, in a verdict; inf if none is detected."""
 
     size: float
-    slope: float  # of the limit by the fault
+    slope: float  # derivative of the limit with respect to the fault
     door: str
     constant: str
     verdict: dict
@@ -150,7 +151,7 @@ class Notice:
 
 
 def notices(v, slopes, rules):
-    """[Notice] in both ways, for all constants that change the limit of a verdict."""
+    """Returns [Notice] in both ways, for all constants that change the limit of a verdict."""
     band, away = band_of(v, rules)
     slack, found = moved_of(v), []
     for constant, slope in slopes.items():
@@ -160,7 +161,7 @@ def notices(v, slopes, rules):
 
 
 def weakest(found, formulations):
-    """Returns the formulation that detects least, by its best quantity; None: nothing is detected."""
+    """Returns the formulation that detects the least, with its best quantity; None if nothing is detected."""
     best = {key: None for key in formulations}
     for one in found:
         key = one.verdict["formulation"]
@@ -172,7 +173,7 @@ def weakest(found, formulations):
 
 
 def digits(size):
-    """Two digits, rounded up; not below LEAST."""
+    """Rounds up to two digits, and to at least LEAST."""
     if size is None or not math.isfinite(size):
         return ""
     power = math.floor(math.log10(max(size, LEAST))) - 1
@@ -185,7 +186,7 @@ def passes(text):
 
 
 def reason_of(verdicts, noticed):
-    """The reason why a fault of 0.1 % of every constant remains undetected in one of the formulations."""
+    """Returns the reason why a fault of 0.1 % in every constant remains undetected in one of the formulations."""
     if noticed is not None:
         part = noticed.slope * WANTED / scale_of(noticed.verdict)
         return f"0.1 % of a constant changes it by {part:.0e} of itself at most ({noticed.constant})"
@@ -213,7 +214,7 @@ def row_of(pair, verdicts, found):
 
 
 def fault_of(formulation, constant, found):
-    """The row of a constant of a formulation, by verdicts alone; found: its notices."""
+    """Returns the row of a constant of a formulation, from verdicts only; found: its notices."""
     by_verdicts = [one for one in found if one.door == "verdict" and math.isfinite(one.size)]
     best = min(by_verdicts, default=None)
     size, reason = digits(best and best.size), ""
@@ -231,7 +232,7 @@ def fault_of(formulation, constant, found):
 
 
 def tables(verdicts, rules, values):
-    """(rows of quantities, rows of faults)."""
+    """Returns (rows of quantities, rows of faults)."""
     pairs, notes = {}, []
     for v in verdicts:
         pairs.setdefault((v["case"], v["quantity"]), []).append(v)
@@ -259,7 +260,7 @@ def write(path, columns, rows):
 
 
 def read_verdicts(path, results):
-    """The verdicts of a run, each with near_zero of its quantity (results: the same run as HDF5)."""
+    """Returns the verdicts of a run, each with near_zero of its quantity (results: the same run as HDF5)."""
     sizes = {}
     with open(path, encoding="utf-8") as file, h5py.File(results) as stored:
         verdicts = json.load(file)["verdicts"]

@@ -3,12 +3,12 @@
 
 usage: bounds.py VERIFY_JSON FINDINGS_CSV [--loose]
 
-A rule's largest_error is the least of 1, 2 and 5 times a power of ten that no limit of its verdicts
-exceeds: in its distance from the derived limit if there is one, otherwise from the reference value, relative to the
-reference value; empty if none of them has an error. If one of them has no derived limit, it is the least of 1, 1.5,
-2, 3, 4, 5 and 7 times a power of ten.  Status 1 if the list of known deviations differs from it. It is loose if it is
-more than ten times the errors with a derived limit, or more than 1.5 times those without one; --loose prints only
-this.  The digits are those of the limit that is
+The largest_error of an entry is the smallest of 1, 2 and 5 times a power of ten that no limit of its verdicts exceeds.
+Errors are distances from the derived limit if there is one, otherwise from the reference value, relative to the
+reference value. It is empty if no verdict has an error. If one of them has no derived limit, it is the smallest of 1,
+1.5, 2, 3, 4, 5 and 7 times a power of ten.  The exit status is 1 if the list of known deviations differs from it. A
+bound is loose if it is more than ten times the errors with a derived limit, or more than 1.5 times those without one;
+--loose prints only this.  The digits are those of the limit that is
 farthest from its prediction, on the meshes of the verdict.
 """
 import argparse
@@ -17,14 +17,14 @@ import json
 import math
 
 PREDICTED = "wrong limit, as predicted"
-SURELY, KNOWN = 3, 1e-9  # uncertainties of a limit (study/verdict.c); relative one of a prediction
+SURELY, KNOWN = 3, 1e-9  # uncertainties of a limit (study/verdict.c); relative uncertainty of a prediction
 STEPS, FINE_STEPS = (1, 2, 5, 10), (1, 1.5, 2, 3, 4, 5, 7, 10)
-LOOSE, FINE_LOOSE = 10, 1.5  # so many times what is seen
+LOOSE, FINE_LOOSE = 10, 1.5  # multiples of the observed error
 
 
 def bound_of(seen, steps=STEPS):
-    """The least of the steps times a power of ten that is not below the value, as written in the list of known
-    deviations."""
+    """Returns the smallest of the steps times a power of ten that is not below the value, as written in the list of
+    known deviations."""
     if seen is None:
         return ""
     power = math.floor(math.log10(seen))
@@ -38,8 +38,8 @@ def apart(verdict):
 
 
 def departure(verdict):
-    """Returns the distance of a limit from the derived one, or else from the reference value, relative to the latter;
-    None: no limit."""
+    """Returns the distance of a limit from the derived limit, or otherwise from the reference value, relative to the
+    latter; None if there is no limit."""
     if verdict["predicted"] is None or not verdict["error"]:
         return verdict["error"] and abs(verdict["error"])
     size = (verdict["limit"] - verdict["truth"]) / verdict["error"]
@@ -47,7 +47,8 @@ def departure(verdict):
 
 
 def digits(verdicts):
-    """Digits that the worst of the met predictions has in common with its limit; None: no such."""
+    """Returns the number of digits on which the worst of the met predictions agrees with its limit; None if there is
+    none."""
     met = [apart(v) for v in verdicts if v["verdict"] == PREDICTED and v["predicted"]]
     return -math.log10(max(max(met), 1e-16)) if met else None
 
@@ -84,8 +85,8 @@ def lines(rules, verdicts):
 
 
 def covered(verdicts):
-    """(limits within the uncertainties of themselves and their predictions, all limits with a prediction), for any
-    verdict: the basis for calling a limit predicted by its uncertainty alone."""
+    """Returns (limits within the uncertainties of themselves and their predictions, all limits with a prediction), for
+    any verdict. This justifies calling a limit predicted by its uncertainty alone."""
     told = [v for v in verdicts if v["predicted"] is not None and v["limit"] is not None]
     near = [
         abs(v["limit"] - v["predicted"]) <= SURELY *

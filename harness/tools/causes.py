@@ -3,14 +3,14 @@
 
 usage: causes.py PROGRAM VERIFY_JSON -o FILE [--minutes M] [--rule RULE]...
 
-For each known deviation and each case that it was observed in, the verdict whose limit is farthest from the reference
+For each known deviation and each case in which it was observed, the verdict whose limit is farthest from the reference
 value is examined further:
-  finer      the same on more elements, up to 256;
+  finer      the same run with more elements, up to 256;
   without    with one feature of the scene omitted (shear, trapeze, wagner, warping);
-  instead    with a formulation that differs in one thing.
-A change that removes nine tenths of the error shows its cause. Limits, uncertainties and reference values are those
-of the program; if a changed scene has no reference value, the limit of collocation replaces it. Experiments that do
-not begin within the time are recorded as not run.
+  instead    with a formulation that differs in a single feature.
+A change that removes nine tenths of the error shows its cause. Limits, uncertainties and reference values are those of
+the program; if a changed scene has no reference value, the limit of collocation is used instead. Experiments that do
+not start within the time limit are recorded as not run.
 """
 import argparse
 import concurrent.futures
@@ -26,10 +26,10 @@ OF_MECHANISMS = {"spherical_joint": (4, 8, 16, 32, 64), "hexapod": (1, 2, 4, 8)}
 FEATURES = ("shear", "trapeze", "wagner", "warping")
 EXACT, EXACT_MESHES = "collocation:stages=8", (2, 4, 8, 16)
 SECONDS = 60  # for one series
-LEFT = 0.1  # of the error, or less: it is gone
-RIGHT = 1e-3  # relative error of a value in place of none
+LEFT = 0.1  # of the error: at or below this fraction, it has vanished
+RIGHT = 1e-3  # largest relative error if there was no value before
 
-# (formulation, formulation, the one thing that they differ in); causes_test.py reads the code
+# (formulation, formulation, the one feature in which they differ); causes_test.py reads the code
 SIBLINGS = (
     ("beamw", "beamw_first", "second-order terms of the modes (J Eq. 66)"),
     ("sheet_second", "sheet_second_consistent", "shear in the generalized strains (N Eq. 37)"),
@@ -51,31 +51,31 @@ OF_VIBRATION = (
 
 
 def siblings(formulation, vibrates):
-    """[(other formulation, the one thing)]; for one with an option: the one without it."""
+    """Returns [(other formulation, the one feature)]; for a formulation with an option: the formulation without it."""
     pairs = SIBLINGS + (OF_VIBRATION if vibrates else ())
     found = [(b, what) for a, b, what in pairs if a == formulation]
     return found + [(a, what) for a, b, what in pairs if b == formulation]
 
 
 def newton_of(formulation):
-    """The same with the other form of Newton's method, for runs that do not converge."""
+    """Returns the same formulation with the other form of Newton's method, for runs that do not converge."""
     separator = "," if ":" in formulation else ":"
     return f"{formulation}{separator}newton=displacement", "unknowns of Newton's method"
 
 
 def error_of(limit, exact):
-    """Relative, unless the exact value is zero."""
+    """Returns the error relative to the exact value, unless the latter is zero."""
     return (limit - exact) / (abs(exact) or 1)
 
 
 class Laboratory:
-    """Runs the program on series of meshes; asks for each series once."""
+    """Runs the program on series of meshes, once for each series."""
 
     def __init__(self, program, deadline):
         self.program, self.deadline, self.kept = program, deadline, {}
 
     def ask(self, case, formulation, parameters, meshes):
-        """({quantity: record}, '') of a series, or (None, reason)."""
+        """Returns ({quantity: record}, '') of a series, or (None, reason)."""
         command = [self.program, "converge", case, "-f", formulation, "-j", "1", "--format", "json"]
         command += ["-n", ",".join(map(str, meshes))] + [w for p in parameters for w in ("-s", p)]
         left = self.deadline - time.monotonic()
@@ -87,7 +87,7 @@ class Laboratory:
             )
         except subprocess.TimeoutExpired:
             return None, f"no answer within {min(SECONDS, left):.0f} s"
-        if done.returncode not in (0, 1, 3) or not done.stdout:  # 3: it was refused, with a reason
+        if done.returncode not in (0, 1, 3) or not done.stdout:  # 3: it was rejected, with a reason
             return None, done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "failed"
         series = json.loads(done.stdout)["series"][0]
         if series["missing"]:
@@ -100,7 +100,7 @@ class Laboratory:
         return self.kept[what]
 
     def stand_in(self, case, parameters, quantity):
-        """A limit of collocation with an uncertainty below 1e-6; otherwise NaN."""
+        """Returns a limit of collocation with an uncertainty below 1e-6; otherwise NaN."""
         found, _ = self.series(case, EXACT, parameters, EXACT_MESHES)
         record = (found or {}).get(quantity)
         if not record or record["limit"] is None or record["limit_uncertainty"] is None:
@@ -109,7 +109,8 @@ class Laboratory:
         return record["limit"] if sure else math.nan
 
     def exact(self, case, parameters, quantity, record, known):
-        """(value, source) with which a limit is compared; known: the reference value of the same scene, or None."""
+        """Returns (value, source) with which a limit is compared; known: the reference value of the same scene, or
+        None."""
         if record["truth"] is not None:
             return record["truth"], "truth"
         if known is not None:
@@ -139,7 +140,7 @@ class Laboratory:
 
 
 def worst_of(verdicts):
-    """{(rule, case): verdict} with the largest error; if none has an error, a verdict without a value."""
+    """Returns {(entry, case): verdict} with the largest error; if none has an error, a verdict without a value."""
     found = {}
     for v in verdicts:
         key = v["finding"], v["case"]
@@ -151,7 +152,7 @@ def worst_of(verdicts):
 
 
 def rounds(found):
-    """One case of every rule first, then a second one, so that every rule has one."""
+    """Sorts one case of every entry first, then the second cases, so that every entry has one."""
     of_rule = {}
     for rule, case in sorted(found, key=lambda key: -abs(found[key]["error"] or 0)):
         of_rule.setdefault(rule, []).append((rule, case))
@@ -160,14 +161,14 @@ def rounds(found):
 
 
 def switches(program, case, given):
-    """Features that can be omitted in a case and are not set already."""
+    """Returns the features that can be omitted in a case and are not already omitted."""
     listed = subprocess.run([program, "list", case], capture_output=True, text=True, check=False)
     names = re.findall(r"^  (\w+) ", listed.stdout, re.M)
     return [f for f in FEATURES if f in names and all(p.split("=")[0] != f for p in given)]
 
 
 def experiments(laboratory, v):
-    """[change, result] of one verdict; the first has finer meshes only."""
+    """Returns [change, result] for one verdict; the first has only finer meshes."""
     case, quantity, key = v["case"], v["quantity"], v["formulation"]
     given = tuple(p for p in v["parameters"].split(";") if p)
     vibrates = v["unit"] == "Hz" or "omega" in v["parameters"]
@@ -186,12 +187,13 @@ def experiments(laboratory, v):
 
 
 def is_gone(error, before):
-    """Returns whether the error has vanished; without a former value (before: None), whether the value is right."""
+    """Returns whether the error has vanished or, without a previous value (before: None), whether the value is
+    right."""
     return error is not None and abs(error) <= (RIGHT if before is None else LEFT * abs(before))
 
 
 def study(laboratory, v):
-    """A verdict with its experiments, each with the remaining error."""
+    """Returns a verdict with its experiments, each with the remaining error."""
     done = experiments(laboratory, v)
     before = done[0]["error"] if done[0]["error"] is not None else v["error"]
     for e in done:

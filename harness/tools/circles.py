@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Rejects circles of calls between source files, and of calls or includes between their folders. nm lists what an
-object defines and needs.
+"""Rejects circular calls between source files, and circular calls or includes between their folders. nm lists the symbols
+that an object defines and needs.
 
-usage: circles.py OBJECT...     one line for each circle; exit status 1 when there is one
+usage: circles.py OBJECT...     one line for each circle; exit status 1 if there is one
 """
 import collections
 import pathlib
@@ -15,7 +15,7 @@ SHOWN = 3  # reasons of each step of a circle
 
 
 def symbols(objects):
-    """({symbol: object that defines it}, {object: symbols it needs})."""
+    """Returns ({symbol: object that defines it}, {object: symbols it needs})."""
     defined, needed = {}, collections.defaultdict(set)
     for line in subprocess.check_output(["nm", "-gA", *objects], text=True).splitlines():
         name, rest = line.split(":", 1)
@@ -28,7 +28,7 @@ def symbols(objects):
 
 
 def circles(calls):
-    """Strongly connected groups of two files or more (Tarjan), each in alphabetical order."""
+    """Returns strongly connected groups of two files or more (Tarjan), each in alphabetical order."""
     index, low, stack, found = {}, {}, [], []
 
     def visit(node):
@@ -53,7 +53,7 @@ def circles(calls):
 
 
 def calls_of(objects):
-    """{(object, object): the functions that the first one calls of the second}."""
+    """Returns {(object, object): functions of the second object that the first one calls}."""
     defined, needed = symbols(objects)
     calls = collections.defaultdict(set)
     for name in objects:
@@ -74,7 +74,7 @@ def folder(path):
 
 
 def includes_of(objects):
-    """{(file, file): ""} of the sources and headers next to those of the objects."""
+    """Returns {(file, file): ""} of the sources and headers next to those of the objects."""
     matches = map(FOLDER.match, objects)
     places = {found[0][found.start(1):] for found in matches if found}
     return {(str(path), other): {""} for place in places for path in pathlib.Path(place).glob("*.[ch]")
@@ -82,7 +82,7 @@ def includes_of(objects):
 
 
 def between_folders(steps):
-    """{(folder, folder): "file -> file: why"}."""
+    """Returns {(folder, folder): "file -> file: why"}."""
     found = collections.defaultdict(set)
     for (one, other), why in steps.items():
         ends = folder(one), folder(other)
@@ -92,7 +92,7 @@ def between_folders(steps):
 
 
 def tell(what, steps):
-    """Prints the circles that steps {(from, to): why} make; their number."""
+    """Prints the circles formed by steps {(from, to): why}, and returns their number."""
     ways = collections.defaultdict(set)
     for one, other in steps:
         ways[one].add(other)

@@ -1,4 +1,4 @@
-"""Makes compile_commands.json from the commands that make would run: make -Bnk V=1 all tests | this."""
+"""Makes compile_commands.json from the commands that make would run: make -Bnk V=1 all tests | this program."""
 import json
 import os
 import re
@@ -8,7 +8,8 @@ COMPILED = re.compile(r"\s-c (?P<file>\S+\.c) -o (?P<output>\S+)(\s|$)")
 
 
 def commands(lines, folder):
-    """An entry for each line that compiles a source; the program's name may be the first word."""
+    """Returns an entry for each line that compiles a source; the name of a compiler wrapper may precede the
+    compiler."""
     return [{"directory": folder, "command": line.strip(), **found.groupdict()}
             for line in lines if (found := COMPILED.search(line))]
 

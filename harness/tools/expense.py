@@ -1,10 +1,10 @@
-"""Predicts the cost of a run before it is solved, fitted to the counted work of cells that
-were solved (`make lab L=expense`; the file of the last `make verify`).
+"""Fits a prediction of the cost of a run, made before it is solved, to the counted work of solved runs (`make lab
+L=expense`; the file of the last `make verify`).
 
-Cost [s] = sum over what an analysis does of times * (once * o + element * e * elements), elements
-of all members together. `once` and `element` belong to the kind of work, the factors o and e to the formulation; one
-without a row has factors of one. The accuracy is measured on cells that were not used in the fit: the cases are in
-five groups, and each is predicted from the other four.
+Cost [s] = sum over the kinds of work of an analysis of times * (once * o + element * e * elements), where elements are
+those of all members together. `once` and `element` belong to the kind of work, the factors o and e to the formulation;
+a formulation without a row has factors of one. The accuracy is measured on runs that were not used in the fit: the cases
+are in five groups, and each group is predicted from the other four.
 """
 import argparse
 import collections
@@ -44,7 +44,7 @@ def motion_steps(body):
 
 
 def work_of(scene):
-    """{kind: times} of a scene, and its members."""
+    """Returns {kind: times} of a scene, and its members."""
     analyses, times = scene.get("analyses") or {}, collections.Counter(cell=1)
     for analysis in analyses.values():
         ((kind, body),) = analysis.items()
@@ -67,7 +67,7 @@ def work_of(scene):
 
 
 def read(path):
-    """[{case, name, times, elements, cost, seconds}] of all cells that were solved or failed."""
+    """Returns [{case, name, times, elements, cost, seconds}] of all runs that were solved or failed."""
     out = []
     with h5py.File(path) as file:
         for case, group in file["cases"].items():
@@ -85,20 +85,20 @@ def read(path):
 
 
 def columns_of(cells):
-    """times [cells, kinds], elements [cells], names [cells]"""
+    """Returns times [runs, kinds], elements [runs], names [runs]."""
     return (np.array([c["times"] for c in cells], float),
             np.array([c["elements"] for c in cells], float), np.array([c["name"] for c in cells]))
 
 
 def predict(cells, prices, factors):
-    """[s]; `prices`: cost coefficients [kinds, 2], factors {name: (once, element)}."""
+    """Returns costs [s]; `prices`: cost coefficients [kinds, 2], factors {name: (once, element)}."""
     times, elements, names = columns_of(cells)
     factor = np.array([factors.get(name, (1.0, 1.0)) for name in names])
     return times @ prices[:, 0] * factor[:, 0] + times @ prices[:, 1] * elements * factor[:, 1]
 
 
 def fit(cells):
-    """Fits cost coefficients and factors in turn, by least squares of weighted errors, none below zero."""
+    """Fits cost coefficients and factors alternately, by non-negative weighted least squares."""
     times, elements, names = columns_of(cells)
     cost = np.array([c["cost"] for c in cells])
     factors = {name: (1.0, 1.0) for name in sorted(set(names))}
@@ -115,20 +115,20 @@ def fit(cells):
             factors[name] = tuple(map(float, pair))
         off = np.abs(np.log(np.maximum(predict(cells, prices, factors), 1e-12) / cost))
         weight = base / np.sqrt(np.maximum(1, off / LARGE))
-    # The mean of the factors is one: that is what a formulation without a row has.
+    # The mean of the factors is one, the value of a formulation without a row.
     mean = np.mean(list(factors.values()), axis=0)
     return prices * mean, {name: (o / mean[0], e / mean[1]) for name, (o, e) in factors.items()}
 
 
 def spread(predicted, cost):
-    """Factors between the two, in the median and for nine of ten, without the common factor."""
+    """Returns the factors between the two, the median and for nine of ten, without the common factor."""
     off = np.log(np.maximum(predicted, 1e-12) / cost)
     off = np.abs(off - np.median(off))
     return math.exp(np.quantile(off, 0.5)), math.exp(np.quantile(off, 0.9))
 
 
 def validate(cells):
-    """Each predicted by a fit without its case."""
+    """Predicts each run with a fit that excludes its case."""
     cases, out = sorted({c["case"] for c in cells}), np.zeros(len(cells))
     for fold in range(FOLDS):
         left = set(cases[fold::FOLDS])
@@ -139,7 +139,7 @@ def validate(cells):
 
 
 def write(path, cells):
-    """The table, with its accuracy in the header."""
+    """Writes the table, with its accuracy in the header."""
     prices, factors = fit(cells)
     cost = np.array([c["cost"] for c in cells])
     said = [(name, *spread(predicted, against)) for name, predicted, against in (

@@ -1,4 +1,4 @@
-"""Seeds of the fuzzing programs: reference tables, a stored run and the committed table.
+"""Writes the seeds of the fuzzing programs: reference tables, a stored run and the committed table.
 
 usage: fuzz_seeds.py PROGRAM FOLDER
 """
@@ -32,7 +32,7 @@ def save(folder, seeds):
 
 
 def parameters():
-    """Every parameter point of the tables, behind the number of its case."""
+    """Yields every parameter point of the tables, preceded by the number of its case."""
     for index, path in enumerate(sorted((ROOT / "cases").glob("*.[cy]*"), key=lambda p: p.stem)):
         table = ROOT / "reference" / "tables" / f"{path.stem}.csv"
         with open(table if table.exists() else "/dev/null", newline="", encoding="utf-8") as rows:
@@ -41,7 +41,7 @@ def parameters():
 
 
 def truths(scratch):
-    """The packed reference values of one small case with two findings."""
+    """Yields the packed reference values of one small case with two known deviations."""
     (scratch / "tables").mkdir()
     for name in ("defaults.csv", "glossary.csv", "accepted.csv", "tables/wagner_torsion.csv",
                  "tables/roll_up.csv"):
@@ -67,7 +67,7 @@ def runs(program, scratch):
 
 
 def scenes():
-    """Valid scenes, and scenes with an injected mistake."""
+    """Yields valid scenes, and scenes with an injected error."""
     for path in sorted((ROOT / "cases/examples").glob("*.yaml")):
         yield path.read_bytes()
     for _, text in bad_scenes():
@@ -75,7 +75,7 @@ def scenes():
 
 
 def library():
-    """Behind the number of a call, its texts."""
+    """Yields the number of each call, followed by its texts."""
     for seed in ("\0cases", "\0beamw:mass=lumped", "\1long=0.2", "\2beamw:newton=dense\n",
                  '\2collocation:stages=5\n{"all_dofs": true, "threads": 2, "shapes": 3}',
                  '\3{"steps": 4, "keep_all": false}', "\4beamw collocation\n1,2,4",
@@ -86,7 +86,7 @@ def library():
 
 
 def imports():
-    """Behind the number of its form: a CSV of two programs, the map and the columns of others."""
+    """Yields the number of a form, followed by its text: a CSV of two programs, the map and the columns of others."""
     head = ("# beamwork-import: 1\n# program: other 1.0\n# case: sheet_cantilever; warping=0\n"
             "# axes: x=-y y=x z=z\n# convention: spatial\n")
     rows = ("quantity, unit, elements, unknowns, seconds, x, value, uncertainty\n"

@@ -1,14 +1,15 @@
 #!/usr/bin/python3
-"""Counts the instructions of the parts of a solution by callgrind, independent of the load of the machine, next to
-the smallest conceivable number.
+"""Counts the instructions of the parts of a solution with callgrind, independent of the load of the machine, and compares
+them with the smallest conceivable number.
 
 usage: instructions.py PROGRAM [-o FILE] [--only WORD]     a table; FILE: the same as JSON
-       instructions.py PROGRAM --callgrind FILE            parts of an existing profile A part consists of the
-       functions of the harness with these names, and all that they call. Least: operations
-on doubles (+ - * / sqrt) without loads, stores and loops. For strains, stresses and updates these are the operations
-of their equations as written, counted in the program; of J^T C J with a symmetric result
-m n (2 m + n + 1) (m strains, n coordinates); of the factors the counted ones, of two sweeps over
-their entries 4 each; of elimination and assembly one for each number of a symmetric matrix. With four numbers in a
+       instructions.py PROGRAM --callgrind FILE            parts of an existing profile
+
+A part consists of the functions of the harness with these names, and all that they call. The smallest number consists
+of operations on doubles (+ - * / sqrt) without loads, stores and loops. For strains, stresses and updates these are the
+operations of their equations as written, counted in the program. For J^T C J with a symmetric result it is
+m n (2 m + n + 1) (m strains, n coordinates). For factors it is the counted operations, for two sweeps over their
+entries 4 per entry, and for elimination and assembly one per entry of a symmetric matrix. With four numbers in a
 register, a quarter of it would be enough.
 """
 import argparse
@@ -24,7 +25,7 @@ import tempfile
 CELLS = (("spherical_joint", "sheet_third", 1), ("hexapod", "sheet_third", 1),
          ("sheet_cantilever", "sheet_third", 2), ("sheet_cantilever", "collocation", 1),
          ("c_cantilever", "geometrically_exact", 8), ("c_column", "beamw", 64))
-# name, file of what is called, its function, how often: by which count it is divided
+# name, file of the called function, the function, the count by which the instructions are divided
 PARTS = (
     # strains, stresses and J^T C J of several elements
     ("all in lanes", "elements/", r"_equations", "strain_evaluations"),
@@ -51,7 +52,7 @@ COST = re.compile(r"[+\-*\d][^=]* (\d+)$")
 
 
 class Profile:
-    """own: {(file, function): instructions}; calls: {(caller, callee): with all that it calls}."""
+    """own: {(file, function): instructions}; calls: {(caller, callee): instructions including all that it calls}."""
 
     def __init__(self, path):
         self.own, self.calls = collections.Counter(), collections.Counter()
@@ -60,7 +61,7 @@ class Profile:
             self.read(lines)
 
     def name(self, kind, number, text):
-        """Names occur once, with a number that replaces them afterwards."""
+        """Resolves a name, which occurs once with a number that replaces it afterwards."""
         if number is None:
             return text
         if text:
@@ -97,7 +98,7 @@ class Profile:
 
 
 def place(function):
-    """Path inside the project of a function's file: builds elsewhere write it whole."""
+    """Returns the path of a function's file inside the project; builds elsewhere write the full path."""
     found = re.search(r"(?:^|/)((?:harness|elements|cases)/.*)", function[0] or "")
     return found[1] if found else ""
 
@@ -110,7 +111,8 @@ def part_of(function):
 
 
 def frames(profile):
-    """Functions that are reached without a part: their callees are counted, and nothing is counted twice."""
+    """Returns the functions that are reached without a part: their callees are counted, and nothing is counted
+    twice."""
     callees = collections.defaultdict(set)
     for caller, callee in profile.calls:
         callees[caller].add(callee)
@@ -126,7 +128,7 @@ def frames(profile):
 
 
 def parts_of(profile):
-    """{part: instructions}, all together those of the profile."""
+    """Returns {part: instructions}, which together are those of the profile."""
     out, outside = collections.Counter(), frames(profile)
     for (caller, callee), cost in profile.calls.items():
         part = part_of(callee)
@@ -145,7 +147,7 @@ def run(program, *arguments):
 
 
 def profiled(program, cell, inside, read=Profile, *more):
-    """Returns the counts in functions of the program, as `read` has it of the file."""
+    """Returns the counts in functions of the program, as `read` obtains them from the file."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "profile")
         run("valgrind", "-q", "--tool=callgrind", f"--callgrind-out-file={path}", *more,
@@ -155,7 +157,7 @@ def profiled(program, cell, inside, read=Profile, *more):
 
 
 def arithmetic(program):
-    """{address: number of doubles that an instruction of the program adds, multiplies or divides}."""
+    """Returns {address: number of doubles that an instruction of the program adds, multiplies or divides}."""
     out = {}
     for line in run("objdump", "-d", "--no-show-raw-insn", program).splitlines():
         found = OPERATION.match(line)
@@ -166,7 +168,7 @@ def arithmetic(program):
 
 
 def operations(path, program, numbers):
-    """Operations on doubles in a profile with addresses, in the program itself."""
+    """Returns the operations on doubles in a profile with addresses, in the program itself."""
     total = at = 0
     called = inside = False
     objects = {}
@@ -187,7 +189,7 @@ def operations(path, program, numbers):
 
 
 def as_they_stand(program, cell, profile, numbers):
-    """{part: operations} of the equations of elements."""
+    """Returns {part: operations} of the equations of elements."""
     out = {}
     for part in ("all in lanes", "strain", "stress", "update"):
         entries = {callee[1] for caller, callee in profile.calls
@@ -199,7 +201,7 @@ def as_they_stand(program, cell, profile, numbers):
 
 
 def least(counts, form):
-    """{part: operations} common to all formulations, for the whole run."""
+    """Returns {part: operations} common to all formulations, for the whole run."""
     m, n = form["strains"], 7 * form["nodes"]
     triangle = n * (n + 1) // 2
     return {"J^T C J": counts["strain_evaluations"] * m * n * (2 * m + n + 1),

@@ -1,11 +1,11 @@
-"""Compares all stored values of motions in time with limits of meshes: each stored value, the value on the finest
-mesh, its limit and the uncertainty.
+"""Compares all stored values of motions in time with limits of meshes: each stored value, the value on the finest mesh,
+its limit and the uncertainty.
 
-usage: motions.py PROGRAM [CASE...] [--fine] [-o FILE.csv]     ends with status 1 if the distance of a limit from its
+usage: motions.py PROGRAM [CASE...] [--fine] [-o FILE.csv]     The exit status is 1 if the distance of a limit from its
 reference value exceeds both uncertainties. It also counts the limits whose uncertainty exceeds a hundredth of the
 largest value of their unit; --fine uses finer meshes, and takes longer. One integration serves all instants of a
-structure: the scene requests at each time what the case requests at one. Steps are so short that the time error is
-below that of the meshes; geometrically_exact is the formulation with the most accurate limits.
+structure: the scene requests at each time the quantities that the case requests at one. The steps are so short that
+the time error is below the error of the meshes; geometrically_exact is the formulation with the most accurate limits.
 """
 import argparse
 import concurrent.futures
@@ -48,8 +48,7 @@ LOOSE = 0.01
 
 
 def stored(case):
-    """{structure parameters: [(time or None, row)]} of a case's table, without rows of other
-    models."""
+    """Returns {structure parameters: [(time or None, row)]} of a case's table, without rows of other models."""
     found = {}
     with open(ROOT / "reference" / "tables" / f"{case}.csv", newline="", encoding="utf-8") as table:
         for row in csv.DictReader(table):
@@ -74,8 +73,8 @@ def _run(program, *words):
 
 
 def asked_at(scene, times):
-    """The scene with its motion evaluated at all the times: a quantity for each, NAME_0 and so on; others do not
-    change."""
+    """Returns the scene with its motion evaluated at all the times, with a quantity NAME_0, NAME_1, ... for each time;
+    the others do not change."""
     motions = [name for name, a in scene["analyses"].items() if "motion" in a]
     scene["analyses"][motions[0]]["motion"]["stations"] = times
     quantities = {}
@@ -91,7 +90,7 @@ def asked_at(scene, times):
 
 
 def limits(program, case, structure, times, meshes, tolerance):
-    """{name: (finest value, limit, uncertainty)}"""
+    """Returns {name: (finest value, limit, uncertainty)}."""
     words = [word for item in structure.split(";") if item for word in ("--set", item)]
     text = _run(program, "scene", case, *words, "--set", f"time={times[-1]}", "--set",
                 f"tolerance={tolerance}")
@@ -139,7 +138,7 @@ def table(program, case, chosen=None):
 
 
 def tables(program, cases, chosen):
-    """Runs several cases at a time; the last ones, which take longest, begin first."""
+    """Runs several cases at a time; the last ones, which take longest, start first."""
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as some:
         asked = [some.submit(lambda one: list(table(program, one, chosen)), case)
                  for case in reversed(cases)]

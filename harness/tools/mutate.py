@@ -1,15 +1,14 @@
-"""Lists faults for mutants.sh to inject: generated from C sources, or physical ones.
+"""Lists faults for mutants.sh to inject, either generated from C sources or physical.
 
-usage: mutate.py [A..B] [--count N]; A..B: on lines that these commits wrote and that still exist
-       mutate.py --physics [FILE]; those of faults.csv
+usage: mutate.py [A..B] [--count N]      generated faults; A..B: only on lines that these commits wrote and that still exist
+       mutate.py --physics [FILE]        physical faults, from faults.csv
 
-A generated fault is one edit: it swaps an operator (+ -, * /, < <=, > >=, == !=, && ||), drops a sign,
-changes a constant or an index, negates a condition, omits a TRY or another call whose value is not used, or reports
-another status; at most one per line. The selection depends only on the texts of the file, the line and the edit: the
+A generated fault is one edit: it swaps an operator (+ -, * /, < <=, > >=, == !=, && ||), drops a sign, changes a
+constant or an index, negates a condition, omits a TRY or another call whose value is not used, or reports another
+status. There is at most one per line. The selection depends only on the text of the file, the line and the edit: the
 same sources give the same faults, and changes nearby have no influence. Comments, strings, the preprocessor, types,
-sizes of arrays and of
-memory, and assertions stay as they are. Edits without an effect are listed in mutants_equivalent.csv, each with its
-reason, and are not generated.
+sizes of arrays and of memory, and assertions are not edited. Edits without an effect are listed in
+mutants_equivalent.csv, each with its reason, and are not generated.
 """
 
 import argparse
@@ -38,14 +37,14 @@ STATUSES = {"STATUS_REFUSED": "STATUS_FAULT", "STATUS_FAULT": "STATUS_REFUSED",
             "STATUS_NOT_CONVERGED": "STATUS_SINGULAR", "STATUS_SINGULAR": "STATUS_NOT_CONVERGED"}
 NO_TYPES = {"return", "else", "case", "goto", "sizeof", "do"}
 NO_CALLS = NO_TYPES | {"if", "for", "while", "switch"}
-# Calls with a size of memory, and assertions.
+# Calls with a memory size, and assertions.
 UNSEEN = re.compile(r"(\w*alloc|sizeof|assert|_Static_assert|memset|memcpy|memmove)$")
-# Calls that release memory or give hints: only sanitizers notice that one is missing.
+# Calls that release memory or give hints: only sanitizers notice a missing one.
 RELEASED = re.compile(r"(\w*(free|alloc|close|end)|assert|_Static_assert)$")
 
 
 def tokens(source):
-    """(kind, text, line from 1, column from 0) of the tokens that are code."""
+    """Yields (kind, text, line from 1, column from 0) of the tokens that are code."""
     source = PREPROCESSOR.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), source)
     at, line, begin = 0, 1, 0
     while at < len(source):
@@ -59,7 +58,7 @@ def tokens(source):
 
 
 def constant(text, index):
-    """Another constant; None if there is no useful one."""
+    """Returns another constant; None if there is no useful one."""
     value = re.sub(r"[uUlLfF]+$", "", text)
     if value.isdigit():
         other = int(value) - 1 if index and int(value) > 0 else int(value) + 1
@@ -70,16 +69,16 @@ def constant(text, index):
 
 
 class Reader:
-    """Walks through a source and gathers edits: (function or table, line, column, old, new)."""
+    """Walks through a source and collects edits: (function or table, line, column, old, new)."""
 
     def __init__(self, source):
         self.lines = source.split("\n")
         self.tokens = list(tokens(source))
         self.edits = []
-        self.open = []  # brackets around, each with whether edits inside count
+        self.open = []  # enclosing brackets, each with whether edits inside count
         self.statement = 0  # its first token
-        self.begin = 0  # how many brackets were open there
-        self.name = ""  # of the function or table
+        self.begin = 0  # how many brackets were open at the start
+        self.name = ""  # name of the function or table
         for at, (kind, text, _, _) in enumerate(self.tokens):
             if not self.open and text in ("(", "[", "=") and self.tokens[at - 1][0] == "word":
                 self.name = self.word(at - 1)
@@ -96,7 +95,7 @@ class Reader:
         return self.tokens[at][1] if 0 <= at < len(self.tokens) else ""
 
     def ends(self, at):
-        """Does a statement begin after a token?"""
+        """Does a statement start after a token?"""
         text = self.word(at)
         if not self.open or text == ";":
             return not (self.open and self.open[-1][0] == "(")
@@ -105,7 +104,7 @@ class Reader:
         return self.word(at + 1) not in (",", ";", "}", ")")
 
     def declares(self):
-        """Does the statement begin with a type and a name?"""
+        """Does the statement start with a type and a name?"""
         first = self.statement
         while self.word(first) in ("static", "const", "struct", "unsigned"):
             first += 1
@@ -116,7 +115,7 @@ class Reader:
             self.tokens[first][0] == self.tokens[after][0] == "word"
 
     def is_size(self, at):
-        """Is a bracket the size of an array that is declared?"""
+        """Is a bracket the size of a declared array?"""
         if len(self.open) != self.begin or not self.declares():
             return False
         depth = 0
@@ -131,7 +130,7 @@ class Reader:
         return True
 
     def inside(self, at):
-        """Do edits within the bracket at a token count?"""
+        """Do edits inside the bracket at a token count?"""
         text, before = self.word(at), self.word(at - 1)
         if not self.open:  # bodies of functions, values of tables
             return text == "{" and before in (")", "=")
@@ -148,7 +147,7 @@ class Reader:
             text in (")", "]")
 
     def condition(self, at):
-        """Where the bracket behind an "if" closes on its line; None: it does not."""
+        """Returns where the bracket after an "if" closes on its line; None if it does not."""
         depth, close = 0, at + 1
         while close < len(self.tokens) and self.tokens[close][2] == self.tokens[at][2]:
             depth += (self.word(close) == "(") - (self.word(close) == ")")
@@ -158,7 +157,7 @@ class Reader:
         return None
 
     def call(self, at):
-        """A statement that is only a call, if it ends on its line; otherwise None."""
+        """Returns a statement that is only a call, if it ends on its line; otherwise None."""
         _, name, line, column = self.tokens[at]
         if at != self.statement or self.word(at + 1) != "(" or name in NO_CALLS or \
                 RELEASED.match(name):
@@ -199,7 +198,7 @@ class Reader:
 
 
 def faults(source):
-    """All faults of a source: (line, function or table, its text, edit, the line with it)."""
+    """Returns all faults of a source: (line, function or table, its text, edit, edited line)."""
     found, seen = [], {}
     reader = Reader(source)
     for name, line, column, old, new in reader.edits:
@@ -220,26 +219,26 @@ def listed(*arguments):
 
 
 def sources():
-    """The sources of the library and the program, without tests and tools."""
+    """Returns the sources of the library and the program, without tests and tools."""
     every = listed("ls-files", "elements/*.c", "cases/*.c", "harness/*.c")
     return [file for file in every if not re.search("/(test|tools|examples|fuzz)/", file)]
 
 
 def touched(commits, file):
-    """Lines of a file that commits wrote and that still exist."""
+    """Returns the lines of a file that commits wrote and that still exist."""
     blamed = listed("blame", "-l", "-s", "--root", file)
     return {k for k, line in enumerate(blamed, 1) if line[:40] in commits}
 
 
 def equivalent():
-    """The reason of each fault without an effect, by file, function, line and edit."""
+    """Returns the reason for each fault without an effect, by file, function, line and edit."""
     with open(ROOT / EQUIVALENT, encoding="utf-8", newline="") as file:
         return {(row["file"], row["function"], row["line"], row["edit"]): row["reason"]
                 for row in csv.DictReader(file)}
 
 
 def chosen(count, span=None):
-    """Sorted (file, line, function, text, edit, line with it); how many more are equivalent."""
+    """Returns sorted (file, line, function, text, edit, edited line), and how many more are equivalent."""
     files, commits = sources(), set()
     if span:
         commits = set(listed("rev-list", span))
@@ -258,7 +257,7 @@ def chosen(count, span=None):
     return left, len(taken) - len(left)
 
 
-# Tests of other folders, in Python, that show what a folder does.
+# Python tests of other folders that test the behaviour of a folder.
 BESIDE = {
     "harness/(cli|formulations|experiments|study|library|model|records)/|cases/format/":
         "harness/cli/(cli|outputs|asked|choice|list|converge|options|screen|defaults|help|examples"
@@ -281,7 +280,7 @@ BESIDE = {
     "cases/textbook/": "cases/format/closed",
     "harness/cli/": "harness/study/bench|harness/experiments/|harness/exchange/",
 }
-# Tests in C that are near: those of the folder, or related ones of others.
+# Related C tests: those of the folder, or related ones of others.
 NEAR = {
     "elements": "elements/test/|harness/experiments/test/contract_|harness/analysis/test/(frequency"
                 "|critical|along_eq)|harness/time/test/consistent_test",
@@ -289,7 +288,7 @@ NEAR = {
     "cases/format": "cases/format/test/",
 }
 CALLERS = 8
-# They take half a minute or more and run after all others.
+# Tests that take half a minute or more; they run after all others.
 SLOW = tuple(f"{name}_test.c" for name in ("invariants", "consistent_mesh", "inputs",
                                            "condensation"))
 JUDGED = "verify:" + " or ".join(f"{case}/default" for case in (
@@ -307,8 +306,8 @@ def tests():
 
 
 def checks(file, texts):
-    """Returns the checks that should detect a fault of a file: tests of its folder, tests of others that call its
-    functions, cells with verdicts, and tests in Python that use it."""
+    """Returns the checks that should detect a fault of a file: tests of its folder, tests of other folders that call
+    its functions, runs with verdicts, and Python tests that use it."""
     room = file.split("/")
     near = re.compile(NEAR.get("/".join(room[:2])) or NEAR.get(room[0]) or
                       f"{room[0]}/{room[1]}/test/")

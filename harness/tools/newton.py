@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Runs the two forms of Newton's method side by side, and along the most demanding paths.
+"""Compares the two forms of Newton's method, also along the most demanding paths.
 
-usage: newton.py PROGRAM -o FILE      JSON for the report: "singles", targets tried in one step;
-`contests`, one comparison per case, formulation and first step, with both forms; "histories", the corrections
-and residuals of every iteration.
+usage: newton.py PROGRAM -o FILE
+
+Writes JSON for the report: "singles", targets tried in one step; `contests`, one comparison per case, formulation and
+first step, with both forms; "histories", the corrections and residuals of every iteration.
 """
 import argparse
 import json
@@ -16,7 +17,7 @@ CANTILEVER = ("sheet_second 2", "sheet_third 1", "sheet_second_consistent 4",
               "beamw_consistent 4", "geometrically_exact 4", "collocation 1")
 JOINT = ("sheet_second 1", "sheet_second 2", "sheet_third 1", "sheet_second_consistent 2",
          "collocation 1")
-SINGLES = (  # case, parameters, parameter that grows, its values, unit, formulations and meshes
+SINGLES = (  # case, parameters, increasing parameter, its values, unit, formulations and meshes
     ("sheet_cantilever", "stations=1", "tip_deflection",
      (0.015, 0.03, 0.05, 0.07, 0.08, 0.09), "m", CANTILEVER),
     ("spherical_joint", "steps=1", "tilt",
@@ -33,7 +34,7 @@ HISTORIES = tuple(  # case, parameters, formulation and mesh, first steps
 
 
 def solve(program, case, parameters, formulation, n, steps):
-    """The solution as JSON, or None with the reason."""
+    """Returns the solution as JSON, or None with the reason."""
     sets = [word for p in parameters.split(";") if p for word in ("--set", p)]
     command = [program, "solve", case, "-f", formulation, "-n", n, "--format", "json", *sets,
                *(["--steps", str(steps)] if steps else [])]
@@ -44,7 +45,7 @@ def solve(program, case, parameters, formulation, n, steps):
 
 
 def steps_of(result):
-    """Load steps, each with the corrections and residuals of its iterations."""
+    """Returns load steps, each with the corrections and residuals of its iterations."""
     out = [{**step, "corrections": [], "residuals": []} for step in result["steps"]]
     for iteration in result["iterations"]:
         out[iteration["step"]]["corrections"].append(iteration["correction"])
@@ -62,7 +63,7 @@ def summary(result):
 
 
 def single(program, case, parameters, formulation, n):
-    """Iterations of the one step, or None if it did not converge as a whole."""
+    """Returns the number of iterations of the single step, or None if it did not converge in one step."""
     result = solve(program, case, parameters, formulation, n, 1)
     whole = result["cell"]["status"] == "ok" and result["cell"]["rejected_steps"] == 0
     return result["steps"][0]["iterations"] if whole else None

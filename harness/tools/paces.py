@@ -6,8 +6,8 @@ usage: paces.py PROGRAM -o FILE [WORD]     JSON for the report, and a line for e
 only the rows whose case has it.
 
 Each row is one run of `beamwork motion`. Its reference, radau at 1e-10, is compared with `explicit` (Runge-Kutta of
-order 8, which uses neither Newton's method nor a tangent) at two tolerances on the same mesh, once for each row where
-that is possible (column check: the formulation). The difference decreases with the tolerance as long as the error of
+order 8, which uses neither Newton's method nor a tangent) at two tolerances on the same mesh, once for each row if
+possible (column check: the formulation). The difference decreases with the tolerance as long as the error of
 `explicit` dominates.
 """
 import argparse
@@ -21,11 +21,11 @@ import time
 TABLE = pathlib.Path(__file__).resolve().parents[1] / "experiments" / "paces.csv"
 EXPLICIT = "1e-11,1e-13"  # tolerances of its steps
 CELL, CHECK = "60", "60"  # time limits of a motion [s]: all integrators, explicit ones
-LEVEL = 1e-4  # of the lines that are shown
+LEVEL = 1e-4  # error level of the printed lines
 
 
 def motion(program, row, *more):
-    """The record of `beamwork motion`, of one row."""
+    """Returns the record of `beamwork motion` for one row."""
     sets = [word for p in row["parameters"].split(";") if p for word in ("--set", p)]
     command = [program, "motion", row["case"], "-n", row["elements"], *sets, "--format", "json",
                *more]
@@ -39,14 +39,14 @@ TABLES = ("references", "runs", "orders", "reached")
 
 
 def refused(record):
-    """{formulation: reason} of those that do not support the motion."""
+    """Returns {formulation: reason} of those that do not support the motion."""
     offered = {r["formulation"] for r in record["runs"] if r["status"] != "refused"}
     return {r["formulation"]: r["reason"] for r in reversed(record["runs"])
             if r["formulation"] not in offered}
 
 
 def ladder(program, row):
-    """(tables of all integrators, those whose formulation does not support the motion)."""
+    """Returns (tables of all integrators, formulations that do not support the motion)."""
     chosen = [word for name in row["formulations"].split() for word in ("-f", name)]
     record = motion(program, row, *chosen, "--time-limit", CELL, "--step", row["steps"],
                     "--tolerance", row["tolerances"])
@@ -77,7 +77,7 @@ def word_of(check):
 
 
 def soonest(tables):
-    """`radau 7, alpha 2`: with how many formulations a scheme has the lowest cost within LEVEL."""
+    """Returns `radau 7, alpha 2`: the number of formulations with which a scheme has the lowest cost within LEVEL."""
     count = {}
     for name in {r["formulation"] for r in tables["runs"]}:
         ways = [w for w in tables["reached"]

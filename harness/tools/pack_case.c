@@ -1,4 +1,4 @@
-/* Writes a scene file of cases/ as C: the case as a constant, its parameters as a table, its
+/* Writes a scene file of cases/ as C: the case as a constant, its parameters as a table, and its
  * document as a list without pointers (cases/format/format_impl.h).
  * usage: pack_case FILE.yaml >FILE.c   The file must be a scene at its defaults. */
 #include <stdio.h>
@@ -7,7 +7,7 @@
 
 #include "cases/format/format.h"
 
-/* The tree in the order of scene_packed; texts one after the other. */
+/* The tree in the order of scene_packed, with its strings one after the other. */
 typedef struct packing {
     const document_node **node; /* [nodes] */
     int *first;
@@ -22,7 +22,7 @@ static int count_of(const document_node *n)
     return count;
 }
 
-/* Assigns the next positions to its entries, then to theirs. */
+/* Assigns the next positions to the entries of the current node, then to their entries. */
 static void place(packing *p)
 {
     for (int i = 0; i < p->nodes; i++) {

@@ -24,7 +24,7 @@ lumped_mass __wrap_lumped_of(const section *, unsigned, double);
 int __real_judgement_doubts(const sweep *, const truths *, int);
 int __wrap_judgement_doubts(const sweep *, const truths *, int);
 
-/* 1 + size if this fault is injected, else 1. */
+/* Returns 1 + size if this fault is injected, otherwise 1. */
 static double grown(const char *name)
 {
     const char *planted = getenv("BEAMWORK_PLANT");
@@ -48,10 +48,10 @@ static void scale_shear(section *c, int at, double by)
     scale(c->F, 3, at, 1 / by);
 }
 
-/* Section with changed stiffness or mass; each does not affect the other. */
+/* Returns the section with changed stiffness or mass; neither affects the other. */
 static section stiff(const section *given)
 {
-    /* order of the rows of a section by its matrices: N, Qy, Qz, Mx, My, Mz */
+    /* order of the rows of a section given by matrices: N, Qy, Qz, Mx, My, Mz */
     static const char *const names[] = {"EA", "GAy", "GAz", "GIt", "EIy", "EIz"};
     section c = *given;
     for (int i = 0; c.matrices && i < 6; i++)
@@ -88,7 +88,7 @@ static section heavy(const section *given)
     return c;
 }
 
-/* After the data of the element: data of the same element with the fault in its mass. */
+/* The data of the same element with the fault in its mass follow the data of the element. */
 enum { ROOM = 1 << 16 };
 
 typedef struct second {
@@ -144,7 +144,7 @@ status __wrap_adapters_complete(const element_type *given, const double options[
     return STATUS_OK;
 }
 
-/* Mass at nodes; elements get theirs in `prepare`. */
+/* Masses at nodes; elements get theirs in `prepare`. */
 lumped_mass __wrap_lumped_of(const section *given, unsigned features, double length)
 {
     const section c = heavy(given);

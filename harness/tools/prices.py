@@ -1,9 +1,9 @@
-"""Cost coefficients of counted work, fitted to measured times (`make lab L=prices`).
+"""Fits cost coefficients of counted work to measured times (`make lab L=prices`).
 
-The defaults of every case run several times in one process, the formulations in turn; the shortest time of a cell
-counts. Cost coefficients are fitted by least squares of relative errors, none below zero; large
-errors count less. Their accuracy is measured on cells that were not used in the fit: the cases are in five groups,
-and each is predicted from the other four. The noise is the smallest ratio of two costs from which nine of ten pairs
+The defaults of every case run several times in one process, with the formulations alternating; the shortest time of a
+run counts. Cost coefficients are fitted by non-negative least squares of relative errors; large
+errors count less. Their accuracy is measured on runs that were not used in the fit: the cases are in five groups, and
+each group is predicted from the other four. The noise is the smallest ratio of two costs from which nine of ten pairs
 of measured times of two formulations of a case are in the same order.
 """
 import argparse
@@ -25,26 +25,26 @@ OWN = ("element_kinds", "elements_total", "strain_evaluations", "stress_evaluati
        "inertia_evaluations", "geometric_evaluations")
 ANY = OWN + ("strain_evaluations*strains", "stress_evaluations*strains",
              "geometric_evaluations*strains")
-# Options that change the work of an element; with any other option a formulation has the same coefficients.
+# Options that change the work of an element; any other option leaves the coefficients of a formulation unchanged.
 OPTIONS = ("torsion", "stages", "nodes", "inside")
 VARIANTS = ("collocation:stages=3", "collocation:stages=4", "collocation:stages=6",
             "collocation:stages=7", "collocation:stages=8", "geometrically_exact:nodes=2",
             "geometrically_exact:nodes=3", "beamw_consistent:torsion=hyperbolic",
             "beamw_consistent:inside=linear")
 FOLDS = 5
-NEAR = 3  # cells of a case are compared if their times are within this factor
-STEP = 1.05  # of the ratios at which the fraction of right orders is determined
+NEAR = 3  # runs of a case are compared if their times are within this factor
+STEP = 1.05  # between the ratios at which the fraction of correct orders is determined
 
 
 def name_of(key):
-    """The formulation with the options that have their own cost coefficients."""
+    """Returns the formulation with the options that have their own cost coefficients."""
     name, _, options = key.partition(":")
     kept = [o for o in options.split(",") if o.partition("=")[0] in OPTIONS]
     return name + (":" + ",".join(kept) if kept else "")
 
 
 def measure(program, folder, runs, selection):
-    """Files of `runs` runs of the selection, with all formulations and the variants in turn."""
+    """Returns the files of `runs` runs of the selection, with all formulations and the variants alternating."""
     variants = [a for v in VARIANTS for a in ("-f", v)]
     for i in range(runs):
         for kind, chosen in (("all", []), ("variants", variants)):
@@ -56,7 +56,7 @@ def measure(program, folder, runs, selection):
 
 
 def read(paths):
-    """Cells that have a solution: [{column: value}] with the least of their times."""
+    """Returns the runs that have a solution: [{column: value}] with the shortest of their times."""
     least = {}
     for path in paths:
         with h5py.File(path) as file:
@@ -80,7 +80,7 @@ def product(cells, count):
 
 
 def columns_of(cells, names):
-    """{(formulation, count): values}; without a name, those of any formulation."""
+    """Returns {(formulation, count): values}; without a name, those of any formulation."""
     own = np.array([c["name"] for c in cells])
     out = {("", count): product(cells, count) for count in SHARED}
     if not names:
@@ -92,7 +92,7 @@ def columns_of(cells, names):
 
 
 def fit(cells, names, fixed=None):
-    """{(formulation, count): seconds}; `fixed` ones are kept."""
+    """Returns {(formulation, count): seconds}; `fixed` coefficients are kept."""
     found = columns_of(cells, names)
     fixed = fixed or {}
     known = sum((price * found.pop(k) for k, price in fixed.items() if k in found),
@@ -119,7 +119,7 @@ def quantile(values, part):
 
 
 def pairs(cells, predicted):
-    """(predicted, measured) ratios of two formulations of a case, logarithms, the first not below 0."""
+    """Returns (predicted, measured) ratios of two formulations of a case as logarithms, the first not below 0."""
     groups, out = collections.defaultdict(list), []
     for i, cell in enumerate(cells):
         groups[cell["case"]].append(i)
@@ -134,7 +134,7 @@ def pairs(cells, predicted):
 
 
 def noise_of(predicted, measured):
-    """The smallest ratio from which nine of ten pairs are measured in the order of their costs."""
+    """Returns the smallest ratio from which nine of ten pairs are measured in the order of their costs."""
     edge = math.log(STEP)
     for k in range(int(math.log(NEAR) / edge), 0, -1):
         here = (predicted >= (k - 1) * edge) & (predicted < k * edge)
@@ -144,8 +144,8 @@ def noise_of(predicted, measured):
 
 
 def validate(cells, names):
-    """Predictions of every cell by cost coefficients fitted without its case; the same for a formulation without its
-    own coefficients."""
+    """Returns predictions of every run by cost coefficients fitted without its case, and the same for a formulation
+    without its own coefficients."""
     cases = sorted({c["case"] for c in cells})
     own, generic = np.zeros(len(cells)), np.zeros(len(cells))
     for fold in range(FOLDS):
@@ -162,7 +162,7 @@ def validate(cells, names):
 
 
 def write(path, cells, names, runs):
-    """The table; its header states the data of the fit and the accuracy."""
+    """Writes the table; its header describes the data of the fit and the accuracy."""
     own, generic = validate(cells, names)
     seconds = np.array([c["seconds"] for c in cells])
     cost, time = pairs(cells, own)

@@ -1,11 +1,11 @@
-"""Checks texts for private words: prints FILE:LINE: WORD (CONTEXT): what to write instead.
+"""Checks texts for private words. Prints FILE:LINE: WORD (CONTEXT): REPLACEMENT.
 
 usage: words.py [--counts] [FILE ...]
 
 Without a file: every file that git tracks, test folders excepted. Texts are strings of C and
 Python, templates, scene files and help lines of the Makefile ("shown"), Markdown ("docs") and
-comments; names in `backticks` are code. A line with `words: ok (REASON)` is not checked. Exit
-status 1 when there is a hit. --counts prints the number of hits of each pattern instead.
+comments; names in `backticks` are code. A line with `words: ok (REASON)` is not checked. The exit
+status is 1 if there is a hit. --counts prints the number of hits of each pattern instead.
 """
 import csv
 import io
@@ -17,7 +17,7 @@ import tokenize
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KINDS = ("shown", "docs", "comments")
-# Pattern, what to write instead.
+# Patterns, each with its replacement.
 WORDS = (
     (r"\bsoonest\b", "at the lowest cost; fastest"),
     (r"\b(told|tells?)\b", "reports, prints; told apart: distinguished"),
@@ -72,13 +72,13 @@ WORDS = (
 ANY = re.compile("|".join(pattern for pattern, _ in WORDS), re.I)
 NAME = re.compile(r"`[^`]*`")
 EXEMPT = "words: ok ("
-# This table, what the fault programs search for in code, logs of experiments.
+# Files that are not checked: this table, patterns of the fault programs, logs of experiments.
 SKIPPED = re.compile(r"(^|/)(test|tests)/|^harness/tools/(words\.py|faults\.csv)$")
 C_TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
 
 
 def c_texts(text):
-    """(line, kind, text) of strings and comments; adjacent strings and line comments are one."""
+    """Yields (kind, [(line, text)]) of strings and comments; adjacent strings and line comments are joined."""
     parts, end = [], 0
     for match in C_TOKEN.finditer(text):
         token = match.group()
@@ -100,7 +100,7 @@ def c_texts(text):
 
 
 def python_texts(text):
-    """As c_texts; a string that is a statement is a comment."""
+    """Like c_texts; a string that is a statement is a comment."""
     previous = tokenize.NEWLINE
     pieces, kind = [], "shown"
     starts = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENCODING, tokenize.NL)
@@ -121,7 +121,7 @@ def python_texts(text):
 
 
 def hash_texts(kind):
-    """Lines of scripts: comments only. Of the Makefile and scene files `kind` is shown."""
+    """Returns a reader for lines of scripts: only comments. For the Makefile and scene files, `kind` is shown."""
     def texts(text):
         for number, line in enumerate(text.split("\n"), 1):
             found = re.search(r"(^|\s)#+\s?(.*)", line)
@@ -134,7 +134,7 @@ def hash_texts(kind):
 
 
 def line_texts(kind):
-    """Every line, without code and names of files; of code in templates the strings."""
+    """Returns a reader for every line, without code and file names; for code in templates, only the strings."""
     code = re.compile(r'`[^`]*`|^ *also called:.*|<code>.*?</code>|\b(href|id|class|name)="[^"]*"')
     strings = re.compile(r'"[^"]*\s[^"]*"')
 
@@ -146,7 +146,7 @@ def line_texts(kind):
 
 
 def table_texts(text):
-    """Fields of more than one word; lists of names (a|b) are not."""
+    """Yields fields of more than one word, except lists of names (a|b)."""
     for number, line in enumerate(text.split("\n"), 1):
         for field in next(csv.reader([line]), ()):
             if "|" not in field:
@@ -159,7 +159,7 @@ READERS = {".c": c_texts, ".h": c_texts, ".py": python_texts, ".md": line_texts(
 
 
 def hits(name, text):
-    """(kind, pattern, line, word, context, remedy) of every hit in a text named `name`."""
+    """Yields (kind, pattern, line, word, context, remedy) of every hit in a text named `name`."""
     reader = READERS.get(pathlib.PurePath(name).suffix)
     if reader is None:
         return
@@ -186,7 +186,7 @@ def hits(name, text):
 
 
 def tracked():
-    """Names of files that are checked."""
+    """Returns the names of the files to be checked."""
     listed = subprocess.run(["git", "-C", str(ROOT), "ls-files"], check=True, capture_output=True,
                             text=True).stdout.splitlines()
     return [name for name in listed if not SKIPPED.search(name) and (ROOT / name).exists()]

@@ -18,8 +18,8 @@ static inline void fuzz_must(int holds, const char *what)
     }
 }
 
-/* The bytes as text, up to the first zero; allocated by malloc, so that reading past the end is
- * detected. */
+/* Returns the bytes as text, up to the first zero; allocated by malloc, so that reading past the
+ * end is detected. */
 static inline char *fuzz_text(const uint8_t *data, size_t size)
 {
     char *text = malloc(size + 1);
@@ -29,7 +29,7 @@ static inline char *fuzz_text(const uint8_t *data, size_t size)
     return text;
 }
 
-/* A stream that reads the bytes; never NULL. */
+/* Returns a stream that reads the bytes; never NULL. */
 static inline FILE *fuzz_stream(const uint8_t *data, size_t size)
 {
     FILE *from =

@@ -1,4 +1,4 @@
-/* Uses the input as a command line, one argument per line: it must be parsed, or refused with one
+/* Uses the input as a command line, one argument per line: it must be parsed, or rejected with one
  * line and the documented exit status. */
 #include <argp.h>
 #include <setjmp.h>

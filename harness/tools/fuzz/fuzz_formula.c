@@ -1,4 +1,4 @@
-/* Uses the input as a formula of time, and as pieces of a function, one per line. A refusal must
+/* Uses the input as a formula of time, and as pieces of a function, one per line. A rejection must
  * have a position. An accepted formula must give the same bits in parentheses, and zero derivatives
  * if it does not contain t. */
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Uses the input as texts passed to the library: the number of the call, then one or two texts
- * separated by a line. A refusal must have a one-line reason, or a list of errors in JSON. A
- * result must be JSON, or a scene that can be read back; both must be UTF-8. */
+ * separated by a line. A rejection must have a one-line reason or a list of errors in JSON. A
+ * result must be JSON or a scene that can be read back. Both must be UTF-8. */
 #include <jansson.h>
 
 #include "harness/formulations/formulations.h"
@@ -30,7 +30,7 @@ static int is_json(const char *text)
     return root != NULL;
 }
 
-/* made: what the call should have returned. */
+/* Checks the outcome of a call; made: the object that it should have returned. */
 static void must_tell(bw_status got, const void *made, char *why)
 {
     fuzz_must((got == BW_OK) == (why == NULL), "a failure has a reason, and nothing else has");
@@ -55,7 +55,7 @@ static bw_scene *own_scene(void)
     return s;
 }
 
-/* Solves it with any formulation and options, since it is small and linear. */
+/* Solves the scene with any formulation and options, since it is small and linear. */
 static void try_solve(const char *formulation_name, const char *options)
 {
     char *why = NULL, *json = NULL;
@@ -89,7 +89,8 @@ static void try_set(const char *assignment)
     bw_scene_free(s);
 }
 
-/* Must be refused before anything is run, because the selection matches nothing. */
+/* Checks that the call is rejected before anything is run, because the selection matches
+ * nothing. */
 static void try_converge(const char *formulations, const char *meshes)
 {
     char *why = NULL, *json = NULL;

@@ -1,6 +1,6 @@
 /* Uses the input as parameters of a reference value or of --set: "CASE NUMBER", then
  * "name=value;...". An accepted point must read back from its text, and its scene must be built or
- * refused. */
+ * rejected. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

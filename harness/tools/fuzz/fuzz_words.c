@@ -1,5 +1,5 @@
-/* Uses the input as words of the command line that have a grammar: formulation with options,
- * selection, thresholds. */
+/* Uses the input as command-line words with a grammar: formulations with options, selections,
+ * thresholds. */
 #include "harness/formulations/formulations.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"

@@ -6,8 +6,9 @@
 
 #include "elements/element.h"
 
-/* Accepted formulation number i, or NULL after the last one. The first call reads the packed
- * reference values (BEAMWORK_TRUTHS, or build/truths.h5) and names the new ones. */
+/* Returns accepted formulation number i, or NULL after the last one. The first call reads the
+ * packed reference values (BEAMWORK_TRUTHS, or build/truths.h5), which identify the new
+ * formulations. */
 const element_type *accepted_at(int i);
 
 #endif

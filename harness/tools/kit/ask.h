@@ -15,12 +15,12 @@ typedef enum ask_outcome {
     ASK_NOT_OFFERED, /* the scene requires features that the type does not declare (missing_words)
                       */
     ASK_NOT_POSED,   /* the change of the scene is not defined for it, for any formulation */
-    ASK_REFUSED,     /* supported, but refused by name */
+    ASK_REFUSED,     /* supported, but rejected by name */
     ASK_FAILED,      /* supported, but without a value */
     ASK_OUTCOMES
 } ask_outcome;
 
-/* Values in the order of the scene's quantities; after a failure those that were found. */
+/* Values in the order of the scene's quantities; after a failure, those that were found. */
 typedef struct answer {
     ask_outcome outcome;
     status status;
@@ -29,10 +29,10 @@ typedef struct answer {
     double value[ASK_QUANTITIES]; /* SI; NAN if the mesh has none */
     double scale[ASK_QUANTITIES]; /* magnitude below which a value counts as zero; 0: never */
     int points[ASK_QUANTITIES];   /* number of points of a curve over stations, at most ASK_POINTS;
-                                     else 0 */
+                                     otherwise 0 */
     double curve[ASK_QUANTITIES][ASK_POINTS];
     char name[ASK_QUANTITIES][SCENE_NAME];
-    char why[ASK_QUANTITIES][FAULT_TEXT]; /* why there is no value */
+    char why[ASK_QUANTITIES][FAULT_TEXT]; /* reason why there is no value */
     char reason[FAULT_TEXT];
 } answer;
 
@@ -45,31 +45,31 @@ typedef struct question {
     scene_edit edit;
 } question;
 
-/* Returns 1 when the type declares everything that the scene requires, so that it must not refuse
+/* Returns 1 if the type declares everything that the scene requires, so that it must not reject
  * it. */
 int ask_offered(const scene *, const element_type *);
 /* Asks with the default options of the formulation. */
 void ask(const question *, answer *);
 /* Asks with a scene of the test and given options (NULL: the defaults). */
 void ask_scene(const scene *, const element_type *, const double option[], int elements, answer *);
-/* NAN if there is no quantity of that name. */
+/* Returns NAN if there is no quantity of that name. */
 double answer_of(const answer *, const char *quantity);
 
 /* Outcomes of the questions of one test for one formulation. */
 typedef struct ask_tally {
     int count[ASK_OUTCOMES];
     int values;               /* number of values in all answers */
-    int most_refused;         /* number of refusals of supported features that the test allows */
+    int most_refused;         /* number of rejections of supported features that the test allows */
     char failure[FAULT_TEXT]; /* last failure, with its question */
-    char refusal[FAULT_TEXT]; /* last refusal, with its question */
+    char refusal[FAULT_TEXT]; /* last rejection, with its question */
 } ask_tally;
 
-/* Counts the answer; returns 1 if there is one, else 0. `what` (printf format) names the question
- * in failures. */
+/* Counts the answer; returns 1 if there is one, otherwise 0. `what` (printf format) names the
+ * question in failures. */
 int ask_count(ask_tally *, const answer *, const char *what, ...)
     __attribute__((format(printf, 3, 4)));
-/* Fails when an answer failed, when more were refused than allowed, or when no value was found
- * although the physics is supported; prints the counts. */
+/* Fails if an answer failed, if more were rejected than allowed, or if no value was found although
+ * the physics is supported; prints the counts. */
 void ask_conclude(const ask_tally *, const element_type *, const char *test);
 
 #endif

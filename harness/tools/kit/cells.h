@@ -1,19 +1,19 @@
-/* Cells for tests: a case, a formulation given by name, a mesh. */
+/* Runs for tests: a case, a formulation given by name, and a mesh. */
 #ifndef BEAMWORK_TEST_CELLS_H
 #define BEAMWORK_TEST_CELLS_H
 
 #include "harness/study/study.h"
 
-/* Request at the defaults of the case; formulation: "name:key=value,...". An unknown name fails the
- * test. */
+/* Returns a request at the defaults of the case; formulation: "name:key=value,...". An unknown name
+ * fails the test. */
 cell_request cells_of(const case_type *, const char *formulation, int elements);
-/* assignment: "name=value" of parameters, NULL-terminated; NULL: none. */
+/* Sets parameters; assignment: "name=value", NULL-terminated; NULL: none. */
 void cells_set(cell_request *, const char *const assignment[]);
-/* Solves the scene that the function builds, as a case without parameters; a cell without a
- * solution fails the test. */
+/* Solves the scene that the function builds, as a case without parameters; a run without a solution
+ * fails the test. */
 void cells_solve(status (*build)(const double value[], scene *, fault *), const char *formulation,
                  int elements, cell_result *);
-/* SI; NAN if there is no quantity of that name. */
+/* Returns the value in SI; NAN if there is no quantity of that name. */
 double cells_value(const cell_result *, const char *quantity);
 
 #endif

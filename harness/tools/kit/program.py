@@ -1,5 +1,5 @@
-"""Calls of the program, and files, that all tests in Python share. reference/test does not use it, because programs
-that derive reference values share nothing with the program under test.
+"""Calls of the program, and files, that all Python tests share. reference/test does not use it, because programs that
+derive reference values share nothing with the program under test.
 """
 import json
 import os
@@ -12,16 +12,17 @@ import unittest
 
 PROGRAM = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
 TRUTHS = os.path.abspath(os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5"))
-if "BEAMWORK_TRUTHS" in os.environ:  # also for programs that are run in another folder
+if "BEAMWORK_TRUTHS" in os.environ:  # also for programs that run in another folder
     os.environ["BEAMWORK_TRUTHS"] = TRUTHS
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
-# Background jobs of a shell ignore it, and the program keeps ignored signals ignored.
+# Background jobs of a shell ignore SIGINT, and the program keeps ignored signals ignored.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def run(*arguments, program=PROGRAM, **options):
-    """The finished process with its text; options as for subprocess.run. Never raises for a status."""
+    """Returns the finished process with its text; options are those of subprocess.run. Never raises because of a
+    status."""
     return subprocess.run([program, *map(str, arguments)], text=True, check=False,
                           **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 
@@ -38,7 +39,7 @@ def report(results, folder, *options):
 
 
 def drawn(folder, *selection, options=()):
-    """The report of a run of verify, drawn with those options; the run is folder/results.h5."""
+    """Returns the report of a run of verify, drawn with those options; the run is folder/results.h5."""
     results, site = folder / "results.h5", folder / "site"
     run("verify", *selection, "-o", results)
     done = report(results, site, *options)
@@ -47,12 +48,12 @@ def drawn(folder, *selection, options=()):
 
 
 def broken(record):
-    """Sentences of violated requirements, from the output of `element-test --format json`."""
+    """Returns the descriptions of violated requirements, from the output of `element-test --format json`."""
     return [c["sentence"] for c in record["claims"] if c["outcome"] == "broken"]
 
 
 def read_json(path):
-    """Contents of a JSON file of beamwork."""
+    """Returns the contents of a JSON file of beamwork."""
     return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
 
 
@@ -66,13 +67,13 @@ class ProgramTest(unittest.TestCase):
 
     @classmethod
     def class_folder(cls):
-        """A folder for all tests of the class, for setUpClass."""
+        """Returns a folder for all tests of the class, for setUpClass."""
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         return pathlib.Path(folder.name)
 
     def answered(self, *arguments, code=0, **options):
-        """The process, which ended with that code."""
+        """Returns the process, which must end with that code."""
         done = run(*arguments, **options)
         self.assertEqual(done.returncode, code, (arguments, done.stderr))
         return done

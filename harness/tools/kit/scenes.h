@@ -9,19 +9,19 @@
 /* Reads a scene file by its path from the root of the sources; valid until the test ends. An error
  * in the file ends the test with its message. */
 const case_type *scenes_case(const char *path);
-/* values: "name=value;...", printf format, of its parameters. */
+/* Sets parameter values; values: "name=value;...", a printf format. */
 void scenes_at(const case_type *, double value[], const char *values, ...)
     __attribute__((format(printf, 3, 4)));
-/* The scene at these values; the caller frees it. */
+/* Reads the scene at these values; the caller frees it. */
 void scenes_read(scene *s, const char *path, const char *values, ...)
     __attribute__((format(printf, 3, 4)));
 /* Solves the scene with the default options and fills the answer. */
 void scenes_ask(const char *path, const element_type *, int elements, answer *, const char *values,
                 ...) __attribute__((format(printf, 5, 6)));
-/* Solves a cell; failure fails the test. formulation: "name:key=value,...". */
+/* Solves one run, which must succeed. formulation: "name:key=value,...". */
 void scenes_solve(const char *path, const char *formulation, int elements, cell_result *,
                   const char *values, ...) __attribute__((format(printf, 5, 6)));
-/* Index of the entry with this name in the file. */
+/* Returns the index of the entry with this name in the file. */
 int scenes_find(const scene *, scene_list, const char *name);
 /* "alpha", ...: names as in scene files. */
 extern const char *const scenes_integrator[SCENE_SCHEMES];
@@ -32,7 +32,7 @@ typedef struct timed_section {
 } timed_section;
 section_spec timed_profile(const timed_section *);
 
-/* A bar of 1 m along x, clamped at the origin; the y axis of its section is that of the scene.
+/* Adds a bar of 1 m along x, clamped at the origin; the y axis of its section is that of the scene.
  * Returns its free tip; the root is the previous node. */
 int scenes_cantilever(scene *, const section_spec *);
 /* Adds quantities NAME_0, NAME_1, ...: the first frequencies [Hz] of an analysis. */

@@ -18,7 +18,7 @@ loads:
 
 
 def bad_scenes():
-    """[(name, text)] of scenes with one mistake each, that end in the lines expected of it."""
+    """Returns [(name, text)] of scenes with one error each, which end with the lines expected from it."""
     folder = pathlib.Path(__file__).parents[3] / "cases/format/test/bad"
     files = (path.read_bytes().decode() for path in sorted(folder.glob("*.txt")))
     return [tuple(piece.split("\n", 1)) for text in files

@@ -1,4 +1,5 @@
-"""What the gate notices: the tables are whole and within what is asked, and samples of them hold."""
+"""Tests the faults that `make verify` detects: the tables are complete and within the required bounds, and samples of
+them hold."""
 import csv
 import json
 import pathlib
@@ -8,7 +9,7 @@ from harness.tools.kit.program import PROGRAM, ROOT, environment, run
 from harness.tools import blind_spots
 
 PLANTED = pathlib.Path(PROGRAM).parent / "planted"
-MOST = 40  # quantities of which a fault of 0.1 % passes in some formulation
+MOST = 40  # quantities for which a fault of 0.1 % remains undetected in some formulation
 
 
 def table(name):
@@ -24,7 +25,7 @@ class BlindSpots(unittest.TestCase):
     rows, faults = table("blind_spots.csv"), table("planted_faults.csv")
 
     def test_every_quantity(self):
-        """Of every case, and of every scene that is judged."""
+        """There is a row for every quantity of every case and of every scene with verdicts."""
         here = {(r["case"], r["quantity"]) for r in self.rows}
         for case in listed()["cases"]:
             told = listed(case["case"])
@@ -39,7 +40,8 @@ class BlindSpots(unittest.TestCase):
             self.assertEqual(bool(row["reason"]), row in passing, row)
 
     def test_every_constant_of_every_formulation(self):
-        """A verdict notices 0.1 % of it, unless nothing depends on it; of an option, where it matters."""
+        """A verdict detects a fault of 0.1 % in every constant on which anything depends; for an option, in the cases
+        that it affects."""
         keys = {(f["formulation"], f["constant"]) for f in self.faults}
         for name in (f["formulation"] for f in listed()["formulations"]):
             for constant in blind_spots.CONSTANTS:
@@ -50,8 +52,8 @@ class BlindSpots(unittest.TestCase):
                 self.assertEqual(fault["noticed"], "", fault)
 
     def seen(self, row, constant, size, *options):
-        """Is the gate red with a fault of that size?  A formulation that is named would be held to its
-        contract too, which sees masses."""
+        """Does the run fail with a fault of that size? A formulation given by name would also be checked against the
+        interface requirements, which detect faults in masses."""
         select = f"={row['case']} and =default and ={row['formulation']} and ={row['quantity']}"
         done = run("verify", "-k", select, "-j", 1, *options, program=PLANTED,
                    env=environment(BEAMWORK_PLANT=f"{constant}={size}"))
@@ -59,13 +61,13 @@ class BlindSpots(unittest.TestCase):
         return done.returncode == 1
 
     def sample(self, rows):
-        """Every so many of what is judged at a default point of a built-in case."""
+        """Returns evenly spaced rows with verdicts at the default point of a built-in case."""
         quick = [r for r in rows if not r["parameters"] and list((ROOT / "cases").glob(r["case"] + ".[cy]*"))
                  and r["noticed"] and "motion" not in r["case"] and not blind_spots.passes(r["noticed"])]
         return quick[::max(1, len(quick) // 6)]
 
     def test_quantities_measured(self):
-        """Twice the fault is seen, whatever its sign; a third of it is not."""
+        """Twice the fault is detected, whatever its sign; a third of it is not."""
         former = ("--not-worse-than", ROOT / "harness" / "baseline.csv")
         rows = self.sample(self.rows)
         self.assertEqual({row["by"] for row in rows}, {"verdict", "baseline"})
@@ -80,7 +82,7 @@ class BlindSpots(unittest.TestCase):
                     self.assertIn(False, small)
 
     def test_constants_measured(self):
-        """By a verdict alone, without the committed table."""
+        """A verdict alone detects the fault, without the committed table."""
         for fault in self.sample([f for f in self.faults if f["noticed"]]):
             with self.subTest(fault=fault):
                 self.assertFalse(self.seen(fault, fault["constant"], 0))

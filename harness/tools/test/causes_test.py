@@ -1,4 +1,4 @@
-"""Causes of findings, and their bounds."""
+"""Tests the causes of known deviations and their bounds."""
 import pathlib
 import re
 import unittest
@@ -7,8 +7,8 @@ from unittest import mock
 from harness.tools import bounds, causes
 
 
-# Experiments on causes: pairs of formulations differ in one thing, by their code; what is chosen, and what is
-# concluded.
+# Experiments on causes: the code of paired formulations differs in one feature; the choice of experiments and their
+# conclusions are tested.
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 ABOUT = {
     "name",
@@ -31,7 +31,7 @@ def source(formulation):
 
 
 def shared():
-    """{name: text} of what formulations of a family declare together."""
+    """Returns {name: text} of the declarations that the formulations of a family share."""
     found = {}
     for header in (ROOT / "elements").glob("*/*.h"):
         text = header.read_text(encoding="utf-8").replace("\\\n", " ")
@@ -40,15 +40,15 @@ def shared():
 
 
 def members(formulation):
-    """{member: value} of what a formulation declares, by itself or with its family."""
+    """Returns {member: value} of the declarations of a formulation, its own and those of its family."""
     body, macros = source(formulation).split(f"element_{formulation} = {{")[1], shared()
-    for _ in range(3):  # they stand in each other
+    for _ in range(3):  # they refer to each other
         body = re.sub(r"(?<![.\w])([A-Z]\w+)(?=,)", lambda m: macros.get(m[1], m[1]), body)
     return dict(re.findall(r"\.(\w+) =\s*(.*?),\s*(?=\.|\};)", body, re.S))
 
 
 def words_of_prepare(formulation):
-    """Its own function prepare, word by word."""
+    """Returns the words of the formulation's own function prepare."""
     body = re.search(r"static status prepare\(.*?\n\}\n", source(formulation), re.S).group(0)
     return re.findall(r"\w+|[^\w\s]", body)
 
@@ -65,7 +65,8 @@ class OneThing(unittest.TestCase):
                 for name in one.keys() | other.keys() if one.get(name) != other.get(name)} - ABOUT
 
     def test_formulations(self):
-        """One word of `prepare`; or the whole stress function, over the same strains and inertia."""
+        """Paired formulations differ in one word of `prepare`, or in the whole stress function with the same strains
+        and inertia."""
         for a, b in self.pairs(False):
             differing = self.differing(a, b)
             if differing:
@@ -80,7 +81,7 @@ class OneThing(unittest.TestCase):
         self.assertFalse(self.differing("beamw", "beamw_consistent") <= STRESS_FUNCTION)
 
     def test_options(self):
-        """One option of the same formulation, with a choice that there is."""
+        """Paired options differ in one option of the same formulation, with an existing choice."""
         choices = (ROOT / "elements" / "beamw" / "prepare.c").read_text(encoding="utf-8")
         for a, b in self.pairs(True):
             name, _, option = b.partition(":")
@@ -135,7 +136,7 @@ class Choice(unittest.TestCase):
 class Outcome(unittest.TestCase):
 
     def laboratory(self, errors):
-        """errors: {changed parameters, or formulation: error of the limit}"""
+        """Returns a laboratory with errors: {changed parameters, or formulation: error of the limit}."""
         made = causes.Laboratory("program", 0)
 
         def series(case, formulation, parameters, meshes):
@@ -179,7 +180,7 @@ class Outcome(unittest.TestCase):
         self.assertEqual(causes.newton_of("a:b=c")[0], "a:b=c,newton=displacement")
 
     def test_time_is_bounded(self):
-        """Nothing begins when the time is over, and that is written down."""
+        """No experiment starts after the time limit, and this is recorded."""
         found = causes.Laboratory("/nowhere/program", 0).limit("x", "beamw", (), "load", 1.0)
         self.assertIn("not run", found["why"])
 
@@ -188,7 +189,7 @@ class Outcome(unittest.TestCase):
         self.assertNotIn("findings.csv", text)
 
 
-# Bounds of the ledger: the rule by which they are set, and what is said where they differ.
+# Bounds of the list of known deviations: the rule that sets them, and the message if they differ.
 def verdict_of_bounds(error, limit=1.0, predicted=None, kind="biased", rule="a"):
     truth = None if limit is None or error is None else limit / (1 + error)
     return {"finding": rule, "error": error, "limit": limit, "predicted": predicted,
@@ -197,7 +198,7 @@ def verdict_of_bounds(error, limit=1.0, predicted=None, kind="biased", rule="a")
 
 class Bounds(unittest.TestCase):
     def test_rule(self):
-        """1, 2, 5 times a power of ten, never below what was seen."""
+        """A bound is 1, 2 or 5 times a power of ten, never below the observed error."""
         for seen, bound in ((0.74, "1"), (0.2, "0.2"), (0.2001, "0.5"), (2.1e-5, "5e-05"),
                             (1e-9, "1e-09"), (2.966, "5"), (5.0001, "10"), (None, "")):
             self.assertEqual(bounds.bound_of(seen), bound)
@@ -216,7 +217,8 @@ class Bounds(unittest.TestCase):
             self.assertIn("should allow 0.0003", bounds.text_of(one))
 
     def test_loose(self):
-        """Ten times what is seen beside a derived limit, 1.5 times without one; each by itself."""
+        """A bound is loose beyond ten times the observed error with a derived limit, and beyond 1.5 times without
+        one."""
         derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}  # by 1e-3
         for allowed, verdicts, loose in (("1e-2", [derived], False), ("1.1e-2", [derived], True),
                                          ("1.5e-3", [verdict_of_bounds(1e-3)], False), ("1.6e-3", [verdict_of_bounds(1e-3)], True),
@@ -226,7 +228,7 @@ class Bounds(unittest.TestCase):
         self.assertIn("a separate entry", bounds.text_of(self.said("1e-3", [derived, verdict_of_bounds(1e-9)])))
 
     def test_derived_limits_bind(self):
-        """The distance counts from the derived limit where there is one, in parts of the truth."""
+        """The distance is measured from the derived limit if there is one, relative to the reference value."""
         derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}
         self.assertAlmostEqual(self.said("1e-3", [derived])["seen"], 1e-3)
         self.assertAlmostEqual(self.said("1", [derived, verdict_of_bounds(2e-3)])["seen"], 2e-3)
@@ -237,7 +239,7 @@ class Bounds(unittest.TestCase):
         self.assertFalse(self.said("1e-3", given)["stands"])
 
     def test_covered(self):
-        """Whatever the verdict; 3 U and what the prediction is known to."""
+        """Limits are counted whatever the verdict, within 3 U and the uncertainty of the prediction."""
         given = [{**verdict_of_bounds(0.1, limit, 2.0), "limit_uncertainty": 1e-6}
                  for limit in (2.0, 2.0000029, 2.0000031, None)]
         self.assertEqual(bounds.covered(given + [verdict_of_bounds(0.1)]), (2, 3))

@@ -1,4 +1,4 @@
-"""What work costs: counts of instructions, and coefficients fitted to measured times."""
+"""Tests the cost of work: instruction counts, and coefficients fitted to measured times."""
 import csv
 import math
 import os
@@ -17,11 +17,11 @@ from harness.tools.instructions import Profile, operations, parts_of
 from harness.tools.kit.program import ProgramTest, ROOT
 
 
-# Expected costs: planted prices and factors are found again; what the analyses of a scene do is
-# counted; the committed table has a row for each kind of work.
+# Expected costs: injected cost coefficients and factors are recovered; the work of the analyses of a scene is counted;
+# the committed table has a row for each kind of work.
 def planted():
-    """Cells whose cost is that of made-up prices: modal 1 us and 20 us an element, a load step 5 us
-    and 3 us an element; one formulation is three times as dear by the element."""
+    """Returns runs with made-up costs: modal 1 us and 20 us per element, a load step 5 us and 3 us per element; one
+    formulation is three times as expensive per element."""
     dice, out = random.Random(7), []
     for case in range(12):
         modal, steps = dice.randrange(2), dice.randrange(12)
@@ -57,7 +57,7 @@ class Fit(unittest.TestCase):
                                        "loaded_buckling": 1, "buckling": 1})
 
     def test_steps_of_motions(self):
-        """Of equal steps as many as there is room for; of those that adapt by their tolerance."""
+        """Equal steps are counted by the time span; adaptive steps are estimated from their tolerance."""
         swing = {"stations": [1, 3], "integrator": "alpha", "step": 0.7}
         for more, kind, count in (({}, "alpha_step", 5),
                                   ({"step": 0.75}, "alpha_step", 4),
@@ -85,13 +85,13 @@ class Table(unittest.TestCase):
         self.assertTrue(all(float(row["element"]) >= 0 for row in rows))
 
 
-# Prices of counted work: planted ones are found again, from times with noise and outliers; what is
-# said of their accuracy holds; the committed table is what the tool writes.
+# Cost coefficients of counted work: injected ones are recovered from times with noise and outliers; the stated
+# accuracy holds; the committed table is the output of the tool.
 NAMES = ("red", "blue", "green")
 
 
 def planted_of_prices(noise):
-    """Cells of made-up cases: 20 us a cell, 1 ns a flop, 2, 4 and 8 us an evaluation."""
+    """Returns runs of made-up cases: 20 us per run, 1 ns per flop, 2, 4 and 8 us per evaluation."""
     dice, out = random.Random(11), []
     for case in range(10):
         for name, price in zip(NAMES, (2e-6, 4e-6, 8e-6)):
@@ -160,10 +160,10 @@ class PricesTable(unittest.TestCase):
         self.assertTrue({"", "*"} < names)
 
 
-# Parts of a profile: each instruction is in one, whoever calls whom; operations by address.
+# Parts of a profile: each instruction belongs to one part, whatever the calls; operations are counted by address.
 
-# Newton's loop calls strain twice and a factor once; strain has a product of its own; the set-up
-# evaluates a strain too, as its own work.
+# Newton's loop calls strain twice and a factor once; strain has its own product; the set-up also evaluates a strain,
+# as its own work.
 PROFILE = """# callgrind format
 positions: instr line
 events: Ir
@@ -235,13 +235,13 @@ class Parts(ProgramTest):
         self.assertEqual(dict(parts), {"strain": 60, "factorisation": 20, "set-up": 33, "rest": 12})
 
     def test_operations(self):
-        """Two addresses of the program; the library has instructions at one of them too."""
+        """Two addresses belong to the program; the library has instructions at one of the same addresses."""
         numbers = {0x200: 4, 0x204: 1, 0x104: 2, 0x3fc: 1}
         self.assertEqual(operations(self.path, "/there/build/beamwork", numbers),
                          4 * 50 + 16 + 2 * 7)
 
 
-# Stored values of motions beside limits: what is asked of a scene, and what counts as within.
+# Stored values of motions compared with limits: the requests of a scene, and the criterion for agreement.
 SCENE = {
     "analyses": {"a": {"static": {}}, "b": {"motion": {"stations": ["9"]}}},
     "quantities": {

@@ -1,4 +1,4 @@
-"""Faults that are made: what is edited and what never is, always the same ones."""
+"""Tests the generated faults: which code is edited and which never is; the faults are always the same."""
 import pathlib
 import subprocess
 import sys
@@ -118,7 +118,7 @@ class Sample(unittest.TestCase):
 
 class Touched(unittest.TestCase):
     def test_lines_of_commits(self):
-        """Of a range, the lines that still stand as it wrote them."""
+        """For a range of commits, only lines that still exist as these commits wrote them are edited."""
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             commits = []
@@ -143,7 +143,7 @@ class Touched(unittest.TestCase):
 
 class Equivalent(unittest.TestCase):
     def test_each_has_its_place_and_reason(self):
-        """A line that has changed takes its equivalent faults with it."""
+        """If a line changes, its equivalent faults must be removed from the table."""
         made = {}
         for (file, function, line, edit), reason in mutate.equivalent().items():
             if file not in made:

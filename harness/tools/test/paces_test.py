@@ -1,4 +1,4 @@
-"""paces.py: every case of motion is in its table, a row is run and its reference checked."""
+"""Tests paces.py: every case of motion is in its table; a row is run and its reference checked."""
 import csv
 import json
 import sys
@@ -49,7 +49,7 @@ class Words(unittest.TestCase):
         self.assertEqual(paces.word_of(check), "not checked: no inertia")
 
     def test_soonest(self):
-        """What is not reached is told, not left out."""
+        """An error that no scheme reaches is reported, not omitted."""
         ways = [{"error": paces.LEVEL, "cost": cost, "integrator": name}
                 for name, cost in (("slow", 2), ("quick", 1))]
         ways += [{"error": 1e2 * paces.LEVEL, "cost": 0.1, "integrator": "rough"}]
@@ -58,7 +58,7 @@ class Words(unittest.TestCase):
         self.assertEqual(paces.soonest(tables), "quick 2, none 1")
 
     def test_refused(self):
-        """Those of which no run is offered, with the first reason."""
+        """Formulations without any supported run are listed with the first reason."""
         runs = [{"formulation": name, "status": status, "reason": reason}
                 for name, status, reason in (("a", "refused", "no inertia"), ("a", "refused", "no"),
                                              ("b", "refused", "implicit"), ("b", "ok", ""))]

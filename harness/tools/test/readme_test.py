@@ -1,4 +1,4 @@
-"""Texts: what READMEs say, and words to avoid."""
+"""Tests documentation: statements in READMEs, and words to avoid."""
 import pathlib
 import re
 import subprocess
@@ -10,7 +10,7 @@ from harness.tools import words
 from harness.tools.kit.program import ROOT
 
 
-# What READMEs say of files and folders is true, and what only one file may name, no other does.
+# Statements of READMEs about files and folders are true, and names that only one file may use occur in no other.
 
 # Names to be filled in, and a table inside results.h5.
 PATTERNS = ("NAME", "my_beam", "*", "cases/elastica/quantities")
@@ -22,7 +22,7 @@ TREES = ("cases", "docs", "elements", "harness", "reference", "reports")
 
 
 def files(*endings):
-    """Of the house: what is built or of the reader's own does not count."""
+    """Files of the repository; build products and files of the reader's own do not count."""
     top = [path for path in ROOT.iterdir() if path.is_file()]
     below = [path for tree in TREES for path in (ROOT / tree).rglob("*")]
     return [path for path in top + below if path.suffix in endings]
@@ -32,10 +32,10 @@ class Readme(unittest.TestCase):
     def test_paths_exist(self):
         found = 0
         for readme in files(".md"):
-            if readme.match("docs/index.md"):  # pages that are generated; Sphinx looks at them
+            if readme.match("docs/index.md"):  # generated pages; Sphinx checks them
                 continue
             text = readme.read_text(encoding="utf-8")
-            if readme.name == "CHANGELOG.md":  # what is released names the folders of its time
+            if readme.name == "CHANGELOG.md":  # a release names the folders that it had
                 text = "## ".join(text.split("\n## ")[:2])
             for name in PATH.findall(text):
                 if any(part in name for part in PATTERNS):
@@ -46,7 +46,7 @@ class Readme(unittest.TestCase):
         self.assertGreater(found, 50)
 
     def test_walk_goes_down(self):
-        """Each file of the walk includes nothing of a room that stands below it."""
+        """No file on the walk includes a header of a folder listed below its own."""
         text = (ROOT / "docs" / "project" / "source.md").read_text(encoding="utf-8")
         walked = [name for _, name in WALK.findall(text)]
         self.assertGreater(len(walked), 8)
@@ -58,14 +58,14 @@ class Readme(unittest.TestCase):
                 self.assertFalse(below & set(included))
 
 
-# A file of `quantities` is of one kind; the builder looks at the kind first.
+# Each file of `quantities` belongs to one kind; the builder checks the kind first.
 THEIRS = (ROOT / "cases" / "scene", ROOT / "cases" / "quantities",
           ROOT / "cases" / "format" / "builder_members.c")
 
 
 class Unions(unittest.TestCase):
     def test_only_their_files_name_them(self):
-        """The unions of a scene are read through functions that know the kind."""
+        """The unions of a scene are read only through functions that know the kind."""
         for path in files(".c"):
             if path.parent.name == "test" or path.parent in THEIRS or path in THEIRS:
                 continue
@@ -75,7 +75,7 @@ class Unions(unittest.TestCase):
                                             path.read_text(encoding="utf-8")))
 
 
-# The check of words: a bad word in each kind of text is found at its line, names are not.
+# The check of words finds a word to avoid in each kind of text, at its line; it ignores names.
 TEXTS = {
     "shown.c": ('#include "ledger of.h"\nint a;\nconst char *b = "it is "\n    "told here";\n', 4, "told"),
     "comment.c": ("int a; /* Sums.\n * A cell is told. */\n", 2, "told"),

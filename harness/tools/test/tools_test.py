@@ -1,5 +1,5 @@
-"""What each command asks of a machine, and how the runner counts: with a machine that has
-nothing, and with tests that are made up."""
+"""Tests the requirements of each command on a machine that has nothing installed, and the counts of the test runner
+with made-up tests."""
 import json
 import os
 import pathlib
@@ -12,7 +12,7 @@ from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, run
 
 TOOLS = ROOT / "harness" / "tools"
 COMMANDS = ("build", "verify", "report", "test", "truths")
-OPTIONAL = ("chromium", "vtk")  # of single tests: nobody installs them
+OPTIONAL = ("chromium", "vtk")  # of single tests: no command installs them
 
 
 class Folder(ProgramTest):
@@ -26,8 +26,8 @@ class Folder(ProgramTest):
 class Loading(unittest.TestCase):
 
     def test_few_libraries(self):
-        """Where HDF5 is there as an archive, the program loads none of the thirty libraries that
-        the shared one brings along."""
+        """If HDF5 exists as an archive, the program loads none of the thirty libraries on which the shared library
+        depends."""
         places = run("--libs-only-L", "hdf5", program="pkg-config").stdout.split()
         archive = next((path for path in (pathlib.Path(place[2:], "libhdf5.a") for place in places)
                         if path.exists()), None)
@@ -45,8 +45,7 @@ class Loading(unittest.TestCase):
 
 
 class Dependencies(Folder):
-    """Every program that could find something finds nothing; apt-get writes down what it is asked
-    for."""
+    """Every program that searches for packages finds none; apt-get records the packages it is asked to install."""
 
     def setUp(self):
         super().setUp()
@@ -95,7 +94,7 @@ class Dependencies(Folder):
             self.assertEqual(self.needs(command, 1000)[1], "")
 
     def test_every_import_is_asked_for(self):
-        """Modules that the packer, the derivations and the reports import belong to somebody."""
+        """Every module imported by the packer, the derivations and the reports belongs to a known package."""
         own = {"reference", "reports", "harness"}
         for command, folders in (("verify", ["reference/pack.py"]),
                                  ("truths", ["reference/derive"]), ("report", ["reports"])):
@@ -108,7 +107,7 @@ class Dependencies(Folder):
 
 
 def foreign_imports(path):
-    """Top-level names of what a file imports anywhere, without Python's own."""
+    """Returns the top-level names of all modules that a file imports, without those of Python itself."""
     import ast
     import sys
     names = set()
@@ -190,7 +189,7 @@ class Runner(Folder):
         self.assertIn("needs a lake", done.stdout)
 
     def test_spaces(self):
-        """Everything under a path with spaces."""
+        """Everything works below a path with spaces."""
         self.folder = self.folder / "a b"
         self.folder.mkdir()
         self.script("a_test", "echo PASS: one")
@@ -200,7 +199,7 @@ class Runner(Folder):
 
 
 class Circles(Folder):
-    """Of made-up objects that call each other."""
+    """Circles among made-up objects that call each other."""
 
     def objects(self, **sources):
         paths = []
@@ -248,7 +247,7 @@ class Circles(Folder):
         self.assertNotIn("apart", said.stdout)
 
     def test_folders_that_include_each_other(self):
-        """Though none calls the other."""
+        """Folders that include each other form a circle even if neither calls the other."""
         for name, other in (("harness/low/one.c", "harness/high/two.h"),
                             ("harness/high/two.c", "harness/low/one.h")):
             path = self.folder / name
@@ -264,7 +263,7 @@ class Circles(Folder):
 
 
 class Mutants(Folder):
-    """Faults of physics, without planting them: DRY=1 only asks whether each still has its place."""
+    """Physical faults without injecting them: DRY=1 only checks whether the location of each still exists."""
 
     def dry(self, root, table=()):
         faults = self.folder / "faults.list"
@@ -298,7 +297,8 @@ class Mutants(Folder):
         self.assertIn("SURVIVED  nowhere", done.stdout)
 
     def test_faults_that_are_made(self):
-        """Noticed by any of several checks; what does not compile, or changes nothing, is told."""
+        """A fault counts as detected by any of several checks; faults that do not compile or change nothing are
+        reported."""
         root = self.folder / "clone"
         root.mkdir()
         texts = {
@@ -341,7 +341,7 @@ class Mutants(Folder):
 
 
 class Make(Folder):
-    """The Makefile by itself: with goals of the test's own beside it."""
+    """The Makefile itself, with additional targets of the test."""
 
     def make(self, *arguments):
         goals = self.folder / "goals.mk"
@@ -374,7 +374,7 @@ class Make(Folder):
                          ["quick", "slow"])
 
     def test_clean_before_all_else(self):
-        """And yet with what the compiler needs."""
+        """`clean` runs before all other targets, which then still find what the compiler needs."""
         told = self.make("-n", "V=1", "QUIET=", f"BUILD={self.folder}/b", "clean", "all")
         compiled = [line for line in told if line.endswith("-c harness/cli/main.c -o "
                                                            f"{self.folder}/b/harness/cli/main.o")]
@@ -387,7 +387,7 @@ class Make(Folder):
             "truths", "install", "clean", "help", "lab", "words"})
 
     def test_laboratory(self):
-        """Listed, run in the order that is asked for; what is not there is refused."""
+        """Experiments are listed and run in the requested order; unknown ones are rejected."""
         listed = [line.split(maxsplit=3)[2:] for line in self.make("lab") if line]
         names = [name.removeprefix("L=") for name, _ in listed]
         self.assertIn("motions", names)
@@ -399,7 +399,7 @@ class Make(Folder):
         self.assertIn("there is no nothing", said.exception.stderr)
 
     def chosen(self, words):
-        """Tests that make test T=words runs."""
+        """Returns the tests that make test T=words runs."""
         told = self.make("-n", "test", f"T={words}", f"BUILD={self.folder}")
         runs = [line.split("/logs ")[1].split() for line in told if "run_tests.sh" in line]
         self.assertEqual(len(runs), 1)
@@ -425,7 +425,7 @@ class Make(Folder):
         self.assertRegex(told, f" -O0 -g3 -O0 .*-o {name}")
 
     def test_compile_commands(self):
-        """One for each source, and one for each test; what it says compiles."""
+        """There is one command for each source and each test, and these commands compile."""
         told = self.make("-Bnk", "V=1", "QUIET=", f"BUILD={self.folder}", "all", "tests")
         done = subprocess.run(["/usr/bin/python3", TOOLS / "compile_commands.py"],
                               input="\n".join(told), text=True, capture_output=True, check=True,

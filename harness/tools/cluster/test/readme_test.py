@@ -1,4 +1,4 @@
-"""The shell loop of the README, as it stands: one run in shards, started again, merged."""
+"""Runs the shell loop of the README as written: one run in shards, restarted, merged."""
 import os
 import pathlib
 import re
@@ -11,7 +11,7 @@ README = pathlib.Path(__file__).parents[1] / "README.md"
 
 class Loop(ProgramTest):
     def shell(self, text, code=0):
-        """Runs it where `beamwork` is the program that is tested."""
+        """Runs the text in a shell in which `beamwork` is the program under test."""
         places = f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}"
         done = subprocess.run(["sh", "-c", text], cwd=self.folder, capture_output=True, text=True,
                               check=False, env=os.environ | {"PATH": places})
