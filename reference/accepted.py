@@ -8,7 +8,7 @@ ACCEPTED_COLUMNS = "formulation,since,version".split(",")
 
 
 def read_accepted(path):
-    """Rows of the table, each a formulation by its name, the day and the version since when."""
+    """Returns the rows of the table: each a formulation by its name, the day and the version of its acceptance."""
     rows, seen = [], {}
     for number, row in read_csv(path, ACCEPTED_COLUMNS):
         where = f"{path.name}:{number}"

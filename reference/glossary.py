@@ -7,7 +7,7 @@ GLOSSARY_COLUMNS = "term,also,group,meaning,see".split(",")
 
 
 def looked_up(word):
-    """As `beamwork explain` compares words."""
+    """Normalises a word like `beamwork explain`."""
     return " ".join(re.split(r"[ _-]+", word.lower()))
 
 

@@ -39,7 +39,7 @@ def fnv1a(text):
 
 
 def read_defaults(path):
-    """{case: [(parameter, default, choices)]} in table order."""
+    """Returns {case: [(parameter, default, choices)]} in table order."""
     cases = {}
     for number, row in read_csv(path, ["case", "parameter", "value", "choices"]):
         table = cases.setdefault(row["case"], [])
@@ -50,7 +50,7 @@ def read_defaults(path):
 
 
 def parameter_hash(table, parameters, where):
-    """FNV-1a of "name=%.17g;" over all parameters, choices by index, "name=*;" for any value."""
+    """Returns FNV-1a of "name=%.17g;" over all parameters, with choices by index, and "name=*;" for any value."""
     given = {}
     everything = parameters == "*"
     for item in ([] if everything else filter(None, parameters.split(";"))):
@@ -116,7 +116,8 @@ def check_truth(row, where, defaults):
 
 
 def check_words(row, where, names):
-    """theory and convention: words of the closed lists, and none that the row's parameters contradict."""
+    """Checks that theory and convention are words of the closed lists, and that the row's parameters do not contradict
+    them."""
     given = dict(item.split("=", 1) for item in row["parameters"].split(";") if "=" in item)
     if row["theory"] not in THEORIES:
         raise Refused(f"{where}: theory '{row['theory']}' is none of {'|'.join(THEORIES[1:])}")
@@ -132,13 +133,14 @@ def check_words(row, where, names):
 
 
 def truth_key(row):
-    """What distinguishes a reference value from all others; two programs must not derive the same exact value."""
+    """Returns the key that distinguishes a reference value from all others; two programs must not derive the same
+    exact value."""
     return tuple("" if name == "source" and row["kind"] == "exact" else repr(row[name]) if name == "at" else row[name]
                  for name in ("case", "hash", "formulation", "theory", "elements", "quantity", "at", "kind", "model", "convention", "source"))
 
 
 def read_truths(folders, defaults):
-    """{case: rows} of every table in the folders; one that does not exist is empty."""
+    """Returns {case: rows} of every table in the folders; a table that does not exist is empty."""
     cases, seen, units = {}, {}, {}
     for path in [path for folder in folders for path in sorted(folder.glob("*.csv"))]:
         for number, row in read_csv(path, COLUMNS):
@@ -156,12 +158,12 @@ def read_truths(folders, defaults):
 
 
 def scene_names():
-    """Scenes of cases/examples, which are judged beside the cases."""
+    """Returns the scenes of cases/examples, which have verdicts like the cases."""
     return [path.stem for path in (pathlib.Path(__file__).resolve().parents[1] / "cases/examples").glob("*.yaml")]
 
 
 def read_findings(path, defaults):
-    """The list of known deviations: one entry for each cause, each readable in a line."""
+    """Returns the list of known deviations: one entry for each cause, each on one line."""
     rows, seen = [], {}
     for number, row in read_csv(path, FINDING_COLUMNS):
         where = f"{path.name}:{number}"
@@ -216,7 +218,8 @@ def write_columns(group, rows, columns):
 
 
 def seal(path):
-    """Appends the line by which the driver notices a file that was cut short, damaged or altered: length and CRC-32 of what comes before."""
+    """Appends the line by which the program detects a truncated, damaged or altered file: length and CRC-32 of the
+    preceding contents."""
     with open(path, "rb+") as file:
         data = file.read()
         file.write(b"beamwork-seal %016x %08x\n" % (len(data), zlib.crc32(data)))

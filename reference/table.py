@@ -1,9 +1,9 @@
-"""Tables of the truths as CSV: rows with declared columns, and what is refused of them."""
+"""Reads tables of reference values from CSV: rows with declared columns; invalid rows are rejected."""
 import csv
 
 
 class Refused(Exception):
-    """A row that makes no sense; the text names it."""
+    """Raised for an invalid row; the text names it."""
 
 
 def read_csv(path, columns):

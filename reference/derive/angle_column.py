@@ -1,4 +1,4 @@
-"""Flexural-torsional buckling of a fork-ended equal angle, one half-wave k = n pi/l at a time, 3 x 3; rigid in shear.
+"""Flexural-torsional buckling of an equal angle on fork supports, one half-wave k = n pi/l at a time, 3 x 3; rigid in shear.
 
 Unknowns: amplitudes of v_s, w_s (shear centre) and phi, all times sin kx.  The stress is -P/A - P y_a y/Iz - P z_a z/Iy of an
 axial force P at (y_a, z_a), or -M z/Iy of end moments M; it works on the slopes v' = v_s' - (z - zs) phi',
@@ -34,7 +34,7 @@ def work(k, force, y, z, polar):
 
 
 def factors(k, warping, stress):
-    """Positive critical factors of one half-wave."""
+    """Returns the positive critical factors of one half-wave."""
     roots = [sqrt(s) for s in stiffness(k, warping)]
     b = work(k, *stress)
     scaled = matrix(3, 3)
@@ -52,7 +52,7 @@ def stress_of(load):
 
 
 def least_factors(warping, stress):
-    """The LOADS least positive ones of all half-waves."""
+    """Returns the LOADS smallest positive factors of all half-waves."""
     return sorted(
         v for n in range(1, HALF_WAVES + 1) for v in factors(n * pi / L, warping, stress))[:LOADS]
 

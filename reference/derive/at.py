@@ -1,7 +1,7 @@
-"""Exact values of a case at a new parameter point, by the program that derives its rows.
+"""Computes the exact values of a case at a new parameter point, with the program that derives its rows.
 
-usage: at.py CASE ["name=value;..."]     Prints one line per value: quantity, value, unit, uncertainty and convention, separated by tabs.
-Exit status: 0; 3 no program derives this case or these parameters, with one line that says so.
+usage: at.py CASE ["name=value;..."]     Prints one line per value: quantity, value, unit, uncertainty and convention,
+separated by tabs. Exit status: 0, or 3 if no program derives this case or these parameters; a line then says so.
 """
 import importlib
 import pathlib
@@ -14,7 +14,7 @@ SIZES = ("height", "width", "web_thickness", "flange_thickness")  # of the C-sha
 
 
 class NotDerivable(Exception):
-    """The line for the user."""
+    """Raised with the line for the user."""
 
 
 def numbers(given):
@@ -22,7 +22,7 @@ def numbers(given):
 
 
 def channel_section(case, given):
-    """(section, all parameters) of a case with the C-shaped section."""
+    """Returns (section, all parameters) of a case with the C-shaped section."""
     from reference.derive import column
     if given.get("section_data") == "printed" and any(name in given for name in SIZES):
         raise NotDerivable("printed section data belong to the default sizes")
@@ -99,7 +99,8 @@ def sheet_case(case, function):
 
 
 def cantilever(family, *names):
-    """Families of cantilevers.py, each of a case of that name: one tuple of values for each parameter."""
+    """Returns the solver of a family of cantilevers.py, for a case of that name: one tuple of values for each
+    parameter."""
 
     def solve(given):
         from reference.derive import cantilevers
@@ -153,7 +154,7 @@ CHANNEL = ("length", "height", "width", "web_thickness", "flange_thickness", "yo
 HEXAPOD = ("length", "width", "thickness", "young", "poisson", "fold_angle", "radius",
            "fold_warping", "wagner", "base_radius", "crank_length", "crank_azimuth",
            "platform_radius", "platform_azimuth", "height", "stroke", "steps")
-# Per case: the parameters that may differ from the defaults, what solves, the program it uses.
+# For each case: the parameters that may differ from the defaults, the solver, and the program that it uses.
 SOLVERS = {
     "c_column": (CHANNEL + ("rotary_inertia", ), c_column, "column"),
     "moment_buckling": (CHANNEL + ("wagner_moments", ), moment_buckling, "column"),

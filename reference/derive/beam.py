@@ -1,16 +1,16 @@
 """The geometrically exact (Simo-Reissner) beam with warping: its differential equations, and their spectral integration.
 
-State y(s) = (r, q, a, B), r on the line of centroids; F constant, m(s) = m0 - r x F in fixed axes; N = R^T F, M = R^T m;
+State y(s) = (r, q, a, B), with r on the centroidal axis; F constant, m(s) = m0 - r x F in fixed axes; N = R^T F, M = R^T m;
   gx = Nx/EA - t kx^2/2, ky = My/EIy - by kx^2/2, kz = Mz/EIz + kz0 + bz kx^2/2,
   Mw = Mx + zs Ny - ys Nz - (GJ + t Nx + by My - bz Mz) kx - 4 c kx^3,
   (gy - zs kx, gz + ys kx, kx - a) = f (Ny, Nz, Mw)   (strains at the shear centre and of warping; f = F/G, zero: rigid),
   r' = R (ex + g), q' = q o (0, k)/2, EIw a' = B, B' = -Mw; uniform torsion, EIw = 0: Mw = 0.
-With p^2 the square of the distance from the shear centre: t its mean (trapeze term), bz = int y p^2/Iz, by = int z p^2/Iy
-(Wagner moments; J keeps -2 ys and -2 zs of them), c = E int (y^2 + z^2 - Ip/A)^2 dA/8 (Wagner torque, ys = zs = 0); N Eqs. 46-47 with
-the sign of u_y corrected; J's strains with shear in stability after Haringx.
+With p^2 the square of the distance from the shear centre: t its mean (trapeze term), bz = int y p^2/Iz, by = int z p^2/Iy (Wagner
+moments; J keeps -2 ys and -2 zs of them), c = E int (y^2 + z^2 - Ip/A)^2 dA/8 (Wagner torque, ys = zs = 0); N Eqs. 46-47 with the
+sign of u_y corrected; J's strains with Haringx's shear theory in stability.
 
-Each of several intervals is integrated from values at Chebyshev points, Y_j = y_0 + h sum_k W_jk f(Y_k), with W exact
-for the interpolating polynomial; derivatives are complex steps, which cost no digits.
+Each of several intervals is integrated from values at Chebyshev points, Y_j = y_0 + h sum_k W_jk f(Y_k), with W exact for the
+interpolating polynomial; derivatives are complex steps, which cost no digits.
 """
 import numpy as np
 
@@ -18,7 +18,7 @@ STEP = 1e-30
 
 
 class Beam:
-    """Stiffnesses in SI; shear: 3 x 3 compliance f of (y, z, w), or fy and fz alone; EIw = 0: uniform torsion."""
+    """Stiffnesses in SI. shear: 3 x 3 compliance f of (y, z, w), or only fy and fz; EIw = 0: uniform torsion."""
 
     def __init__(self,
                  length,
@@ -40,7 +40,7 @@ class Beam:
         self.EIw, self.t, self.c, self.curvature, self.centre, self.wagner = EIw, t, c, curvature, centre, wagner  # wagner = (by, bz)
 
     def scaled(self, length, force):
-        """The same beam in units of length and force; stiffness becomes compliance where it may be infinite."""
+        """Returns the same beam in units of length and force; stiffnesses that may be infinite become compliances."""
         moment = force * length
         s = Scaled()
         s.length, s.warps = self.length / length, self.EIw > 0
@@ -56,15 +56,15 @@ class Beam:
 
 
 class Scaled:
-    """Dimensionless beam; length in units of the network's."""
-    carries = False  # has it loads along it, and states for them?
+    """Dimensionless beam; lengths are in units of the network's length."""
+    carries = False  # does the beam carry loads along it, with states for them?
 
     @property
     def states(self):
         return 9 if self.warps else 7
 
     def _twist(self, torque, rigidity, N, a):
-        """kx from kx - a = f (Ny, Nz, Mw), or from Mw = 0 in uniform torsion."""
+        """Returns kx from kx - a = f (Ny, Nz, Mw), or from Mw = 0 in uniform torsion."""
         f = self.f[2]
         if not self.warps:
             scale, given = rigidity, torque
@@ -80,7 +80,7 @@ class Scaled:
         return k
 
     def slope(self, y, p):
-        """dy/ds, s in [0, 1]; y [states, many], p [6, many] = (F, m0)."""
+        """Returns dy/ds, s in [0, 1]; y [states, many], p [6, many] = (F, m0)."""
         R, F = rotation(y[3:7]), p[:3]
         ys, zs = self.centre
         m = p[3:] - np.cross(y[:3], F, axis=0)
@@ -105,7 +105,7 @@ class Scaled:
         return self.length * np.concatenate(out)
 
     def slope_and_derivatives(self, y, p):
-        """f [states, many], df/dy [many, states, states], df/dp [many, states, 6]."""
+        """Returns f [states, many], df/dy [many, states, states], df/dp [many, states, 6]."""
         n, many = y.shape
         columns = n + 6
         z = np.repeat(np.concatenate([y, p]).astype(complex)[:, :, None], columns, axis=2)
@@ -115,7 +115,7 @@ class Scaled:
         return f[:, :, 0].real, d[:, :, :n], d[:, :, n:]
 
     def at_rest(self, start, q0, s):
-        """States [states, many] of the stress-free beam at s in [0, 1]."""
+        """Returns the states [states, many] of the stress-free beam at s in [0, 1]."""
         angle = self.curvature * self.length * s
         with np.errstate(divide="ignore", invalid="ignore"):
             along = np.where(angle == 0, s * self.length,
@@ -131,7 +131,7 @@ class Scaled:
 
 
 def rotation(q):
-    """Rotation matrices [3, 3, ...] of unit quaternions [4, ...]."""
+    """Returns the rotation matrices [3, 3, ...] of unit quaternions [4, ...]."""
     w, x, y, z = q
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                      [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -139,7 +139,7 @@ def rotation(q):
 
 
 def product(a, b):
-    """Quaternion product a o b."""
+    """Returns the quaternion product a o b."""
     return np.array([
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
@@ -164,7 +164,7 @@ def quaternion(R):
 
 
 def exponential(v):
-    """Quaternion of a rotation vector."""
+    """Returns the quaternion of a rotation vector."""
     angle = np.linalg.norm(v)
     return np.concatenate([[np.cos(angle / 2)], np.sinc(angle / (2 * np.pi)) / 2 * np.asarray(v)])
 
@@ -174,7 +174,8 @@ def cross_matrix(v):
 
 
 def chebyshev(n):
-    """n + 1 points in [0, 1] and W [n + 1, n + 1]: sum_k W_jk f(x_k) = int from 0 to x_j of the interpolant."""
+    """Returns n + 1 points in [0, 1] and W [n + 1, n + 1]: sum_k W_jk f(x_k) = int from 0 to x_j of the
+    interpolant."""
     from numpy.polynomial import chebyshev as c
     x = -np.cos(np.pi * np.arange(n + 1) / n)
     to_series = np.linalg.inv(c.chebvander(x, n))

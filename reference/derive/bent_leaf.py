@@ -1,6 +1,6 @@
-"""Leaf between a clamp and a stage that moves across it without turning, free along the leaf: the elastica, extensible.
+"""Leaf between a clamp and a stage that moves transversely without rotating and is free along the leaf: the extensible elastica.
 
-Each half is a cantilever under a force F across it at the point of inflection: N = F sin t, and with s the initial length
+Each half is a cantilever under a transverse force F at the point of inflection: N = F sin t, and with s the initial length
   EI t'' = -F cos t (1 + F sin t/EA),   EI t'^2/2 = F (sin e - sin t) + F^2 (sin^2 e - sin^2 t)/2EA,   e = t at the inflection.
 With sin t = sin e - u^2 the integrals over the angle are smooth.  At the clamp N = 0: the stress there is E t' h/2.
 """
@@ -13,12 +13,12 @@ EI, EA = E * WIDTH * THICK ** 3 / 12, E * WIDTH * THICK
 
 
 def curvature(F, e, u):
-    """t' where sin t = sin e - u^2."""
+    """Returns t' where sin t = sin e - u^2."""
     return u * sqrt(2 * F / EI * (1 + F / EA * (sin(e) - u ** 2 / 2)))
 
 
 def integral(F, e, low, f):
-    """Returns the integral of f(sin t) over the initial length from the inflection to where u = low .. of a half."""
+    """Returns the integral of f(sin t) over the initial length of a half, from u = low to the end."""
 
     def slope(u):
         t = asin(sin(e) - u ** 2)
@@ -28,7 +28,7 @@ def integral(F, e, low, f):
 
 
 def solved(travel):
-    """Force and angle at the inflection."""
+    """Returns the force, and the angle at the inflection."""
 
     def missing(F, e):
         root = sqrt(sin(e))
@@ -39,13 +39,13 @@ def solved(travel):
 
 
 def stress(travel):
-    """At the clamp, where it is largest."""
+    """Returns the stress at the clamp, where it is largest."""
     F, e = solved(travel)
     return E * THICK / 2 * curvature(F, e, sqrt(sin(e)))
 
 
 def moment(travel, place):
-    """At a part of the length below one half."""
+    """Returns the moment at a fraction of the length below one half."""
     F, e = solved(travel)
     u = findroot(lambda low: integral(F, e, low, lambda sine: 1) / LENGTH - (mpf(1) / 2 - place),
                  sqrt(sin(e)) * (1 - 2 * place))

@@ -1,8 +1,8 @@
-"""Torsional coefficients of the third-order sheet element's potential (N Eqs. 44-51, App. B) to 120 digits.
+"""Computes the torsional coefficients of the third-order sheet element's potential (N Eqs. 44-51, App. B) to 120 digits.
 
-Straight from the definitions, with L = GJ = 1, EIw = 1/lambda^2: the bimoment is the hyperbolic function of App. B (its factor
-1/lambda^4 restored), and every integrand is a sum of polynomials times exp(k lambda x), which is integrated term by term.
-Nothing is integrated by parts, so that a form that is can be judged by it.
+They follow directly from the definitions, with L = GJ = 1, EIw = 1/lambda^2: the bimoment is the hyperbolic function of App. B
+(its factor 1/lambda^4 restored), and every integrand is a sum of polynomials times exp(k lambda x), which is integrated term
+by term. Nothing is integrated by parts, so that the results can check a form that is.
 
 usage: bimoment_coefficients.py > elements/test/bimoment_values.h
 """
@@ -25,7 +25,7 @@ LOADS = {
 
 
 class Sum:
-    """sum over k of p_k(x) exp(k lambda x); p_k: coefficients in ascending powers."""
+    """Sum over k of p_k(x) exp(k lambda x); p_k: coefficients in ascending powers."""
 
     def __init__(self, lam, parts):
         self.lam, self.parts = lam, {k: [mpf(c) for c in p] for k, p in parts.items()}
@@ -79,7 +79,7 @@ def polynomial(lam, coefficients):
 
 
 def bimoments(lam, loads):
-    """B per unit stress (and angle), and of the ends' twist rates."""
+    """Returns B per unit stress (and angle), and per unit twist rate at the ends."""
     sine, half = (exp(lam) - exp(-lam)) / 2, (exp(lam / 2) + exp(-lam / 2)) / 2
     c1 = Sum(lam, {1: [1 / (2 * sine)], -1: [1 / (2 * sine)]})
     c2 = Sum(lam, {-1: [exp(lam) / (2 * sine)], 1: [exp(-lam) / (2 * sine)]})
@@ -96,7 +96,8 @@ def bimoments(lam, loads):
 
 
 def coefficients(lam, loads):
-    """Named values: A of pairs of unit stresses, b of a stress with a twist variable, P0 of the ends' twist rates."""
+    """Returns named values: A of pairs of unit stresses, b of a stress with a twist variable, P0 of the ends' twist
+    rates."""
     B, ends = bimoments(lam, loads)
     T = {}
     for name in B:

@@ -1,4 +1,4 @@
-"""Cantilevers under dead tip loads at large displacement: the geometrically exact beam of beam.py."""
+"""Cantilevers under dead tip loads at large displacements: the geometrically exact beam of beam.py."""
 import math
 
 import numpy as np
@@ -12,7 +12,7 @@ RELATIVE = 5e-12
 
 
 def dead_load(beam, F, steps):
-    """(position of the tip/L, its rotation matrix) of a cantilever under a dead tip force F [N]."""
+    """Returns (position of the tip/L, its rotation matrix) of a cantilever under a dead tip force F [N]."""
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=6)
     load = np.array(F) / net.force
     angle = beam.curvature * beam.length
@@ -85,7 +85,7 @@ def bend_45(torsions=("exact", "polar"), forces=(600, 300), form=lambda beam: be
 
 
 def roll_up(all_turns=(1, 0.25, 2)):
-    """A circle: the tip is at L sin(angle)/angle."""
+    """Yields a cantilever rolled up into a circle: the tip is at L sin(angle)/angle."""
     for turns in all_turns:
         angle = 2 * math.pi * turns
         value = 0.0 if turns >= 1 and turns == int(turns) else math.sin(angle) / angle

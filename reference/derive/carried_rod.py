@@ -1,7 +1,8 @@
-"""Isotropic rod (EI = GJ = 1) of length 1 whose tip is turned by phi = strain (0.6, 0, 0.8) against its root, then carried about (1, 2, 3).
+"""Isotropic rod (EI = GJ = 1) of length 1 whose tip is rotated by phi = strain (0.6, 0, 0.8) relative to its root and which is
+then rotated as a whole about (1, 2, 3).
 
-Without a force the moment is constant along the rod, and so is the curvature phi/L: M = phi EI/L, r = int exp(s phi) ex ds.
-Carried by R: R M and R r.
+Without a force the moment is constant along the rod, and so is the curvature phi/L: M = phi EI/L, r = int exp(s phi) ex ds. After the
+rotation R they are R M and R r.
 """
 from mpmath import matrix, mp, mpf, cos, pi, sin, sqrt
 

@@ -1,9 +1,9 @@
 """Channel cantilever under a dead tip force parallel to its web (J section 5.2): force at given deflections of the loaded point.
 
-The geometrically exact beam with eccentric shear centre and warping; root clamped and unable to warp, tip free to warp.  The
-end section is rigid, the force follows its point D (top of the web) or E (bottom).  Kept, as in J: shortening by twist and the
-part -2 ys of the Wagner moments; omitted: the Wagner torque and, unless it is asked for, int y (y^2 + z^2) dA.  Shear in
-stability after Haringx.
+The model is the geometrically exact beam with eccentric shear centre and warping; the root is clamped with warping restrained,
+and the tip is free to warp. The end section is rigid; the force follows its point D (top of the web) or E (bottom). As in J,
+shortening by twist and the part -2 ys of the Wagner moments are included; the Wagner torque is omitted and so is, unless
+requested, int y (y^2 + z^2) dA. Haringx's shear theory is used.
 """
 import numpy as np
 
@@ -19,7 +19,7 @@ RELATIVE = 1e-9
 
 
 def channel_beam(sizes, shear, wagner_moments):
-    """(beam, half the height, y of the web) of flanges 16 mm and web 10 mm thick."""
+    """Returns (beam, half the height, y of the web) for flanges of 16 mm and a web of 10 mm thickness."""
     s = channel(*SIZES[sizes], "0.016", "0.010")
     ys, zs = float(s.ys), float(s.zs)
     beam = Beam(LENGTH,
@@ -36,7 +36,8 @@ def channel_beam(sizes, shear, wagner_moments):
 
 
 def path(deflections, intervals=6, nodes=11, form=lambda beam: beam, **given):
-    """(force [N], displacement of the loaded point along y [m]) at each deflection [m], in small steps so that no branch is jumped."""
+    """Returns (force [N], displacement of the loaded point along y [m]) at each deflection [m], in steps small enough
+    that no branch is skipped."""
     value = {**defaults.values("c_cantilever"), **given}
     beam, half, web = channel_beam(value["sizes"], value["shear"], value["wagner_moments"])
     beam = form(beam)

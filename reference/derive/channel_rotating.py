@@ -1,9 +1,9 @@
-"""The channel cantilever of J section 5.2 while it turns about the vertical axis through its root: force at given deflections.
+"""The channel cantilever of J section 5.2, rotating about the vertical axis through its root: force at given deflections.
 
-Beam and load as in channel_cantilever.py.  In the turning frame every piece of the line of centroids is pulled outward by
-f = rho A Omega^2 times its distance from the axis.  With rotary inertia the fibres are: at v = R (omega a, y, z) from the centroid
-they are pulled by rho Omega^2 P v more, P = I - e_z e_z^T, which gives the moment c = rho Omega^2 sum_k I_k d_k x P d_k about it
-(d_k the columns of R, I = (Iw a^2, Iz, Iy); int omega y, int omega z and int y z vanish) and does the work
+Beam and load as in channel_cantilever.py.  In the rotating frame, every piece of the centroidal axis is pulled outward by f = rho
+A Omega^2 times its distance from the axis. With rotary inertia, the fibres are pulled too: at v = R (omega a, y, z) from the
+centroid they are pulled by rho Omega^2 P v more, P = I - e_z e_z^T, which gives the moment c = rho Omega^2 sum_k I_k d_k x P d_k
+about it (d_k the columns of R, I = (Iw a^2, Iz, Iy); int omega y, int omega z and int y z vanish) and does the work
 rho Iw a Omega^2 d_x . P d_x on da.  F' = -f, m0' = -r x f - c and B' = -Mw - that are integrated with the state of the beam
 (beam.py), by Chebyshev collocation of all intervals at once; Newton's method with derivatives by complex steps.
 """
@@ -19,7 +19,7 @@ RELATIVE = 1e-8
 
 
 class Turning:
-    """Unknowns: states at all points, one after the other, and the force on the tip."""
+    """Unknowns: the states at all points, one after the other, and the force on the tip."""
 
     def __init__(self, omega, rotary, form):
         value = defaults.values("c_cantilever")
@@ -29,7 +29,7 @@ class Turning:
         self.beam = form(beam).scaled(LENGTH, self.force)
         area = beam.EA / 210e9
         self.pull = DENSITY * area * omega ** 2 * LENGTH ** 2 / self.force
-        turning = rotary * DENSITY * omega ** 2 / self.force  # times the moments of area: without a unit
+        turning = rotary * DENSITY * omega ** 2 / self.force  # times the moments of area: dimensionless
         self.moments, self.bimoments = turning * np.array(
             [beam.EIz, beam.EIy]) / 210e9, turning * beam.EIw / 210e9 / LENGTH ** 2
         self.arm = np.array([0, self.web, self.half]) / LENGTH
@@ -50,7 +50,8 @@ class Turning:
         return np.concatenate([y, -outward, -np.cross(z[:3], outward, axis=0) - moment])
 
     def ends(self, z0, z1, load, deflection):
-        """Sixteen conditions: root clamped and unable to warp; force, moment, bimoment and deflection of the tip."""
+        """Returns sixteen conditions: root clamped with warping restrained; force, moment, bimoment and deflection of
+        the tip."""
         r, R, F = z1[:3], rotation(z1[3:7]), z1[9:12]
         arm, pull = R @ self.arm, np.array([0 * load, 0 * load, -load])
         return np.concatenate([
@@ -102,7 +103,7 @@ class Turning:
 
 
 def advance(t, at, w):
-    """Solves at the next deflection on the way from at to w [m] and returns it; steps that do not converge are halved."""
+    """Solves at the next deflection from `at` towards w [m] and returns it; steps that do not converge are halved."""
     step, before = 0.025 if at < 0.4 else 0.05, (t.z.copy(), t.load)
     while step > 1e-3:
         to = min(at + step, w)
@@ -115,7 +116,7 @@ def advance(t, at, w):
 
 
 def path(deflections, omega, rotary=0, form=lambda beam: beam):
-    """(force [N], displacement of the loaded point along y [m]) at each deflection [m]."""
+    """Returns (force [N], displacement of the loaded point along y [m]) at each deflection [m]."""
     t = Turning(omega, rotary, form)
     out, at = [], 0.0
     for w in deflections:

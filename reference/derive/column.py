@@ -2,11 +2,12 @@
 
 Unknowns: amplitudes of v_s, w_s, phi (sin kx) and of the shear strains g_y, g_z, g_w (cos kx).
   strain    EIz k^2 (kV - g_y)^2 + EIy k^2 (kW - g_z)^2 + EIw k^2 (kP - g_w)^2 + G It (kP)^2 + G g^T D g
-  prestress (v_c'^2 + w_c'^2 + Ip/A phi'^2) - c [(g_y^2 + g_z^2) + 2 (zs g_y - ys g_z) phi'],  v_c = v_s + zs phi, w_c = w_s - ys phi
+  prestress (v_c'^2 + w_c'^2 + Ip/A phi'^2) - c [(g_y^2 + g_z^2) + 2 (zs g_y - ys g_z) phi'],  v_c = v_s + zs phi, w_c
+  = w_s - ys phi
   kinetic   rho [A (v_c^2 + w_c^2) + Ip phi^2 + Iz (v_s' - g_y)^2 + Iy (w_s' - g_z)^2 + Iw (phi' - g_w)^2]
-c = 0: shear in stability after Engesser, c = 1: after Haringx (Simo-Reissner).
-n = 0 exists too: uniform rotation of the sections, restrained by shear alone.
-Uniform end moment: closed form of the monosymmetric beam with shear (reference/ERRATA.md).
+c = 0: Engesser's shear theory in stability; c = 1: Haringx's (Simo-Reissner).
+n = 0 also exists: a uniform rotation of the sections, restrained only by shear.
+Uniform end moment: closed form of the monosymmetric beam with shear deformation (reference/ERRATA.md).
 """
 from mpmath import mp, mpf, matrix, pi, sqrt, cholesky, inverse, eigsy
 
@@ -21,7 +22,7 @@ PRINTED = {
 
 
 def channel_data(**given):
-    """Section of c_column and moment_buckling; given: parameters that differ from the defaults."""
+    """Returns the section of c_column and moment_buckling; given: parameters that differ from the defaults."""
     at = defaults.decimals("c_column", given)
     s = channel(at["height"], at["width"], at["flange_thickness"], at["web_thickness"])
     s.E, s.G, s.RHO = at["young"], at["shear_modulus"], at["density"]
@@ -93,7 +94,7 @@ def _kinetic(s, k, shear, rotary):
 
 
 def _ratios(a, b):
-    """Eigenvalues of B x = nu A x, A positive definite."""
+    """Returns the eigenvalues of B x = nu A x, A positive definite."""
     l = inverse(cholesky(a))
     c = l * b * l.T
     return [v for v in eigsy((c + c.T) / 2, eigvals_only=True)]
@@ -109,9 +110,9 @@ def buckling_load(s, length, shear, haringx):
 
 
 def frequencies(s, length, shear, rotary, count, load=0, haringx=False, prestress=_prestress):
-    """Under an axial compression `load`, about the undeformed state."""
+    """Returns frequencies about the undeformed state, under an axial compression `load`."""
     found = []
-    if shear and rotary:  # no half-wave at all: sections turn and warp in pure shear
+    if shear and rotary:  # no half-wave at all: sections rotate and warp in pure shear
         inertia = [s.RHO * i for i in (s.Iz, s.Iy, s.Iw)]
         mass = matrix(3, 3)
         for i in range(3):
@@ -128,7 +129,7 @@ def frequencies(s, length, shear, rotary, count, load=0, haringx=False, prestres
 
 
 def buckling_moments(s, length, shear, haringx, wagner):
-    """W (1 - (1-c) F_zw M/G)^2 + G It - M (b_z - 2 ys) = M^2 [1/(EIy k^2) + (1-c) F_zz/G], n = 1."""
+    """Solves W (1 - (1-c) F_zw M/G)^2 + G It - M (b_z - 2 ys) = M^2 [1/(EIy k^2) + (1-c) F_zz/G], n = 1."""
     k = pi / length
     c = 1 if haringx or not shear else 0
     fww = s.F[2, 2] if shear else mpf(0)
@@ -151,7 +152,7 @@ def length_of(case, given):
 
 
 def other_sizes():
-    """A deep channel, and one with a thin web."""
+    """Yields a deep channel, and one with a thin web."""
     for given in ({"length": 4, "height": "0.9", "width": "0.3"}, {"web_thickness": "0.01"}):
         s, l = channel_data(**given), length_of("c_column", given)
         yield "c_column", _text(**given), "buckling_load", buckling_load(s, l, True, False), "N"
@@ -167,7 +168,7 @@ def other_sizes():
 
 
 def branched():
-    """The unsymmetric section of four walls, in SI."""
+    """Returns the unsymmetric section of four walls, in SI."""
     mm = mpf(10) ** -3
     points = [(0, 0), (50, 0), (50, 80), (20, 80), (50, 100)]
     s = section([(y * mm, z * mm) for y, z in points], [(0, 1, 2 * mm), (1, 2, 3 * mm),
@@ -178,7 +179,7 @@ def branched():
 
 
 def loaded(s, at):
-    """(quantity, value, unit) of a column under an axial load; at: all parameters."""
+    """Yields (quantity, value, unit) of a column under an axial load; at: all parameters."""
     l, shear, haringx = at["length"], at["shear"], at["shear_stability"] == "haringx"
     yield "buckling_load", buckling_load(s, l, shear, haringx), "N"
     for i, value in enumerate(

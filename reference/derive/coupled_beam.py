@@ -1,11 +1,11 @@
-"""A cantilever of a section by its matrices: (N, Q, M) = C (gamma, kappa), kinetic energy 1/2 v . M v per length; L = 1.
+"""A cantilever with a section given by matrices: (N, Q, M) = C (gamma, kappa), kinetic energy 1/2 v . M v per length; L = 1.
 
 Linear statics: the displacement along a load is int of (N, Q, M) . C^-1 (N, Q, M of the unit load); weight acts at the centre of mass.
 Helix: no force, M along kappa = (C^-1)_kk M / its eigenvalue is the same at every section in space and in the section's axes: strains
 are uniform, R = exp(s kappa~), r = int R (e_x + gamma) ds.
 Frequencies: gamma = u' + e_x x theta, kappa = theta', N' = -omega^2 (M v)_force, M' = -e_x x N - omega^2 (M v)_moment: the transfer
 matrix exp(A) of twelve constant equations; clamped and free.
-Buckling under the dead force n = -P e_x: the force on the turned section changes by n x theta, M' = -e_x x N - u' x n.
+Buckling under the dead force n = -P e_x: the force on the rotated section changes by n x theta, M' = -e_x x N - u' x n.
 """
 from mpmath import cos, det, expm, findroot, matrix, mp, mpf, pi, quad, sin, sqrt
 
@@ -32,7 +32,7 @@ def stiffness(coupling, helix):
 
 
 def mass(coupling):
-    """int rho [1, -x~; x~, -x~ x~] dA of a slice with its moments about the centre."""
+    """Returns int rho [1, -x~; x~, -x~ x~] dA of a slice with its moments about the centre."""
     y, z = (coupling * c for c in CENTRE)
     x = matrix([[0, -z, y], [z, 0, 0], [-y, 0, 0]])
     out, turned = matrix(6, 6), -MASS * x * x
@@ -46,7 +46,7 @@ def mass(coupling):
 
 
 def at_section(x, tip):
-    """Resultants at x of a force and a moment at the tip."""
+    """Returns the resultants at x due to a force and a moment at the tip."""
     fx, fy, fz, mx, my, mz = tip
     return matrix([fx, fy, fz, mx, my - (1 - x) * fz, mz + (1 - x) * fy])
 
@@ -89,7 +89,8 @@ def cross_matrix(a):
 
 
 def free_end(F, M, squared, force):
-    """Forces at the free end of the motions that the clamped end allows, of a size that does not matter; (u, theta, N, M)' = A (...)."""
+    """Returns the forces at the free end due to the unknowns at the clamped end, of arbitrary magnitude; (u, theta, N,
+    M)' = A (...)."""
     axis, n = cross_matrix((1, 0, 0)), cross_matrix((-force, 0, 0))
     S, A, scale = matrix(6, 12), matrix(12, 12), sqrt(STIFF[4])
     for i in range(6):

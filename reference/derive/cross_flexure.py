@@ -1,9 +1,9 @@
 """Cross-flexure hinge: three leaves cross at their middles, half_angle and pi - half_angle from x,
-the outer two in one direction; the arm turns about z.
+the outer two in one direction; the arm rotates about z.
 
-One body, the arm, whose turn about z is given; its tilts are held (rotation hinge, vector) or free
-(first, last, between: which of three turns the drive's is makes no difference in a plane state).  A
-unit load acts on the arm while it cannot turn about z: the moment of the drive, along z, keeps the
+There is one body, the arm, whose rotation about z is given; its tilts are fixed (rotation hinge, vector) or free
+(first, last, between: the position of the drive's rotation among the three makes no difference in a plane state). A
+unit load acts on the arm while it cannot rotate about z: the moment of the drive, along z, keeps the
 other two components of a dead moment (spatial moments), or follows the tilt (semitangential: K
 changes by m~/2 on the tilts; symmetrised: its symmetric part).
 """
@@ -15,17 +15,17 @@ from reference.derive import defaults
 from reference.derive.network import Network, clamped
 from reference.derive.sheets import parameters, sheet
 
-# of a place, in lengths of a leaf; eight networks (4 to 10 intervals, 12 to 20 nodes) give places at
-# angle=0.01 that differ by 6e-18 m, half of what it says there
+# of a position, in lengths of a leaf; eight networks (4 to 10 intervals, 12 to 20 nodes) give positions at angle=0.01
+# that differ by 6e-18 m, half of this value
 ROUND_OFF = 2.2e-16
-RELATIVE = 1e-9  # the stiffness of a leaf along itself, beside the forces that bend it
+RELATIVE = 1e-9  # stiffness of a leaf along itself relative to the forces that bend it
 DEFAULTS = defaults.values("cross_flexure")
 SIZES = ("length", "width", "thickness", "young", "poisson")
 TILTS_FREE = ("first", "last", "between")
 
 
 def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
-    """Network and its arm; form: see sheets.cantilever."""
+    """Returns the network and its arm; form: see sheets.cantilever."""
     value = {**DEFAULTS, **given}
     beam = form(sheet(**{k: value[k] for k in SIZES}))
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
@@ -46,7 +46,7 @@ def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
 
 
 def compliance(net, arm, turned, tilts_free, convention):
-    """[5, 5] of (ux, uy, uz, thx, thy) with the tilts free, else [3, 3], in SI."""
+    """Returns [5, 5] of (ux, uy, uz, thx, thy) with the tilts free, otherwise [3, 3], in SI."""
 
     def tilting(level, x, R, force, moment, numbers):
         return np.concatenate([force, moment[:2], turned(level, x, R, force, moment, numbers)[5:]])
@@ -69,7 +69,7 @@ def quantities(given, form=lambda beam: beam):
     value = {**DEFAULTS, **given}
     convention, rotation = value["moment_convention"], value["rotation"]
     net, arm, turned = hinge(given, form=form)
-    net.solve((0.5, 1.0), tolerance=1e-10)  # what round-off leaves of the leaves' own stiffness
+    net.solve((0.5, 1.0), tolerance=1e-10)  # round-off left by the axial stiffness of the leaves
     C = compliance(net, arm, turned, rotation in TILTS_FREE, convention)
     yield "moment", net.force * net.length * arm.load[5], "N m", RELATIVE
     for i, name in enumerate(("shift_x", "shift_y")):

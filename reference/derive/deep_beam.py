@@ -1,9 +1,9 @@
-"""Frequencies of a simply supported Timoshenko beam of square section, held axially and in torsion at one end only.
+"""Frequencies of a simply supported Timoshenko beam with a square section, fixed axially and in torsion at one end only.
 
-Bending, k = n pi/l: amplitudes of w (sin kx) and of the section's turn t (cos kx),
+Bending, k = n pi/l: amplitudes of w (sin kx) and of the section's rotation t (cos kx),
   strain  EI (k t)^2 + kGA (k w - t)^2        kinetic  rho (A w^2 + I t^2)
-and both planes alike; torsion and extension: (2n - 1) c/(4 l), c^2 = GJ/(rho Ip) or E/rho.
-J of the square by Saint-Venant's series.
+and both planes are alike; torsion and extension: (2n - 1) c/(4 l), c^2 = GJ/(rho Ip) or E/rho.
+J of the square follows from Saint-Venant's series.
 """
 from mpmath import mp, mpf, pi, sqrt
 
@@ -17,7 +17,7 @@ FREQUENCIES, HALF_WAVES = 9, 12
 
 
 def bending(n, shear, rotary):
-    """Squares of the angular frequencies of n half-waves."""
+    """Returns the squares of the angular frequencies for n half-waves."""
     k = n * pi / LENGTH
     if not shear:
         return [E * I * k ** 4 / (RHO * (A + (I * k ** 2 if rotary else 0)))]
@@ -42,7 +42,7 @@ def frequencies(exact_torsion, shear, rotary):
         sqrt(x) / (2 * pi) for n in range(1, HALF_WAVES) for x in bending(n, shear, rotary)
         for _ in "yz"
     ]
-    if shear and rotary:  # no half-wave at all: the sections turn in pure shear
+    if shear and rotary:  # no half-wave at all: the sections rotate in pure shear
         found += [sqrt(SHEAR_FACTOR * G * A / (RHO * I)) / (2 * pi)] * 2
     twist = sqrt(G * torsion_constant(exact_torsion) / (RHO * 2 * I))
     for n in range(1, HALF_WAVES):

@@ -1,4 +1,4 @@
-"""Defaults of a case's parameters, as reference/defaults.csv has them: no program repeats them."""
+"""Defaults of a case's parameters, as given in reference/defaults.csv; no program repeats them."""
 import functools
 import pathlib
 
@@ -17,12 +17,12 @@ def _table():
 
 
 def texts(case):
-    """{parameter: text}: a number as it is written, or the word of a choice; {}: no such case."""
+    """Returns {parameter: text}: a number as written, or the word of a choice; {}: no such case."""
     return dict(_table().get(case, {}))
 
 
 def value(text):
-    """Number, a whole one as int, or word."""
+    """Returns a number (a whole number as int) or a word."""
     try:
         return float(text) if not text.lstrip("-").isdigit() else int(text)
     except ValueError:
@@ -30,18 +30,18 @@ def value(text):
 
 
 def values(case, *names):
-    """{parameter: number, whole ones as int, or word}, of the named ones or of all."""
+    """Returns {parameter: number (a whole number as int) or word} of the given parameters or of all."""
     return {k: value(v) for k, v in _table()[case].items() if not names or k in names}
 
 
 def decimals(case, given):
-    """The same as mpmath's numbers, of the decimal text; given: values that differ, as text or numbers."""
+    """Returns the same as mpmath numbers made from the decimal text; given: values that differ, as text or numbers."""
     from mpmath import mpf
     at = {**texts(case), **given}
     return {k: v if isinstance(value(str(v)), str) else mpf(v) for k, v in at.items()}
 
 
 def differing(case, **given):
-    """`name=value;...` of those that are not the defaults."""
+    """Returns `name=value;...` of the values that differ from the defaults."""
     default = values(case)
     return ";".join(f"{k}={v}" for k, v in given.items() if value(str(v)) != default[k])

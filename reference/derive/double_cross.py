@@ -1,9 +1,10 @@
 """Frequencies of eight equal pinned arms that meet at a hub, in their plane (NAFEMS FV2).
 
-Rigid in shear, no rotary inertia.  The arms' shares of a mode are those of e^{i m a}, a an arm's angle, since a turn by one arm changes
-nothing.  Bending of all arms alike (m = 0) turns the hub, which no moment holds: pinned at both ends.  m = 1 and 7 move the hub, without a
-turn, and stretch the arms: of the eight forces per displacement, half are along the arms and half across, so that both in sum vanish,
-twice.  The others leave the hub at rest: clamped there, five of each.  Stretching alone begins at c/(2 L) = 500 Hz.
+Rigid in shear, no rotary inertia.  The arms share a mode as e^{i m a}, with a the angle of an arm, since a rotation by one arm changes
+nothing. If all arms bend alike (m = 0), the hub rotates without a resisting moment: the arms are pinned at both ends. For m = 1 and 7 the
+hub moves without rotation, and the arms stretch: of the eight forces per displacement, half are along the arms and half across them; their
+sum must vanish, which happens twice. For the other m the hub is at rest: the arms are clamped there, with five modes of each. Stretching
+alone starts at c/(2 L) = 500 Hz.
 """
 from mpmath import cos, mp, mpf, pi, sin, sqrt
 
@@ -17,7 +18,7 @@ HIGHEST, STEP = 60, mpf("0.5")  # [Hz]
 
 
 def from_pin(f):
-    """[4, 2]: (w, t, M, Q) at the hub of unit (t, Q) at the pinned end."""
+    """Returns [4, 2]: (w, t, M, Q) at the hub due to unit (t, Q) at the pinned end."""
     t = bending(LENGTH, 2 * pi * f, E * I, RHO * A)
     return [[t[i, 1], t[i, 3]] for i in range(4)]
 
@@ -35,12 +36,13 @@ def at_rest(f):
 
 
 def moving(f):
-    """Forces per displacement of an arm: Q/w across, with t = 0, and EA k cot(k L) along it; their sum times w and sin(k L)."""
+    """Returns the forces per displacement of an arm: Q/w across it, with t = 0, and EA k cot(k L) along it; their sum
+    times w and sin(k L)."""
     rows, k = from_pin(f), 2 * pi * f / sqrt(E / RHO)
     return E * A * k * cos(k * LENGTH) * minor(rows, 0, 1) + sin(k * LENGTH) * minor(rows, 3, 1)
 
 
-FAMILIES = ((turning, 1), (moving, 2), (at_rest, 5))  # and how many modes alike
+FAMILIES = ((turning, 1), (moving, 2), (at_rest, 5))  # number of equal modes
 
 
 def frequencies():

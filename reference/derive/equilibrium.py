@@ -7,9 +7,9 @@ Vibration: with y = (r, q, a, B) and p = (F, m0) of the equilibrium, and small u
   dF' = -omega^2 rho A u,   dm0' = r x dF' - omega^2 rho R diag(Ip, Iy, Iz) R^T theta
 (m = m0 - r x F is the moment in fixed axes), integrated spectrally as in network.py: an eigenvalue problem L z = omega^2 M z.
 
-interpolated: a consistent mass takes the amplitude of warping along an element from its twist, psi = kx - w (1 - 6 x (1 - x)), w = kx - a,
-so that kx^2 + w^2/5 has the inertia of a^2 (J section 3.2 without flexible warping; J Eq. 66 makes w = -(n_y ky + n_z kz)).  Its momentum rho Iw
-(kx + w/5) adds to Mx, -rho Iw w/5 to B'; Mx changes kx in turn, which is neglected: 1e-11 of a frequency.
+interpolated: a consistent mass derives the warping amplitude along an element from its twist, psi = kx - w (1 - 6 x (1 - x)), w = kx - a,
+so that kx^2 + w^2/5 has the inertia of a^2 (J section 3.2 without flexible warping; J Eq. 66 makes w = -(n_y ky + n_z kz)).  Its momentum
+rho Iw (kx + w/5) adds to Mx, -rho Iw w/5 to B'; Mx changes kx in turn, which is neglected: 1e-11 of a frequency.
 """
 import math
 
@@ -26,7 +26,7 @@ RELATIVE = 2e-10
 
 
 def singular_load(net, start, end):
-    """Level between start and end where the linearised equilibrium is singular."""
+    """Returns the level between start and end at which the linearised equilibrium is singular."""
     net.solve(np.linspace(start / 4, start, 4))
     size = np.linalg.slogdet(net.system(start)[0].toarray())[1]
     level = [start]
@@ -41,7 +41,7 @@ def singular_load(net, start, end):
 
 
 def lateral(bracket, ratio, K=0.0):
-    """Critical tip force of lateral_buckling, N: weak EI = GJ = 1 N m^2, strong EI = ratio."""
+    """Returns the critical tip force of lateral_buckling, N: weak EI = GJ = 1 N m^2, strong EI = ratio."""
     beam = Beam(1.0, EA=1e6, EIy=ratio, EIz=1.0, GJ=1.0, EIw=1 / K if K else 0.0)
     net = Network(1.0, 1.0, intervals=6, nodes=14)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))
@@ -61,7 +61,8 @@ def buckling():
 
 
 class Vibration:
-    """Generalised eigenvalue problem of one member whose ends are at bodies' reference points; all in the network's units."""
+    """Generalised eigenvalue problem of one member with its ends at bodies' reference points, in the network's
+    units."""
 
     def __init__(self, member, inertia, interpolated=False):
         self.m, self.n, self.interpolated = member, member.beam.states, interpolated
@@ -71,7 +72,7 @@ class Vibration:
         self.size = self.intervals * self.points * self.fields
 
     def slopes(self, y):
-        """dz/ds = A z - omega^2 G z at one point; z = (dy, dp)."""
+        """Returns the terms of dz/ds = A z - omega^2 G z at one point; z = (dy, dp)."""
         n, L = self.n, self.m.beam.length
         slope, fy, fp = self.m.beam.slope_and_derivatives(y[:, None], self.m.p[:, None])
         A, G = np.zeros((self.fields, self.fields)), np.zeros((self.fields, self.fields))
@@ -91,7 +92,7 @@ class Vibration:
         return A, G
 
     def matrices(self, start, end):
-        """L, M of L z = omega^2 M z; start, end: rows of conditions on z at the ends."""
+        """Returns L, M of L z = omega^2 M z; start, end: rows of conditions on z at the ends."""
         N, f, W = self.points, self.fields, self.m.h * self.m.W
         left, mass = np.zeros((self.size, self.size)), np.zeros((self.size, self.size))
         row = 0
@@ -117,7 +118,7 @@ class Vibration:
         return left, mass
 
     def frequencies(self, start, end, count):
-        """omega^2, ascending, in the network's units."""
+        """Returns omega^2, ascending, in the network's units."""
         left, mass = self.matrices(start, end)
         inverse = np.linalg.solve(left, mass)
         values = eig(inverse, right=False)
@@ -126,7 +127,7 @@ class Vibration:
 
 
 def twist_rate(q, slope, by, fields):
-    """Change [fields] of the x component of 2 vec(q* o q'); by: of q' [4, fields], q' = slope."""
+    """Returns the change [fields] of the x component of 2 vec(q* o q'); by: of q' [4, fields], q' = slope."""
     conjugate = np.array([1, -1, -1, -1])
     rate = 2 * product(q * conjugate, by)[1]
     rate[3:7] += [2 * product(e * conjugate, slope)[1] for e in np.eye(4)]
@@ -134,13 +135,14 @@ def twist_rate(q, slope, by, fields):
 
 
 def turn_of(q):
-    """theta [3, 4] of a change of the quaternion q: 2 vec(dq o q*)."""
+    """Returns theta [3, 4] of a change of the quaternion q: 2 vec(dq o q*)."""
     back = np.asarray(q) * np.array([1, -1, -1, -1])
     return np.array([2 * product(e, back)[1:] for e in np.eye(4)]).T
 
 
 def held_tip(vibration, y, p, free_warping):
-    """u_y and the rotation about the fixed axis z held; no force along x and z, no moment about the fixed axes x and y."""
+    """Returns the conditions: u_y and the rotation about the fixed axis z are fixed; no force along x and z, no moment
+    about the fixed axes x and y."""
     n, f = vibration.n, vibration.fields
     rows = np.zeros((f // 2, f))
     theta, F = turn_of(y[3:7]), p[:3]
@@ -158,7 +160,7 @@ def held_tip(vibration, y, p, free_warping):
 
 
 def sheet_frequencies(count, given, form=lambda beam: beam, interpolated=False):
-    """Hz, of the sheet held at its deflected tip; form: see sheets.deflected."""
+    """Returns the frequencies [Hz] of the sheet fixed at its deflected tip; form: see sheets.deflected."""
     value = {**defaults.values("sheet_cantilever"), **given}
     net, _ = deflected(given, form)
     width, thickness, length = value["width"], value["thickness"], value["length"]

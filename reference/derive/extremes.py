@@ -1,6 +1,6 @@
-"""Exact values where cases are driven to their extremes (cases/extremes): closed forms and boundary-value problems of the other programs.
+"""Exact values at the extremes of cases (cases/extremes): closed forms and boundary-value problems of the other programs.
 
-They are kept apart (reference/extremes), because a verification does not run them.
+They are stored separately (reference/extremes), because a verification does not run them.
 """
 import math
 
@@ -16,7 +16,7 @@ EQUAL_WIDTH = mpf("0.223203587801597"
 
 
 def decimal(value):
-    """15 digits, as the program sets its parameters."""
+    """Rounds to 15 digits, as the program does with its parameters."""
     return "%.15g" % float(value)
 
 
@@ -39,7 +39,7 @@ def inextensible():
 
 
 def channel(**given):
-    """Buckling load (Engesser) and lowest frequency of the C-shaped column."""
+    """Yields the buckling load (Engesser) and the lowest frequency of the C-shaped column."""
     s, value, at = column.channel_data(**given), defaults.decimals("c_column",
                                                                    given), sheets.parameters(given)
     load = column.buckling_load(s, value["length"], value["shear"], False)
@@ -89,7 +89,8 @@ def torsion():
 
 
 def lateral():
-    """With gamma^2 = c K at small K (warping alone: phi'''' = c x^2 phi), and gamma = 4.0126 (1 + a/sqrt K) at large K, as guesses."""
+    """Yields the lateral buckling loads. Guesses: gamma^2 = c K at small K (warping alone: phi'''' = c x^2 phi), and
+    gamma = 4.0126 (1 + a/sqrt K) at large K."""
     guess = linear_buckling.lateral_load("tip", 1, "15.7")
     for K in ("1e-2", "1e-4", "1e-6"):
         guess *= 10
@@ -110,7 +111,8 @@ def lateral():
 
 
 def twisted():
-    """Held ends, no axial force: GJ phi/L over 1 - tanh(kL/2)/(kL/2), k^2 = GJ/EIw; and the strip with the Wagner torque."""
+    """Yields fixed ends without axial force: GJ phi/L over 1 - tanh(kL/2)/(kL/2), k^2 = GJ/EIw; and the strip with the
+    Wagner torque."""
     beam = sheets.sheet(**{**defaults.values("sheet_wagner"), "wagner": 0})
     half = math.sqrt(beam.GJ / beam.EIw) * beam.length / 2
     for angle in (0.1, 0.5, 1, 1.3, 1.4, 1.5):
@@ -129,7 +131,7 @@ def turns():
 
 
 def released():
-    """Bernoulli's cantilever that is let go, of any stiffness of elongation, and with a body at its tip."""
+    """Yields Bernoulli's cantilever released from rest, for any axial stiffness, and with a body at its tip."""
     tip = release.bernoulli("0.25", release.bernoulli_modes())
     for axial in ("1e9", "1e12", "1200", "120000", "12000000"):
         at = f"axial={decimal(mpf(axial))};time=0.25;{release.ANY}"
@@ -142,7 +144,7 @@ def released():
 
 
 def steady():
-    """A body that turns about a principal axis keeps turning: 2 rad/s, 3 kg m^2."""
+    """Yields a body that keeps rotating about a principal axis: 2 rad/s, 3 kg m^2."""
     at = f"spin=steady;time={{}};{rigid_body.ANY}"
     yield "rigid_body", at.format("*"), "w_z", mpf(2), "rad/s"
     yield "rigid_body", at.format("*"), "energy", mpf(6), "J"

@@ -1,4 +1,5 @@
-"""Lateral-torsional buckling of fork-ended beams from their bent state: the linearised Kirchhoff rod about plane bending.
+"""Lateral-torsional buckling of beams on fork supports from their bent state: the linearised Kirchhoff rod about plane
+bending.
 
 Plane state, bent by theta about y, triad nX = (cos, 0, -sin)(theta), nY = y,
 nZ = (sin, 0, cos)(theta).  One end is free along x, so that the force in a section is vertical,
@@ -13,8 +14,8 @@ dm = (dMx - chi My) nX + (dMz + phi My) nZ:
   dMx = GJ kx (K = 0), else kx = a, EIw a' = B, B' = -(dMx - GJ a).
 Fork: two guides normal to y hold the web, which the section's z axis follows: nZ . y = 0, so that
 phi = 0, and its reaction is a moment along nX: v = phi = 0, dm . nZ = 0, B = 0.  Middle: chi = 0,
-m_x = 0, a = 0.  The determinant of these vanishes at the critical load.
-(A spin held about the fixed x axis, cos(theta) phi + sin(theta) chi = 0, is another support.)
+m_x = 0, a = 0.  The determinant of these conditions vanishes at the critical load.
+(A fixed rotation about the fixed x axis, cos(theta) phi + sin(theta) chi = 0, is a different support.)
 """
 import functools
 
@@ -24,7 +25,7 @@ from scipy.optimize import brentq
 
 RELATIVE = 2e-10
 EA = 1e6  # of the case; weak EI = GJ = 1, length 1
-THETA, MY, FIRST = 0, 1, 2  # then v, phi, chi, m_x, m_z, a, B of every solution
+THETA, MY, FIRST = 0, 1, 2  # followed by v, phi, chi, m_x, m_z, a, B of every solution
 FIELDS = 7
 
 
@@ -45,7 +46,7 @@ def _slopes(s, y, P, q, ratio, K):
 
 
 def _start(theta, K):
-    """Solutions that satisfy the conditions at the fork: chi = 1, a moment along nX, a = 1."""
+    """Returns solutions that satisfy the conditions at the fork: chi = 1, a moment along nX, a = 1."""
     count = 3 if K else 2
     fields = np.zeros((FIELDS, count))
     fields[2, 0] = 1
@@ -56,7 +57,7 @@ def _start(theta, K):
 
 
 def _middle(theta, P, q, ratio, K, tolerance=1e-13):
-    """theta in the middle, and the fields there [FIELDS, solutions]."""
+    """Returns theta in the middle, and the fields there [FIELDS, solutions]."""
     path = solve_ivp(_slopes, (0, 0.5),
                      _start(theta, K),
                      method="DOP853",
@@ -68,7 +69,7 @@ def _middle(theta, P, q, ratio, K, tolerance=1e-13):
 
 
 def _rotation_at_fork(P, distributed, ratio, K, near):
-    """theta(0) of the plane state, by Newton's secants from the neighbouring load's."""
+    """Returns theta(0) of the plane state, by secant steps from the value for a neighbouring load."""
 
     def turn(theta):
         return _middle(theta, P, P if distributed else 0.0, ratio, K)[0]
@@ -84,7 +85,7 @@ def _rotation_at_fork(P, distributed, ratio, K, near):
 
 
 def critical_load(distributed, ratio, K, bracket, steps=12):
-    """P L^2/sqrt(EI GJ); the determinant changes its sign in the bracket and nowhere below it."""
+    """Returns P L^2/sqrt(EI GJ); the determinant changes its sign in the bracket and nowhere below it."""
     slope = (1 / 24 if distributed else 1 / 16) / ratio
     turns = {0.0: 0.0}
 

@@ -1,8 +1,9 @@
-"""A four-bar linkage whose crank bends: its clamp turns while a dead force grows on the joint of coupler and rocker.
+"""A four-bar linkage whose crank bends: its clamp rotates while a dead force increases on the joint of coupler and rocker.
 
-Coupler and rocker are pinned at both ends: they stay straight, stretch, and pass on forces along them.  So the crank is a cantilever,
-E I t' = M0 - (x F_y - y F_x), (x, y)' = (1 + F . e/EA) e, e = (cos t, sin t), with the coupler's force F at its end and no moment there
-(Gauss's rule of order eight).  Unknown are M0 (of the motor: -M0), the forces of coupler and rocker, and their directions.
+Coupler and rocker are pinned at both ends: they stay straight, stretch, and transmit forces along them. Therefore the crank is a
+cantilever, E I t' = M0 - (x F_y - y F_x), (x, y)' = (1 + F . e/EA) e, e = (cos t, sin t), with the coupler's force F at its end and no
+moment there (Gauss's rule of order eight).  The unknowns are M0 (of the motor: -M0), the forces of coupler and rocker, and their
+directions.
 """
 import numpy as np
 from scipy.optimize import fsolve
@@ -16,7 +17,7 @@ LEVELS, RELATIVE = 20, 1e-11
 
 
 def stage_weights():
-    """int_0^c of the polynomials through Gauss's points, and these points, on [0, 1]."""
+    """Returns int_0^c of the polynomials through Gauss's points, and these points, on [0, 1]."""
     c = (POINTS + 1) / 2
     V = np.vander(c, increasing=True)
     return np.array([[x ** (k + 1) / (k + 1) for k in range(len(c))] for x in c]) @ np.linalg.inv(V)
@@ -30,7 +31,7 @@ def along(angle):
 
 
 def tip(clamp, M0, F, intervals):
-    """The crank's end, and the moment there."""
+    """Returns the crank's end, and the moment there."""
 
     def slope(Y):
         e = np.array([np.cos(Y[:, 0]), np.sin(Y[:, 0])])
@@ -60,7 +61,7 @@ def residual(u, part, intervals):
 
 
 def at_rest():
-    """Directions of coupler and rocker, the joint above the line of the ground."""
+    """Returns the directions of coupler and rocker, with the joint above the line of the ground."""
     end = CRANK * along(BEGIN)
     d = [GROUND, 0] - end
     a = (COUPLER ** 2 - ROCKER ** 2 + d @ d) / (2 * np.hypot(*d))

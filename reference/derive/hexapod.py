@@ -1,8 +1,9 @@
-"""Flexure-based hexapod (N section 4.3, synthetic sizes): support stiffness along z of twelve joints of geometrically exact sheets.
+"""Flexure-based hexapod (N section 4.3, synthetic dimensions): support stiffness along z of twelve joints of geometrically exact
+sheets.
 
-Six cranks turn about horizontal tangents by one common angle, unknown, such that the platform has the prescribed height;
-then the cranks are held and the platform takes a unit force.  Each joint's base is on the rod, its z axis along the rod and
-out of it, its x axis in the plane of the rod and the global z axis, on the upper side.
+Six cranks rotate about horizontal tangents by one common, unknown angle, such that the platform has the prescribed height; then the
+cranks are fixed and a unit force acts on the platform. Each joint's base is on the rod. Its z axis is along the rod and points away
+from it; its x axis is in the plane of the rod and the global z axis, on the upper side.
 """
 import math
 
@@ -19,7 +20,7 @@ DEFAULTS = defaults.values("hexapod")
 
 
 def crank_conditions(pivot, axis):
-    """Turned about the axis by the common angle."""
+    """Returns the conditions of a crank rotated about the axis by the common angle."""
     axis = np.asarray(axis)
 
     def conditions(level, x, R, force, moment, numbers):
@@ -57,7 +58,8 @@ def add_leg(net, beam, value, leg, platform):
 
 
 def stiffness_curve(intervals=3, nodes=9, form=lambda beam: beam, **given):
-    """[(stiffness in N/m, crank angle in rad)] at the positions from -stroke to +stroke; form: see sheets.cantilever."""
+    """Returns [(stiffness in N/m, crank angle in rad)] at the positions from -stroke to +stroke; form: see
+    sheets.cantilever."""
     value = {**DEFAULTS, **given}
     beam = form(sheet_of(value))
     net = Network(beam.length,

@@ -1,19 +1,20 @@
-"""Momentum of what flies freely: the integral of the load, behind its end."""
+"""Momentum of freely flying structures: the integral of the load, after it has ended."""
 from mpmath import mpf
 
 ANY = "integrator=*;step=*;tolerance=*"
-ROUND_OFF = 1e-12  # relative, of hundreds of steps
+ROUND_OFF = 1e-12  # relative, after hundreds of steps
 PLANE_TIMES = {"": ("2.5", "5", "10"), "load=step;": ("2.5", "5", "7.5", "10")}
 SPACE_TIMES = ("5", "7", "7.5", "9", "10")
 
 
 def plane():
-    """8 N for 2.5 s, in one step or as twice a squared sine, whose mean is one [kg m/s]."""
+    """Returns the momentum from 8 N for 2.5 s, constant or as a squared sine of twice the amplitude, whose mean is one
+    [kg m/s]."""
     return 8 * mpf("2.5")
 
 
 def space():
-    """A triangle of 5 s whose peak is a tenth of 200 N [kg m/s]."""
+    """Returns the momentum from a triangle of 5 s with a peak of a tenth of 200 N [kg m/s]."""
     return mpf(5) * 20 / 2
 
 

@@ -1,9 +1,10 @@
-"""Spherical flexure joint (N section 4.2): support stiffness of twelve geometrically exact sheets around one turn of the tilt axis.
+"""Spherical flexure joint (N section 4.2): support stiffness of twelve geometrically exact sheets over one revolution of the tilt
+axis.
 
-Geometry: fold lines through the centre at the polar angle from z, their outer ends at the radius; the two sheets of a fold
-lie symmetric to the vertical plane through it, the fold angle apart, on the outer side, at right angles to the fold line.
-Three folds join base and intermediate body; their mirror images in the xy plane, turned by 60 degrees, join that to the end
-effector.  The sheet on the +azimuth side goes to the lower-numbered body.  Sheets do not warp at bodies.
+Geometry: fold lines through the centre at the polar angle from z, their outer ends at the radius; the two sheets of a fold are
+symmetric about the vertical plane through it, the fold angle apart, on the outer side, perpendicular to the fold line. Three folds
+join base and intermediate body; their mirror images in the xy plane, rotated by 60 degrees, join the intermediate body to the end
+effector.  The sheet on the +azimuth side is attached to the lower-numbered body. Warping is restrained at bodies.
 """
 import math
 
@@ -24,7 +25,7 @@ def sheet_of(given):
 
 
 def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
-    """Two sheets and the body where they meet; axes: columns are the joint's x, y, z."""
+    """Adds two sheets and the body where they meet; axes: columns are the joint's x, y, z."""
     value = {**DEFAULTS, **given}
     up = np.diag([1, 1, -1.0 if mirrored else 1.0])
     turn = np.array([[math.cos(azimuth), -math.sin(azimuth), 0],
@@ -48,7 +49,7 @@ def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
 
 
 def add_joint(net, beam, given, centre, axes, base, effector, name):
-    """One joint between two bodies; returns its intermediate body."""
+    """Adds one joint between two bodies; returns its intermediate body."""
     middle = net.body(centre)
     first = {**DEFAULTS, **given}["azimuth"]
     for k in range(3):
@@ -65,7 +66,7 @@ def turned(given):
     tilt, steps = value["tilt"], value["steps"]
 
     def vector(level):
-        """Levels below 1 lead to the first azimuth."""
+        """Returns the rotation vector; levels below 1 lead to the first azimuth."""
         azimuth = 2 * math.pi * max(level - 1, 0) / steps
         return min(level, 1.0) * tilt * np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
 
@@ -73,7 +74,7 @@ def turned(given):
 
 
 def stiffness_curve(intervals=4, nodes=10, form=lambda beam: beam, **given):
-    """(undeformed, [at every azimuth]) in N/m."""
+    """Returns (undeformed, [at every azimuth]) in N/m."""
     beam = form(sheet_of(given))
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)
     vector = turned(given)

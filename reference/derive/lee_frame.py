@@ -1,7 +1,9 @@
-"""Frame of Lee: limit points of the force on its beam, and the force at which a frame of equal stiffness all round leaves its plane.
+"""Lee's frame: limit points of the force on its beam, and the force at which a frame with equal bending stiffnesses buckles out of its
+plane.
 
-The path is followed by its arc in the place, the rotation and the force of the loaded point. A limit point is the extremum of the
-interpolant of the force through Chebyshev points of the arc; a bifurcation the zero of the determinant of the bordered system.
+The path is parametrised by its arc length in the position, the rotation and the force of the loaded point. A limit point is the
+extremum of the interpolant of the force through Chebyshev points of the arc; a bifurcation is a zero of the determinant of the
+bordered system.
 """
 import copy
 
@@ -16,7 +18,7 @@ RELATIVE, STEP = 1e-9, 0.05
 
 
 class Frame:
-    """plane: too stiff to leave it."""
+    """plane: too stiff to buckle out of the plane."""
 
     def __init__(self, plane):
         across = (2e6 * 720, 2e6 * G) if plane else (EI, 2.6 * G)
@@ -50,7 +52,7 @@ class Frame:
         return self.coordinates(b.x, b.R, self.net.numbers)
 
     def advanced(self, arc):
-        """Another frame, so far along the arc."""
+        """Returns another frame, this far along the arc."""
         one = copy.deepcopy(self)
         way, origin = self.way, self.origin
         one.net.extra = [(one.net.bodies[self.node], lambda level, x, R, force, moment, numbers:
@@ -59,7 +61,7 @@ class Frame:
         return one
 
     def turned(self, before):
-        """The arc continues from here along the secant."""
+        """Continues the arc from here along the secant."""
         self.way = self.place() - before.place()
         self.way, self.origin = self.way / np.linalg.norm(self.way), self.place()
         return self
@@ -79,7 +81,7 @@ class Frame:
 
 
 def path(frame, least):
-    """Points of the path until it comes up again from below to the force `least` [N]."""
+    """Returns points of the path until the force rises again from below to `least` [N]."""
     points = [frame, frame.advanced(STEP)]
     points[1].turned(frame)
     while len(points) < 400 and not (points[-1].force > points[-2].force > least and
@@ -89,7 +91,7 @@ def path(frame, least):
 
 
 def extremum(before, width):
-    """(force, deflection) at the extremum of the force between two points of the path."""
+    """Returns (force, deflection) at the extremum of the force between two points of the path."""
     nodes = (1 - np.cos(np.pi * (np.arange(11) + 0.5) / 11)) / 2 * width
     found = [before.advanced(s) for s in nodes]
     series = [

@@ -1,8 +1,8 @@
-"""Lateral-torsional buckling of narrow beams, the column flexible in shear, and the right-angle frame: linear prestress.
+"""Lateral-torsional buckling of narrow beams, the shear-flexible column, and the right-angle frame, with linear prestress.
 
-Lateral: Pi = 1/2 int EI w''^2 + GJ phi'^2 + EIw phi''^2 + int M phi w'' gives EI w'' = -M phi and, with x in units of L and
-K = L^2 GJ/EIw,  phi''''/K - phi'' - (gamma m(x))^2 phi = 0,  M = gamma m sqrt(EI GJ)/L; loads act at the shear centre.
-Frame: a leg carries a constant spatial moment (m_x, m_y + f x, M): GJ t_x' = m_x - M t_y, EI t_y' = m_y + f x + M t_x, w' = -t_y.
+Lateral: Pi = 1/2 int EI w''^2 + GJ phi'^2 + EIw phi''^2 + int M phi w'' gives EI w'' = -M phi and, with x in units of L and K =
+L^2 GJ/EIw,  phi''''/K - phi'' - (gamma m(x))^2 phi = 0,  M = gamma m sqrt(EI GJ)/L; loads act at the shear centre. Frame: a leg
+carries a constant spatial moment (m_x, m_y + f x, M): GJ t_x' = m_x - M t_y, EI t_y' = m_y + f x + M t_x, w' = -t_y.
 """
 from mpmath import cos, det, findroot, matrix, mp, mpf, pi, sin, sqrt, zeros
 
@@ -12,7 +12,7 @@ mp.dps = 40
 TERMS = 160
 LEG_TERMS = 64  # 7^64/64! = 1e-35
 
-# m(x) as coefficients of powers of x, measured from the end where the loaded length is zero; where the half beam ends
+# m(x) as coefficients of powers of x, measured from the end with zero moment; where the half beam ends
 LOADS = {
     "tip": ([0, 1], 1), "distributed": ([0, 0, mpf(1) / 2], 1),
     "mid": ([0, mpf(1) / 2], mpf(1) / 2), "mid_distributed": ([0, mpf(1) / 2,
@@ -30,7 +30,7 @@ def _square(m):
 
 
 def _series(start, K, gamma, m2, terms):
-    """Power series about x = 0 of the solution with given phi, phi', (phi'', phi''')."""
+    """Returns the power series about x = 0 of the solution with given phi, phi', (phi'', phi''')."""
     c = [mpf(v) / f for v, f in zip(start, (1, 1, 2, 6))]
     while len(c) < terms:
         n = len(c) - (4 if K else 2)
@@ -54,7 +54,7 @@ def _value(c, x, order):
 
 
 def _condition(load, K, gamma, terms):
-    """Determinant of the conditions at x = end of the solutions that satisfy those at x = 0."""
+    """Returns the determinant of the conditions at x = end for the solutions that satisfy those at x = 0."""
     m, end = LOADS[load]
     m2, end = _square(m), mpf(end)
     cantilever = load in ("tip", "distributed")
@@ -70,7 +70,8 @@ def _condition(load, K, gamma, terms):
 
 
 def lateral_load(load, K, guess, terms=TERMS):
-    """terms: several times exp(1) sqrt K. The determinant grows with exp(sqrt K): its size near the root is its unit."""
+    """Returns the critical load. terms: several times exp(1) sqrt K. The determinant grows with exp(sqrt K): its size
+    near the root is its unit."""
     K, guess = mpf(K), mpf(guess)
     unit = abs(_condition(load, K, guess * mpf("1.01"), terms))
     return findroot(lambda g: _condition(load, K, g, terms) / unit, guess, tol=mpf(10) ** -30)
@@ -91,7 +92,8 @@ def lateral_rows():
 
 
 def column_load(given):
-    """Critical load of shear_column. Engesser: 1/P = 1/P_E + 1/GA_s; Haringx: GA_s (sqrt(1 + 4 P_E/GA_s) - 1)/2; P_E = pi^2 EI/l^2, GA_s = 5/6 G A."""
+    """Returns the critical load of shear_column. Engesser: 1/P = 1/P_E + 1/GA_s; Haringx: GA_s (sqrt(1 + 4 P_E/GA_s) -
+    1)/2; P_E = pi^2 EI/l^2, GA_s = 5/6 G A."""
     at = defaults.decimals("shear_column", given)
     euler = pi ** 2 * at["young"] * at["side"] ** 4 / 12 / at["length"] ** 2
     shear = at["shear_modulus"] * at["side"] ** 2 * 5 / 6
@@ -117,7 +119,8 @@ def column_rows():
 
 
 def _leg(x, M, EI, GJ):
-    """[3, 6]: (w, t_x, t_y) at x as linear functions of those at the corner and (m_x, m_y, f); power series."""
+    """Returns [3, 6]: (w, t_x, t_y) at x as linear functions of their values at the corner and (m_x, m_y, f); power
+    series."""
     out = zeros(3, 6)
     for column in range(6):
         unit = [mpf(1) if column == k else mpf(0) for k in range(6)]
@@ -133,9 +136,11 @@ def _leg(x, M, EI, GJ):
 
 
 def frame_determinant(M, EI, GJ, length, angle):
-    """Legs from the corner, `angle` between them; their ends do not leave the plane and turn about its normal only.
+    """Returns the determinant for two legs from the corner with `angle` between them; their ends stay in the plane and
+    rotate only about its normal.
 
-    The first leg's axes are (x, y, z), the second's are turned about z; it carries the opposite of what the first leg carries.
+    The first leg's axes are (x, y, z), the second's are rotated about z; it carries the opposite of the first leg's
+    load.
     """
     first, second = _leg(length, M, EI, GJ), _leg(length, -M, EI, GJ)
     c, s = cos(angle), sin(angle)
@@ -155,13 +160,13 @@ FRAMES = ({}, {"angle": "1"}, {"angle": "2.5"}, {"leg": "0.6", "poisson": "0"}, 
 
 
 def frame_rows():
-    """Thin strips, GJ = G b t^3/3; the second factor lies between 1.4 pi and 2 pi for every angle."""
+    """Yields rows for thin strips, GJ = G b t^3/3; the second factor lies between 1.4 pi and 2 pi for every angle."""
     for given in FRAMES:
         value = defaults.decimals("right_angle_frame", given)
         E, nu, b, t, length, angle = (value[k] for k in ("young", "poisson", "depth", "thickness",
                                                          "leg", "angle"))
         EI, GJ = E * b * t ** 3 / 12, E / (2 * (1 + nu)) * b * t ** 3 / 3
-        # with lengths in legs and forces in sqrt(EI GJ)/leg^2 one number is left, EI/GJ
+        # with lengths relative to a leg and forces relative to sqrt(EI GJ)/leg^2, one number is left, EI/GJ
         root = sqrt(EI / GJ)
         at = ";".join(f"{k}={v}" for k, v in given.items())
         for name, bracket in (("critical_moment", ("3.0", "3.3")), ("critical_moment_2", ("4.4",

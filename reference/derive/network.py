@@ -1,11 +1,10 @@
 """Rigid bodies joined by geometrically exact beams (beam.py): equilibrium by Newton's method, and the linear response
-there.
+about it.
 
-Unknowns: of each body position x, rotation and the load (f, mu) on its reference point; of each beam F, m0 (moment
-about
-the origin, constant along the beam), its states at the ends of the intervals; numbers of the problem's own.
-Equations: body, equilibrium of forces and moments and six conditions; beam, its intervals, the closure at its end, one
-condition of warping at each end.
+Unknowns: for each body, its position x, its rotation and the load (f, mu) on its reference point; for each beam, F, m0
+(moment about the origin, constant along the beam), its states at the ends of the intervals; additional numbers of the problem.
+Equations: for each body, equilibrium of forces and moments and six conditions; for each beam, its intervals, the
+closure at its end, and one warping condition at each end.
 """
 import numpy as np
 from scipy.sparse import coo_matrix
@@ -14,17 +13,18 @@ from scipy.sparse.linalg import splu
 from reference.derive.beam import (STEP, Scaled, chebyshev, cross_matrix, exponential, product,
                                    quaternion, rotation)
 
-# Loads along a beam (beam.py): six more states, F and m0 (moment about the origin, fixed axes) less those at the start,
+# Loads along a beam (beam.py): six more states, F and m0 (moment about the origin, fixed axes) minus their values at
+# the start,
 #   F' = -f q,   m0' = -f ((r + R d) x q + c),
-# per initial length, q and c in fixed axes, or turning with the sections, linear along the beam (then s is a state
+# per initial length, q and c in fixed axes, or rotating with the sections, linear along the beam (then s is a state
 # before the six);
-# d: where q acts, from the centroid; f: factor at the level.
+# d: position of q from the centroid; f: factor at the level.
 
 
 class LineLoad:
-    """force [N/m], moment [N] at each length, in fixed axes, or in those of the section, with which they turn; at
-    [m]: of the force, in the
-    section's axes; factor(level); more: what force and moment are more at the end than at the start, linear between,
+    """force [N/m], moment [N] at each length, in fixed axes, or in those of the section, with which they rotate; at
+    [m]: position of the force, in the
+    section's axes; factor(level); more: increase of force and moment from the start to the end, linear in between,
     or None."""
 
     def __init__(self, force, moment, at, turns, factor, more=None):
@@ -38,15 +38,15 @@ class LineLoad:
                         self.turns, self.factor, more)
 
     def at_place(self, s):
-        """Force and moment [3, many]."""
+        """Returns force and moment [3, many]."""
         more = (0.0, 0.0) if self.more is None else (v[:, None] * s for v in self.more)
         return [v[:, None] + m for v, m in zip((self.force, self.moment), more)]
 
 
 class Loaded(Scaled):
-    """A scaled beam with such loads; the level is the network's."""
+    """A scaled beam with such loads; the level is that of the network."""
     carries = True
-    stays = False  # do its loads stay where they are at rest? So they do in linear analysis
+    stays = False  # do its loads keep their undeformed positions? They do in linear analysis
 
     def __init__(self, beam, loads):
         self.__dict__.update(beam.__dict__)
@@ -59,7 +59,7 @@ class Loaded(Scaled):
 
     def slope(self, y, p):
         n = self.plain.states
-        place = y[:7].real if self.stays else y[:7]  # what is not varied has no derivative
+        place = y[:7].real if self.stays else y[:7]  # values that are not varied have no derivative
         R, out = rotation(place[3:]), np.zeros((6, y.shape[1]), dtype=np.result_type(y, p))
         s = y[n].real if self.varies else 0 * y[0].real
         for load in self.loads:
@@ -82,7 +82,7 @@ class Loaded(Scaled):
 class Body:
 
     def __init__(self, x, conditions, on=None):
-        """on: the body that a joint is on."""
+        """on: the body to which a joint belongs."""
         self.on = on
         self.x, self.q, self.load, self.conditions = np.array(x, dtype=float), np.array(
             [1.0, 0, 0, 0]), np.zeros(6), conditions
@@ -119,8 +119,8 @@ class Member:
         return y
 
     def linearise(self):
-        """Per interval: Y = base + A y_start + B p for changes, with the residual of the current values folded into
-        base."""
+        """Computes for each interval: Y = base + A y_start + B p for changes, with the residual of the current values
+        included in base."""
         m, n1, n = self.y.shape
         columns = self.y.reshape(-1, n).T
         f, fy, fp = self.beam.slope_and_derivatives(
@@ -145,7 +145,7 @@ def free(level, x, R, force, moment, numbers):
 
 
 def clamped(at, turned=None):
-    """Conditions of a body held at a place, with its rotation vector; both may depend on the level."""
+    """Returns the conditions of a body fixed at a position, with its rotation vector; both may depend on the level."""
     place = at if callable(at) else lambda level: at
     turn = turned or (lambda level: (0.0, 0.0, 0.0))
 
@@ -165,21 +165,21 @@ class Network:
         self.length, self.force, self.numbers = length, force, np.array(numbers, dtype=float)
         self.bodies, self.members, self.intervals, self.nodes = [], [], intervals, nodes
         self.extra = [
-        ]  # conditions that fix the numbers: (body, function(level, x, R, force, moment, numbers))
+        ]  # conditions that determine the numbers: (body, function(level, x, R, force, moment, numbers))
 
     def body(self, position, conditions=free):
-        """position [m]; conditions see dimensionless values."""
+        """Adds a body. position [m]; conditions receive dimensionless values."""
         self.bodies.append(Body(np.array(position) / self.length, conditions))
         return self.bodies[-1]
 
     def joint(self, body, position, conditions):
-        """A massless body at position [m], whose load acts back on another body; its conditions see the place and
-        rotation of that one last."""
+        """Adds a massless body at position [m] whose load acts back on another body; its conditions receive the
+        position and rotation of that body last."""
         self.bodies.append(Body(np.array(position) / self.length, conditions, body))
         return self.bodies[-1]
 
     def member(self, beam, first, second, start, axes, warp=("fixed", "fixed"), loads=()):
-        """start [m]: where the beam begins, fixed to the first body; axes: columns are its x, y, z; loads: LineLoad
+        """Adds a beam. start [m]: its start, fixed to the first body; axes: columns are its x, y, z; loads: LineLoad
         along it."""
         offset = np.array(start) / self.length - first.x
         scaled = beam.scaled(self.length, self.force)
@@ -200,7 +200,7 @@ class Network:
         return at, at + len(self.numbers)
 
     def _body_rows(self, level, conditions, b, put):
-        """Six conditions at rows b.at + 6 ..; linearised by complex steps."""
+        """Adds six conditions at rows b.at + 6 ..; linearised by complex steps."""
         columns = list(range(b.at, b.at + BODY)) + self._places_of_numbers
         on = [] if b.on is None else list(range(b.on.at, b.on.at + 6))
         R = b.R
@@ -221,7 +221,8 @@ class Network:
         return values
 
     def _equilibrium(self, b, put, right):
-        """Rows b.at .. b.at + 5: external load, then the members add theirs; that of a joint acts back."""
+        """Adds rows b.at .. b.at + 5: the external load, to which the members add theirs; the load of a joint acts
+        back."""
         for owner, sign in ((b, 1.0), (b.on, -1.0)):
             if owner is None:
                 continue
@@ -239,7 +240,7 @@ class Network:
         if m.beam.carries:
             _block(put, m.bodies[1].at, m.at + m.size - 6, -np.eye(6))
             right[m.bodies[1].at:m.bodies[1].at + 6] += m.y[-1, -1, n - 6:]
-        first = m.at + 6  # column of (kx, B) at the start, then the states at the intervals' ends
+        first = m.at + 6  # column of (kx, B) at the start, then the states at the ends of the intervals
         nodes = first + (2 if warps else 0)
         row = m.at
         start = m.start_state()
@@ -264,7 +265,7 @@ class Network:
 
     @staticmethod
     def _closure(m, last, row, put, right):
-        """Place and rotation of the end; 2 vec(q o q_target*) = 0."""
+        """Adds the position and rotation of the end; 2 vec(q o q_target*) = 0."""
         b, y = m.bodies[1], m.y[-1, -1]
         arm = b.R @ m.ends[1]
         _block(put, row, last, np.eye(3))
@@ -280,7 +281,8 @@ class Network:
         m.warp_row = row + 6
 
     def _warp_rows(self, put, right):
-        """One condition per end; ends that share a coordinate: equal kx, and their bimoments in balance."""
+        """Adds one condition per end; ends that share a coordinate have equal kx, and their bimoments are in
+        balance."""
         groups = {}
         for m in (m for m in self.members if m.beam.warps):
             for end in range(2):
@@ -302,7 +304,8 @@ class Network:
                 right[ends[0][0]] -= sign * state[1]
 
     def system(self, level, override=None):
-        """Sparse matrix and right-hand side of Newton's method; override: other conditions for some bodies."""
+        """Returns the sparse matrix and the right-hand side of Newton's method; override: other conditions for some
+        bodies."""
         first_number, total = self._places()
         self._places_of_numbers = list(range(first_number, total))
         for m in self.members:
@@ -350,7 +353,7 @@ class Network:
         self.numbers = self.numbers + step[len(step) - len(self.numbers):]
 
     def iterate(self, level):
-        """One step of Newton's method; its largest change, beside the values."""
+        """Makes one step of Newton's method; returns its largest change relative to the values."""
         matrix, right = self.system(level)
         step = splu(matrix).solve(right)
         self._advance(step)
@@ -360,7 +363,7 @@ class Network:
         return size
 
     def solve(self, path=(1.0, ), tolerance=1e-12):
-        """Equilibrium at each level in turn; the last ones to round-off."""
+        """Solves for equilibrium at each level in turn; the last steps to round-off."""
         for level in path:
             for _ in range(30):
                 if self.iterate(level) <= tolerance:
@@ -381,9 +384,11 @@ class Network:
         return out
 
     def response(self, level, body, override):
-        """[6, 6] in SI: change of (u, theta) of the body by unit dead (f, mu) on it, with other conditions in force.
+        """Returns [6, 6] in SI: change of (u, theta) of the body due to unit dead (f, mu) on it, with other conditions in
+        force.
 
-        The body itself takes loads: its overriding conditions must be those of free bodies where a load is wanted.
+        The loads act on the body itself: its overriding conditions must be those of free bodies where a load is
+        requested.
         """
         matrix, _ = self.system(level, override)
         right = np.zeros((matrix.shape[0], 6))
@@ -396,7 +401,7 @@ class Network:
 
 
 def _spin(q):
-    """dq/dtheta [4, 3] of a spatial rotation increment."""
+    """Returns dq/dtheta [4, 3] of a spatial rotation increment."""
     return np.array([product(np.concatenate([[0.0], e]), q) / 2 for e in np.eye(3)]).T
 
 

@@ -1,14 +1,13 @@
 """Exact values of a scene that is a network of geometrically exact beams, rigid bodies and supports: displacements,
-reactions, stiffnesses,
-resultants at the ends of members, frequencies about the undeformed state.
+reactions, stiffnesses, resultants at the ends of members, and frequencies about the undeformed state.
 
-usage: of_scene.py [FILE]     The scene (FILE or standard input) as 'beamwork scene' writes it.  One line for each
-quantity, as at.py has them.
-Exit status: 0; 3 the scene, or all of its quantities, are beyond this program, with a line for each that says what is.
+usage: of_scene.py [FILE]     The scene (FILE or standard input) as 'beamwork scene' writes it.
 
-A value is that of the finer of two grids; its uncertainty is twice the difference, and at least round-off.  Grids are
-refined until
-the difference is below 1e-10 of the value (or of its scale).
+Prints one line for each quantity, like at.py. Exit status: 0, or 3 if the scene or all of its quantities are not
+supported by this program; a line for each gives the reason.
+
+Each value is that of the finer of two grids. Its uncertainty is twice the difference, and at least round-off. Grids
+are refined until the difference is below 1e-10 of the value (or of its scale).
 """
 import os
 import pathlib
@@ -105,7 +104,7 @@ class Question:
 
 
 def analyses(scene, questions, grid, scales=None):
-    """{quantity: value or the Refused that says why not} on one grid; scales: filled with {quantity: its scale}."""
+    """Returns {quantity: value, or Refused with the reason} on one grid; scales: filled with {quantity: its scale}."""
     out, scales = {}, {} if scales is None else scales
 
     def answer(asked, stations, states):
@@ -184,8 +183,8 @@ def analyses(scene, questions, grid, scales=None):
 
 
 def solve(scene, form=lambda beam: beam):
-    """Yields (quantity, value, unit, uncertainty, convention), and (quantity, Refused) where it is beyond the
-    program; form: of the beams."""
+    """Yields (quantity, value, unit, uncertainty, convention), or (quantity, Refused) if the program does not support
+    it; form: of the beams."""
     questions, scene = [], cut(scene)
     for name, entry in scene["quantities"].items():
         try:
@@ -214,7 +213,7 @@ def near(a, b, scale):
 
 
 def moments_of(scene, question):
-    """Where they are not those that a scene has by itself."""
+    """Returns the convention of the moments, or '' if it is the default (spatial) or does not apply."""
     if question.kind not in ("stiffness", "compliance"):
         return ""
     return scene["analyses"][question.of["analysis"]]["compliance"].get("moments",
@@ -225,7 +224,7 @@ def moments_of(scene, question):
 EXAMPLES = ("cross_flexure_hinge", "folded_leaf_stage", "leaf_spring_guide", "channel_portal")
 PROGRAM = os.environ.get("BEAMWORK",
                          str(pathlib.Path(__file__).resolve().parents[2] / "build" / "beamwork"))
-PREDICTED = EXAMPLES[:3]  # limits of sheet_third there, which is rigid in shear along y
+PREDICTED = EXAMPLES[:3]  # their limits of sheet_third, which is rigid in shear along y, are predicted
 LIMIT = 1e-9  # relative, of these
 KNOWN = {"leaf_spring_guide": ("k_drive", "k_support")}  # in closed form
 

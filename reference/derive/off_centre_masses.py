@@ -1,9 +1,9 @@
-"""Cantilever of a round section with two point masses on rigid arms at its end, +-a across it (NAFEMS FV4): frequencies.
+"""Frequencies of a cantilever with a round section and two point masses on rigid arms at its end, +-a across it (NAFEMS FV4).
 
-Rigid in shear, with rotary inertia.  Both masses are a body of mass m, centre y and moment of inertia J about it, along x and z:
-  in the plane of the arms   Q = m o^2 v, N = m o^2 (u - y t), M = o^2 (J t - m y (u - y t)), t the end's turn
-  across it                  Q = m o^2 (w + y p), M = 0, T = o^2 (J p + m y (w + y p)), p its twist
-with resultants of the beam's end, which the body's inertia pulls.
+Rigid in shear, with rotary inertia.  Both masses together are a body of mass m, centre y and moment of inertia J about it, along
+x and z:
+  in the plane of the arms   Q = m o^2 v, N = m o^2 (u - y t), M = o^2 (J t - m y (u - y t)), t the rotation of the end about the normal                  Q = m o^2 (w + y p), M = 0, T = o^2 (J p + m y (w + y p)), p its twist
+with the resultants at the beam's end, which the inertia forces of the body load.
 """
 from mpmath import det, matrix, mp, mpf, pi, sqrt
 
@@ -24,7 +24,7 @@ def body(arm):
 
 
 def end(o, flexibility):
-    """Columns of unit (M, Q) at the root: rows (w, t, M, Q) at the end."""
+    """Returns the columns due to unit (M, Q) at the root: rows (w, t, M, Q) at the end."""
     return bending(LENGTH, o, E * I, RHO * A, RHO * I, flexibility)[:, 2:]
 
 

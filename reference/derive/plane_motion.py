@@ -1,10 +1,9 @@
-"""Rods that move in their plane: the thrown rod and the pendulum, exact in space to the digits that
-two meshes agree in.
+"""Rods moving in their plane: the thrown rod and the pendulum, exact in space to the digits on which two meshes agree.
 
-Simo-Reissner beam, fields x, y and the turn t of the section: strains (cos t x' + sin t y' - 1,
+Simo-Reissner beam, with fields x, y and the rotation t of the section: strains (cos t x' + sin t y' - 1,
 -sin t x' + cos t y', t'), forces EA, GA, EI times these, mass rho A and rotary inertia rho I.
 Space: polynomials in Lobatto's points, whose quadrature makes the mass diagonal.  Time: the
-explicit Runge-Kutta method of order 8 by Dormand and Prince, with steps that waves set.
+explicit Runge-Kutta method of order 8 by Dormand and Prince, with steps limited by wave propagation.
 """
 from dataclasses import dataclass
 from functools import cache
@@ -21,8 +20,7 @@ LEAST = 1e-9  # [m] of an uncertainty
 
 @dataclass(frozen=True)
 class Rod:
-    """From (x0, y0) along (cos, sin) of angle; stiffnesses [N, N, N m^2], mass [kg/m], rotary
-    inertia [kg m]."""
+    """A rod from (x0, y0) along (cos, sin) of angle; stiffnesses [N, N, N m^2], mass [kg/m], rotary inertia [kg m]."""
     start: tuple
     angle: float
     length: float
@@ -34,7 +32,7 @@ class Rod:
 
 
 def lobatto(degree):
-    """Points and weights on [-1, 1], derivatives there of the polynomials through them."""
+    """Returns points and weights on [-1, 1], and the derivatives there of the polynomials through the points."""
     p = legendre.Legendre.basis(degree)
     x = np.concatenate([[-1.0], np.sort(p.deriv().roots().real), [1.0]])
     D = np.zeros((degree + 1, degree + 1))
@@ -47,8 +45,8 @@ def lobatto(degree):
 
 
 class Mesh:
-    """Rod in elements: G takes values at nodes to derivatives at points, V to values there; weight
-    [points], lumped [nodes]."""
+    """Rod in elements: G maps nodal values to derivatives at points, V to values there; weight [points], lumped
+    [nodes]."""
 
     def __init__(self, rod, elements, degree):
         x, w, D = lobatto(degree)
@@ -65,7 +63,7 @@ class Mesh:
 
 
 def forces(rod, mesh, q):
-    """Returns the forces of the strains on the nodes [3, nodes], from q likewise: x, y and the turn from the x
+    """Returns the nodal forces due to the strains [3, nodes], from q [3, nodes]: x, y and the rotation from the x
     axis."""
     (dx, dy, curvature), turn = q @ mesh.G.T, mesh.V @ q[2]
     c, s = np.cos(turn), np.sin(turn)
@@ -79,7 +77,7 @@ def forces(rod, mesh, q):
 
 
 def move(rod, mesh, load, held, times):
-    """(q, v) at the times, both [times, 3, nodes]; load(t, out) adds forces to out[3, nodes]."""
+    """Returns (q, v) at the times, both [times, 3, nodes]; load(t, out) adds forces to out[3, nodes]."""
     n = len(mesh.S)
     q = np.stack([
         rod.start[0] + mesh.S * np.cos(rod.angle), rod.start[1] + mesh.S * np.sin(rod.angle),
@@ -101,7 +99,7 @@ def move(rod, mesh, load, held, times):
 
 
 def ends(moved):
-    """Places of both ends: [times, (x, y) of the first, (x, y) of the last]."""
+    """Returns the positions of both ends: [times, (x, y) of the first, (x, y) of the last]."""
     q = moved[0]
     return np.concatenate([q[:, :2, 0], q[:, :2, -1]], axis=1)
 
@@ -117,7 +115,7 @@ THROWN = Rod((0, 8), float(np.arctan2(-8, 6)), 10, 1e4, 1e4, 100, 1, 10)
 
 @cache
 def flight(times=FLIGHT_TIMES):
-    """Rows (A_x, A_y, B_x, B_y) under the smooth load, and how far the meshes are apart."""
+    """Returns rows (A_x, A_y, B_x, B_y) under the smooth load, and the difference between the meshes."""
     fine, coarse = (ends(
         move(THROWN, Mesh(THROWN, *mesh), _thrown, (), [float(t) for t in times]))
                     for mesh in MESHES)
@@ -125,7 +123,7 @@ def flight(times=FLIGHT_TIMES):
 
 
 def behind_step(elements, degree):
-    """(energy, angular momentum about the origin) that 2.5 s of the load as a step leave."""
+    """Returns (energy, angular momentum about the origin) after 2.5 s of a constant load."""
 
     def step(_, force):
         force[0, -1] += 8
@@ -140,8 +138,7 @@ def behind_step(elements, degree):
 
 @cache
 def swing(times=SWING_TIMES):
-    """Rows (pin_x, pin_y, tip_x, tip_y) of the rubber pendulum, and how far the meshes are
-    apart."""
+    """Returns rows (pin_x, pin_y, tip_x, tip_y) of the rubber pendulum, and the difference between the meshes."""
     radius, young, density = 0.02, 5e6, 1100
     A = np.pi * radius**2
     I = A * radius**2 / 4  # noqa: E741

@@ -1,11 +1,10 @@
-"""Limits that printed formulations must have under refinement and that are not the exact ones.
+"""Limits that printed formulations must have under refinement and that differ from the exact ones.
 
 usage: predicted.py [--write] [CASE...]     derives reference/predicted/CASE.csv; compares or writes
 
-The beam that a formulation converges to (predicted_beam.py) takes the place
-of the exact one in the programs that derive exact values; predicted_column.py has the half-waves.
-A value that agrees with the exact one is not listed as a prediction.  shear_stability=*: these
-formulations have one form of the second order, whatever theory a case asks for.
+The beam to which a formulation converges (predicted_beam.py) replaces the exact beam in the programs that derive exact
+values; predicted_column.py supplies the half-waves. A value that agrees with the exact one is not listed as a
+prediction. shear_stability=*: these formulations have one second-order form, whatever theory a case requests.
 """
 import pathlib
 import sys
@@ -23,14 +22,14 @@ from reference.derive.predicted_column import (  # noqa: E402
 from reference.derive.predicted_rows import (  # noqa: E402
     differences, exact_values, row_of, write)
 
-# of beams and of closed forms; of sheets: as the exact value (all proved in predicted_test.py)
+# of beams and of closed forms; for sheets, that of the exact value (all verified in predicted_test.py)
 RELATIVE, CLOSED = 1e-9, 1e-12
-# So many uncertainties from the exact value, or nearer, is no prediction: one where the stated
-# uncertainty is hundreds of times what other intervals and nodes change, ten elsewhere
+# A value within this number of uncertainties of the exact one is not a prediction: one where the stated uncertainty is
+# hundreds of times the change due to other intervals and nodes, otherwise ten
 SAME = {True: 1, False: 10}
 JONKER = ("beamw", "beamw_first")
 SHEETS = ("sheet_second", "sheet_third", "sheet_second_consistent")
-ALIASES = {"sheet_third": ("sheet_third_printed",)}  # the sign of u_y in N Eq. 49: of higher order
+ALIASES = {"sheet_third": ("sheet_third_printed",)}  # the sign of u_y in N Eq. 49 has only an effect of higher order
 
 
 def as_printed(name):
@@ -38,7 +37,8 @@ def as_printed(name):
 
 
 def shear_elastica():
-    """GA = 10: J's beams end on the way; sheet_second_consistent: see right_angle."""
+    """Yields predictions for shear_elastica. GA = 10: J's beams end before the last point; sheet_second_consistent:
+    see right_angle."""
     for name in JONKER + SHEETS:
         stiffnesses = (500, 50, 10) if name in ("sheet_second", "sheet_third") else (500, 50)
         for row in cantilevers.shear_elastica(stiffnesses, form=as_printed(name)):
@@ -46,9 +46,9 @@ def shear_elastica():
 
 
 def right_angle():
-    """shear_elastica with GA = F = 10: all sections shear to z = pi/2 and none turns.
+    """shear_elastica with GA = F = 10: all sections shear to z = pi/2 and none rotates.
 
-    z = z sin z + (1 + z^2/2) cos z (ERRATA); the load has no arm then, so that no moment bends.
+    z = z sin z + (1 + z^2/2) cos z (ERRATA); the load then has no lever arm, so that no bending moment occurs.
     """
     name, at, stretch = "sheet_second_consistent", "GA=10", mpf(10) / 10 ** 9  # F/EA
     yield name, "shear_elastica", at, "u", mpf(-1), "m", CLOSED
@@ -62,7 +62,7 @@ def geradin_cardona():
 
 
 def bend_45():
-    """Arcs, which the sheet elements know."""
+    """Yields predictions for arcs, which the sheet elements support."""
     for name in SHEETS:
         for row in cantilevers.bend_45(form=as_printed(name)):
             yield name, *row[:5], RELATIVE
@@ -93,7 +93,8 @@ def bent_sheets():
 
 
 def vibrating_sheets():
-    """With the consistent mass (the default of J's elements), lumped in the sheet elements."""
+    """Yields frequencies with the consistent mass (the default of J's elements); the sheet elements have lumped
+    mass."""
     for name in JONKER + SHEETS:
         for given in VIBRATING:
             at = sheets.parameters({"modes": 3, **given})
@@ -103,7 +104,7 @@ def vibrating_sheets():
 
 
 def twisted_sheets():
-    """J's elements have no Wagner torque."""
+    """Yields predictions for twisted sheets; J's elements have no Wagner torque."""
     for name in JONKER + SHEETS:
         for given in WITHOUT_TORQUE + (WITH_TORQUE if name in SHEETS else ()):
             for row in sheets.twisted(form=as_printed(name), **given):
@@ -138,7 +139,7 @@ HEXAPODS = (({}, SHEETS), ({"wagner": 0}, ("beamw", *SHEETS)))
 
 
 def hexapods():
-    """A minute and a half apiece."""
+    """Yields predictions for hexapods; each takes a minute and a half."""
     for given, names in HEXAPODS:
         at = sheets.parameters(given)
         for name in names:
@@ -149,7 +150,7 @@ def hexapods():
 
 
 def channel_rows(name, given, deflections, points, relative):
-    """Without shear beamw_vlasov is beamw."""
+    """Yields rows of a channel. Without shear, beamw_vlasov equals beamw."""
     rigid = {**defaults.values("c_cantilever"), **given}["shear"] == 0
     names = (name, "beamw_vlasov") if name == "beamw" and rigid else (name,)
     for w, values in zip(deflections, points):
@@ -160,7 +161,7 @@ def channel_rows(name, given, deflections, points, relative):
 
 
 def channels():
-    """Without the Wagner moments that none of them offers."""
+    """Yields rows of channels without the Wagner moments, which none of the formulations supports."""
     for name in JONKER:
         for given, w in channel_cantilever.POINTS:
             if {**defaults.values("c_cantilever"), **given}["wagner_moments"] == 0:
@@ -229,7 +230,8 @@ def unsymmetric_columns():
 
 
 def angle_columns():
-    """beamw_first: twist shortens nothing; the moment of a leg's load couples as it should."""
+    """Yields rows of angle columns. beamw_first: twist causes no shortening; the moment of the load on a leg is
+    coupled correctly."""
     for load in ("centroid", "leg"):
         force, y, z, _ = angle_column.stress_of(load)
         for given in ({}, {"warping": 0}):
@@ -260,7 +262,7 @@ CASES = {**CLOSED_FORMS, **BEAMS}
 
 
 def predictions(cases=CASES):
-    """(formulation, case, parameters, quantity, value, unit, uncertainty/value[, convention])."""
+    """Yields (formulation, case, parameters, quantity, value, unit, uncertainty/value[, convention])."""
     for family in (one for case in cases for one in CASES[case]):
         for name, *rest in family():
             for one in (name, *ALIASES.get(name, ())):
@@ -268,7 +270,7 @@ def predictions(cases=CASES):
 
 
 def derived_rows(cases=CASES):
-    """Returns the rows of points and quantities that have exact values, and differ from all of them."""
+    """Returns the rows of points and quantities that have exact values and differ from all of them."""
     exact = exact_values()
     for given in predictions(cases):
         point = rederive.canonical(given[2].replace("shear_stability=*", ""))

@@ -1,20 +1,20 @@
-"""The beam that a printed element converges to: beam.py with the measures below.
+"""The beam to which a printed element converges: beam.py with the measures below.
 
 Energy per length W = 1/2 s.E, E(gamma, kappa, a) the measures and s their stresses.  At each point
 the stress resultants N, M of beam.py and the amplitude a are given; gamma, kappa and s follow from
   E = compliance s  (torsion: s = GJ k_x + 4 c k_x^3),  N = s.dE/dgamma,  M = s.dE/dkappa
-(nothing warps: without g_w).  Then r' = R (e_x + gamma), q' = q o (0, kappa)/2, EIw a' = B,
+(without warping, g_w is absent).  Then r' = R (e_x + gamma), q' = q o (0, kappa)/2, EIw a' = B,
 B' = s.dE/da.
 """
 import numpy as np
 
 from reference.derive.beam import Beam, Scaled, product, rotation
 
-# Strain measures of printed elements under refinement: what a short element of a smooth beam sees.
+# Strain measures of printed elements under refinement, that is, of a short element of a smooth beam.
 #
-# r' = R (e_x + gamma), kappa~ = R^T R', a warping amplitude; h length, lambda = |e_x + gamma|; chord
-# along n = (e_x + gamma)/lambda.  To leading order in h each function gives (eps, g_y, g_z, g_w, k_x,
-# k_y, k_z), which the stiffness multiplies: it tends to diag(EA, G D, GIt, EIy, EIz), and EIw a'^2;
+# r' = R (e_x + gamma), kappa~ = R^T R', a warping amplitude; h length, lambda = |e_x + gamma|; chord along n = (e_x +
+# gamma)/lambda.  To leading order in h, each function returns (eps, g_y, g_z, g_w, k_x, k_y, k_z). The stiffness that
+# multiplies them tends to diag(EA, G D, GIt, EIy, EIz), and EIw a'^2;
 # the g are those of the shear centre.  Proofs with short elements: reference/test/predicted_test.py.
 #
 # J Eq. 7, where e3, e4 = -+ h n_z + h^2 k_y/2, e5, e6 = +- h n_y + h^2 k_z/2, e2 = h^2 kappa_x:
@@ -29,7 +29,7 @@ from reference.derive.beam import Beam, Scaled, product, rotation
 #   k_x = p + y z',  k_y = y' + z p,  k_z = z' - y p
 # The same integrals over the linear solution with shear (sheet_second_consistent):
 #   eps = lambda - 1 - (y^2 + z^2)/2 + Ite p^2/2,  k_x = p + z y',  k_y = y',  k_z = z'
-# N Eqs. 44-65 (sheet_third): those of Eq. 37; what the stress function adds is of higher order in h,
+# N Eqs. 44-65 (sheet_third): those of Eq. 37; the terms added by the stress function are of higher order in h,
 # and g_y has no compliance (N Eq. 50).
 
 VARIABLES = 7  # gamma, kappa, a
@@ -44,12 +44,12 @@ class Jet:
 
     @staticmethod
     def variables(values):
-        """One of each row of values [VARIABLES, many]."""
+        """Returns one Jet for each row of values [VARIABLES, many]."""
         zero = np.zeros((VARIABLES,) + values.shape, dtype=values.dtype)
         return [Jet(v, np.eye(VARIABLES)[i][:, None] + zero[0], zero) for i, v in enumerate(values)]
 
     def _of(self, value, first, second):
-        """f(self) from f, f', f''."""
+        """Returns f(self) from f, f', f''."""
         g = self.gradient
         return Jet(value, first * g, first * self.hessian + second * g[:, None] * g[None])
 
@@ -101,7 +101,7 @@ def chord(gamma):
 
 
 def jonker_first(gamma, kappa, a, centre, polar):
-    """J Eq. 7 alone (beamw_first); a None: nothing warps."""
+    """Returns the measures of J Eq. 7 alone (beamw_first); a None: no warping."""
     stretch, n = chord(gamma)
     ys, zs = centre
     k = [kappa[0], n[0] * kappa[1] - n[1] * kappa[0], n[0] * kappa[2] - n[2] * kappa[0]]
@@ -110,7 +110,7 @@ def jonker_first(gamma, kappa, a, centre, polar):
 
 
 def jonker(gamma, kappa, a, centre, polar):
-    """J Eqs. 7 and 66 (beamw, beamw_vlasov); polar = Ip/A, 0 without the trapeze term."""
+    """Returns the measures of J Eqs. 7 and 66 (beamw, beamw_vlasov); polar = Ip/A, 0 without the trapeze term."""
     eps, _, _, w, kx, ky, kz = jonker_first(gamma, kappa, a, centre, polar)
     _, n = chord(gamma)
     ys, zs = centre
@@ -123,7 +123,7 @@ def jonker(gamma, kappa, a, centre, polar):
 
 
 def _angles(gamma, kappa):
-    """lambda, y, z, p, y' of N's local coordinates."""
+    """Returns lambda, y, z, p, y' of N's local coordinates."""
     stretch, n = chord(gamma)
     slope = -(n[1] / n[0])  # tan z
     rate = kappa[1] * (slope * slope + 1.0).sqrt()
@@ -131,7 +131,7 @@ def _angles(gamma, kappa):
 
 
 def nijenhuis(gamma, kappa, a, centre, polar):
-    """N Eq. 37 (sheet_second, sheet_third)."""
+    """Returns the measures of N Eq. 37 (sheet_second, sheet_third)."""
     stretch, y, z, p, dy = _angles(gamma, kappa)
     eps = stretch + -1.0 + (y * y + z * z) * 0.1 + p * p * (polar / 2)
     warping = None if a is None else p - a
@@ -139,14 +139,14 @@ def nijenhuis(gamma, kappa, a, centre, polar):
 
 
 def nijenhuis_sheared(gamma, kappa, a, centre, polar):
-    """N Eq. 7 over N Eqs. 14-19 with Phi (sheet_second_consistent)."""
+    """Returns the measures of N Eq. 7 over N Eqs. 14-19 with Phi (sheet_second_consistent)."""
     stretch, y, z, p, dy = _angles(gamma, kappa)
     eps = stretch + -1.0 - (y * y + z * z) * 0.5 + p * p * (polar / 2)
     return [eps, -z, y, None if a is None else p - a, p + z * dy, dy, kappa[2]]
 
 
 def simo_reissner(gamma, kappa, a, centre, polar):
-    """The strains of beam.py without the terms of eccentricity: a test of the rest of the machinery."""
+    """Returns the strains of beam.py without the eccentricity terms, to test the rest of the program."""
     (ys, zs), warping = centre, None if a is None else kappa[0] - a
     eps = gamma[0] + kappa[0] * kappa[0] * (polar / 2)
     return [eps, gamma[1] - zs * kappa[0], gamma[2] + ys * kappa[0], warping] + list(kappa)
@@ -162,7 +162,7 @@ NEWTON_STEPS, SETTLED = 40, 1e-12
 
 
 class Printed(Beam):
-    """A Beam with the strains of a formulation: its name or a function of that kind."""
+    """A Beam with the strains of a formulation, given by its name or by a function of the kind above."""
 
     def __init__(self, beam, formulation):
         self.__dict__.update(beam.__dict__)
@@ -186,14 +186,14 @@ class ScaledPrinted(Scaled):
         return [i for i in range(MEASURES) if self.warps or i != WARPING]
 
     def _measures(self, x, a):
-        """Jets of the kept measures by (gamma, kappa, a)."""
+        """Returns the Jets of the kept measures with respect to (gamma, kappa, a)."""
         v = Jet.variables(np.concatenate([x[:6], a[None]]))
         E = self.measures(v[:3], v[3:6], v[6] if self.warps else None, self.centre, self.polar)
         E[6] = E[6] - self.curvature
         return [E[i] for i in self.kept]
 
     def _compliance(self):
-        """[kept, kept]; that of torsion is not linear: see _constitutive."""
+        """Returns the compliance [kept, kept] without torsion, which is nonlinear: see _constitutive."""
         C = np.zeros((MEASURES, MEASURES))
         C[0, 0], C[5, 5], C[6, 6], C[1:4, 1:4] = self.a, self.by, self.bz, self.f
         return C[np.ix_(self.kept, self.kept)]
@@ -202,7 +202,7 @@ class ScaledPrinted(Scaled):
         return self.gj + 12 * self.c * twist ** 2
 
     def _constitutive(self, E, s):
-        """E - compliance s [kept, many], and its derivatives by (gamma, kappa, a) and by s."""
+        """Returns E - compliance s [kept, many], and its derivatives with respect to (gamma, kappa, a) and s."""
         C, t = self._compliance(), self.kept.index(TORSION)
         right = np.array([e.value for e in E]) - C @ s
         by_v = np.array([e.gradient for e in E])
@@ -213,7 +213,8 @@ class ScaledPrinted(Scaled):
         return right, by_v, by_s
 
     def _equations(self, x, given):
-        """Residual and its derivative by x = (gamma, kappa, s); given = (N, M, a) [7, many]."""
+        """Returns the residual and its derivative with respect to x = (gamma, kappa, s); given = (N, M, a) [7,
+        many]."""
         E, s = self._measures(x, given[6]), x[6:]
         right, by_v, by_s = self._constitutive(E, s)
         gradient = np.array([e.gradient[:6] for e in E])
@@ -224,7 +225,7 @@ class ScaledPrinted(Scaled):
         return np.concatenate([right, balance]).T, np.moveaxis(matrix, 2, 0)
 
     def _settled(self, given):
-        """x [n, many] by Newton's method from the stress-free state."""
+        """Returns x [n, many] from Newton's method, starting at the stress-free state."""
         x = np.zeros((6 + len(self.kept), given.shape[1]))
         scale = 1 + np.max(np.abs(given[:6]), axis=0)
         for _ in range(NEWTON_STEPS):
@@ -236,7 +237,7 @@ class ScaledPrinted(Scaled):
         raise ArithmeticError("the strains at a point did not converge")
 
     def _derivatives(self, x, given):
-        """Derivatives of (gamma, kappa, B') [many, 7, 7] by (N, M, a), and B' [many]."""
+        """Returns the derivatives of (gamma, kappa, B') [many, 7, 7] with respect to (N, M, a), and B' [many]."""
         E, s, count = self._measures(x, given[6]), x[6:], len(self.kept)
         curved = sum(stress * e.hessian for stress, e in zip(s, E))
         pull = np.array([e.gradient[6] for e in E])
@@ -250,7 +251,7 @@ class ScaledPrinted(Scaled):
         return np.concatenate([by[:, :6], rate[:, None]], axis=1), np.einsum("im,im->m", s, pull)
 
     def _local(self, given):
-        """gamma, kappa, B' [7, many] of (N, M, a); imaginary parts go through the derivatives."""
+        """Returns gamma, kappa, B' [7, many] for (N, M, a); imaginary parts use the derivatives."""
         points, place = np.unique(given.real, axis=1, return_inverse=True)
         x = self._settled(points)
         by, rate = self._derivatives(x, points)

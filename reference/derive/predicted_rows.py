@@ -1,4 +1,4 @@
-"""Rows of reference/predicted: as they are derived (predicted.py), as they are stored, and how they differ."""
+"""Rows of reference/predicted: the derived rows (predicted.py), the stored rows, and their differences."""
 import csv
 import pathlib
 import sys
@@ -14,7 +14,7 @@ SOURCE = "reference/derive/predicted.py"
 
 
 def exact_values():
-    """{(case, parameters, quantity): values}, one for each theory of shear."""
+    """Returns {(case, parameters, quantity): values}, with one value for each shear theory."""
     found = {}
     for path in (ROOT / "reference" / "tables").glob("*.csv"):
         for row in rederive.read_table(path):
@@ -55,7 +55,7 @@ def write(derived):
 
 
 def difference(row, known):
-    """One line, or None where both agree."""
+    """Returns one line, or None if both agree."""
     if known is None:
         return f"derived {row['value']} {row['unit']}, not stored"
     gap = abs(float(row["value"]) - float(known["value"]))
@@ -66,7 +66,7 @@ def difference(row, known):
 
 
 def differences(derived, cases):
-    """Lines that say what differs from the stored rows of the cases."""
+    """Returns lines that describe the differences from the stored rows of the cases."""
     stored = stored_rows(cases)
     for row in derived:
         line = difference(row, stored.pop(key_of(row), None))

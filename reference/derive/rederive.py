@@ -1,7 +1,7 @@
-"""Derives every exact row, and the rows from solids, again and compares them with reference/tables, reference/extremes and cases/examples.
+"""Derives every exact row and the rows from solids again, and compares them with reference/tables, reference/extremes and cases/examples.
 
-usage: rederive.py [--write] [--all] [PROGRAM...]     --write replaces the rows of the programs; review the diff.  Those of scene files are printed.
---all: every point of the solids (half an hour), not only the first ones.  Without CalculiX they are skipped, by name.
+usage: rederive.py [--write] [--all] [PROGRAM...]     --write replaces the rows of the programs; review the diff.  Rows of scene files are
+printed. --all: every point of the solids (half an hour), not only the first points. Without CalculiX, the solids are skipped and named.
 """
 import csv
 import importlib
@@ -28,7 +28,8 @@ def read_table(path):
 
 
 def programs(names):
-    """Every module here with a function rows(); those of solids, which need another program, as solids.NAME."""
+    """Returns every module here that has a function rows(); those of solids, which need another program, as
+    solids.NAME."""
     here = ROOT / "reference" / "derive"
     found = sorted(".".join(p.relative_to(here).with_suffix("").parts) for p in here.rglob("*.py")
                    if "\ndef rows(" in p.read_text(encoding="utf-8"))
@@ -39,12 +40,12 @@ def programs(names):
 
 
 def folder_of(name):
-    """Where a program's rows are kept: its TABLES, or tables."""
+    """Returns the folder of a program's rows: its TABLES, or tables."""
     return getattr(importlib.import_module(f"reference.derive.{name}"), "TABLES", FOLDERS[0])
 
 
 def as_text(value, relative):
-    """Digits that the relative uncertainty supports."""
+    """Returns the value with the digits that its relative uncertainty supports."""
     from mpmath import mpf, nstr
     digits = DIGITS
     while digits > 4 and 10.0 ** (1 - digits) < relative / 5:
@@ -68,8 +69,8 @@ def confirms(name):
 
 
 def derived_rows(name, everything):
-    """A program yields (case, parameters, quantity, value, unit[, relative uncertainty[, convention[, at[, formulation]]]]);
-    with a formulation: the limit that it must have."""
+    """Returns the rows of a program, which yields (case, parameters, quantity, value, unit[, relative uncertainty[,
+    convention[, at[, formulation]]]]); with a formulation: the limit that it must have."""
     module = importlib.import_module(f"reference.derive.{name}")
     kind, model = kind_of(name), "other" if is_solid(name) else "same"
     for given in module.rows(everything) if is_solid(name) else module.rows():
@@ -124,8 +125,8 @@ def write(names):
 
 
 def differences(name, stored, seen, cases, everything):
-    """(rows that agree, lines that say what differs, rows of cases that do not exist yet, largest difference over
-    the uncertainty) of one program."""
+    """Returns (rows that agree, lines that describe differences, rows of cases that do not exist yet, largest
+    difference over the uncertainty) of one program."""
     agree, lines, waiting, largest = 0, [], 0, 0.0
     for row, value in derived_rows(name, everything):
         folder = folder_of(name)
@@ -155,7 +156,7 @@ def differences(name, stored, seen, cases, everything):
 
 
 def read_stored():
-    """{key: row} of every row that a program derives or confirms."""
+    """Returns {key: row} of every row that a program derives or confirms."""
     stored = {}
     for path in sorted(
             p for folder in FOLDERS for p in (ROOT / "reference" / folder).glob("*.csv")):
@@ -168,7 +169,7 @@ def read_stored():
 
 
 def compare(names, whole, everything):
-    """Exit status; whole: every program is asked, so that a row that none of them derives is missed."""
+    """Returns the exit status; whole: every program is run, so that a row that no program derives is detected."""
     stored, seen, agree, differ, cases = read_stored(), set(), 0, 0, read_defaults(
         ROOT / "reference" / "defaults.csv")
     for name in names:

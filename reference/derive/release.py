@@ -1,20 +1,18 @@
-"""Linear vibration of a cantilever that a force at its tip held aside and that is let go:
-deflection
-of the tip over that at t = 0.
+"""Linear vibration of a cantilever that is deflected by a force at its tip and released: ratio of the tip deflection to
+that at t = 0.
 
 Bernoulli's beam, L = EI = rho A = 1: 12 sum cos(l_n^2 t)/l_n^4 with 1 + cos(l) cosh(l) = 0.
 
-With a body of mu times its mass at the tip, where the beam answers to a force with
+With a body of mu times the beam's mass at the tip, where the response of the beam to a force is
 N/(l^3 D), N = sin(l) cosh(l) - cos(l) sinh(l), D = 1 + cos(l) cosh(l):
   H = N/(l^3 D - mu l^4 N) at omega = l^2, poles and residues as below.
 
 Timoshenko's beam with rotary inertia, y = (w, p, Q, M), Q = k G A (w' - p), M = E I p':
   y' = A(omega^2) y:  Q' = -rho A omega^2 w,  M' = -Q - rho I omega^2 p;  w = p = 0 at the root, Q
   = M = 0 at the tip.
-The tip's answer to a force of frequency omega, H = w(L)/F, follows from exp(A L); its poles are
-the modes, and the residues r_n there say how much of each is in the answer to a constant force,
-r_n/(omega_n^2 H(0)).  All shares add up to one: what the modes beyond the last one leave of it is
-the uncertainty.
+The tip's response to a force of frequency omega, H = w(L)/F, follows from exp(A L); its poles are
+the modes, and the residues r_n give the share of each mode in the response to a constant force, r_n/(omega_n^2 H(0)).
+All shares add up to one: the share of the modes beyond the last one is the uncertainty.
 """
 import numpy as np
 from mpmath import cos, cosh, diff, findroot, mp, mpf, pi, sin, sinh, tan, tanh
@@ -26,7 +24,7 @@ ANY = "integrator=*;step=*;tolerance=*"
 STATIC = 1e-9  # relative: an amplitude of 1e-5 of the length changes the geometry by 1e-10
 BERNOULLI_TIMES = ("0.25", "0.5", "1", "1.5", "1.75", "2", "5", "10")
 TIMOSHENKO_TIMES = ("0.001", "0.002", "0.005", "0.01", "0.02")
-JUDGED, JUDGED_AT = "0.001", "model=timoshenko;step=1e-5;time=0.001"  # a point that is verified
+JUDGED, JUDGED_AT = "0.001", "model=timoshenko;step=1e-5;time=0.001"  # a point that is used in verify
 MODES, FREQUENCIES = 400, 3
 ROUNDED = 5e-9
 
@@ -36,7 +34,7 @@ EI, GA = YOUNG * INERTIA, 5 / 6 * YOUNG / (2 * (1 + POISSON)) * AREA
 
 
 def bernoulli_modes(count=MODES):
-    """Roots l of 1 + cos(l) cosh(l), whose squares are the angular frequencies."""
+    """Returns the roots l of 1 + cos(l) cosh(l), whose squares are the angular frequencies."""
     guesses = [mpf("1.875"), *((n + mpf(1) / 2) * pi for n in range(1, count))]
     return [findroot(lambda x: cos(x) + 1 / cosh(x), guess) for guess in guesses]
 
@@ -46,8 +44,8 @@ def bernoulli(t, modes):
 
 
 def with_body_modes(body, count):
-    """(root l, share of the initial deflection) of the first modes: a root lies between those of the beam whose
-    tip is held and those of the one that carries nothing."""
+    """Returns (root l, share of the initial deflection) of the first modes: each root lies between those of the beam
+    with a fixed tip and those of the beam without a body."""
 
     def both(x):
         return sin(x) * cosh(x) - cos(x) * sinh(x), 1 + cos(x) * cosh(x)
@@ -78,7 +76,7 @@ def _system(square):
 
 
 def _transfer(square):
-    """exp(A L) and its derivative by omega^2, with the ends' values scaled alike."""
+    """Returns exp(A L) and its derivative with respect to omega^2, with the values at the ends scaled alike."""
     A, dA = _system(square), _system(1.0) - _system(0.0)
     scale = np.array([1, 1, EI, EI])
     both = np.block([[A, dA], [np.zeros((4, 4)), A]])
@@ -93,7 +91,8 @@ def _determinant(omega):
 
 
 def _answer(square):
-    """Numerator and determinant of H, times EI, and the determinant's derivative by omega^2."""
+    """Returns the numerator and the determinant of H, times EI, and the derivative of the determinant with respect to
+    omega^2."""
     T, dT = _transfer(square)
     numerator = T[0, 2] * T[3, 3] - T[0, 3] * T[3, 2]
     slope = (dT[2, 2] * T[3, 3] + T[2, 2] * dT[3, 3] - dT[2, 3] * T[3, 2] - T[2, 3] * dT[3, 2])
@@ -101,12 +100,12 @@ def _answer(square):
 
 
 def flexibility():
-    """w/F of the static beam [m/N]."""
+    """Returns w/F of the static beam [m/N]."""
     return 1 / (3 * EI) + 1 / GA
 
 
 def timoshenko_modes(count=MODES):
-    """(angular frequency [rad/s], share of the initial deflection) of the first modes."""
+    """Returns (angular frequency [rad/s], share of the initial deflection) of the first modes."""
     found, omega, step = [], 1.0, 40.0
     last = _determinant(omega)
     while len(found) < count:

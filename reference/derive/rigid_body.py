@@ -1,6 +1,4 @@
-"""A rigid body that tumbles free of forces, J = diag(1, 2, 3) kg m^2, body rates (0.5, 0.2, 2)
-rad/s
-at t = 0, R = 1 there.
+"""A rigid body that tumbles without forces: J = diag(1, 2, 3) kg m^2, body rates (0.5, 0.2, 2) rad/s and R = 1 at t = 0.
 
 Rates: with T the energy and L the angular momentum, L^2 > 2 T J2, so that
   w1 = a1 cn, w2 = a2 sn, w3 = a3 dn of p t + u0, parameter m,
@@ -8,8 +6,8 @@ a_i and p from T and L (E.T. Whittaker, Analytical Dynamics, 1904, chapter 6).  
 z along L, Euler's angles z x z have sin(theta) (sin(psi), cos(psi)) = (J1 w1, J2 w2)/L,
 cos(theta) = J3 w3/L, and the precession is the quadrature of
   phi' = L (J1 w1^2 + J2 w2^2)/(J1^2 w1^2 + J2^2 w2^2).
-test/motion_test.py integrates the equations of motion instead.  Values are rounded to eight
-decimals, far below what any integrator is asked for.
+test/motion_test.py integrates the equations of motion instead.  Values are rounded to eight decimals, far below the
+error required of any integrator.
 """
 from mpmath import atan2, cos, ellipf, ellipfun, matrix, mp, mpf, quad, sin, sqrt
 
@@ -26,7 +24,7 @@ SQUARE = sum((j * w)**2 for j, w in zip(J, START))
 
 
 def _constants():
-    """(a1, a2, a3), p, m of the rates."""
+    """Returns (a1, a2, a3), p, m of the rates."""
     a1 = sqrt((SQUARE - TWICE_ENERGY * J[2]) / (J[0] * (J[0] - J[2])))
     a2 = sqrt((SQUARE - TWICE_ENERGY * J[2]) / (J[1] * (J[1] - J[2])))
     a3 = sqrt((SQUARE - TWICE_ENERGY * J[0]) / (J[2] * (J[2] - J[0])))
@@ -37,9 +35,9 @@ def _constants():
 
 
 def rates(t):
-    """Body rates [rad/s] at t [s]."""
+    """Returns the body rates [rad/s] at t [s]."""
     (a1, a2, a3), p, m = _constants()
-    # J2 w2' = (J3 - J1) w3 w1 > 0 while w1, w3 > 0: sn grows, as it does here
+    # J2 w2' = (J3 - J1) w3 w1 > 0 while w1, w3 > 0: sn increases, as it does here
     u = p * t + ellipf(atan2(START[1] / a2, START[0] / a1), m)
     return (a1 * ellipfun("cn", u, m=m), a2 * ellipfun("sn", u, m=m), a3 * ellipfun("dn", u, m=m))
 
@@ -67,7 +65,7 @@ def _precession(t):
 
 
 def orientation(t):
-    """R [3 x 3], body to space, at t [s]."""
+    """Returns R [3 x 3], body to space, at t [s]."""
     return matrix(_against_momentum(mpf(0))).T * _against_momentum(mpf(t))
 
 

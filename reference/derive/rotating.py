@@ -1,13 +1,13 @@
-"""Free vibration of a cantilever in steady rotation: flap and lag about an axis normal to it, whirling about one along it.
+"""Free vibration of a cantilever in steady rotation: flap and lag for an axis normal to the beam, whirling for an axis along it.
 
-Units: L = 1, EI = 1, rho A = 1; EA = s^2 with s the slenderness L/sqrt(I/A), the root at x = R.  No shear, no rotary inertia.
-Equilibrium: stretch x' = 1 + N/EA, N' = -Omega^2 x: x = R cos kX + (1 + k R sin k) sin(kX)/(k cos k), k = Omega/s, hence the end
-stretch tan k/k - 1 + R (1/cos k - 1) and the force on the root s^2 (x'(0) - 1).
-Second order in w: 1/2 [N w'^2/x' + (w'/x')'^2]; flap: det(K - omega^2 M) = 0; lag adds -Omega^2 v and the Coriolis coupling
-with stretching, 2 Omega (u' v - u v').  s -> inf: w'''' - Omega^2/2 ((1 - X^2) w')' = omega^2 w, and lag^2 = flap^2 - Omega^2.
-Galerkin method with integrated Legendre polynomials; spectral, so that all digits are reached.
-Axis along the beam: no stretch, and both planes have the modes of the beam at rest, omega_j and omega_j sqrt(ratio):
-lambda^4 + lambda^2 (a + b + 4 Omega^2) + a b = 0 with a = omega_j^2 - Omega^2, b = ratio omega_j^2 - Omega^2.
+Units: L = 1, EI = 1, rho A = 1; EA = s^2 with s the slenderness L/sqrt(I/A), the root at x = R.  No shear deformation, no rotary
+inertia. Equilibrium: stretch x' = 1 + N/EA, N' = -Omega^2 x: x = R cos kX + (1 + k R sin k) sin(kX)/(k cos k), k = Omega/s,
+hence the end stretch tan k/k - 1 + R (1/cos k - 1) and the force on the root s^2 (x'(0) - 1).
+Second order in w: 1/2 [N w'^2/x' + (w'/x')'^2]; flap: det(K - omega^2 M) = 0; lag adds -Omega^2 v and the Coriolis coupling with
+stretching, 2 Omega (u' v - u v').  s -> inf: w'''' - Omega^2/2 ((1 - X^2) w')' = omega^2 w, and lag^2 = flap^2 - Omega^2.
+Galerkin method with integrated Legendre polynomials; it converges spectrally to all digits.
+If the axis is along the beam, there is no stretch, and both planes have the modes of the beam at rest, omega_j and omega_j
+sqrt(ratio): lambda^4 + lambda^2 (a + b + 4 Omega^2) + a b = 0 with a = omega_j^2 - Omega^2, b = ratio omega_j^2 - Omega^2.
 """
 import numpy as np
 from mpmath import cos, cosh, findroot, mp, mpf, pi, sin, sqrt, tan
@@ -22,7 +22,8 @@ RELATIVE = 5e-12
 
 
 def _basis(times):
-    """Values and derivatives at Gauss points of polynomials that vanish with their first `times` - 1 derivatives at 0."""
+    """Returns values and derivatives at Gauss points of polynomials that vanish at 0 with their first `times` - 1
+    derivatives."""
     points, weights = legendre.leggauss(2 * SIZE)
     fields = []
     for n in range(SIZE):
@@ -38,7 +39,7 @@ def _basis(times):
 
 
 def matrices(omega, s, R=0):
-    """(K, M) of flap, (K, M) of stretching, coupling int u v."""
+    """Returns (K, M) of flap, (K, M) of stretching, and the coupling int u v."""
     X, weight, w = _basis(2)
     _, _, u = _basis(1)
     k = omega / s
@@ -56,18 +57,19 @@ def matrices(omega, s, R=0):
 def flap(omega, s, count=3, R=0):
     K, M, _, _, _ = matrices(omega, s, R)
     return 1 / np.sqrt(eigh(
-        M, K, eigvals_only=True)[::-1][:count])  # the lowest are the best conditioned so
+        M, K, eigvals_only=True)[::-1][:count])  # in this form the lowest ones are best conditioned
 
 
 def lag(omega, s, count=3, R=0):
-    """u'' - 2 Omega v' + (K_u - Omega^2) u = 0, v'' + 2 Omega u' + (K - Omega^2) v = 0 (primes: time)."""
+    """Solves u'' - 2 Omega v' + (K_u - Omega^2) u = 0, v'' + 2 Omega u' + (K - Omega^2) v = 0 (primes: time)."""
     K, M, Ku, Mu, C = matrices(omega, s, R)
     n = SIZE
     mass = np.block([[Mu, np.zeros((n, n))], [np.zeros((n, n)), M]])
     stiffness = np.block([[Ku - omega ** 2 * Mu, np.zeros((n, n))],
                           [np.zeros((n, n)), K - omega ** 2 * M]])
     gyroscopic = 2 * omega * np.block([[np.zeros((n, n)), -C], [C.T, np.zeros((n, n))]])
-    # With stiffness = L L^T and z = L^T x: (mu^2 + mu L^-1 G L^-T + L^-1 M L^-T) z = 0, mu = 1/(i omega): well conditioned where it matters.
+    # With stiffness = L L^T and z = L^T x: (mu^2 + mu L^-1 G L^-T + L^-1 M L^-T) z = 0, mu = 1/(i omega), which is
+    # well conditioned for the lowest modes.
     inverse = np.linalg.inv(np.linalg.cholesky(stiffness))
     B = np.block([[np.zeros((2 * n, 2 * n)), np.eye(2 * n)],
                   [-inverse @ mass @ inverse.T, -inverse @ gyroscopic @ inverse.T]])
@@ -88,7 +90,7 @@ def root_force(omega, s, R=0):
 
 
 def bending(count):
-    """Natural frequencies of the cantilever at rest: cos(z) cosh(z) = -1, omega = z^2."""
+    """Returns the natural frequencies of the cantilever at rest: cos(z) cosh(z) = -1, omega = z^2."""
     return [
         findroot(lambda z: cos(z) + 1 / cosh(z),
                  (j + mpf(1) / 2) * pi + (mpf("0.3") if j == 0 else 0)) ** 2 for j in range(count)
@@ -96,7 +98,7 @@ def bending(count):
 
 
 def whirl(omega, ratio, count):
-    """(frequencies, largest rate of growth) about an axis along the beam."""
+    """Returns (frequencies, largest growth rate) for an axis along the beam."""
     frequencies, growth = [], mpf(0)
     for rest in bending(count):
         a, b = rest ** 2 - mpf(omega) ** 2, ratio * rest ** 2 - mpf(omega) ** 2
@@ -109,7 +111,7 @@ def whirl(omega, ratio, count):
 
 
 def across(**given):
-    """Rows of flap, lag and stretch about an axis normal to the beam, which is stable there."""
+    """Yields rows of flap, lag and stretch for an axis normal to the beam, for which the beam is stable."""
     value, at = {**defaults.values("rotating_cantilever"), **given}, defaults.differing(
                      "rotating_cantilever", **given)
     omega, slenderness, R = value["omega_star"], value["slenderness"], value["hub_radius"]

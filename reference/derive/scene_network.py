@@ -22,7 +22,7 @@ LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on",
 
 
 class Place:
-    """A node: its body, its support where it is the body's own, and where it is from the body's point [m]."""
+    """A node: its body, its support if it is that of the body, and its position relative to the body's point [m]."""
 
     def __init__(self, body, support, offset):
         self.body, self.support, self.offset = body, support, np.array(offset)
@@ -58,7 +58,7 @@ class Frame:
 
 
 def physics_of(scene):
-    """All but what the scene leaves out; shear in stability after Haringx."""
+    """Returns the physics of a scene: everything that it does not omit; Haringx's shear theory in stability."""
     if scene.get("shear_theory", "haringx") == "engesser":
         raise Refused("shear_theory: 'engesser' is not supported by the deriving program")
     omitted = scene.get("omit", [])
@@ -74,7 +74,7 @@ class SceneNetwork:
     """net; places {name: Place}; motion {name: function(level, numbers)} in SI; unknown {motion: its number}."""
 
     def __init__(self, scene, intervals, nodes, form=lambda beam: beam):
-        """form: turns a beam into another one, as predicted.py does."""
+        """form: turns a beam into another one, as in predicted.py."""
         only(scene, "the scene", SCENE)
         self.scene, self.physics, self.form = scene, physics_of(scene), form
         self.places, self.numbers, self.extra, self.unknown, self.conditions_of = {}, 0, [], {}, []
@@ -92,7 +92,7 @@ class SceneNetwork:
         self.net.extra = [condition() for condition in self.conditions_of] + self.extra
 
     def _measure(self):
-        """Units of length and force: of the shortest member."""
+        """Sets the units of length and force, from the shortest member."""
         self.frames = {}
         for name, entry in self.scene["members"].items():
             only(entry, name, MEMBER)
@@ -130,7 +130,7 @@ class SceneNetwork:
                 self.motion[name] = lambda level, numbers, known=known: known(level)
 
     def _unknown(self, name, what):
-        """Fixed by a translation of a node."""
+        """Adds an unknown determined by a translation of a node."""
         i = WORDS.index(what["component"])
         if i > 2:
             raise Refused(
@@ -297,7 +297,7 @@ class SceneNetwork:
                                                 rotation(quaternion(principal)), warp, loads)
 
     def _end(self, name, entry, end, place, frame):
-        """The body that an end of a member is at: that of its node, or of a joint on it."""
+        """Returns the body at an end of a member: that of its node, or that of a joint on the node."""
         words = entry.get("release", {}).get(end, [])
         if not words:
             return place.body
@@ -311,7 +311,7 @@ class SceneNetwork:
         return joint
 
     def displacement(self, name, component):
-        """[m, rad] of a node."""
+        """Returns a displacement or rotation [m, rad] of a node."""
         place = self.places[name]
         if component > 2:
             return rotation_vector(place.body.R)[component - 3]
@@ -319,14 +319,14 @@ class SceneNetwork:
         return (self.length * place.body.x + place.body.R @ place.offset - start)[component]
 
 
-# Members of a scene cut where loads begin, end or act: then loads are along whole members, and on nodes.
+# Members of a scene cut where loads start, end or act: loads then act on whole members and on nodes.
 
 SPREAD = ("distributed", "distributed_moment")
 OF_PART = ("where", "from", "to", "lumped")
 
 
 class Pieces:
-    """A straight member cut at places of its length, 0 < place < 1, ascending."""
+    """A straight member cut at positions along its length, 0 < position < 1, ascending."""
 
     def __init__(self, scene, name, places):
         self.name, self.entry = name, scene["members"][name]
@@ -340,7 +340,7 @@ class Pieces:
         self.axes = None if any(curvature) else Frame(*ends, numbers(self.entry["y"], name, 3), curvature, name).described
 
     def node(self, place):
-        """Name of the node at a bound."""
+        """Returns the name of the node at a bound."""
         if place in (0.0, 1.0):
             return self.entry["from" if place == 0.0 else "to"]
         return f"{self.name} at {place!r}"
@@ -368,7 +368,7 @@ class Pieces:
             yield self.piece(i), one
 
     def at_place(self, name, entry):
-        """A force or a moment within the member: on a node, in fixed axes."""
+        """Moves a force or a moment within the member to a node, in fixed axes."""
         place = number(entry["where"], name)
         end = {0.0: "from", 1.0: "to"}.get(place)
         if end in self.entry.get("release", {}):
@@ -383,7 +383,7 @@ class Pieces:
         yield name, {**out, "on": self.node(place)}
 
     def spread(self, name, entry):
-        """A load along the member: on each piece what is there of it."""
+        """Distributes a load along the member to the pieces on which it acts."""
         kind = next((k for k in SPREAD if k in entry), None)
         begin, end = (number(entry.get(key, usual), name) for key, usual in (("from", "0"), ("to", "1")))
         out = {key: value for key, value in entry.items() if key not in OF_PART}
@@ -400,7 +400,7 @@ class Pieces:
 
 
 def places_of(scene):
-    """{member: places within it at which a load begins, ends or acts}."""
+    """Returns {member: positions within it at which a load starts, ends or acts}."""
     out = {name: set() for name in scene["members"]}
     for name, entry in scene.get("loads", {}).items():
         found = [number(entry[key], name) for key in ("where", "from", "to") if key in entry]
@@ -410,7 +410,7 @@ def places_of(scene):
 
 
 def asked(name, entry, pieces):
-    """A quantity of an end of a member is that of the last piece's."""
+    """Moves a quantity of a member's end to the end of the last piece."""
     what = entry.get("internal")
     if what is None or what["member"] not in pieces or what.get("end", what.get("where")) not in ("to", "1"):
         return name, entry
@@ -425,7 +425,7 @@ def whole(piece, members):
 
 
 def cut(scene):
-    """The same scene, with whole loads; itself where they are whole."""
+    """Returns the same scene with loads on whole members; the scene itself if all loads already are."""
     loads = scene.get("loads", {})
     if not any(key in entry for entry in loads.values() for key in OF_PART):
         return scene

@@ -1,8 +1,7 @@
-"""States of a scene's network (scene_network.py), and what is read from them: along a static path, in one linear
-step, and the response to
-small loads on a node.
+"""States of a scene's network (scene_network.py) and the results read from them: along a static path, in one linear step,
+and the response to small loads on a node.
 
-The path is followed from the undeformed state, in steps that are halved where Newton's method fails.
+The path is followed from the undeformed state, in steps that are halved if Newton's method fails.
 """
 import math
 
@@ -17,7 +16,7 @@ from reference.derive.scene_network import SceneNetwork
 from reference.derive.scene_support import WORDS
 from reference.derive.scene_text import Refused, constants_of, number, numbers, only
 
-STEPS, HALVINGS = 4, 8  # of a path: at least so many to each station
+STEPS, HALVINGS = 4, 8  # minimum number of steps to each station of a path
 
 
 class Path:
@@ -31,7 +30,7 @@ class Path:
         self.values = {}
 
     def walk(self, ask):
-        """ask(scene network, level) at every station; returns what it gives."""
+        """Calls ask(scene network, level) at every station; returns the results."""
         level, out = 0.0, []
         for station in self.stations:
             steps = self.steps if station > level else 1
@@ -78,7 +77,7 @@ def restore(net, state):
 
 
 def settle(net, level):
-    """Newton's method until round-off keeps its steps from shrinking."""
+    """Iterates Newton's method until round-off prevents its steps from decreasing."""
     size = net.iterate(level)
     for _ in range(30):
         before, size = size, net.iterate(level)
@@ -97,7 +96,8 @@ def reaction(scene, name, component, level):
 
 
 def compliance(scene, level, entry, name):
-    """C [6, 6] in SI of dead forces and moments on a node, whose released components are free and keep their load."""
+    """Returns C [6, 6] in SI for dead forces and moments on a node whose released components are free and keep their
+    load."""
     net, place = scene.net, scene.places[entry["node"]]
     if place.support is None:
         raise Refused(
@@ -131,7 +131,7 @@ def compliance(scene, level, entry, name):
 
 
 def under(C, moment, convention, name):
-    """Compliance under another convention of moments, on the components that can move."""
+    """Returns the compliance under another convention of moments, for the components that can move."""
     some = [
         i for i in range(6) if abs(C[i, i]) > 1e-14 * np.max(np.abs(C[i // 3 * 3:i // 3 * 3 + 3]))
     ]
@@ -154,8 +154,8 @@ def under(C, moment, convention, name):
 
 
 def linear(scene):
-    """({node: [6]}: displacements and turns, {member: [2, 6]}: resultants at its ends) of one linear step, loads and
-    motions at 1."""
+    """Returns ({node: [6]}: displacements and rotations, {member: [2, 6]}: resultants at its ends) of one linear step,
+    with loads and motions at 1."""
     supports = [place.support for place in scene.places.values() if place.support]
     for support in supports:
         if support.sequence or support.vector or any(callable(kind) for kind in support.kinds[3:]):
@@ -175,7 +175,7 @@ def linear(scene):
 
 
 def linear_resultants(scene, m, step):
-    """The load (F, m0) at the ends of a member in its undeformed axes."""
+    """Returns the load (F, m0) at the ends of a member in its undeformed axes."""
     rows, p = [], step[m.at:m.at + 6]
     for y in (m.y[0, 0], m.y[-1, -1]):
         R, r = rotation(y[3:7]), y[:3]
@@ -186,8 +186,8 @@ def linear_resultants(scene, m, step):
 
 
 def resultants(scene, name):
-    """[2, 6] (N, Qy, Qz, Mx, My, Mz) at the ends of a member, of what lies beyond, in the axes of the turned section
-    [N, N m]."""
+    """Returns [2, 6] (N, Qy, Qz, Mx, My, Mz) at the ends of a member, the action of the part beyond, in the axes of
+    the rotated section [N, N m]."""
     m, rows = scene.member[name], []
     for y in (m.y[0, 0], m.y[-1, -1]):
         p = m.p + (y[-6:] if m.beam.carries else 0.0)
@@ -201,17 +201,16 @@ def in_units(scene, load):
     return load * scene.force * np.array([1.0] * 3 + [scene.length] * 3)
 
 
-# Frequencies of a scene about its undeformed state: L z = omega^2 M z of the bodies and of all members at their
+# Frequencies of a scene about its undeformed state: L z = omega^2 M z for the bodies and for all members at their
 # Chebyshev points.
 #
 # Fields of a member are those of equilibrium.Vibration, z = (dy, dp); its inertia rho A, rho (Ip, Iy, Iz), rho Iw, of
-# which Iy, Iz and Iw count
-# with `rotary_inertia`.  Of a body: external load, those of the members' ends and omega^2 (m (u + theta x c), J
-# theta) are in equilibrium.
+# which Iy, Iz and Iw count only with `rotary_inertia`. For a body, the external load, the loads of the members' ends
+# and omega^2 (m (u + theta x c), J theta) are in equilibrium.
 
 
 def inertia_of(scene, name):
-    """(rho A, diag rho (Ip, Iy, Iz), rho Iw) of a member in the network's units."""
+    """Returns (rho A, diag rho (Ip, Iy, Iz), rho Iw) of a member in the network's units."""
     section, where = scene.section_of(scene.scene["members"][name])
     s, rho = constants_of(section, where), number(section.get("density", "0"), where) / scene.force
     rotary = float("rotary_inertia" in scene.physics)
@@ -220,7 +219,7 @@ def inertia_of(scene, name):
 
 
 def body_masses(scene, size):
-    """-M of the bodies, on their rows of equilibrium: of nodes that have a mass, about the origin."""
+    """Returns -M of the bodies, in their rows of equilibrium, for nodes that have a mass; about the origin."""
     out = np.zeros((size, size))
     for name, entry in scene.scene["nodes"].items():
         m = number(entry.get("mass", "0"), name) * scene.length / scene.force
@@ -261,7 +260,7 @@ class Assembly:
 
 
 def add_inside(out, v, at):
-    """Collocation and continuity of a member whose fields begin at column and row `at`; the next row."""
+    """Adds collocation and continuity of a member whose fields start at column and row `at`; returns the next row."""
     f, N, m = v.fields, v.points, v.m
     row, W = at, m.h * m.W
     for i in range(v.intervals):
@@ -282,7 +281,8 @@ def add_inside(out, v, at):
 
 
 def add_ends(out, v, at, row, shared):
-    """Both ends follow their bodies, whose equilibrium takes their loads; one condition of warping at each."""
+    """Adds the ends: both follow their bodies, which take their loads into equilibrium; one warping condition at each
+    end."""
     m, f, n = v.m, v.fields, v.n
     for end, (body, sign) in enumerate(zip(m.bodies, (1.0, -1.0))):
         y, column = (m.y[0, 0], at) if end == 0 else (m.y[-1, -1], at + v.size - f)
@@ -293,7 +293,7 @@ def add_ends(out, v, at, row, shared):
         out.add(0, row + 3, column + 3, turn_of(y[3:7]))
         out.add(0, row + 3, body.at + 3, -np.eye(3))
         row += 6
-        if end == 0:  # a quaternion has four numbers: the length of dq
+        if end == 0:  # a quaternion has four numbers: the additional condition is the length of dq
             out.add(0, row, column + 3, y[3:7])
             row += 1
     if m.beam.warps:

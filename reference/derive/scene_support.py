@@ -1,8 +1,9 @@
 """Supports, drivers and loads of a body of a scene, as conditions of network.py.
 
-Six conditions on place x, rotation R and the load of the members (f, mu about the body's point): where a component is free, f or mu is
-what is applied.  Turns: increments about fixed axes, each free or held; a rotation vector; or a sequence R = exp(a_1 t_1) exp(a_2 t_2) ...,
-whose free angles are numbers of the problem with mu . (axis of the turn) = 0.  A fork is the sequence (guides' normal, web), both free.
+Six conditions on the position x, the rotation R and the load of the members (f, mu about the body's point): if a component is free, f or mu
+is the applied load. Rotations are increments about fixed axes, each free or fixed; a rotation vector; or a sequence R = exp(a_1 t_1)
+exp(a_2 t_2) ..., whose free angles are numbers of the problem with mu . (axis of the rotation) = 0. A fork is the sequence (guides' normal,
+web), both free.
 """
 import numpy as np
 
@@ -13,7 +14,7 @@ WORDS = ("ux", "uy", "uz", "rx", "ry", "rz")
 
 
 def turn(axis, angle):
-    """exp(axis angle); the angle may be complex."""
+    """Returns exp(axis angle); the angle may be complex."""
     A = cross_matrix(np.array(axis, dtype=float))
     return np.eye(3) + np.sin(angle) * A + (1 - np.cos(angle)) * (A @ A)
 
@@ -23,15 +24,15 @@ def skew(D):
 
 
 def rotation_vector(R):
-    """Returns the rotation vector of a real rotation matrix of less than half a turn."""
+    """Returns the rotation vector of a real rotation matrix with an angle below pi."""
     s = skew(R)
     sine, cosine = np.linalg.norm(s), (np.trace(R) - 1) / 2
     return s * (np.arctan2(sine, cosine) / sine if sine > 0 else 1.0)
 
 
 class Applied:
-    """A load on a body: force or moment, in fixed axes, or turning with the body; arm: where a force acts, from the body's point; factor(level).
-    stays: it does not follow the body, as in linear analysis."""
+    """A load on a body: a force or a moment, in fixed axes or rotating with the body; arm: position of a force from
+    the body's point; factor(level). stays: the load does not follow the body, as in linear analysis."""
     stays = False
 
     def __init__(self, force, moment, arm, turns, factor):
@@ -39,7 +40,7 @@ class Applied:
             v, dtype=float) for v in (force, moment, arm)), turns, factor)
 
     def at(self, level, R):
-        R = R.real if self.stays else R  # what is not varied has no derivative
+        R = R.real if self.stays else R  # values that are not varied have no derivative
         turned = R if self.turns else np.eye(3)
         f = self.factor(level) * (turned @ self.force)
         return np.concatenate(
@@ -47,13 +48,13 @@ class Applied:
 
 
 class Support:
-    """kinds: of the six components FREE, HELD or a motion(level, numbers) (dimensionless); sequence: [(axis, FREE, HELD or a motion)] or vector:
-    three motions, instead of the last three kinds, which are HELD then."""
+    """kinds: FREE, HELD or a motion(level, numbers) for each of the six components (dimensionless). sequence: [(axis,
+    FREE, HELD or a motion)]; vector: three motions. Either replaces the last three kinds, which are then HELD."""
 
     def __init__(self, place):
         self.place, self.kinds, self.sequence, self.vector = np.array(
             place, dtype=float), [FREE] * 6, None, None
-        self.loads, self.angles = [], []  # angles: numbers of the sequence's free turns
+        self.loads, self.angles = [], []  # angles: numbers of the free rotations of the sequence
 
     def applied(self, level, R):
         return sum((load.at(level, R) for load in self.loads), np.zeros(6))
@@ -68,7 +69,7 @@ class Support:
         ]
 
     def _sequence(self, level, numbers):
-        """[(axis now, number)] of the free turns, and R."""
+        """Returns [(present axis, number)] of the free rotations, and R."""
         R, free, angles = np.eye(3), [], iter(self.angles)
         for axis, kind in self.sequence:
             if kind == FREE:
@@ -80,7 +81,7 @@ class Support:
         return free, R
 
     def prescribed(self, level, numbers):
-        """Rotation matrix where the turn is given entirely (by numbers, too); None: it is not."""
+        """Returns the rotation matrix if the rotation is fully prescribed (possibly by numbers), otherwise None."""
         if self.sequence is not None:
             return self._sequence(level, numbers)[1]
         if self.vector is not None:
@@ -96,7 +97,7 @@ class Support:
     def _turns(self, level, R, moment, numbers, kinds):
         if FREE not in kinds:
             return skew(R @ self.prescribed(level, numbers).T)
-        now = skew(R @ R.real.T)  # an increment: it has no value, only a derivative
+        now = skew(R @ R.real.T)  # an increment has no value, only a derivative
         out = []
         for i, kind in enumerate(kinds):
             j, k = (i + 1) % 3, (i + 2) % 3
@@ -110,8 +111,8 @@ class Support:
         return np.array([axis for axis, _ in self._sequence(level, numbers)[0]])
 
     def conditions(self, kept=None, axes=None):
-        """kept: {component: load it has now} of released components; axes: of free turns, which stay where they are, so that no moment turns
-        with them."""
+        """Returns the conditions. kept: {component: present load} of released components; axes: of free rotations,
+        which stay where they are, so that no moment rotates with them."""
         kept = kept or {}
         across = None if axes is None else np.linalg.svd(axes)[2][len(axes):]
         kinds = [FREE if i in kept else kind for i, kind in enumerate(self.kinds)]
@@ -132,14 +133,14 @@ class Support:
         return of
 
     def kept_angles(self):
-        """Conditions of the free angles where others stand for them."""
+        """Returns the conditions of the free angles if other conditions replace them."""
         return [
             lambda level, x, R, force, moment, numbers, k=k: [numbers[k] - numbers[k].real]
             for k in self.angles
         ]
 
     def extra(self):
-        """Conditions of the free angles, one for each."""
+        """Returns the conditions of the free angles, one for each."""
 
         def of(which):
 
@@ -152,7 +153,8 @@ class Support:
         return [of(i) for i in range(len(self.angles))]
 
     def path_dependent(self, R):
-        """Word of a component whose increments are held or driven although the node turns about several axes; None: there is none."""
+        """Returns the word of a component whose increments are fixed or driven although the node rotates about several
+        axes, or None."""
         kinds = self.kinds[3:]
         if FREE not in kinds or kinds == [FREE] * 3:
             return None
@@ -166,14 +168,16 @@ class Support:
 
 # End release of a member: a joint (network.py) between them.
 #
-# The end is at r + R rho + R_end s, R_end = R exp(a_1 t_1) exp(a_2 t_2) with the node's body r, R; three turns have no order, R_end is free.
-# s: shifts along the turned end.  No load works on the released motions: with the moment about the joint, mu + (R_end s) x f, it vanishes
-# along the axes of the turns, and f along the shifts.
+# The end is at r + R rho + R_end s, R_end = R exp(a_1 t_1) exp(a_2 t_2) with the node's body r, R; three rotations
+# have no order, and R_end is free. s: translations along the rotated end. No load does work on the released motions:
+# the moment about the joint, mu + (R_end s) x f, vanishes along the axes of the rotations, and f along the
+# translations.
 
 
 class Release:
-    """words: components in their order; axes: columns are those of the end; at: of the node from its body's point (dimensionless);
-    new_number(): of the problem, one for each but three turns."""
+    """words: components in their order; axes: columns are those of the end; at: position of the node from its body's
+    point (dimensionless); new_number(): adds a number to the problem, one for each component except for three
+    rotations."""
 
     def __init__(self, words, axes, at, new_number):
         components = [WORDS.index(word) for word in words]
@@ -200,7 +204,7 @@ class Release:
         return np.concatenate([x - on[0] - on[1] @ self.at - apart, turned])
 
     def extra(self):
-        """Of the numbers, in their order."""
+        """Returns the conditions of the numbers, in their order."""
 
         def turns(which):
             return lambda level, x, R, force, moment, numbers, on: [

@@ -1,7 +1,6 @@
-"""A scene as `beamwork scene` writes it, loops and expressions written out: text and numbers, and nothing read that
-is not understood.
+"""Reads a scene as `beamwork scene` writes it, with loops and expressions expanded: text and numbers.
 
-What a program here does not know is refused in one line that names it, never passed over.
+Entries that the program does not support are rejected in one line that names them, and never ignored.
 """
 import math
 
@@ -14,11 +13,11 @@ from reference.derive.torsion import rectangle_constant
 
 
 class Refused(Exception):
-    """The line for the user: what of the scene is not supported by the deriving program."""
+    """Raised with the line for the user: the part of the scene that the deriving program does not support."""
 
 
 def read(text):
-    """The scene as nested dictionaries and lists of words."""
+    """Returns the scene as nested dictionaries and lists of words."""
     try:
         scene = yaml.load(text, Loader=yaml.BaseLoader)
     except yaml.YAMLError as error:
@@ -29,7 +28,7 @@ def read(text):
 
 
 def only(entry, where, known):
-    """Refuses an entry with a key that is not known."""
+    """Rejects an entry with an unknown key."""
     for key in entry:
         if key not in known:
             raise Refused(f"{where}: '{key}' is not supported by the deriving program")
@@ -58,7 +57,7 @@ def named(table, name, what, where):
 
 
 def table(path, value):
-    """Linear between the stations of a path, constant beyond them."""
+    """Returns a function that is linear between the stations of a path and constant beyond them."""
 
     def at(level):
         if level <= path[0]:
@@ -71,16 +70,14 @@ def table(path, value):
     return at
 
 
-# The beam (beam.py) of a section of a scene, with the physics that the scene does not leave out.
+# The beam (beam.py) of a section of a scene, with the physics that the scene does not omit.
 #
-# A fibre turns about the shear centre: the trapeze term has ys^2 + zs^2 and the Wagner moments -2 ys, -2 zs wherever
-# the shear centre is
-# off the centroid; Ip/A only with `trapeze`, int y (y^2 + z^2) dA and int z (y^2 + z^2) dA only with `wagner_moments`.
-# Rectangle: EIw by Saint-Venant's series (warping_constant), 1/F = k A with k = 5/6 where it is not given, and then
-# 5/6 of the warping shear too; c = (w^5 t + w t^5)/1440 = 1/8 (int r^4 dA - Ip^2/A).
-# Walls: c = 1/8 (int r^4 dA - Ip^2/A - wagner_y^2/Iz - wagner_z^2/Iy), r^2 = y^2 + z^2 (section.py).
-# Ring of radii R > r: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m = r/R (Renton 1991; Cowper 1966 at nu = 0), c = 1/8 int
-# (r^2 - Ip/A)^2 dA.
+# A fibre rotates about the shear centre: the trapeze term contains ys^2 + zs^2, and the Wagner moments contain -2 ys
+# and -2 zs, if the shear centre is not at the centroid; Ip/A only with `trapeze`, int y (y^2 + z^2) dA and int z (y^2
+# + z^2) dA only with `wagner_moments`. Rectangle: EIw by Saint-Venant's series (warping_constant), 1/F = k A with k =
+# 5/6 if not given, and then also 5/6 of the warping shear; c = (w^5 t + w t^5)/1440 = 1/8 (int r^4 dA - Ip^2/A).
+# Walls: c = 1/8 (int r^4 dA - Ip^2/A - wagner_y^2/Iz - wagner_z^2/Iy), r^2 = y^2 + z^2 (section.py). Ring of radii R >
+# r: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m = r/R (Renton 1991; Cowper 1966 at nu = 0), c = 1/8 int (r^2 - Ip/A)^2 dA.
 
 MATERIAL = ("young", "shear_modulus", "density", "given")
 OVERRIDES = ("Iw", "ys", "zs", "It", "Ip", "wagner_torque")
@@ -90,8 +87,8 @@ PLACES = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
 class Constants:
-    """A, Iy, ... in SI; F [3, 3]: shear flexibilities times G; turned: principal y axis from that of the description
-    [rad]."""
+    """A, Iy, ... in SI; F [3, 3]: shear flexibilities times G; turned: angle from the y axis of the description to the
+    principal y axis [rad]."""
 
     def __init__(self, **values):
         for name in NAMES:
@@ -101,18 +98,18 @@ class Constants:
 
 
 def warping_constant(wide, thin):
-    """int omega^2 dA, omega = y z + sum C_n sin(k_n y) sinh(k_n z) with stress-free sides, by integration over the
-    area."""
+    """Returns int omega^2 dA, omega = y z + sum C_n sin(k_n y) sinh(k_n z) with stress-free sides, by integration over
+    the area."""
     a, b = mp.mpf(thin) / 2, mp.mpf(wide) / 2
     ks = [(2*n + 1) * mp.pi / 2 / a for n in range(60)]
     cs = [-4 * (-1)**n / (a * k**3) for n, k in enumerate(ks)]
-    # omega^2 integrated over z in closed form, over y by orthogonality of sin(k_n y)
+    # omega^2 is integrated over z in closed form, and over y by orthogonality of sin(k_n y)
     total = 4 * a**3 * b**3 / 9
     for n, (k, c) in enumerate(zip(ks, cs)):
         tanh = mp.tanh(k * b)
         first, second = 2 * (-1)**n / k**2, 2 * (b / k - tanh / k**2)
         total += 2 * c * first * second + c**2 * a * (tanh / k - b / mp.cosh(k * b)**2)
-    k = (2*len(ks) + 1) * mp.pi / 2 / a  # what follows: tanh = 1
+    k = (2*len(ks) + 1) * mp.pi / 2 / a  # remaining terms, where tanh = 1
     tail = (mp.zeta(6, len(ks) + mp.mpf(1)/2)) * (a / mp.pi)**6
     total += -32 * b / a * tail + 48 / a * mp.zeta(7, len(ks) + mp.mpf(1)/2) * (a / mp.pi)**7
     return float(total)
@@ -187,7 +184,7 @@ def constants(entry, where):
 
 
 def inverse(matrix):
-    """Where it is not zero; zero stays zero: rigid."""
+    """Inverts the nonzero part; zero (rigid) stays zero."""
     out, some = np.zeros((3, 3)), [i for i in range(3) if matrix[i, i] != 0]
     out[np.ix_(some, some)] = np.linalg.inv(matrix[np.ix_(some, some)])
     return out
@@ -216,7 +213,7 @@ def constants_of(entry, where):
 
 
 def beam(entry, physics, length, curvature, where):
-    """(Beam, constants) of a member of this length [m] and curvature [1/m] about the section's z axis."""
+    """Returns (Beam, constants) of a member of this length [m] and curvature [1/m] about the section's z axis."""
     s = constants_of(entry, where)
     E, G = number(entry["young"], where), number(entry["shear_modulus"], where)
     if s.It == 0 and s.Iw == 0:

@@ -1,4 +1,5 @@
-"""Truths that scenes of cases/examples have from a program here; one a line, as the program writes them."""
+"""Reference values of scenes in cases/examples that a program here derives; one per line, as the program writes
+them."""
 import pathlib
 import re
 
@@ -15,7 +16,7 @@ def names():
 
 
 def line_of(row):
-    """A derived row, as a scene has it."""
+    """Returns a derived row in the form used in a scene."""
     given = row["parameters"].replace("=", ": ").replace(";", ", ")
     text = ", ".join(f"{name}: {row[name]}" for name in FIELDS[:4])
     of = f', formulation: {row["formulation"]}' if row["formulation"] else ""
@@ -24,7 +25,7 @@ def line_of(row):
 
 
 def stored():
-    """Rows of all scenes whose source is a program."""
+    """Yields the rows of all scenes whose source is a program."""
     for path in sorted(PATH.glob("*.yaml")):
         for line in path.read_text(encoding="utf-8").splitlines():
             found = ROW.match(line)

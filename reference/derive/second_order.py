@@ -1,12 +1,12 @@
-"""Derives the modified modes of a beam of second order, from the Simo-Reissner beam; compared with J Eq. 66 and N Eq. 37.
+"""Derives the modified modes of a second-order beam from the Simo-Reissner beam, and compares them with J Eq. 66 and N Eq. 37.
 
-usage: second_order.py      prints the comparisons; reference/test/second_order_test.py asks for them
+usage: second_order.py      prints the comparisons, which reference/test/second_order_test.py uses
 
-r' = R (e_x + gamma), kappa~ = R^T R', R = exp(phi~) against axes in the middle of the element.  With stresses in equilibrium to first
-order the strains of second order count through the weighted integrals
+r' = R (e_x + gamma), kappa~ = R^T R', R = exp(phi~) relative to axes in the middle of the element. With stresses in equilibrium to
+first order, the second-order strains enter through the weighted integrals
   e1 = int gx, e2 = L int kx, e3 = int [(L-s) ky - gz], e4 = int [s ky + gz], e5 = int [(L-s) kz + gy], e6 = int [s kz - gy]
-over the linear solution.  Everything is a quadratic form of few variables with rational coefficients: it is evaluated exactly, in
-fractions, on every e_i + e_j, which determines it.  Series are truncated after the second power.
+over the linear solution.  All results are quadratic forms in few variables with rational coefficients. They are evaluated exactly, in
+fractions, for every e_i + e_j, which determines them.  Series are truncated after the second power.
 """
 import itertools
 from fractions import Fraction as Q
@@ -26,7 +26,7 @@ def axial(M):
 
 
 class Series:
-    """c0 + c1 t + c2 t^2 of numbers, vectors or matrices."""
+    """c0 + c1 t + c2 t^2, with numbers, vectors or matrices as coefficients."""
 
     def __init__(self, *c):
         self.c = list(c) + [0 * c[0]] * (3 - len(c))
@@ -52,7 +52,7 @@ UNIT = np.array([[Q(int(i == j)) for j in range(3)] for i in range(3)], dtype=ob
 
 
 def exponential(v):
-    """exp(v~) of a series without constant term."""
+    """Returns exp(v~) of a series without a constant term."""
     first, second = skew(v.c[1]), skew(v.c[2])
     return Series(UNIT, first, second + first @ first / 2)
 
@@ -64,10 +64,11 @@ def about(axis, angle):
 
 
 def screw(q):
-    """e1 .. e6 of the screw displacement (elements/beamw/screw.h) as series in N's local coordinates q, N Eqs. 40, 42."""
+    """Returns e1 .. e6 of the screw displacement (elements/beamw/screw.h) as series in N's local coordinates q, N Eqs.
+    40, 42."""
     p_triad = about(1, q["yp"]) @ about(2, q["zp"])
     q_triad = about(1, q["yq"]) @ about(2, q["zq"]) @ about(0, q["px"])
-    psi = (p_triad.each(np.transpose) @ q_triad).each(axial)  # the angle is its sine to second order
+    psi = (p_triad.each(np.transpose) @ q_triad).each(axial)  # the angle equals its sine to second order
     middle = p_triad @ exponential(psi * Q(1, 2))
     D = middle.each(np.transpose) @ Series(np.array([L, Q(0), Q(0)], dtype=object), np.array([q["u"], Q(0), Q(0)], dtype=object))
     turn = psi.each(skew)
@@ -77,7 +78,7 @@ def screw(q):
 
 
 def jonker(q):
-    """e1 .. e6 of J Eq. 7, the chord being the x axis."""
+    """Returns e1 .. e6 of J Eq. 7, with the chord as the x axis."""
     (p, r) = about(1, q["yp"]) @ about(2, q["zp"]), about(1, q["yq"]) @ about(2, q["zq"]) @ about(0, q["px"])
     between = p.each(np.transpose) @ r
     twist = (between.each(lambda M: M[2, 1]) + between.each(lambda M: M[1, 2]) * -1) * (L / 2)
@@ -86,7 +87,7 @@ def jonker(q):
 
 
 def newton_cotes(points=9):
-    """Rational points in [0, 1] and weights, exact for polynomials of degree points - 1."""
+    """Returns rational points in [0, 1] and weights, exact for polynomials of degree points - 1."""
     x = [Q(k, points - 1) for k in range(points)]
     rows = [[xi ** n for xi in x] + [Q(1, n + 1)] for n in range(points)]
     for i in range(points):
@@ -103,7 +104,8 @@ POINTS = newton_cotes()
 
 
 def simo_reissner(e, hg, g, tw, c, centre=(Q(0), Q(0)), trapeze=Q(0)):
-    """Quadratic parts of e1bar .. e6bar of the screw's e; hg, g: antisymmetric deformation in bending and shear (y, z)."""
+    """Returns the quadratic parts of e1bar .. e6bar for the screw's e; hg, g: antisymmetric deformation in bending and
+    shear (y, z)."""
     ys, zs = centre
     A = (e[6] - e[7]) / 2
     mean = [e[1] / L, (e[2] + e[3]) / L, (e[4] + e[5]) / L]
@@ -128,13 +130,14 @@ def simo_reissner(e, hg, g, tw, c, centre=(Q(0), Q(0)), trapeze=Q(0)):
         parts = (gamma[0], L * kappa[0], to_q * kappa[1] - gamma[2], from_p * kappa[1] + gamma[2], to_q * kappa[2] + gamma[1],
                  from_p * kappa[2] - gamma[1])
         total = [t + weight * L * part for t, part in zip(total, parts)]
-    m, share = mean, L / 24  # what the screw itself has: -1/24 psi x (psi x U)
+    m, share = mean, L / 24  # the part contained in the screw itself: -1/24 psi x (psi x U)
     return [total[0] - share * (m[1] ** 2 + m[2] ** 2), total[1], total[2] - share * m[0] * m[2], total[3] + share * m[0] * m[2],
             total[4] + share * m[0] * m[1], total[5] - share * m[0] * m[1]]
 
 
 def nijenhuis(q, Phi):
-    """Second-order parts of the generalized strains from N Eq. 7 over N Eqs. 14-19 with Phi, and int phi_y' phi_z."""
+    """Returns the second-order parts of the generalized strains from N Eq. 7 over N Eqs. 14-19 with Phi, and int
+    phi_y' phi_z."""
     total = [Q(0)] * 7
     for x, weight in POINTS:
         fields = []
@@ -155,7 +158,7 @@ def nijenhuis(q, Phi):
 
 
 def eq66(e):
-    """J Eq. 66 less e, without its last term (ys = zs = 0) and without Ip/A."""
+    """Returns J Eq. 66 minus e, without its last term (ys = zs = 0) and without Ip/A."""
     e1, e2, e3, e4, e5, e6, e7, e8 = e
     return [(2 * e3 ** 2 + e3 * e4 + 2 * e4 ** 2 + 2 * e5 ** 2 + e5 * e6 + 2 * e6 ** 2) / (30 * L), (e4 * e5 - e3 * e6) / L,
             (e2 * e5 / 10 + e2 * e6 / 5 + e5 * e7 / 10 - e5 * e8 / 30 - e6 * e8 / 30) / L,
@@ -165,7 +168,8 @@ def eq66(e):
 
 
 def all_modes(e, hg, g, tw, c, centre, trapeze=Q(0)):
-    """J Eq. 66 repaired, for J's own e: any shear flexibility and shear centre; c = 0: Engesser, J; c = 1: Haringx, Simo-Reissner."""
+    """Returns J Eq. 66 corrected, for J's own e: any shear flexibility and shear centre; c = 0: Engesser, J; c = 1:
+    Haringx, Simo-Reissner."""
     ys, zs = centre
     e1, e2, e3, e4, e5, e6, e7, e8 = e
     A = (e7 - e8) / 2
@@ -181,7 +185,7 @@ def all_modes(e, hg, g, tw, c, centre, trapeze=Q(0)):
 
 
 def directions(names=NAMES):
-    """Every e_i and e_i + e_j with sizes that are not one."""
+    """Yields every e_i and e_i + e_j with magnitudes other than one."""
     size = dict(zip(NAMES, (Q(3, 7), Q(5, 3), Q(-7, 5), Q(2, 11), Q(9, 4), Q(-4, 9), Q(6, 13), Q(11, 6))))
     for pair in itertools.combinations_with_replacement(names, 2):
         yield {n: size[n] if n in pair else Q(0) for n in NAMES}
@@ -196,7 +200,8 @@ def strains(q):
 
 
 def against_sheet():
-    """Differences (e1 .. e6 of N with shear less those derived here) for u = 0, and with u those from the factor l/l0 in the shear strain."""
+    """Returns the differences (e1 .. e6 of N with shear minus those derived here) for u = 0 and, with u, those due to
+    the factor l/l0 in the shear strain."""
     Phi = (Q(7, 5), Q(3, 8))
     inner, outer = [], []
     for q in directions():
@@ -207,7 +212,7 @@ def against_sheet():
         theirs = nijenhuis(q, Phi)
         gap = [s.c[2] + o - n for s, o, n in zip(screw(q), ours, theirs)]
         (inner if q["u"] == 0 else outer).append((q, gap, [q["u"] * (a - b) for a, b in zip(h, hg)]))
-    # our shear strains have the factor 1 + u/L, N's do not
+    # the shear strains here have the factor 1 + u/L, those of N do not
     stretched = [[x - y for x, y in zip(gap, (0, 0, -g[1], g[1], g[0], -g[0]))] for _, gap, g in outer]
     return [gap for _, gap, _ in inner], stretched
 
@@ -223,14 +228,15 @@ def against_eq66():
 
 
 def against_all_modes():
-    """Shear shares, shear centre and trapeze arbitrary: hg, g and tw are varied as variables of their own."""
+    """Compares with arbitrary shear shares, shear centre and trapeze term: hg, g and tw are varied as independent
+    variables."""
     centre, trapeze, gaps = (Q(2, 7), Q(-5, 9)), Q(4, 17), []
     extra = (("hy", Q(3, 5)), ("hz", Q(-2, 3)), ("gy", Q(5, 8)), ("gz", Q(-7, 9)), ("tw", Q(8, 5)))
     for pair, c in itertools.product(itertools.combinations_with_replacement(("px", "bend_y", "bend_z", "Wp", "Wq") + tuple(n for n, _ in extra), 2), (0, 1)):
         on = {n: Q(int(n in pair)) for n in ("px", "bend_y", "bend_z", "Wp", "Wq")}
         value = {n: v if n in pair else Q(0) for n, v in extra}
         e2 = on["px"] * Q(5, 3)
-        # the antisymmetric bending is what hg and g say: e5 - e6 = 2 L (hg_y + g_y) + 2 zs e2/L, and so for z
+        # the antisymmetric bending follows from hg and g: e5 - e6 = 2 L (hg_y + g_y) + 2 zs e2/L, and likewise for z
         dz = 2 * L * (value["hy"] + value["gy"]) + 2 * centre[1] * e2 / L
         dy = 2 * L * (value["hz"] + value["gz"]) - 2 * centre[0] * e2 / L
         sy, sz = on["bend_y"] * Q(7, 4), on["bend_z"] * Q(-3, 5)
@@ -246,7 +252,7 @@ def largest(gaps):
 
 
 def warping_of_sheet():
-    """Largest int phi_y' phi_z of N: what its e7 and e8 have besides L^2 Wp and L^2 Wq."""
+    """Returns the largest int phi_y' phi_z of N: the terms of its e7 and e8 in addition to L^2 Wp and L^2 Wq."""
     return max(abs(nijenhuis(q, (Q(7, 5), Q(3, 8)))[6]) for q in directions())
 
 

@@ -1,7 +1,8 @@
-"""Constants of an open thin-walled section from its mid-line, in extended precision.
+"""Computes the constants of an open thin-walled section from its mid-line, in extended precision.
 
-Straight walls (i, j, t) between points (y, z); a tree.  Axes after the call: centroid, principal.  Shear rigidities by
-shear flow: F_ij = 1/(I_i I_j) sum int S_i S_j/t ds with I = (Iz, Iy, Iw) (J Eq. 27), S the first moments of y, z, omega.
+Straight walls (i, j, t) between points (y, z); forming a tree. Afterwards, axes are centroidal and principal.  Shear
+rigidities by shear flow: F_ij = 1/(I_i I_j) sum int S_i S_j/t ds with I = (Iz, Iy, Iw) (J Eq. 27), S the first moments
+of y, z, omega.
 """
 from mpmath import mp, mpf, matrix, atan2, cos, sin, sqrt
 
@@ -11,13 +12,14 @@ class Section:
 
 
 def _integrate(f):
-    """Three-point Gauss on [0, 1]: exact for the polynomials of degree five that occur."""
+    """Returns the integral by three-point Gauss quadrature on [0, 1], which is exact for the polynomials of degree
+    five that occur."""
     a = sqrt(mpf(3) / 5) / 2
     return (5 * f(mpf(1) / 2 - a) + 8 * f(mpf(1) / 2) + 5 * f(mpf(1) / 2 + a)) / 18
 
 
 def _leaf_first(walls, points):
-    """Walls ordered from the free ends to the root, each as (outer, inner, thickness)."""
+    """Returns the walls ordered from the free ends to the root, each as (outer, inner, thickness)."""
     left, order = list(walls), []
     degree = [sum(p in w[:2] for w in walls) for p in range(points)]
     while left:
@@ -87,7 +89,7 @@ def section(points, walls):
                                  (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
     out.wagner_z = area_integral(lambda i, j, s: at(z, i, j, s) *
                                  (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
-    # energy E c kx^4 per length of a twist whose shortening and bending are free: a fibre gains r^2 kx^2/2
+    # energy E c kx^4 per length of a twist with free shortening and bending: a fibre elongates by r^2 kx^2/2
     quartic = area_integral(lambda i, j, s: (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2) ** 2)
     out.wagner_torque = (quartic - out.Ip ** 2 / out.A - out.wagner_y ** 2 / out.Iz -
                          out.wagner_z ** 2 / out.Iy) / 8
@@ -113,7 +115,7 @@ def section(points, walls):
 
 
 def channel(height, width, flange, web):
-    """C of centre-line sizes, web on the +y side."""
+    """Returns a C-section given by centre-line dimensions, with its web on the +y side."""
     h, b = mpf(height), mpf(width)
     points = [(0, -h / 2), (b, -h / 2), (b, h / 2), (0, h / 2)]
     return section(points, [(0, 1, flange), (1, 2, web), (2, 3, flange)])

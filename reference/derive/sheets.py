@@ -1,8 +1,8 @@
 """The sheet flexure with prescribed tip motion: reactions, and the compliance matrix of its tip.
 
-The reaction's moment m follows a convention while the tip turns by theta: spatial, dead about fixed axes (what the network's
-response is); semitangential, m + theta x m/2, whose stiffness is the spatial one plus m~/2 on the rotations; symmetrised, the
-symmetric part of the spatial stiffness, which is the same matrix where the beam has a potential.
+The moment m of the reaction follows a convention as the tip rotates by theta: spatial, dead about fixed axes (as in the
+network's response); semitangential, m + theta x m/2, whose stiffness is the spatial one plus m~/2 on the rotations;
+symmetrised, the symmetric part of the spatial stiffness, which is the same matrix if the beam has a potential.
 """
 import math
 
@@ -51,7 +51,7 @@ def parameters(given):
 
 
 def clamped_sheet(value, conditions, form=lambda beam: beam):
-    """Network of one sheet; its tip obeys conditions; value: all parameters; form: see deflected."""
+    """Returns the network of one sheet whose tip satisfies conditions; value: all parameters; form: see deflected."""
     beam = form(sheet(**value))
     net = Network(beam.length,
                   beam.EIz / beam.length ** 2,
@@ -65,7 +65,7 @@ def clamped_sheet(value, conditions, form=lambda beam: beam):
 
 
 def under_convention(C, moment, convention):
-    """Compliance [6, 6] under another convention, from the spatial one; moment [3] in N m."""
+    """Returns the compliance [6, 6] under another convention, from the spatial one; moment [3] in N m."""
     K = np.linalg.inv(C)
     if convention == "semitangential":
         K[3:, 3:] += cross_matrix(moment) / 2
@@ -75,7 +75,8 @@ def under_convention(C, moment, convention):
 
 
 def quantities(case, given, net, tip, entries):
-    """Compliance with dead forces and moments of the case's convention; displacements and reactions."""
+    """Yields the compliance for dead forces and for moments under the case's convention, displacements and
+    reactions."""
     convention = {**defaults.values(case), **given}["moment_convention"]
     turned = "RyRzRx" if case == "sheet_wagner" else ""
     note = f"{convention} {turned}".strip()
@@ -100,7 +101,8 @@ def quantities(case, given, net, tip, entries):
 
 
 def deflected(given, form=lambda beam: beam):
-    """(network, tip) of sheet_cantilever: u_y prescribed, no rotation about z, all else free; form turns the beam into another one, as predicted.py does."""
+    """Returns (network, tip) of sheet_cantilever: u_y prescribed, no rotation about z, all else free; form turns the
+    beam into another one, as in predicted.py."""
     value = {**defaults.values("sheet_cantilever"), **given}
     deflection = value["tip_deflection"] / value["length"]
 
@@ -118,7 +120,7 @@ def cantilever(form=lambda beam: beam, **given):
 
 
 def twisted(form=lambda beam: beam, **given):
-    """sheet_wagner: R = Ry Rz Rx, phi_y free with zero moment about the fixed y axis."""
+    """Returns sheet_wagner: R = Ry Rz Rx, phi_y free with zero moment about the fixed y axis."""
     value = {**defaults.values("sheet_wagner"), **given}
     phi_x, phi_z, deflection = value["tip_phi_x"], value[
         "tip_phi_z"], value["tip_deflection"] / value["length"]

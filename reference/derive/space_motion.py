@@ -1,15 +1,15 @@
-"""Rods that move in space, the thrown one and the elbow: confirms values of other programs.
+"""Rods moving in space, the thrown rod and the elbow: confirms values of other programs.
 
-Intrinsic equations (D.H. Hodges, Journal of Guidance, Control and Dynamics 26 (2003) 131): unknown
-are velocities v, w and strains g, k in axes of the section, no displacement and no rotation; with
+Intrinsic equations (D.H. Hodges, Journal of Guidance, Control and Dynamics 26 (2003) 131): the unknowns are velocities
+v, w and strains g, k in the axes of the section, without displacements or rotations; with
 t the tangent at rest, e = t + g, F and M the forces of the strains,
   m v' + w x m v = F_s + k x F,  J w' + w x J w = M_s + k x M + e x F,
   g' = v_s + k x v + e x w,      k' = w_s + k x w.
-Section axes are those of space at rest.  Velocities are polynomials in Lobatto's points, whose
-quadrature makes the mass diagonal, strains are values in Gauss's points, one fewer: products that
-cancel in the power cancel in each point, so that the energy of the rod changes by the loads' work
-alone.  Places and quaternions of nodes follow by integration in time.  Time: the explicit
-Runge-Kutta method of order 8 by Dormand and Prince, begun anew at kinks of the load.
+At rest, the section axes are the space axes.  Velocities are polynomials in Lobatto's points, whose quadrature makes
+the mass diagonal, strains are values in Gauss's points, one fewer: products that cancel in the power cancel at each
+point, so that the energy of the rod changes only by the work of the loads. Positions and quaternions of nodes follow
+by integration in time.  Time: the explicit
+Runge-Kutta method of order 8 by Dormand and Prince, restarted at kinks of the load.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,18 +21,18 @@ from scipy.integrate import solve_ivp
 
 from reference.derive.plane_motion import ANY, LEAST, lobatto
 
-KIND = "consensus"  # of the stored rows that these are held against
+KIND = "consensus"  # of the stored rows with which these values are compared
 MESHES = ((10, 10), (8, 8))  # elements of a leg, degree
 TIMES = ("1", "2", "2.5", "4", "5", "7", "7.5", "9", "10")
 ELBOW_MESHES = ((4, 10), (3, 8))
-ELBOW_TIMES = ("1", "2")  # the first that are stored: axial waves are ten times as fast
+ELBOW_TIMES = ("1", "2")  # the first ones that are stored: axial waves are ten times as fast
 
 
 @dataclass(frozen=True)
 class Rod:
-    """From start along legs of one length; EA = GA = force, EI = GJ = moment; mass [kg/m], inertia
-    about an axis across and along [kg m]; a load in axes of space, force and moment of the time,
-    with kinks, at the end of a leg."""
+    """A rod from `start` along legs of equal length; EA = GA = force, EI = GJ = moment; mass [kg/m], inertia about an
+    axis across and along [kg m]; a load in space axes, with force and moment as functions of time with kinks, at the
+    end of a leg."""
     start: tuple
     legs: tuple
     force: float
@@ -47,7 +47,7 @@ class Rod:
 
 
 def _triangle(slope, peak):
-    """Of the time: up to the peak [s], and down as fast."""
+    """Returns a function of time that rises until the peak [s] and falls at the same rate."""
     return lambda t: slope * max(peak - abs(t - peak), 0.0)
 
 
@@ -72,13 +72,13 @@ def cross(a, b):
 
 
 def turned(q, v):
-    """v [3, n] by the quaternions q [4, n] from axes of the section to those of space."""
+    """Rotates v [3, n] with the quaternions q [4, n] from section axes to space axes."""
     along = 2 * cross(q[1:], v)
     return v + q[0] * along + cross(q[1:], along)
 
 
 def _between(x, points):
-    """Values at points, from those at x, of the polynomials through them; derivatives likewise."""
+    """Returns values at points of the polynomials through values at x; likewise for derivatives."""
     V = legendre.legvander(x, len(x) - 1)
     to = np.linalg.inv(V)
     basis = map(legendre.Legendre.basis, range(len(x)))
@@ -87,12 +87,12 @@ def _between(x, points):
 
 
 def _each(tensors, vectors):
-    """Products at nodes: [nodes, 3, 3] times [3, nodes]."""
+    """Returns the products at nodes: [nodes, 3, 3] times [3, nodes]."""
     return (tensors @ vectors.T[:, :, None])[:, :, 0].T
 
 
 class Mesh:
-    """Rod in elements of each leg: U [6, nodes] are velocities, S [6, points] strains."""
+    """Rod in elements on each leg: U [6, nodes] are velocities, S [6, points] strains."""
 
     def __init__(self, rod, elements, degree):
         self.rod, legs = rod, np.array(rod.legs, float)
@@ -122,7 +122,7 @@ class Mesh:
         return np.concatenate([self.rod.force * S[:3], self.rod.moment * S[3:]])
 
     def rates(self, U, S, load):
-        """(U', S'); load [6, nodes] in axes of the sections."""
+        """Returns (U', S'); load [6, nodes] in section axes."""
         both = U @ self.up
         rate, here = both[:, :self.points], both[:, self.points:]
         e, k, N = self.tangent + S[:3], S[3:], self.forces(S)
@@ -149,7 +149,7 @@ class Mesh:
 
 
 def move(mesh, times, method="DOP853", tolerance=1e-9):
-    """At each time (U, S, r, q): r [3, ends] and q [4, ends] of the start and the ends of legs."""
+    """Returns at each time (U, S, r, q): r [3, ends] and q [4, ends] of the start and the ends of legs."""
     n, m, ends, rod = mesh.nodes, mesh.points, mesh.ends, mesh.rod
     sizes = np.cumsum([6 * n, 6 * m, 3 * len(ends)])
 
@@ -178,7 +178,7 @@ def move(mesh, times, method="DOP853", tolerance=1e-9):
 
 
 def run(rod, elements, degree, times):
-    """At each time: places of the start and of the ends of legs, x, y, z of one after the other,
+    """Returns at each time the positions of the start and of the ends of legs, x, y, z one after the other, and the
     energy."""
     mesh = Mesh(rod, elements, degree)
     return np.array([[*r.T.ravel(), mesh.energy(U, S)]
@@ -187,13 +187,13 @@ def run(rod, elements, degree, times):
 
 @cache
 def flight(elements, degree, times=TIMES):
-    """(A_x, A_y, A_z, B_x, B_y, B_z, energy) at each time."""
+    """Returns (A_x, A_y, A_z, B_x, B_y, B_z, energy) at each time."""
     return run(THROWN, elements, degree, times)
 
 
 @cache
 def elbow(elements, degree, times=ELBOW_TIMES):
-    """(elbow_x, elbow_y, elbow_z, tip_x, tip_y, tip_z, energy) at each time."""
+    """Returns (elbow_x, elbow_y, elbow_z, tip_x, tip_y, tip_z, energy) at each time."""
     return run(ELBOW, elements, degree, times)[:, 3:]
 
 

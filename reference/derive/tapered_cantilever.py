@@ -1,11 +1,12 @@
 """A cantilever whose section changes linearly: displacements by integrals over its flexibility, Kirchhoff's wedge, a column with Iz ~ x^3.
 
-Statics: at x the forces of the tip give N, Q, M in the principal axes of the section there; the displacement along a load P_i is
-int sum of (stress resultant) (the same of P_i = 1) (flexibility) dx, torsion about the shear centre, Mx - ys Qz + zs Qy.  The I warps:
-(EIw a')' - GIt a + T = 0 with a(0) = 0, a'(1) = 0 and twist int a dx, by collocation at Chebyshev's points.
+Statics: at x, the forces at the tip cause N, Q, M in the principal axes of the section there; the displacement along a load P_i is int sum
+of (stress resultant) (the same of P_i = 1) (flexibility) dx, torsion about the shear centre, Mx - ys Qz + zs Qy.  The I-section warps: (EIw
+a')' - GIt a + T = 0 with a(0) = 0, a'(1) = 0 and twist int a dx, by collocation at Chebyshev's points.
 Waves of the wedge, at the distance s from where its thickness vanishes, of the section I1 s^3, A1 s:
     buckling    E I1 s^3 w'' + P w = 0            w = sqrt(s) Z1(2 q/sqrt(s)),           q^2 = P/(E I1)
-    bending     E I1 (s^3 w'')'' = omega^2 rho A1 s w     w = Z1(2 b sqrt(s))/sqrt(s), I1 and K1 too (Kirchhoff 1879), b^4 = omega^2 rho A1/(E I1)
+    bending     E I1 (s^3 w'')'' = omega^2 rho A1 s w     w = Z1(2 b sqrt(s))/sqrt(s), I1 and K1 too (Kirchhoff 1879), b^4 = omega^2 rho
+    A1/(E I1)
 """
 from mpmath import besseli, besselj, besselk, bessely, cos, det, findroot, lu_solve, matrix, mp, mpf, pi, quad, sin, sqrt, tanh
 
@@ -22,7 +23,7 @@ NAMES = (("stretch", "m"), ("deflection_y", "m"), ("deflection_z", "m"), ("twist
 
 
 def rectangle_torsion(a, b):
-    """h t^3/3 [1 - 192/pi^5 t/h sum tanh(n pi h/2t)/n^5]"""
+    """Returns h t^3/3 [1 - 192/pi^5 t/h sum tanh(n pi h/2t)/n^5]."""
     h, t = max(a, b), min(a, b)
     total = mp.zeta(5) * 31 / 32 + sum(
         (tanh(n * pi * h / (2 * t)) - 1) / mpf(n) ** 5 for n in range(1, 60, 2))
@@ -30,7 +31,7 @@ def rectangle_torsion(a, b):
 
 
 class At:
-    """Constants at x: A, It, Iw, flexibilities and shear centre in principal axes, which are turned by beta."""
+    """Constants at x: A, It, Iw, flexibilities and shear centre in principal axes, which are rotated by beta."""
 
     def __init__(self, form, ratio, x):
         size = 1 + x * (ratio - 1)
@@ -53,7 +54,8 @@ class At:
 
 
 def resultants(at, x, load):
-    """N, Qy, Qz, torque about the shear centre, My, Mz in principal axes, of (Fx, Fy, Fz, Mx, My, Mz) at the tip."""
+    """Returns N, Qy, Qz, the torque about the shear centre, My, Mz in principal axes, due to (Fx, Fy, Fz, Mx, My, Mz)
+    at the tip."""
     fx, fy, fz, mx, my, mz = load
     arm = 1 - x
     my, mz = my - arm * fz, mz + arm * fy
@@ -80,7 +82,8 @@ def displacement(form, ratio, shear, row):
 
 
 def chebyshev(n):
-    """Points on [0, 1] and the matrix of the derivative there (Trefethen, Spectral Methods in MATLAB, chapter 6)."""
+    """Returns points on [0, 1] and the matrix of the derivative there (Trefethen, Spectral Methods in MATLAB, chapter
+    6)."""
     x = [(1 - cos(pi * j / n)) / 2 for j in range(n + 1)]
     weight = [(-1) ** j * (mpf(2) if j in (0, n) else mpf(1)) for j in range(n + 1)]
     D = matrix(n + 1, n + 1)
@@ -103,14 +106,14 @@ def twist_of_i(ratio, n=30):
         A[0, j], A[n, j] = mpf(j == 0), D[n, j]
     T[0] = T[n] = 0
     a = lu_solve(A, T)
-    a[0] = 0  # which it is, and the twist there
+    a[0] = 0  # its value, and the twist there
     for j in range(n + 1):
         D[0, j] = mpf(j == 0)
     return lu_solve(D, a)[n]
 
 
 def ends(ratio):
-    """Distances from where the wedge vanishes: of tip and root; sign of s along x."""
+    """Returns the distances of tip and root from where the wedge vanishes, and the sign of s along x."""
     return ratio / abs(1 - ratio), 1 / abs(1 - ratio), (1 if ratio > 1 else -1)
 
 
@@ -130,7 +133,8 @@ def buckling_load(ratio):
     unit = E * WIDTH * THICKNESS ** 3 / 12 / root ** 3
 
     def condition(q):
-        """w(tip) = 0, seen from the tip, and w'(root) = 0; with z = 2 q/sqrt(s): w ~ Z1(z)/z, w' ~ z^2 Z2(z)."""
+        """Returns the conditions w(tip) = 0, relative to the tip, and w'(root) = 0; with z = 2 q/sqrt(s): w ~ Z1(z)/z,
+        w' ~ z^2 Z2(z)."""
         here, there = 2 * q / sqrt(tip), 2 * q / sqrt(root)
         return besselj(1, here) * bessely(2, there) - bessely(1, here) * besselj(2, there)
 
@@ -143,7 +147,8 @@ def bending(ratio, wanted):
     speed = sqrt(E * THICKNESS ** 2 / (12 * RHO)) / root  # b^4 = (omega/speed)^2
 
     def condition(b):
-        """With z = 2 b sqrt(s), w ~ Z1(z)/z: every derivative is another of the order above, d/ds Zn/z^n ~ Zn+1/z^(n+1)."""
+        """Returns the determinant. With z = 2 b sqrt(s), w ~ Z1(z)/z: every derivative is a function of the next
+        order, d/ds Zn/z^n ~ Zn+1/z^(n+1)."""
         rows = []
         for Z, sign in ((besselj, -1), (bessely, -1), (besseli, 1), (besselk, -1)):
             row = [

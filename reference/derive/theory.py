@@ -1,8 +1,8 @@
-"""Which theory of shear in stability a truth of a case's own model follows.
+"""Determines which shear theory in stability a reference value of a case's own model follows.
 
-Engesser: the axial force works on the slope of the line of centroids; Haringx: on the section's
-rotation, as in the geometrically exact beam (column.py gives both energies).  Without shear, or
-where nothing is stressed, both agree.  Sources: the programs that derive the truths.
+Engesser: the axial force does work on the slope of the centroidal axis; Haringx: on the section's rotation, as in the
+geometrically exact beam (column.py gives both energies).  Without shear deformation, or without stress, both agree.
+Sources: the programs that derive the reference values.
 """
 from reference.derive import defaults
 
@@ -17,7 +17,7 @@ LARGE_DISPLACEMENT = (
 
 
 def of(case, parameters, quantity):
-    """'engesser', 'haringx', or '' where the value depends on neither.
+    """Returns 'engesser', 'haringx', or '' if the value depends on neither.
 
     parameters: `name=value;...` that differ from the defaults.
     """

@@ -1,13 +1,14 @@
-"""Free vibration of a cantilever with a rigid body at its end, at rest and rotating steadily about an axis through the root, normal to it.
+"""Free vibration of a cantilever with a rigid body at its end, at rest and in steady rotation about an axis through the root, normal to the
+beam.
 
-Units and beam as in rotating.py: L = 1, EI = 1, rho A = 1, EA = s^2.  The body: mass m, centre c beyond the end, inertia J = m g^2 about axes
-across the beam through that centre, none about the beam's axis.
+Units and beam as in rotating.py: L = 1, EI = 1, rho A = 1, EA = s^2.  The body: mass m, centre c beyond the end, inertia J = m g^2 about
+transverse axes through that centre, and none about the beam's axis.
 
-At rest: w'''' = omega^2 w, w(0) = w'(0) = 0; with y = w + c w' at the end: w'' = omega^2 (J w' + m c y), w''' = -omega^2 m y.
-Equilibrium: x'' = -k^2 x, k = Omega/s, x(0) = 0, s^2 (x'(1) - 1) = m Omega^2 (x(1) + c).
+At rest: w'''' = omega^2 w, w(0) = w'(0) = 0; with y = w + c w' at the end: w'' = omega^2 (J w' + m c y), w''' = -omega^2 m y. Equilibrium:
+x'' = -k^2 x, k = Omega/s, x(0) = 0, s^2 (x'(1) - 1) = m Omega^2 (x(1) + c).
 Second order about it, with the slope t = w'/x' at the end and y = w + c t: the body adds to the energy of the beam
-flap: 1/2 Omega^2 (m c (x + c) + J) t^2, lag: 1/2 Omega^2 (m c (x + c) t^2 - m (u^2 + y^2)), to the mass m (u^2, y^2) and J t^2, and to
-the Coriolis coupling m u y.  Galerkin method as in rotating.py.
+flap: 1/2 Omega^2 (m c (x + c) + J) t^2, lag: 1/2 Omega^2 (m c (x + c) t^2 - m (u^2 + y^2)), to the mass m (u^2, y^2) and J t^2, and to the
+Coriolis coupling m u y.  Galerkin method as in rotating.py.
 """
 import numpy as np
 from mpmath import cos, cosh, findroot, matrix, mp, mpf, sin, sinh, det
@@ -22,7 +23,8 @@ COUNT = 3
 
 
 def at_rest(m, c, g, count=COUNT):
-    """Frequencies at rest, exactly: w = A (cosh - cos) + B (sinh - sin), whose determinant vanishes between samples of the wave number."""
+    """Returns the exact frequencies at rest: w = A (cosh - cos) + B (sinh - sin), whose determinant vanishes between
+    samples of the wave number."""
     m, c, J = mpf(m), mpf(c), mpf(m) * mpf(g) ** 2
 
     def boundary(z):
@@ -44,13 +46,13 @@ def at_rest(m, c, g, count=COUNT):
 
 
 def equilibrium(omega, m, c, s=S):
-    """(B of x = B sin kX, k) in extended precision."""
+    """Returns (B of x = B sin kX, k) in extended precision."""
     k = mpf(omega) / s
     return (1 + mpf(m) * k ** 2 * mpf(c)) / (k * cos(k) - mpf(m) * k ** 2 * sin(k)), k
 
 
 def _ends(times):
-    """Values and first derivatives at X = 1 of the polynomials of rotating._basis."""
+    """Returns values and first derivatives at X = 1 of the polynomials of rotating._basis."""
     fields = []
     for n in range(rotating.SIZE):
         series = [np.array([0.0] * n + [1.0])]
@@ -63,7 +65,8 @@ def _ends(times):
 
 
 def matrices(omega, m, c, g, s=S):
-    """Beam and body: (K, M) of flap, (K, M) of lag, (K, M) of stretching, coupling; K of lag and stretching with their softening."""
+    """Returns, for beam and body: (K, M) of flap, (K, M) of lag, (K, M) of stretching, and the coupling; K of lag and
+    stretching include their softening."""
     X, weight, w = rotating._basis(2)
     _, _, u = rotating._basis(1)
     J = m * g * g
@@ -112,7 +115,7 @@ def lag(omega, m, c, g, s=S, count=COUNT):
 
 
 def values(omega, m, c, g):
-    """(quantity, value, relative uncertainty or None) at one point."""
+    """Yields (quantity, value, relative uncertainty or None) at one point."""
     for i, value in enumerate(at_rest(m, c, g)):
         yield f"rest_{i + 1}", value, None
     for name, found in (("flap", flap(omega, m, c, g)), ("lag", lag(omega, m, c, g))):

@@ -1,4 +1,5 @@
-"""Torsion: Saint-Venant's constant of a rectangle; twist_ratio = phi GJ/(T L) of a cantilever whose root cannot warp."""
+"""Torsion: Saint-Venant's constant of a rectangle; twist_ratio = phi GJ/(T L) of a cantilever with warping restrained
+at its root."""
 import functools
 
 from mpmath import inf, mp, mpf, nsum, pi, tanh, workdps
@@ -10,7 +11,8 @@ mp.dps = 40
 
 @functools.cache
 def rectangle_constant(w, t):
-    """w t^3/3 (1 - 192/pi^5 t/w sum tanh(n pi w/2t)/n^5), n odd, w >= t, to 30 digits: the terms left over are extrapolated."""
+    """Returns w t^3/3 (1 - 192/pi^5 t/w sum tanh(n pi w/2t)/n^5), n odd, w >= t, to 30 digits: the remaining terms are
+    extrapolated."""
     with workdps(40):
         w, t = mpf(w), mpf(t)
         series = nsum(lambda m: tanh((2 * m + 1) * pi * w / (2 * t)) / (2 * m + 1) ** 5, [0, inf])
@@ -18,7 +20,7 @@ def rectangle_constant(w, t):
 
 
 def twist_ratio(kl, ends):
-    """1 - tanh(x)/x; x: kL of a cantilever; between two ends that cannot warp each half is one."""
+    """Returns 1 - tanh(x)/x; x: kL of a cantilever; with warping restrained at both ends, each half is one."""
     x = mpf(kl) / (2 if ends == "fixed" else 1)
     return 1 - tanh(x) / x
 

@@ -1,14 +1,15 @@
-"""Exact small vibration of a uniform straight beam, rigid in shear or not: transfer of its amplitudes from end to end.
+"""Exact small vibration of a uniform straight beam with or without shear deformation: transfer of its amplitudes from end to end.
 
-Bending, with angular frequency o and the section's turn t: w' = t + Q/S, t' = M/EI, M' = -Q - o^2 rho I t, Q' = -o^2 rho A w;
-1/S = 0: Bernoulli and Euler, with rho I Rayleigh, with both Timoshenko.  Stretch and torsion: p'' = -(o/c)^2 p, c^2 = EA/(rho A)
-or GJ/(rho Ip).
+Bending, with angular frequency o and the section's rotation t: w' = t + Q/S, t' = M/EI, M' = -Q - o^2 rho I t, Q' = -o^2 rho A
+w; 1/S = 0: Euler-Bernoulli; with rho I: Rayleigh; with both: Timoshenko.  Stretch and torsion: p'' = -(o/c)^2 p, c^2 = EA/(rho
+A) or GJ/(rho Ip).
 """
 from mpmath import cos, expm, findroot, matrix, mpf, sin
 
 
 def bending(length, o, EI, mass, rotary=0, flexibility=0):
-    """[4, 4]: (w, t, M, Q) at the end of unit ones at the beginning; mass: rho A, rotary: rho I, flexibility: 1/S."""
+    """Returns [4, 4]: (w, t, M, Q) at the end due to unit values at the start; mass: rho A, rotary: rho I,
+    flexibility: 1/S."""
     a = matrix(4, 4)
     a[0, 1], a[0, 3], a[1, 2], a[2, 3] = 1, flexibility, 1 / EI, -1
     a[2, 1], a[3, 0] = -rotary * o ** 2, -mass * o ** 2
@@ -16,13 +17,13 @@ def bending(length, o, EI, mass, rotary=0, flexibility=0):
 
 
 def along(length, o, stiffness, speed):
-    """(p, force) at the end of a rod that is held at its beginning, where the force is 1; stiffness: EA or GJ."""
+    """Returns (p, force) at the end of a rod that is fixed at its start, where the force is 1; stiffness: EA or GJ."""
     k = o / speed
     return sin(k * length) / (k * stiffness), cos(k * length)
 
 
 def zeros(function, end, step):
-    """All zeros below end that lie further apart than the step, in order."""
+    """Returns all zeros below `end` that are farther apart than the step, in order."""
     found, x, before = [], mpf(step), function(mpf(step))
     while x < end:
         after = function(x + step)

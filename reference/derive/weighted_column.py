@@ -1,6 +1,6 @@
-"""Buckling of a column under its weight q per length and a load P on its head, clamped at its foot; L = EI = 1.
+"""Buckling of a column under its weight q per length and a load P on its top, clamped at its base; L = EI = 1.
 
-t'' + (P + q (1 - x)) t = 0, t(0) = 0, t'(1) = 0 of the slope t: a power series in the distance from the head.
+t'' + (P + q (1 - x)) t = 0, t(0) = 0, t'(1) = 0 of the slope t: a power series in the distance from the top.
 """
 from mpmath import findroot, mp, mpf
 
@@ -13,7 +13,7 @@ POINTS = ({}, {"staying": 4}, {"staying": -20}, {"grows": "weight",
 
 
 def slope_at_foot(P, q):
-    """Slope at the foot of the solution with slope 1 and no moment at the head."""
+    """Returns the slope at the base of the solution with slope 1 and no moment at the top."""
     c = [mpf(1), mpf(0)]
     while len(c) < TERMS:
         n = len(c) - 2
@@ -22,7 +22,8 @@ def slope_at_foot(P, q):
 
 
 def load_factor(given):
-    """The least one: the slope at the foot falls from 1 as the loads grow; bracketed from below."""
+    """Returns the smallest load factor: the slope at the base decreases from 1 as the loads increase; bracketed from
+    below."""
     at = defaults.decimals("weighted_column", given)
 
     def value(factor):

@@ -1,5 +1,5 @@
-"""Solids solved by CalculiX (`ccx`, Debian package calculix-ccx): truths of another model.
+"""Solids solved by CalculiX (`ccx`, Debian package calculix-ccx): reference values of another model.
 
-deck.py makes meshes, writes decks and runs them, and says what a rigid end does to a solid;
+deck.py makes meshes, writes decks, runs them, and models rigid ends of a solid;
 sheet.py and channel.py are the cases.
 """

@@ -1,8 +1,8 @@
 """The C-shaped cantilever as a solid: dead force at an end of the web (J section 5.2, Figs. 11-12).
 
-C3D20R, one element through each wall; the root is held, the tip free.  The force acts on the node
-on the web's mid-line at half the outer height above (D) or below (E) the axis, whose deflection is
-prescribed in steps; outer sizes 30 x 10 cm (`sizes=overall`).
+C3D20R, one element through each wall; the root is fixed, the tip free.  The force acts on the node
+on the web's mid-line at half the outer height above (D) or below (E) the axis, whose deflection is prescribed in
+steps; outer dimensions 30 x 10 cm (`sizes=overall`).
 """
 import tempfile
 
@@ -18,7 +18,7 @@ MESHES = (14, 2, 3), (
     20,
     2,
     4,
-)  # elements along the beam, of a flange beside the web, of the web between the flanges
+)  # elements along the beam, of a flange next to the web, of the web between the flanges
 STATIONS = {
     "D": np.concatenate([np.arange(1, 10) * 0.02, 0.2 + 0.06 * np.arange(41)]),
     "E": np.concatenate([np.arange(1, 10) * 0.02, 0.2 + 0.042 * np.arange(24), [1.2]]),
@@ -27,11 +27,11 @@ POINTS = {"D": (0.1, 0.2, 0.5, 1.04, 2.6), "E": (0.1, 0.2, 0.494, 1.04, 1.2)}
 WAGNER = (
     [],
     ["wagner_moments=*"],
-)  # the case's default, and any of the beam's choices: a solid has none
+)  # the case's default, and any of the beam's choices, which a solid does not have
 
 
 def channel(along, flange, web):
-    """The web at y = -WEB .. 0, the flanges towards -y."""
+    """Returns the web at y = -WEB .. 0 with the flanges towards -y."""
     ys = np.concatenate([np.linspace(-WIDTH, -WEB, flange + 1), [0]])
     zs = np.concatenate(
         [
@@ -46,7 +46,7 @@ def channel(along, flange, web):
 
 
 def path(point, stations, mesh):
-    """[(load [N], lateral displacement [m])] of the loaded point at its deflections [m]."""
+    """Returns [(load [N], lateral displacement [m])] of the loaded point at its deflections [m]."""
     grid = channel(*mesh)
     where = np.array([LENGTH, -WEB / 2, HEIGHT / 2 if point == "D" else -HEIGHT / 2])
     loaded = int(np.argmin(np.linalg.norm(grid.nodes - where, axis=1)))
@@ -68,10 +68,10 @@ def path(point, stations, mesh):
 
 
 def rows(everything=True):
-    """(case, parameters, quantity, value, unit, relative uncertainty, convention, at).
+    """Yields (case, parameters, quantity, value, unit, relative uncertainty, convention, at).
 
-    Curves, and points with parameters of their own.  What refining still changes is uncertain,
-    and 1e-4 of the value.  Not everything: the first 0.2 m of the curve of D.
+    These are curves, and points with their own parameters. The uncertainty is the change by the last refinement plus
+    1e-4 of the value. everything False: only the first 0.2 m of the curve of D.
     """
     for point in "DE" if everything else "D":
         stations = STATIONS[point] if everything else STATIONS[point][:10]
@@ -84,7 +84,7 @@ def rows(everything=True):
 
 
 def places(point, w):
-    """(parameters, names of the quantities, at) under which a point of the curve is a truth."""
+    """Yields (parameters, names of the quantities, at) for which a point of the curve is a reference value."""
     common = ["load_height=edge"] + ["load_point=E"] * (point == "E")
     alone = np.min(np.abs(np.array(POINTS[point]) - w)) < 1e-9
     for more in WAGNER:

@@ -1,4 +1,4 @@
-"""Input decks of CalculiX: written, run, and their results read."""
+"""Input decks of CalculiX: writes and runs them, and reads their results."""
 import os
 import pathlib
 import shutil
@@ -12,8 +12,8 @@ from reference.derive.beam import cross_matrix, exponential, rotation
 
 # Structured meshes of bricks with 20 nodes, from boxes of a common lattice.
 
-# Corners, then middles of the edges of the lower face, of the upper face and between them, in half
-# steps of the lattice.
+# Corners, then middles of the edges of the lower face, of the upper face and between them, in half steps of the
+# lattice.
 BRICK = (
     (0, 0, 0),
     (2, 0, 0),
@@ -39,12 +39,12 @@ BRICK = (
 
 
 def graded(elements):
-    """Stations from 0 to 1 [elements + 1], dense at both ends."""
+    """Returns stations from 0 to 1 [elements + 1], dense at both ends."""
     return (1 - np.cos(np.pi * np.arange(elements + 1) / elements)) / 2
 
 
 def halved(stations):
-    """Stations with the middles between them."""
+    """Returns the stations with the middles between them."""
     return np.sort(np.concatenate([stations, (stations[1:] + stations[:-1]) / 2]))
 
 
@@ -52,7 +52,7 @@ class Grid:
     """nodes [count, 3] m, elements [count, 20]; both are counted from zero."""
 
     def __init__(self, xs, ys, zs, wanted=lambda i, j, k: True):
-        """Stations of corners along each axis [m]; wanted: which cells are filled."""
+        """xs, ys, zs: stations of corners along each axis [m]; wanted: which cells are filled."""
         axes, number, nodes = [halved(np.asarray(a, dtype=float)) for a in (xs, ys, zs)], {}, []
 
         def node(place):
@@ -68,23 +68,23 @@ class Grid:
         self.nodes = np.array(nodes)
 
     def at(self, axis, value):
-        """Indices of the nodes in a plane."""
+        """Returns the indices of the nodes in a plane."""
         return np.flatnonzero(np.abs(self.nodes[:, axis] - value) < 1e-9)
 
 
-# Rigid end of a solid: the motion of its face, the resultant on it, their tangent.
+# Rigid end of a solid: the motion of its face, the resultant on it, and their tangent.
 #
-# A shell's edge: the face moves as a rigid body, but its thickness is free to change; the directions
-# of the face turn with it.
+# A shell's edge: the face moves as a rigid body, but its thickness is free to change; the directions of the face
+# rotate with it.
 
 
 def turned(vector):
-    """Rotation matrix of a rotation vector [rad]."""
+    """Returns the rotation matrix of a rotation vector [rad]."""
     return rotation(exponential(np.asarray(vector, dtype=float)))
 
 
 def spin(vector):
-    """T [3, 3] with spin = T d(vector) in fixed axes."""
+    """Returns T [3, 3] with spin = T d(vector) in fixed axes."""
     phi, x = np.linalg.norm(vector), cross_matrix(np.asarray(vector, dtype=float))
     if phi < 1e-8:
         return np.eye(3) + x / 2
@@ -94,7 +94,7 @@ def spin(vector):
 class Tip:
     """A face of nodes [indices] about a point.
 
-    `middle` holds its nodes that may not move along the thickness, its axis 1.
+    `middle` contains the nodes that may not move along the thickness, its axis 1.
     """
 
     def __init__(self, grid, nodes, middle, point):
@@ -106,11 +106,11 @@ class Tip:
         self.arms = {n: grid.nodes[n] - self.point for n in self.nodes}
 
     def held(self, node):
-        """Directions of the turned face in which a node is held."""
+        """Returns the directions of the rotated face in which a node is fixed."""
         return (0, 1, 2) if node in self.middle else (0, 2)
 
     def boundary(self, translation, R):
-        """Cards: the face's directions, and the motion along them."""
+        """Returns cards with the directions of the face and the motion along them."""
         cards = (
             "*TRANSFORM,NSET=TIP,TYPE=R\n"
             + ",".join("%.12e" % a for a in np.concatenate([R[:, 0], R[:, 1]]))
@@ -123,14 +123,15 @@ class Tip:
         return cards, motion
 
     def resultant(self, displacements, forces, translation, R):
-        """(force [N], moment about the displaced point [N m]) on the face."""
+        """Returns (force [N], moment about the displaced point [N m]) on the face."""
         arms = self.displaced(displacements, translation, R)
         return sum(forces[n] for n in self.nodes), sum(
             np.cross(arms[n], forces[n]) for n in self.nodes
         )
 
     def displaced(self, displacements, translation, R):
-        """Arms: rigid but along the thickness, where the printed displacements (7 digits) say."""
+        """Returns the arms: rigid except along the thickness, where they follow the printed displacements (7
+        digits)."""
         out = {n: R @ self.arms[n] for n in self.nodes}
         for n in set(self.nodes) - self.middle:
             moved = displacements[n] - np.asarray(translation) + self.arms[n] - out[n]
@@ -138,10 +139,10 @@ class Tip:
         return out
 
     def stiffness(self, tangent, displacements, forces, translation, R):
-        """d(force, spatial moment)/d(translation, spin) [6, 6]; tangent: of deck.tangent.
+        """Returns d(force, spatial moment)/d(translation, spin) [6, 6]; tangent: from deck.tangent.
 
-        Along the thickness a node is free: its force there stays zero while the direction turns,
-        so that it changes in fixed axes.
+        Along the thickness a node is free: its force there stays zero as the direction rotates, so that it changes in
+        fixed axes.
         """
         K, places = tangent
         index = {p: i for i, p in enumerate(places)}
@@ -161,7 +162,7 @@ class Tip:
         return self.change(index, R, arms, forces, motion, load)
 
     def change(self, index, R, arms, forces, motion, load):
-        """The resultant's change [6, 6]: of forces, and of the arms of those that act already."""
+        """Returns the change of the resultant [6, 6]: that of the forces, and that of the arms of existing forces."""
         out = np.zeros((6, 6))
         for n in self.nodes:
             rows = [index[n, d] for d in range(3)]
@@ -172,7 +173,7 @@ class Tip:
         return out
 
     def directions(self, index, R):
-        """[n, n]: columns: directions of the turned face at its nodes, else the fixed ones."""
+        """Returns [n, n] with columns: directions of the rotated face at its nodes, otherwise the fixed axes."""
         out = lil_matrix(identity(len(index)))
         for n in self.nodes:
             rows = [index[n, d] for d in range(3)]
@@ -183,13 +184,12 @@ class Tip:
 
 
 PROGRAM = "ccx"
-# Newton's iterations stop at 1e-7 of the mean force and of the largest displacement
-# (the default: 5e-3 and 1e-2).
+# Newton's iterations stop at 1e-7 of the mean force and of the largest displacement (the defaults are 5e-3 and 1e-2).
 CONTROLS = "*CONTROLS,PARAMETERS=FIELD\n1e-7,1e-7\n"
 
 
 class Failed(Exception):
-    """CalculiX found no solution; the text is its last complaint."""
+    """Raised if CalculiX found no solution; the text is its last message."""
 
 
 def available():
@@ -197,7 +197,7 @@ def available():
 
 
 def mesh(grid, kind, material):
-    """Nodes, elements and the one section; material: cards after *MATERIAL."""
+    """Returns nodes, elements and the one section; material: cards after *MATERIAL."""
     lines = (
         ["*NODE"]
         + ["%d,%.12e,%.12e,%.12e" % (i + 1, *p) for i, p in enumerate(grid.nodes)]
@@ -240,7 +240,7 @@ def run(folder, name, text):
 
 
 def printed(path, what):
-    """[{node: vector [3]}] of every printed increment; what: 'displacements' or 'forces'."""
+    """Returns [{node: vector [3]}] of every printed increment; what: 'displacements' or 'forces'."""
     blocks, current = [], None
     for line in path.with_suffix(".dat").read_text(encoding="utf-8").splitlines():
         words = line.split()
@@ -253,7 +253,7 @@ def printed(path, what):
 
 
 def tangent(path):
-    """(stiffness [n, n], [(node, direction)] of its rows) of a step with SOLVER=MATRIXSTORAGE."""
+    """Returns (stiffness [n, n], [(node, direction)] of its rows) of a step with SOLVER=MATRIXSTORAGE."""
     row, column, value = np.loadtxt(path.with_suffix(".sti"), unpack=True)
     i, j = row.astype(int) - 1, column.astype(int) - 1
     off = i != j

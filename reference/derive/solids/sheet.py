@@ -1,8 +1,8 @@
-"""The sheet flexure as a plate: one face held, the other moved as a shell's edge; its compliance.
+"""The sheet flexure as a plate, with one face fixed and the other moved like a shell's edge: its compliance.
 
-C3D20R, graded towards all edges.  Held face: no displacement normal to it and along its width;
-along the thickness its middle alone is held.  The tip's motion is a translation and one rotation
-vector; what is free of it follows from zero force, or zero work of the moment.
+C3D20R, graded towards all edges.  Fixed face: no displacement normal to it and along its width; along the thickness,
+only its middle is fixed.  The tip's motion is a translation and one rotation
+vector; its free components follow from zero force, or zero work of the moment.
 Moments are spatial: dead about fixed axes (reference/README.md).
 """
 import tempfile
@@ -48,7 +48,7 @@ class Sheet:
         self.head += deck.node_set("ROOTMIDDLE", sorted(middle & set(root)))
 
     def state(self, motion):
-        """(force, spatial moment, stiffness [6, 6]) at a tip's motion [6].
+        """Returns (force, spatial moment, stiffness [6, 6]) at a motion [6] of the tip.
 
         The motion is a translation [m] and a rotation vector [rad].
         """
@@ -77,7 +77,7 @@ class Sheet:
 
 
 def solve(sheet, motion, free, steps=8):
-    """(motion, force, moment, compliance [6, 6]) where loads of the free components do no work.
+    """Returns (motion, force, moment, compliance [6, 6]) at which the loads of the free components do no work.
 
     motion [6] is the start.
     """
@@ -96,9 +96,9 @@ def solve(sheet, motion, free, steps=8):
 
 
 def compared(run):
-    """{name: (value, relative uncertainty)} of run(elements, layers).
+    """Returns {name: (value, relative uncertainty)} of run(elements, layers).
 
-    What either refinement still changes is uncertain.
+    The uncertainty is the sum of the changes by both refinements.
     """
     coarse, thin, fine = [run(*mesh) for mesh in MESHES]
     return {
@@ -108,7 +108,7 @@ def compared(run):
 
 
 def bent(deflection, mesh):
-    """Values of sheet_cantilever at a tip deflection [m]."""
+    """Returns the values of sheet_cantilever at a tip deflection [m]."""
     with tempfile.TemporaryDirectory() as folder:
         motion, force, _, C = solve(
             Sheet(*mesh, folder), [-0.6 * deflection**2 / LENGTH, deflection, 0, 0, 0, 0], [0]
@@ -118,7 +118,7 @@ def bent(deflection, mesh):
 
 
 def twisted(angle, mesh):
-    """Values of sheet_wagner at a twist [rad]; the start is near the beam's solution."""
+    """Returns the values of sheet_wagner at a twist [rad]; the start is near the beam's solution."""
     start = [
         -1.29e-3 - 4.7e-3 * angle**2,
         0.015,
@@ -138,9 +138,9 @@ def unit(name):
 
 
 def rows(everything=True):
-    """(case, parameters, quantity, value, unit, relative uncertainty, convention).
+    """Yields (case, parameters, quantity, value, unit, relative uncertainty, convention).
 
-    Not everything: the defaults of both cases.
+    everything False: only the defaults of both cases.
     """
     for deflection in DEFLECTIONS if everything else DEFLECTIONS[-1:]:
         at = ";".join([f"tip_deflection={deflection:g}"] * (deflection != 0.015) + [ANY])
