@@ -2,7 +2,8 @@
 
 Rigid in shear, with rotary inertia.  Both masses together are a body of mass m, centre y and moment of inertia J about it, along
 x and z:
-  in the plane of the arms   Q = m o^2 v, N = m o^2 (u - y t), M = o^2 (J t - m y (u - y t)), t the rotation of the end about the normal                  Q = m o^2 (w + y p), M = 0, T = o^2 (J p + m y (w + y p)), p its twist
+  in the plane of the arms   Q = m o^2 v, N = m o^2 (u - y t), M = o^2 (J t - m y (u - y t)), t the end's rotation
+  across it                  Q = m o^2 (w + y p), M = 0, T = o^2 (J p + m y (w + y p)), p its twist
 with the resultants at the beam's end, which the inertia forces of the body load.
 """
 from mpmath import det, matrix, mp, mpf, pi, sqrt
