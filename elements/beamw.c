@@ -1,5 +1,5 @@
 /* BEAMW as printed, with misprints corrected. Its modified modes do not include shear, so that it
- * follows neither theory of shear in stability; it has its own theory and converges to neither of
+ * follows neither shear theory in stability; it has its own theory and converges to neither of
  * their limits (reference/ERRATA.md). */
 #include "elements/beamw/variants.h"
 

@@ -1,4 +1,4 @@
-/* BEAMW repaired: stiffness with the whole of D, strains that represent uniform shear of any size
+/* BEAMW corrected: stiffness with the whole of D, strains that represent uniform shear of any size
  * (elements/beamw/screw.h), and modified modes from the strains of the Simo-Reissner beam over the
  * full linear solution (elements/beamw/condensed.c). Bending, shear and warping inside the element
  * are internal modes, condensed in equilibrium (elements/beamw/condensed.c). */

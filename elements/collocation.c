@@ -33,9 +33,9 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* Statics: also under dead forces along members; 4 at large rotations under other loads along them.
- * Frequencies: field/field.h. Linear buckling: the inner unknowns are those of the stress-free
- * element (elements/collocation/prestress.c). */
+/* Returns the orders. Statics: also under dead forces along members; 4 at large rotations under
+ * other loads along members. Frequencies: field/field.h. Linear buckling: the inner unknowns are
+ * those of the stress-free element (elements/collocation/prestress.c). */
 static element_order order(element_analysis analysis, const double value[])
 {
     const int collocated = 2 * stage_count(value);
@@ -44,13 +44,14 @@ static element_order order(element_analysis analysis, const double value[])
     return (element_order){2, analysis == ELEMENT_STATICS ? collocated : 4};
 }
 
-/* F (3), x of the inner nodes (3 each). */
+/* Returns the number of inner unknowns: F (3), x of the inner nodes (3 each). */
 static int inner_count(const double value[])
 {
     return 3 * stage_count(value);
 }
 
-/* Corrections of the unknowns, and their derivatives with respect to the strains. */
+/* Returns the size of the corrections of the unknowns and their derivatives with respect to the
+ * strains. */
 static int memory_count(const double value[])
 {
     return inner_count(value) * (1 + OUTER);
@@ -152,9 +153,9 @@ static void geometric(const element_data *data, const double sigma[], double G[]
     }
 }
 
-/* Force to which changes of forces are relative. A force that is stiffness times elongation has a
- * corresponding rounding error; if that exceeds 1e-9 of the unit of bending forces, it must not
- * prevent convergence. */
+/* Returns the force to which changes of forces are relative. A force that is stiffness times
+ * elongation has a corresponding rounding error; if that exceeds 1e-9 of the unit of bending
+ * forces, it must not prevent convergence. */
 static double force_scale(const beam_constants *c)
 {
     const double told = 1e-9, stiffness = c->coupled ? c->C[0] : c->EA;

@@ -47,7 +47,7 @@ enum element_limit {
     LIMIT_QUARTER_TURN = 1 << 2, /* strains are sines of the rotation between the nodes; beyond pi/2
                                     another state has the same strains */
     LIMIT_WARPING_RIGID =
-        1 << 3, /* warping causes no shear; closed cells, where it does, are another model */
+        1 << 3, /* warping causes no shear; closed cells, where it does, are a different model */
     LIMIT_FLAT_ARC = 1 << 4,  /* an initially curved element of length l and curvature k is too
                                  flexible in bending, by a fraction that depends only on EA l^4
                                  k^2/(E Iz): 1 % at 64, 10 % at 256, where its arc rises by l^2 k/8 =
@@ -63,7 +63,7 @@ enum element_limit {
 };
 
 /* Features that a type supports in one direction only. `list` and `solve` show them; a scene in
- * which such a feature matters in the other direction is not run. */
+ * which the feature matters in the other direction is not run. */
 enum element_lack {
     LACKS_SHEAR_Y = 1 << 0 /* rigid in shear along y, although FEATURE_SHEAR is supported */
 };
@@ -78,7 +78,7 @@ enum element_left {
     LEAVES_TANGENT = 1 << 3 /* force returns no K */
 };
 
-/* Theories of shear in stability that the equations of a type follow, as bits; 0: rigid in shear. A
+/* Shear theories in stability that the equations of a type follow, as bits; 0: rigid in shear. A
  * type is evaluated against the reference value of its own theory, whatever a scene specifies. A
  * type that supports several uses the one in the features of the request. */
 enum shear_theory {
@@ -103,7 +103,7 @@ typedef enum element_analysis {
  * is four, except for loads that the element includes in its equilibrium (along). For vibration the
  * lowest order is that of frequencies of stress-free straight members of one material: four in
  * bending, stretch and twist with the mass of the displacement field. Under stress or in a rotating
- * frame shear, stretch and twist have order two. */
+ * frame, shear, stretch and twist have order two. */
 typedef struct element_order {
     int least, highest; /* lowest for a smooth solution; highest for any quantity */
 } element_order;
@@ -156,10 +156,11 @@ typedef struct element_type {
     const char *source;  /* paper and equations */
     const char *family;  /* one word; types of one family share code or theory, so that their
                             agreement proves little */
-    unsigned offers;     /* element_feature; theories of shear as in shear_theories */
+    unsigned offers;     /* element_feature; shear theories as in shear_theories */
     /* Bytes of its element_data. */
     size_t (*data_size)(const element_request *);
-    /* Called once per kind of element. Refuses what it cannot do, and names it. */
+    /* Called once per kind of element. Rejects a request that it does not support, and gives the
+     * reason. */
     status (*prepare)(const element_request *, element_data *, fault *);
 
     /* Required: these two functions, or `force` instead. */
@@ -179,14 +180,13 @@ typedef struct element_type {
     unsigned lacks;          /* element_lack: nothing */
     const char *lacks_by;    /* equation or assumption that omits it */
     unsigned shear_theories; /* shear_theory; default: none, rigid in shear */
-    const char
-        *own_theory; /* for SHEAR_OWN, one line: what the theory is and where it is derived */
+    const char *own_theory;  /* for SHEAR_OWN, one line: the theory and where it is derived */
     element_order (*order)(element_analysis,
                            const double options[]); /* default: lowest 2, highest 4 */
 
     /* Optional: -f name:key=value. */
     const parameter_type *options[PARAMETER_PARTS]; /* none */
-    /* [options] element_feature: verify evaluates every choice of an option for quantities that
+    /* [options] element_feature: `verify` evaluates every choice of an option for quantities that
      * depend on one of these features; 0: only its default. Default (NULL): only the defaults. */
     const unsigned *judged;
 
@@ -241,9 +241,9 @@ typedef struct element_type {
     void (*equations_many)(int count, const element_data *const data[], const node_state x[],
                            const double *const e[], const double *const inner[],
                            const double *const s[], equations_output out[], status outcome[]);
-    /* Optional: 1: `inertia` for two nodes supports transient analysis with consistent mass (rate
-     * and the members below it). 0: mass is then lumped at the nodes. For a type without
-     * `inertia`: 1. */
+    /* Optional. 1: `inertia` for two nodes supports transient analysis with consistent mass (rate
+     * and the members below it). 0: mass is lumped at the nodes in transient analysis. For a type
+     * without `inertia`: 1. */
     int spreads;
     /* For LIMIT_TENSION: length of the element divided by the largest length that its axial force
      * allows; default: 0, no limit. */
@@ -257,26 +257,28 @@ typedef struct element_type {
      * nodes, the same for all types. */
     void (*along)(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[]);
-    /* Optional: 1: with these options, `inertia` for two nodes in the undeformed state is that of
+    /* Optional. 1: with these options, `inertia` for two nodes in the undeformed state is that of
      * the displacement field which is exact without loads (field/field.h); frequencies are then
      * corrected for the motion inside the element. 0: frequencies are those of the mass matrix
      * alone. For a type without `inertia`: 1. */
     int (*mass_of_field)(const double options[]);
     /* Optional: data of the same element with an additional stress-free elongation and curvatures
-     * about y and z [1, 1/m, 1/m]; x: its nodes when it is free; out: data of the same size.
-     * Strains are still computed from the nodes. Default (NULL): strains are measured from those of
-     * x, which is an error of second order in curvature if the stress function is nonlinear. */
+     * about y and z [1, 1/m, 1/m]; x: its nodes in the free state; out: data of the same size.
+     * Strains are still computed from the nodes. Default (NULL): strains are measured from the
+     * strains of x, which is an error of second order in curvature if the stress function is
+     * nonlinear. */
     void (*unstressed)(const element_data *, const double more[3], const node_state x[],
                        element_data *out);
 } element_type;
 
-/* Makes a symbol visible outside its shared object, also with -fvisibility=hidden. */
+/* Returns the order in transient analyses: with consistent mass, four in slender bending and two
+ * with shear, stretch and twist; with mass lumped at two nodes, two. */
 #if defined(__GNUC__)
 #define ELEMENT_EXPORT __attribute__((visibility("default")))
 #else
 #define ELEMENT_EXPORT
 #endif
-/* The formulation of a shared object, to be defined after this header, in C or C++. */
+/* Returns 1 if transient analyses can use its consistent mass. */
 ELEMENT_EXPORT extern const element_type beamwork_element;
 /* Instead of it, for languages whose constants cannot contain addresses of functions (Fortran): a
  * function that returns the formulation, which exists until the program ends. */

@@ -32,7 +32,7 @@ typedef struct feature_row {
     const char *summary; /* one line */
 } feature_row;
 
-/* Row for results and rules; "unknown" if `feature` is not a single bit. */
+/* Returns the row for results and rules; "unknown" if `feature` is not a single bit. */
 static inline const feature_row *feature_row_of(unsigned bit)
 {
     static const feature_row row[] = {
@@ -58,7 +58,7 @@ static inline const feature_row *feature_row_of(unsigned bit)
     return one;
 }
 
-/* Name as used in files and results. */
+/* Returns the name as used in files and results. */
 static inline const char *feature_name(unsigned bit)
 {
     return feature_row_of(bit)->name;
@@ -70,7 +70,7 @@ static inline const char *feature_summary(unsigned bit)
     return feature_row_of(bit)->summary;
 }
 
-/* Bit of a name; 0: unknown name. */
+/* Returns the bit of a name; 0: unknown name. */
 static inline unsigned feature_named(const char *name)
 {
     for (unsigned bit = 1; bit < FEATURE_END; bit <<= 1)

@@ -1,4 +1,4 @@
-/* The geometrically exact beam (Reissner, Simo) with warping as in general-purpose codes: two or
+/* The geometrically exact beam (Reissner, Simo) with warping, as in general-purpose codes: two or
  * three nodes, reduced integration, strains at the integration points. */
 #include <math.h>
 #include <string.h>
@@ -9,10 +9,10 @@
 
 enum { OPTION_NODES };
 
-/* Transverse compliance of an element in a plane; an axial force N is too large for the element
- * where N times it reaches 1. Contributions: the shear of the section [1/N], a property of the
- * beam, and the bending in the place of shear, l^2/12EI or l^2/60EI (exact.h), a property of the
- * mesh. */
+/* Transverse compliance of an element in a plane; an axial force N is too large for the element if
+ * N times this compliance reaches 1. Contributions: the shear flexibility of the section [1/N], a
+ * property of the beam, and the bending flexibility that is treated as shear, l^2/12EI or l^2/60EI
+ * (exact.h), a property of the mesh. */
 typedef struct across {
     double shear, bending;
 } across;

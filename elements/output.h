@@ -22,14 +22,14 @@ typedef struct stress_output {
 
 /* Outputs of `inertia`. */
 typedef struct inertia_output {
-    double *M; /* [7n x 7n] mass matrix: translations [kg]; with `rate` the one for transient
-                  analysis */
+    double *M; /* [7n x 7n] mass matrix: translations [kg]; with `rate`, the mass matrix for
+                  transient analysis */
     /* In a rotating frame; zero without rotation. */
     double *potential; /* [1] centrifugal: -1/2 int |Omega x r|^2 dm [J] */
     double *force;     /* [7n] centrifugal, outward: -d potential/dx [N, N m, N m^2] */
     double *N;         /* [7n x 7n] d2 potential/dx2, symmetric: centrifugal softening */
     double *G;         /* [7n x 7n] gyroscopic, skew: M x'' + G x' + (K + N) x = 0 */
-    /* In transient analysis, for types with consistent mass (element_type.spreads); without a
+    /* In transient analysis, for types with consistent mass (element_type.spreads), without a
      * rotating frame. */
     const double
         *rate; /* in: [7n] x', angular velocities spatial; NULL: not a transient analysis */
@@ -40,7 +40,7 @@ typedef struct inertia_output {
                   only increase the number of iterations */
 } inertia_output;
 
-/* Outputs of a type without strain and stress functions: those of the whole element. */
+/* Outputs of a type without strain and stress functions, for the whole element. */
 typedef struct force_output {
     double *energy; /* [1] [J] */
     double
@@ -59,7 +59,7 @@ enum { ELEMENT_ALONG_POINTS = 8, ELEMENT_ALONG_COORDINATES = 14 };
  * where the frame of the strains rotates by turn dx in its own axes. */
 typedef struct along_output {
     const double *force; /* in: [8 x 3] at Gauss points of [0, 1], global axes [N/m] */
-    const double *rate;  /* in: as force; if not NULL, sigma, moment and ends are derivatives with
+    const double *rate;  /* in: like force; if not NULL, sigma, moment and ends are derivatives with
                             respect to its size, and other outputs are not used */
     const double *e;     /* in: [strains]; NULL: for the undeformed element, linear in the force */
     const double *inner; /* in: [inner] */

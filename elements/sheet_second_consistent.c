@@ -1,5 +1,5 @@
-/* The second-order element of N section 2 with the shear terms kept in the generalized strains:
- * fourth order, exact limit where shear strains and elongation are small. */
+/* The second-order element of N section 2 with the shear terms included in the generalized strains:
+ * fourth order, with an exact limit if shear strains and elongation are small. */
 #include "elements/sheet/sheet.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)

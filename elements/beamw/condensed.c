@@ -50,12 +50,12 @@ void beamw_modified_printed(const section *c, unsigned features, element_data *d
  * strains are evaluated on the linear solution and weighted with its stresses, e1 = int gx, e2 = l
  * int kx, e3 = int [(l-s) ky - gz], e4 = int [s ky + gz], e5 = int [(l-s) kz + gy], e6 = int [s kz
  * - gy]. Strains are those of the Simo-Reissner beam at the centroid (gamma, kappa); e7 and e8 need
- * nothing, since the amplitude at a node is the twist rate kx there less its warping shear,
- * whatever the frame. This determines which closed form applies for uniform moment and axial load:
- * gamma rotates with the section, so that stress resultants couple through the section's rotation
- * (Haringx); the slope w' of the fibre (Engesser, J) enters only when the squares of the shear
- * strains are added to gamma_x, as J's kinematics does (fibres_at below). Proof and reduction to J
- * Eq. 66: reference/derive/second_order.py. */
+ * nothing, since the amplitude at a node is the twist rate kx there minus its warping shear, in any
+ * frame. This determines which closed form applies for uniform moment and axial load: gamma rotates
+ * with the section, so that stress resultants couple through the section's rotation (Haringx); the
+ * slope w' of the fibre (Engesser, J) enters only when the squares of the shear strains are added
+ * to gamma_x, as J's kinematics does (fibres_at below). Proof and reduction to J Eq. 66:
+ * reference/derive/second_order.py. */
 
 enum { N = BEAMW_MODIFIED_VARIABLES, Z = BEAMW_STRAINS };
 
@@ -74,8 +74,8 @@ typedef struct point_fields {
     double rotation[3][N], rate[3][N], shear_y[N], shear_z[N], extension[N];
 } point_fields;
 
-/* rotation = rate of change times x - 1/2 plus what bends or twists unevenly; shear is constant at
- * the shear centre. */
+/* Computes the fields: rotation = rate of change times x - 1/2, plus uneven bending and twist;
+ * shear is constant at the shear centre. */
 static void fields_at(const section *c, double l, double x, const beamw_twist *t,
                       const beamw_stiffness_fields *s, point_fields *out)
 {
@@ -188,7 +188,7 @@ void beamw_modified_consistent(const section *c, unsigned features, double l, co
     }
 }
 
-/* Q of e alone: T^T Q T, T = (1, hg). */
+/* Q for e alone: T^T Q T, T = (1, hg). */
 void beamw_modified_reduce(const beamw_stiffness_fields *fields, double Q[BEAMW_MODIFIED][N * N],
                            element_data *d)
 {
@@ -209,12 +209,12 @@ enum {
     ALL = BEAMW_CONDENSED_ALL
 };
 
-/* (u, h) of (e, z). */
+/* (u, h) as functions of (e, z). */
 typedef struct parts {
     double P[ALL][E], Q[ALL][N * N];
 } parts;
 
-/* Uniform torsion: without A and the warping part; rows and columns of z_w are zero. */
+/* Removes warping for uniform torsion: A and the warping part; rows and columns of z_w are zero. */
 static void without_warping(beamw_condensed *out, parts *of)
 {
     for (int r = 0; r < ALL; r++) {

@@ -10,7 +10,7 @@
 #include "elements/math/dense.h"
 #include "elements/shared/lanes.h"
 
-/* Internal modes (variants.h) and the functions of them: (u, h) of y = (e, z), with D the quadratic
+/* Internal modes (variants.h) and functions of them: (u, h) of y = (e, z), with D the quadratic
  * parts of their derivatives; for one element or several in lanes. */
 
 enum {
@@ -27,13 +27,13 @@ typedef struct beamw_internal {
     real reach[3]; /* sum of the absolute terms of h that are linear in e */
 } beamw_internal;
 
-/* Row r of D at z. */
+/* Returns row r of D at z. */
 static inline const real *beamw_internal_inside(const beamw_internal *s, int r)
 {
     return s->D + BEAMW_INTERNAL_Y * r + BEAMW_INTERNAL_Z;
 }
 
-/* D dz of the columns of z. */
+/* Computes D dz for the columns of z. */
 static inline void beamw_internal_along(const beamw_internal *s, const real dz[3],
                                         real out[BEAMW_CONDENSED_ROWS])
 {
@@ -85,7 +85,7 @@ static inline void beamw_internal_linear(const beamw_condensed *d, beamw_interna
     }
 }
 
-/* u, h and D of y, without the effect of z on the columns of e. */
+/* Computes u, h and D for y, without the effect of z on the columns of e. */
 static inline void beamw_internal_evaluate(const beamw_condensed *d, beamw_internal *s)
 {
     enum { Y = BEAMW_INTERNAL_Y, Z = BEAMW_INTERNAL_Z };
@@ -111,7 +111,7 @@ static inline void beamw_internal_evaluate(const beamw_condensed *d, beamw_inter
     beamw_internal_add_half(d, quadratic, s);
 }
 
-/* As beamw_internal_evaluate, after z has changed by dz. */
+/* Like beamw_internal_evaluate, after z has changed by dz. */
 static inline void beamw_internal_move(const beamw_condensed *d, const real dz[3],
                                        beamw_internal *s)
 {
@@ -136,7 +136,7 @@ static inline void beamw_internal_finish(const beamw_condensed *d, beamw_interna
         s->D[d->term[t].to] += d->term[t].c * s->y[d->term[t].j];
 }
 
-/* Weights conjugate to the rows of D. */
+/* Computes the weights conjugate to the rows of D. */
 static inline void beamw_internal_weights(const beamw_condensed *d, const beamw_internal *s,
                                           real w[BEAMW_CONDENSED_ROWS])
 {
@@ -157,7 +157,7 @@ typedef struct beamw_hessian {
     real_truth regular; /* 1: G and X are far from singular; 0: use pivots */
 } beamw_hessian;
 
-/* dh/dz - 1 and Kzz. */
+/* Computes dh/dz - 1 and Kzz. */
 static inline void beamw_hessian_evaluate(const beamw_condensed *d, const beamw_internal *s,
                                           const real w[BEAMW_CONDENSED_ROWS], beamw_hessian *k)
 {
@@ -183,9 +183,9 @@ static inline void beamw_hessian_evaluate(const beamw_condensed *d, const beamw_
     }
 }
 
-/* inverse = A^-1 by cofactors, which do not depend on the units of rows and columns. Returns where
- * the determinant of A is below -1/10: G and X are -1 without stress or flexibility, and change
- * with it. */
+/* inverse = A^-1 by cofactors, which do not depend on the units of rows and columns. Returns the
+ * lanes in which the determinant of A is below -1/10: G and X are -1 without stress or flexibility,
+ * and change with it. */
 static inline real_truth beamw_hessian_invert(const real A[9], real inverse[9])
 {
     for (int i = 0; i < 3; i++) {
@@ -232,8 +232,8 @@ static inline void beamw_hessian_solve(const beamw_hessian *k, const real z[3], 
         dz[i] = Hq[i] + more[i];
 }
 
-/* The Hessian of one lane with pivoting: solves for the columns of right[6 x columns] in place.
- * Returns 0, or 1 when it is singular. */
+/* Solves with the Hessian of one lane, with pivoting, for the columns of right[6 x columns] in
+ * place. Returns 0, or 1 if it is singular. */
 static inline int beamw_hessian_pivoted(const beamw_condensed *d, const beamw_hessian *k, int lane,
                                         int columns, double right[])
 {
@@ -257,7 +257,7 @@ static inline int beamw_hessian_pivoted(const beamw_condensed *d, const beamw_he
 
 enum { BEAMW_EQUILIBRIUM_MOST = 30 }; /* iterations */
 
-/* A step of Newton's method: dz and dq are to be subtracted; NaN if there is none. */
+/* Computes a step of Newton's method: dz and dq are to be subtracted; NaN if there is none. */
 static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_internal *s,
                                           real dz[3], real dq[3])
 {
@@ -291,7 +291,7 @@ static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_
     }
 }
 
-/* Newton's method for z and q. Returns where it has converged; converged lanes do not change
+/* Solves for z and q by Newton's method. Returns the lanes that have converged; these do not change
  * further. */
 static inline real_truth beamw_equilibrium_settle(const beamw_condensed *d, beamw_internal *s)
 {
@@ -310,7 +310,7 @@ static inline real_truth beamw_equilibrium_settle(const beamw_condensed *d, beam
             s->q[i] -= real_choose(left, dq[i], real_of(0));
         }
         beamw_internal_move(d, dz, s);
-        good &= change <= DBL_MAX; /* for converged lanes too, which are evaluated as before */
+        good &= change <= DBL_MAX; /* also for converged lanes, which are evaluated as before */
         left &= good & (change > close_enough * close_enough * size);
     }
     return good & (left == 0);
@@ -364,7 +364,8 @@ static inline void beamw_equilibrium_rows(const beamw_condensed *d, const beamw_
         o->z[d->term[t].entry] += d->term[t].c * w[d->term[t].row];
 }
 
-/* C of one lane whose Hessian is factored with pivoting. Returns 1, or 0 when it is singular. */
+/* Computes C of one lane whose Hessian is factored with pivoting. Returns 1, or 0 if it is
+ * singular. */
 static inline int beamw_equilibrium_condense_pivoted(const beamw_condensed *d,
                                                      const beamw_internal *s,
                                                      const beamw_hessian *k, int lane, real C[])
@@ -394,7 +395,7 @@ static inline int beamw_equilibrium_condense_pivoted(const beamw_condensed *d,
     return 1;
 }
 
-/* C = C_ee - (z, q)^T Hessian^-1 (z, q). Returns where the Hessian is regular. */
+/* C = C_ee - (z, q)^T Hessian^-1 (z, q). Returns the lanes in which the Hessian is regular. */
 static inline real_truth beamw_equilibrium_condense(const beamw_condensed *d,
                                                     const beamw_internal *s, real C[])
 {
@@ -459,7 +460,7 @@ static inline void beamw_equilibrium_forces(const beamw_condensed *d, const beam
         sigma[d->linear[t].i] += d->linear[t].c * dual[d->linear[t].row];
 }
 
-/* As element_type.stress; returns where an equilibrium exists. */
+/* Like element_type.stress; returns the lanes in which an equilibrium exists. */
 static inline real_truth beamw_equilibrium_stress(const beamw_condensed *d,
                                                   const real e[BEAMW_STRAINS], stress_real *out)
 {

@@ -10,11 +10,11 @@
 /* The complementary energy of B odd about the middle, B = b sinh(lambda (x - 1/2))/sinh(lambda/2),
  * is 1/2 [(T - M)^2 l/(G It) + l (Q, M) f (Q, M) + M^2 l (1/(G It) + f_ww) excess], M the mean of
  * M_w: with bending, shear and warping in series as for cubic functions, and the warping stiffness
- * E Iw lambda^2/(l excess). For even B it is that of the ends, B a. No expression here overflows or
- * cancels for any lambda > 0. */
+ * E Iw lambda^2/(l excess). For even B it is the energy at the ends, B a. No expression here
+ * overflows or cancels for any lambda > 0. */
 
 enum { CUBIC_POINTS = 4, PANEL_POINTS = 16, LAYER_PANELS = 4 };
-/* Lambda times the width of a panel: e^-20 within 16 points. */
+/* Lambda times the width of a panel: 16 points integrate this to within e^-20. */
 static const double panel_decay = 10;
 
 /* sinh h - h. */
@@ -88,7 +88,7 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x)
     return s;
 }
 
-/* Panels of an element; returns their number. */
+/* Computes the panels of an element; returns their number. */
 static int panels_of(const beamw_twist *t, double edge[2 * LAYER_PANELS + 2])
 {
     int panels = 1;
@@ -162,7 +162,7 @@ static void split(const section *c, double l, beamw_stiffness_shear kind, const 
         }
         return;
     }
-    /* (Ka + G l D)^-1 G l D = (I + F Ka/(G l))^-1, which exists for F = 0 too */
+    /* (Ka + G l D)^-1 G l D = (I + F Ka/(G l))^-1, which also exists for F = 0 */
     double A[9];
     int pivot[3];
     for (int i = 0; i < 3; i++)

@@ -6,11 +6,11 @@
 #include "elements/shared/masses.h"
 #include "elements/shared/status.h"
 
-/* How the rate of twist is distributed along an element: cubic functions (J Eq. 38), or hyperbolic
- * ones, the exact linear solution with Saint-Venant torsion. If M_w = -B' is constant except for
- * torsion, T = G It kx + M_w and kx - a = f (Q, M_w), B'' = (lambda/l)^2 B, lambda^2 = l^2 G It/(E
- * Iw (1 + r)), r = G It f_ww, l^2 kx = e2 + A odd(x) + tw even(x); odd -> 1 - 2x, even -> 6x(1-x) -
- * 1 for lambda -> 0. */
+/* Distribution of the twist rate along an element: cubic functions (J Eq. 38), or hyperbolic
+ * functions, the exact linear solution with Saint-Venant torsion. If M_w = -B' is constant except
+ * for torsion, T = G It kx + M_w and kx - a = f (Q, M_w), B'' = (lambda/l)^2 B, lambda^2 = l^2 G
+ * It/(E Iw (1 + r)), r = G It f_ww, l^2 kx = e2 + A odd(x) + tw even(x); odd -> 1 - 2x, even ->
+ * 6x(1-x) - 1 for lambda -> 0. */
 
 typedef enum beamw_twist_kind { BEAMW_TWIST_CUBIC, BEAMW_TWIST_HYPERBOLIC } beamw_twist_kind;
 
@@ -37,7 +37,7 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x);
 
 enum { BEAMW_TWIST_MAX_POINTS = 144 };
 
-/* Points and weights on [from, to] in [0, 1] that integrate products of two shapes with
+/* Computes points and weights on [from, to] in [0, 1] that integrate products of two shapes with
  * polynomials; returns their number. */
 int beamw_twist_points(const beamw_twist *t, double from, double to,
                        double x[BEAMW_TWIST_MAX_POINTS], double w[BEAMW_TWIST_MAX_POINTS]);
@@ -89,8 +89,9 @@ status beamw_spread_inertia(const beamw_spread *, const node_state x[2],
                             const element_rotating_frame *, inertia_output *);
 
 /* Mass along a two-node element in transient analysis: inertia forces, with derivatives. The masses
- * follow the displacements above, that of warping is at the nodes; without rotary inertia the twist
- * is linear between them. A rigid motion of the nodes is a rigid motion of all masses. */
+ * follow the displacements above, except that the warping mass is at the nodes; without rotary
+ * inertia the twist is linear between them. A rigid motion of the nodes is a rigid motion of all
+ * masses. */
 
 /* out += M, taken, C and K at its rate; only the upper half of M is set. The second function is for
  * processors with AVX2, with the same bits (elements/math/real.h). */

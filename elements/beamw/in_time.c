@@ -1,4 +1,4 @@
-/* Masses at points of quadrature on vectors of the section, y = lin(r + R a) + sum m_k (nu_k . e)
+/* Masses at quadrature points, on vectors of the section, y = lin(r + R a) + sum m_k (nu_k . e)
  * (inertia.c), m_k the mean of the nodes' unit vectors:
  *   y'' = lin(r'') + sum over nodes A f + sum over k (2 m_k' (nu_k . e)' + m_k (nu_k . e)''),
  *   f = part R a + sum over k (nu_k . e)/2 n_k,   A = w'~ + w~ w~,   e'' = J x'' + x'.H x',
@@ -109,10 +109,10 @@ static void set_modes(moving_line *c)
         c->second[j] += dense_dot(N, c->J + N * j, c->out->acceleration);
 }
 
-/* A mass at a point of quadrature. */
+/* A mass at a quadrature point. */
 typedef struct line_point {
     double mass, part[NODES], shift; /* shift 1: a position, 0: a vector fixed to the section */
-    int axes, axis[AXES];            /* those m_k for which it has functionals */
+    int axes, axis[AXES];            /* those m_k for which the point has functionals */
     double nu[AXES][MODES], value[AXES], rate[AXES];
     double f[NODES][3]; /* fixed to the nodes */
     double F[3];        /* mass times acceleration */
@@ -193,7 +193,7 @@ static void add_taken(moving_line *c, const line_point *p)
     }
 }
 
-/* T: -v~ in the columns of a node's rotations. */
+/* Sets T: -v~ in the columns of a node's rotations. */
 static void add_turn(double size, const double v[3], int node, row T[3])
 {
     double A[9] = {0};
@@ -281,7 +281,7 @@ static void add_chart(const double F[3], const double f[3], double B[9])
     add_crossed(0.5, f, F, B);
 }
 
-/* Gathers the second derivatives of F . d2y/dx2: rotations of the fixed vectors, and products of
+/* Collects the second derivatives of F . d2y/dx2: rotations of the fixed vectors, and products of
  * rotations and modes. */
 static void gather_curvature(moving_line *c, const line_point *p)
 {
@@ -315,7 +315,8 @@ static void add_curvature(moving_line *c)
         c->out->K[i] += H[i];
 }
 
-/* Moment of inertia about n_X alone, for a component w . n_X that is linear between the nodes. */
+/* Adds the moment of inertia about n_X, for a component w . n_X that is linear between the
+ * nodes. */
 static void add_twist(moving_line *c, double polar)
 {
     inertia_output *out = c->out;
@@ -364,7 +365,7 @@ static void add_mass(moving_line *c, double mass, const double a[3], int place)
     }
 }
 
-/* Rotary inertia, from unit vectors of the section or from its matrices. */
+/* Adds rotary inertia, from unit vectors of the section or from its matrices. */
 static void add_rotary(moving_line *c)
 {
     static const double unit[AXES][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -7,7 +7,7 @@
 #include "elements/math/scalar.h"
 #include "elements/shared/masses.h"
 
-/* Moving vectors of the consistent mass at the points of quadrature. */
+/* Moving vectors of the consistent mass at the quadrature points. */
 
 enum { N = 14, RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
 enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */
@@ -74,7 +74,7 @@ static void beamw_inertia_values_at(const beamw_inertia_state *c, const beamw_sp
     }
 }
 
-/* dy/dx without the rotation of vectors fixed to the nodes. */
+/* Computes dy/dx without the rotation of vectors fixed to the nodes. */
 static void beamw_inertia_gradient(const beamw_inertia_state *c, const beamw_inertia_values *at,
                                    const beamw_inertia_vector *y, double T[3 * N])
 {
@@ -94,7 +94,7 @@ static void beamw_inertia_gradient(const beamw_inertia_state *c, const beamw_ine
     }
 }
 
-/* Position in the frame, and the vectors fixed to the nodes with their weights. */
+/* Computes the position in the frame, and the vectors fixed to the nodes with their weights. */
 static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inertia_values *at,
                                 const beamw_inertia_vector *y, double r[3], double fixed[2][3])
 {
@@ -191,7 +191,7 @@ static const beamw_inertia_vector position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU
                                                  {2, 2, {{0, CHI_Y, 1}, {1, CHI_X, -1}}}},
                                   warping = {NOTHING, 1, {{0, PSI, 1}}};
 
-/* Gathers the second derivatives of F . m_k (field . e). */
+/* Collects the second derivatives of F . m_k (field . e). */
 static void gather_curvature(beamw_inertia_state *c, const double F[3],
                              const beamw_inertia_values *at, const beamw_inertia_vector *y)
 {
@@ -226,7 +226,7 @@ static void add_interpolated(beamw_inertia_state *c, const beamw_inertia_values 
     gather_curvature(c, F, at, y);
 }
 
-/* A twist whose rate has a mass, without effect of a rotating frame. */
+/* Adds a twist whose rate has a mass; a rotating frame has no effect on it. */
 static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *at, double mass)
 {
     double row[N];
@@ -240,7 +240,7 @@ static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *
             c->out->M[N * i + j] += mass * row[i] * row[j];
 }
 
-/* y += size times a vector of the field; likewise its T. */
+/* y += size times a vector of the field; likewise for T. */
 static void add_part(const beamw_inertia_state *c, const beamw_inertia_values *at,
                      const beamw_inertia_vector *part, double size, moving_vector *y,
                      double T[3 * N], double fixed[2][3])

@@ -34,7 +34,8 @@ static void axis_of(const node_state *x, const double w[3], int k, double v[3], 
     vec3_cross(w, v, turns);
 }
 
-/* Gradient of c n . v, where v is an axis of the node whose rotations begin at `rotation`. */
+/* Computes the gradient of c n . v, where v is an axis of the node whose rotations begin at
+ * `rotation`. */
 static void bending(const chord *d, double c, const node_state *x, int k, int rotation,
                     const double rate[N], double row[N])
 {
@@ -117,7 +118,7 @@ void beamw_screw_far_factors(double square, double f[SCREW_FACTORS])
     const double a = sqrt(square), s = sin(a), c = cos(a), tangent = tan(a / 2),
                  p = (s - a * c) / (s * s);
     const double slope = (a * s * s - 2 * c * (s - a * c)) /
-                         (s * s * s); /* of p, which is the derivative of a/sin a */
+                         (s * s * s); /* with respect to p, which is the derivative of a/sin a */
     double *nu = f + SCREW_NU, *mu = f + SCREW_MU, *tau = f + SCREW_TAU;
     mu[0] = a / s;
     mu[1] = p / (2 * a);

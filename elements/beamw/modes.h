@@ -36,7 +36,8 @@ static inline void beamw_modes_of(double l0, const node_real x[2], beamw_modes *
         m->n[i] = d[i] / m->l;
 }
 
-/* Gradient of c n . v, where v is fixed to the node whose rotation columns begin at `rotation`. */
+/* Computes the gradient of c n . v, where v is fixed to the node whose rotation columns begin at
+ * `rotation`. */
 static inline void beamw_modes_bending_row(const beamw_modes *m, double c, const real v[3],
                                            int rotation, real row[MODES_COORDINATES])
 {
@@ -95,8 +96,8 @@ static inline void beamw_modes_crossing(real c, const real u[3], const real v[3]
     }
 }
 
-/* Second derivative of n . v with respect to the position of q and a rotation of v: (v~ - n (n x
- * v)^T)/l */
+/* Computes the second derivative of n . v with respect to the position of q and a rotation of v:
+ * (v~ - n (n x v)^T)/l */
 static inline void beamw_modes_mixed(const beamw_modes *m, const real v[3], real rt[9])
 {
     real across[3];
@@ -166,7 +167,7 @@ static inline void beamw_modes_place(const beamw_modes_blocks *b,
         }
 }
 
-/* As element_type.strain; l0: initial length [m]. */
+/* Like element_type.strain; l0: initial length [m]. */
 static inline void beamw_modes_evaluate(double l0, const node_real x[2], strain_real *out)
 {
     beamw_modes m;

@@ -18,7 +18,7 @@ static inline void beamw_modified_stress_of(const element_data *d, const real x[
         y[d->spring[t].i] += d->spring[t].c * x[d->spring[t].j];
 }
 
-/* C of the conjugate stresses S ebar. */
+/* Computes C for the conjugate stresses S ebar. */
 static inline void beamw_modified_stress_stiffness(const element_data *d, const real D[],
                                                    const real conjugate[BEAMW_STRAINS], real C[])
 {

@@ -62,7 +62,7 @@ static inline void beamw_screw_factors(real square, real f[SCREW_FACTORS])
     }
 }
 
-/* Quaternion of a rotation, w >= 0; computed from the trace when that is its largest part. */
+/* Computes the quaternion of a rotation, w >= 0, from the trace if this is its largest part. */
 static inline void beamw_screw_quaternion(const real B[9], real q[4])
 {
     const real trace = B[0] + B[4] + B[8];
@@ -86,13 +86,14 @@ static inline void beamw_screw_quaternion(const real B[9], real q[4])
     }
 }
 
-/* a and R from the triads of the nodes. */
+/* Computes a and R from the triads of the nodes. */
 static inline void beamw_screw_half_way(const node_real x[2], screw *w)
 {
     real between[9], q[4], half[9];
     mat3_transpose_mul(x[0].R, x[1].R, between);
     beamw_screw_quaternion(between, q);
-    /* half of the angle = atan2(v, w); over v 1/w (1 - (v/w)^2/3 + ..) near 0, where w = 1 */
+    /* half of the angle = atan2(v, w); divided by v: 1/w (1 - (v/w)^2/3 + ..) near 0, where w =
+     * 1 */
     const real square = q[1] * q[1] + q[2] * q[2] + q[3] * q[3], v = real_sqrt(square),
                scale = real_choose(v > 1e-5, real_atan2(v, q[0]) / v, (1 - square / 3) / q[0]);
     const real cosine = real_sqrt((1 + q[0]) / 2), sines = 0.5 / cosine;
@@ -118,7 +119,7 @@ static inline void beamw_screw_of(double l0, const node_real x[2], screw *w)
         d[i] = x[1].r[i] - x[0].r[i];
     }
     mat3_transpose_mul_vec(w->R, d, w->D);
-    /* D_x^2 - l0^2 without a difference of lengths: |d|^2 - l0^2 = (2 d - moved) . moved */
+    /* D_x^2 - l0^2 without subtracting lengths: |d|^2 - l0^2 = (2 d - moved) . moved */
     const real squares =
         2 * vec3_dot(d, moved) - vec3_dot(moved, moved) - w->D[1] * w->D[1] - w->D[2] * w->D[2];
     const real extension =
@@ -155,7 +156,7 @@ typedef struct screw_work {
     real difference[3];
 } screw_work;
 
-/* Completes it from g and t. */
+/* Completes the work conjugates from g and t. */
 static inline void beamw_screw_rates_complete(const screw *w, screw_work *k)
 {
     real side[3];
@@ -166,7 +167,7 @@ static inline void beamw_screw_rates_complete(const screw *w, screw_work *k)
         k->difference[i] = k->p[i] + w->f[SCREW_TAU] / 2 * side[i];
 }
 
-/* Work of forces f and moments. */
+/* Computes the work conjugates of forces f and moments. */
 static inline void beamw_screw_rates_work(const screw *w, const real f[3], const real moment[3],
                                           screw_work *k)
 {
@@ -201,7 +202,8 @@ static inline void beamw_screw_rates_gradient(const screw *w, screw_gradient *ou
     mat3_mul(w->R, difference, out->delta);
 }
 
-/* A row: sign of the gradient of U_translation and `part` of l0 times that of psi_rotation. */
+/* Computes a row: sign of the gradient of U_translation and `part` of l0 times that of
+ * psi_rotation. */
 static inline void beamw_screw_rates_row(const screw_gradient *g, int translation, double sign,
                                          int rotation, double part, real row[SCREW_COORDINATES])
 {
@@ -227,7 +229,8 @@ typedef struct screw_form {
     real vd[9], ss[9], sd[9], dd[9];
 } screw_form;
 
-/* Second derivatives of f . U with respect to (D, psi): bent [psi, psi], mixed [psi, D]. */
+/* Computes the second derivatives of f . U with respect to (D, psi): bent [psi, psi], mixed [psi,
+ * D]. */
 static inline void beamw_screw_forms_translation(const screw *w, const real f[3], real bent[9],
                                                  real mixed[9])
 {
@@ -254,7 +257,7 @@ static inline void beamw_screw_forms_translation(const screw *w, const real f[3]
         }
 }
 
-/* In v, w and delta; the blocks of w are stored in place of those of s. */
+/* Transforms to v, w and delta; the blocks of w are stored in place of those of s. */
 static inline void beamw_screw_forms_middle(const screw *w, const screw_work *k, const real f[3],
                                             screw_form *out)
 {
@@ -292,7 +295,7 @@ static inline void beamw_screw_forms_middle(const screw *w, const screw_work *k,
     }
 }
 
-/* w = s + C delta, C = -tau/2 a~. */
+/* Transforms by w = s + C delta, C = -tau/2 a~. */
 static inline void beamw_screw_forms_nodes(const screw *w, const screw_work *work, screw_form *k)
 {
     real c[3], ssC[9], Csd[9];
@@ -376,12 +379,13 @@ static inline void beamw_screw_forms_second(const screw *w, const real f[3], con
     beamw_screw_forms_nodal(w, &k, &second, H);
 }
 
-/* Helicoidal strains, those of a beam with uniform strains. For the screw displacement from node p
- * and its triad to node q, with the rotation vector psi and the translation U in axes that rotate
- * along the screw, e1 = U_x - l0, e2 = l0 psi_x, e3, e4 = l0 psi_y/2 -+ U_z, e5, e6 = l0 psi_z/2 +-
- * U_y, e7, e8 = l0^2 a. They agree with J Eq. 7 to first order, and do not change when p and q are
- * exchanged. Uniform strains of any size are represented exactly, U = l0 (e_x + gamma), psi = l0
- * kappa; with shear this is not so for J's sines of angles to the chord. */
+/* Helicoidal strains, which are those of a beam with uniform strains. For the screw displacement
+ * from node p and its triad to node q, with the rotation vector psi and the translation U in axes
+ * that rotate along the screw, e1 = U_x - l0, e2 = l0 psi_x, e3, e4 = l0 psi_y/2 -+ U_z, e5, e6 =
+ * l0 psi_z/2 +- U_y, e7, e8 = l0^2 a. They agree with J Eq. 7 to first order, and do not change
+ * when p and q are exchanged. Uniform strains of any size are represented exactly, U = l0 (e_x +
+ * gamma), psi = l0 kappa; with shear deformation, this is not so for J's sines of angles to the
+ * chord. */
 
 /* e1 .. e6: sign U_translation + part psi_rotation l0. */
 static const struct {
@@ -391,7 +395,7 @@ static const struct {
                                {2, 1, 1, 0.5}, {1, 2, 1, 0.5}, {1, 2, -1, 0.5}};
 enum { BEAMW_HELICOIDAL_ALONG = 6 };
 
-/* As element_type.strain, for one element or several in lanes; l0 [m]: initial length. */
+/* Like element_type.strain, for one element or several in lanes; l0 [m]: initial length. */
 static inline void beamw_helicoidal_evaluate(double l0, const node_real x[2], strain_real *out)
 {
     enum { N = SCREW_COORDINATES };

@@ -18,7 +18,7 @@ typedef struct beamw_quadratic_term {
     short entry;        /* position in a matrix of second derivatives */
 } beamw_quadratic_term;
 
-/* Term of row `row` of `rows`, with n variables. */
+/* Returns the term of row `row` of `rows`, with n variables. */
 static inline beamw_quadratic_term beamw_quadratic_of(double c, int rows, int n, int row, int i,
                                                       int j, int entry)
 {
@@ -62,7 +62,7 @@ void beamw_variants_add_product(double Q[8 * 8], double c, const double a[8], co
  * treats a whole variant. */
 void beamw_variants_merge_torsion(int n, double A[]);
 void beamw_variants_drop_warping(element_data *d);
-/* Call when S and Q are complete. */
+/* Lists the nonzero terms; call it when S and Q are complete. */
 void beamw_variants_list(element_data *d);
 
 size_t beamw_variants_data_size(const element_request *);
@@ -80,17 +80,17 @@ void beamw_variants_geometric(const element_data *d, const double sigma[], doubl
 
 /* Second-order modified modes: the Q_i of a BEAMW variant. */
 
-/* J Eq. 66 as printed: for Phi = 0 and the shear centre at the centroid consistent, otherwise not.
- */
+/* Sets J Eq. 66 as printed, which is consistent only for Phi = 0 and the shear centre at the
+ * centroid. */
 void beamw_modified_printed(const section *c, unsigned features, element_data *d);
 
 enum {
     BEAMW_MODIFIED_VARIABLES = BEAMW_STRAINS + 3
 }; /* e, followed by z: the bending (y, z) and warping parts of h [3] */
 
-/* From the full shear interpolation: consistent with shear and eccentricity (reference/ERRATA.md),
- * either theory of shear in stability, with the monosymmetric Wagner moments where requested.  ebar
- * = e + 1/2 y^T Q y, y = (e, z). */
+/* Sets modes from the full shear interpolation: consistent with shear and eccentricity
+ * (reference/ERRATA.md), for either shear theory in stability, with the monosymmetric Wagner
+ * moments if requested. ebar = e + 1/2 y^T Q y, y = (e, z). */
 void beamw_modified_consistent(
     const section *c, unsigned features, double l0, const beamw_twist *t,
     const beamw_stiffness_fields *fields,
@@ -102,10 +102,10 @@ void beamw_modified_reduce(
     double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES], element_data *d);
 
 /* A stress function with condensed internal modes that depend on the stress: bending, shear and
- * warping share the antisymmetric deformation h according to equilibrium of the stressed element,
- * instead of the unstressed one. With z the bending and warping part of h, energy = stationary over
- * z and q of 1/2 sum_r k_r u_r^2 + 1/2 z^T Ka z + q . (h - z) - 1/2 q^T F q/(G l), where u = (e1,
- * e2, e3 + e4, e5 + e6, (e7 - e8)/2) and h are those of ebar = e + 1/2 (e, z)^T Q (e, z). q is
+ * warping share the antisymmetric deformation h according to equilibrium of the stressed element
+ * instead of the unstressed element. With z the bending and warping part of h, energy = stationary
+ * over z and q of 1/2 sum_r k_r u_r^2 + 1/2 z^T Ka z + q . (h - z) - 1/2 q^T F q/(G l), where u =
+ * (e1, e2, e3 + e4, e5 + e6, (e7 - e8)/2) and h are those of ebar = e + 1/2 (e, z)^T Q (e, z). q is
  * conjugate to h, so that F = 0 is possible. */
 
 enum {
@@ -131,19 +131,20 @@ typedef struct beamw_condensed {
     double odd[BEAMW_STRAINS * BEAMW_STRAINS]; /* d2/de2 of 1/2 k5 u5^2 [N/m] */
     int linears; /* linear terms of (u, h) in e; rows as in k, then those of h */
     beamw_condensed_linear linear[BEAMW_CONDENSED_ALL * BEAMW_STRAINS];
-    int mixed, own, terms; /* terms of e alone: entries of [8 x 8]; from `mixed` on of e_i and z_j:
-                              (j, i) in [3 x 8]; from `own` on of z alone: [3 x 3] */
+    int mixed, own,
+        terms; /* terms of e alone: entries of [8 x 8]; from `mixed` on, terms of e_i and z_j: (j,
+                  i) in [3 x 8]; from `own` on, terms of z alone: [3 x 3] */
     beamw_quadratic_term term[BEAMW_CONDENSED_TERMS];
 } beamw_condensed;
 
-/* Q from beamw_modified_consistent; warping 0: e7 = e8 = e2, no warping. */
+/* Uses Q from beamw_modified_consistent; warping 0: e7 = e8 = e2, no warping. */
 void beamw_condensed_prepare(
     const section *c, double l0, int shear, int warping, const beamw_twist *t,
     const beamw_stiffness_fields *fields,
     double Q[BEAMW_MODIFIED][BEAMW_MODIFIED_VARIABLES * BEAMW_MODIFIED_VARIABLES],
     beamw_condensed *out);
 
-/* As element_type.stress; NOT_CONVERGED: no equilibrium of the internal modes was found. */
+/* Like element_type.stress; NOT_CONVERGED: no equilibrium of the internal modes was found. */
 status beamw_condensed_stress(const beamw_condensed *d, const double e[BEAMW_STRAINS],
                               stress_output *out);
 
@@ -157,9 +158,9 @@ typedef enum beamw_inertia_kind {
     BEAMW_INERTIA_AVERAGED
 } beamw_inertia_kind;
 
-/* Fills lumped, field and share.  Without FEATURE_ROTARY_INERTIA only translations and the polar
- * moment of the twist count, so that the matrix is singular in the other rotations and in the
- * warping.  fields: NULL for lumped. */
+/* Fills lumped, field and share. Without FEATURE_ROTARY_INERTIA, only translations and the polar
+ * moment for the twist count, so that the matrix is singular in the other rotations and in the
+ * warping. fields: NULL for lumped. */
 void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_kind kind,
                            const beamw_stiffness_fields *fields, element_data *d);
 
@@ -208,7 +209,7 @@ static inline const beamw_consistent_data *beamw_prepare_whole(const element_dat
 status beamw_prepare_consistent(const element_request *request, beamw_consistent_data *out,
                                 fault *f);
 
-/* The option of beamw_prepare_variant, and the additional ones of beamw_prepare_consistent. */
+/* The option of beamw_prepare_variant, and the additional options of beamw_prepare_consistent. */
 extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
 /* Common to all of them. */
 int beamw_prepare_mass_of_field(const double options[]);
@@ -217,7 +218,7 @@ element_order beamw_prepare_order(element_analysis, const double options[]);
 extern const unsigned beamw_prepare_judged[];
 
 /* For element_type: members common to types prepared by beamw_prepare_variant, and their features
- * without theories of shear. */
+ * without the shear theories. */
 #define BEAMW_VARIANT_TYPE                                                                         \
     .family = "beamw", .abi = ELEMENT_ABI, .limits = LIMIT_QUARTER_TURN | LIMIT_EIGHTH_TWIST,      \
     .options = {beamw_prepare_mass}, .judged = beamw_prepare_judged,                               \

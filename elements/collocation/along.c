@@ -38,7 +38,7 @@ static void add_lagrange(const load_points *p, double x, double factor, double o
     }
 }
 
-/* int_x^1 minus half of int_0^1 of them. */
+/* Computes int_x^1 minus half of int_0^1 of the polynomials. */
 static void weights_at(const load_points *p, double x, double out[POINTS])
 {
     for (int j = 0; j < POINTS; j++)
@@ -47,7 +47,7 @@ static void weights_at(const load_points *p, double x, double out[POINTS])
         add_lagrange(p, x + (1 - x) * p->x[m], (1 - x) * p->weight[m], out);
 }
 
-/* R (e_x + g) of the undeformed line in the mean axes. */
+/* Computes R (e_x + g) of the undeformed line in the mean axes. */
 static void undeformed_axis(const element_request *request, double x, double out[3])
 {
     const double strained[3] = {1 + request->strain[0], request->strain[1], request->strain[2]};
@@ -58,7 +58,8 @@ static void undeformed_axis(const element_request *request, double x, double out
     rotation_apply(q, strained, out);
 }
 
-/* Corrections for a curved line; on a straight one the stages integrate a linear load exactly. */
+/* Computes corrections for a curved line; on a straight line the stages integrate a linear load
+ * exactly. */
 static void missed_of(const element_request *request, const exact_stages *s, const load_points *p,
                       double own[EXACT_STAGES_MAX][POINTS], exact_along *out)
 {
@@ -141,7 +142,7 @@ static void add_moment(const double M[9], const double G[9], double moment[3])
     moment[2] += A[3] - A[1];
 }
 
-/* dQ of the mean quaternion Q due to a rotation of node k about axis j: 1/4 e_j o q_k. */
+/* Computes dQ of the mean quaternion Q due to a rotation of node k about axis j: 1/4 e_j o q_k. */
 static void mean_gradient(const exact_along_frame *at, int k, int j, double out[4])
 {
     double axis[4] = {0};
@@ -164,7 +165,7 @@ static void turn_of(const exact_along_frame *at, double turn[3 * X])
         }
 }
 
-/* B [4 x 4] of M : R(u) = u . B u for unit quaternions. */
+/* Computes B [4 x 4] of M : R(u) = u . B u for unit quaternions. */
 static void quadratic_of(const double M[9], double B[4][4])
 {
     B[0][0] = M[0] + M[4] + M[8];
@@ -259,7 +260,7 @@ status exact_along_linear(const exact_stages *s, const exact_along *a, const nod
     exact_collocated_load load;
     memcpy(rest + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof(double));
     exact_along_frame_of(s, a, x, out->force, &at);
-    /* for the size of the force, and for stiffnesses for the rotation */
+    /* first for the size of the force and, for stiffnesses, then for the rotation */
     for (int pass = 0; pass < (out->H != NULL ? 2 : 1); pass++) {
         memset(&load, 0, sizeof load);
         for (int k = 0; k < s->stages; k++)

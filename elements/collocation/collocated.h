@@ -10,8 +10,8 @@
 
 enum { EXACT_VARIABLES_BLOCKS = EXACT_BLOCKS_MAX * (EXACT_BLOCKS_MAX + 1) / 2 };
 
-/* Position, in the blocks of sums.h, of variable i. The constant 1 follows the last variable, and
- * three parameters of a load follow it. Returns the block; `component` is the position in it. */
+/* Returns the block of sums.h that contains variable i; `component` is its position in the block.
+ * The constant 1 follows the last variable, and three parameters of a load follow the constant. */
 static inline int exact_variables_block(int stages, int i, int *component)
 {
     const int outer = i - 3 * stages;
@@ -24,17 +24,16 @@ static inline int exact_variables_block(int stages, int i, int *component)
     return stages + outer / 3;
 }
 
-/* The symmetric matrix A of the blocks [n x n], n variables. */
+/* Computes the symmetric matrix A [n x n] of the blocks, n variables. */
 void exact_variables_matrix(int stages, double A[][9], int n, double matrix[]);
 
-/* Eliminates the unknowns with row exchange, for cases where the elimination of sums.h would lose
- * digits: blocks of the strains, of the constant 1 and the following ones (columns together) in S;
- * X [unknowns/3][9] for each of their block columns. Returns 0, or the number of a failing pivot.
- */
+/* Eliminates the unknowns with row exchange if the elimination of sums.h would lose digits: blocks
+ * of the strains, of the constant 1 and the following ones (columns together) in S; X
+ * [unknowns/3][9] for each of their block columns. Returns 0, or the number of a failing pivot. */
 int exact_variables_eliminate(int stages, int columns, double A[][9], double S[][9],
                               double X[][EXACT_STAGES_MAX][9]);
 
-/* Change of x and x' at point i due to a change of all variables. */
+/* Computes the change of x and x' at point i due to a change of all variables. */
 void exact_variables_change(const exact_stages *s, int i, const double change[], double x[3],
                             double slope[3]);
 
@@ -106,7 +105,7 @@ exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], con
     E[8] = twice;
 }
 
-/* Elimination with row exchange for one lane, columns: of strains, of the constant 1 and the
+/* Eliminates with row exchange for one lane; columns: of strains, of the constant 1 and the
  * following ones. Returns 0, or the number of a failing pivot. */
 static inline int exact_collocated_exchange(int stages, int columns, int lane, exact_collocated *w)
 {
@@ -131,8 +130,8 @@ static inline int exact_collocated_exchange(int stages, int columns, int lane, e
     return 0;
 }
 
-/* Entry for strains i and j after elimination; 8: the constant 1, 9 to 11: rotation of loads along
- * the element. */
+/* Returns the entry for strains i and j after elimination; 8: the constant 1, 9 to 11: rotation of
+ * loads along the element. */
 static inline double exact_collocated_entry(int stages, exact_collocated *w, int i, int j, int lane)
 {
     int row, column;
@@ -210,7 +209,7 @@ exact_collocated_run(int stages, const exact_stages *s, int run, const double *c
     }
 }
 
-/* Evaluates `run` elements of one kind, at most LANES; as element_type.stress_many. */
+/* Evaluates `run` elements of one kind, at most LANES, like element_type.stress_many. */
 static inline void exact_collocated_stress(const exact_stages *s, int run, const double *const e[],
                                            const double *const inner[], stress_output out[],
                                            status outcome[])
@@ -299,7 +298,7 @@ exact_loaded_run(int stages, const exact_stages *s, const exact_along *a, int ru
     }
 }
 
-/* Evaluates `run` elements of one kind, at most LANES; as element_type.along. */
+/* Evaluates `run` elements of one kind, at most LANES, like element_type.along. */
 static inline void exact_loaded_along(const exact_stages *s, const exact_along *a, int run,
                                       const node_state x[], along_output out[], status outcome[])
 {

@@ -79,10 +79,10 @@ void exact_along_frame_of(const exact_stages *, const exact_along *, const node_
  * undeformed line in `moment`. moved[stages][3]: derivative of the energy with respect to xi. */
 void exact_along_finish(const exact_stages *, const exact_along *, const exact_along_frame *,
                         double moved[][3], along_output *);
-/* For the undeformed element, linear in the force. */
+/* Computes the undeformed element, linear in the force. */
 status exact_along_linear(const exact_stages *, const exact_along *, const node_state x[],
                           along_output *);
-/* Derivatives with respect to the size of along_output.rate. */
+/* Computes derivatives with respect to the size of along_output.rate. */
 status exact_along_rate(const exact_stages *, const exact_along *, const node_state x[],
                         along_output *);
 
@@ -96,13 +96,13 @@ static inline void exact_along_column(const double xi[3], double column[9])
 
 /* Geometric stiffness of the undeformed collocation element due to a prestress. */
 
-/* Q[i]: derivative of the condensed stiffness [8 x 8] with respect to stress i in the undeformed
- * geometry, where it is linear; dimensionless. */
+/* Computes Q[i]: derivative of the condensed stiffness [8 x 8] with respect to stress i in the
+ * undeformed geometry, where it is linear; dimensionless. */
 void exact_prestress_derivatives(
     const exact_stages *s, double Q[EXACT_STAGES_OUTER][EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);
 
-/* As above in the direction of loads along the element with fixed nodes, which add along[stages] to
- * F at the points: Q [strains x strains]. */
+/* As above, in the direction of loads along the element with fixed nodes, which add along[stages]
+ * to F at the points: Q [strains x strains]. */
 void exact_prestress_load(const exact_stages *s, double along[][3],
                           double Q[EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);
 
@@ -111,7 +111,7 @@ void exact_prestress_load(const exact_stages *s, double along[][3],
 
 typedef status exact_alone_stresses(const exact_stages *, const double e[], const double inner[],
                                     stress_output *);
-/* As element_type.along, for one element. */
+/* Like element_type.along, for one element. */
 typedef status exact_alone_loads(const exact_stages *, const exact_along *, const node_state x[],
                                  along_output *);
 
@@ -127,7 +127,7 @@ typedef void exact_lanes_loads(const exact_stages *, const exact_along *, int co
 /* For data that begin with exact_stages. */
 exact_lanes_strains exact_lanes_stages_strain_plain, exact_lanes_stages_strain_avx2;
 exact_lanes_stresses exact_lanes_stages_stress_plain, exact_lanes_stages_stress_avx2;
-/* As element_type.along, for at most LANES_TOGETHER elements of one kind. */
+/* Like element_type.along, for at most LANES_TOGETHER elements of one kind. */
 exact_lanes_loads exact_lanes_along_plain, exact_lanes_along_avx2;
 
 #endif

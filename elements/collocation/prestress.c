@@ -2,9 +2,9 @@
  * and the undeformed geometry, the Hessian of the potential is a quadratic polynomial of the
  * prestress. Its linear part is the geometric stiffness; the quadratic part belongs to strains of
  * the prestressed state, which linear buckling neglects. The inner unknowns depend on the strains
- * as without stress: the error of a critical load is of fourth order in the length of an element,
- * and of second where shear is flexible (c_column: 0.052, 0.0033, 0.00021 % rigid in shear, 1.26,
- * 0.31, 0.078 % with n = 4, 8, 16). */
+ * as in the stress-free element: the error of a critical load is of fourth order in the length of
+ * an element, and of second order with shear flexibility (c_column: 0.052, 0.0033, 0.00021 % rigid
+ * in shear; 1.26, 0.31, 0.078 % otherwise; n = 4, 8, 16). */
 #include "elements/collocation/collocation.h"
 
 #include <string.h>
@@ -14,8 +14,8 @@
 
 enum { OUTER = EXACT_STAGES_OUTER };
 
-/* Linear response to each stress alone: change [n x 8] of all variables, and derivatives Z
- * [unknowns x 8] of the unknowns. */
+/* Computes the linear response to each stress alone: change [n x 8] of all variables, and
+ * derivatives Z [unknowns x 8] of the unknowns. */
 static void linear_states(const exact_stages *s, double change[], double Z[])
 {
     const int m = s->unknowns, n = m + OUTER;
@@ -43,9 +43,9 @@ static void linear_states(const exact_stages *s, double change[], double Z[])
     dense_lu_solve(n, OUTER, hessian, pivot, change);
 }
 
-/* At point i of the undeformed element: M times the change of (kappa, N) due to that of the
- * variables (for N the change itself, for terms that it stiffens in torsion), and the change of the
- * argument of the warping energy. */
+/* Computes, at point i of the undeformed element: M times the change of (kappa, N) due to that of
+ * the variables (for N the change itself, for terms that it stiffens in torsion), and the change of
+ * the argument of the warping energy. */
 static double moments(const exact_stages *s, int i, const exact_stage *p,
                       const exact_stage_material *M, const double change[], const double force[3],
                       double moment[3], double N[3])
@@ -64,8 +64,8 @@ static double moments(const exact_stages *s, int i, const exact_stage *p,
     return kappa[0] - s->c.F[6] * N[1] - s->c.F[7] * N[2];
 }
 
-/* Hessian of the undeformed element with stresses `factor` times those of the linear state.
- * along[stages][3]: contribution of loads to F at the points, or NULL. */
+/* Computes the Hessian of the undeformed element with stresses `factor` times those of the linear
+ * state. along[stages][3]: contribution of loads to F at the points, or NULL. */
 static void stressed_hessian(const exact_stages *s, const double change[], double along[][3],
                              double factor, double hessian[])
 {

@@ -1,6 +1,6 @@
 /* Rotations by Wiener-Milenkovic parameters x = 4 tan(angle/4) about the axis (Rodrigues' modified
- * vectors): regular up to a full turn, and rational. R^T y, and the curvature kappa of a line on
- * which x varies with slope x', have the same form:
+ * vectors): regular up to a full revolution, and rational. R^T y, and the curvature kappa of a line
+ * on which x varies with slope x', have the same form:
  *   w . R^T y = B(w, y; x),  w . kappa = B(w, x'; x),
  *   B(w, y; x) = s w . y - p x . (y x w) + q [(x . w)(x . y) - t w . y],
  * where s, p, q are functions of t = |x|^2. */
@@ -34,7 +34,7 @@ static inline void exact_milenkovic_forms(real t, exact_milenkovic_form *orienta
     };
 }
 
-/* B for w along each axis: the vector itself [3]. */
+/* Computes B for w along each axis: the vector itself [3]. */
 static inline void exact_milenkovic_vector(const exact_milenkovic_form *f, const real x[3],
                                            const real y[3], real out[3])
 {
@@ -45,7 +45,7 @@ static inline void exact_milenkovic_vector(const exact_milenkovic_form *f, const
         out[i] = f->s[0] * y[i] - f->p[0] * once[i] + f->q[0] * twice[i];
 }
 
-/* Gradients of the vector with respect to x and y: rows are its components. */
+/* Computes the gradients of the vector with respect to x and y: rows are its components. */
 static inline void exact_milenkovic_gradients(const exact_milenkovic_form *f, const real x[3],
                                               const real y[3], real dx[9], real dy[9])
 {
@@ -143,13 +143,14 @@ static inline void exact_stage_of(const real force[3], const double rest_kappa[3
         p->kappa[j] -= rest_kappa[j];
 }
 
-/* The argument of the warping energy: kappa_x minus the warping shear due to Q_y and Q_z. */
+/* Returns the argument of the warping energy: kappa_x minus the warping shear due to Q_y and
+ * Q_z. */
 static inline real exact_stage_twist(const beam_constants *c, const exact_stage *p)
 {
     return p->kappa[0] - c->F[6] * p->N[1] - c->F[7] * p->N[2];
 }
 
-/* Sections given by matrices: extremum over gamma of the energy minus N . (e_x + gamma). */
+/* For sections given by matrices: extremum over gamma of the energy minus N . (e_x + gamma). */
 static inline void exact_stage_coupled(const beam_constants *c, const real kappa[3],
                                        const real N[3], exact_stage_material *m)
 {

@@ -9,7 +9,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* Weights of the variables from those of the nodes. */
+/* Computes the weights of the variables from those of the nodes. */
 static void weights(int count, const double at[], double x, double N[], double dN[])
 {
     double node[EXACT_STAGES_NODES], slope[EXACT_STAGES_NODES];
@@ -23,7 +23,7 @@ static void weights(int count, const double at[], double x, double N[], double d
 }
 
 /* v -= contribution of initial strains, int R g in the mean axes: strains are measured from the arc
- * without them. */
+ * without initial strains. */
 static void less_initial_strain(const element_request *request, double v[3])
 {
     double rotation[3], back[3], added[3], q[4], R[9], middle[3];
@@ -39,7 +39,8 @@ static void less_initial_strain(const element_request *request, double v[3])
         v[i] -= middle[i];
 }
 
-/* Curvatures at the points, and the vector between the ends, of the stress-free element. */
+/* Computes the curvatures at the points, and the vector between the ends, of the stress-free
+ * element. */
 static void rest_of_points(const element_request *request, exact_stages *out)
 {
     const double strained[3] = {1 + request->strain[0], request->strain[1], request->strain[2]},

@@ -11,13 +11,13 @@
 
 enum { EXACT_BLOCKS_MAX = 12 };
 
-/* Position of block (i, j), i <= j. */
+/* Returns the position of block (i, j), i <= j. */
 static inline int exact_blocks_at(int i, int j)
 {
     return j * (j + 1) / 2 + i;
 }
 
-/* D of a diagonal block and, in its place, L^T above the diagonal. */
+/* Computes D of a diagonal block and, in its place, L^T above the diagonal. */
 static inline void exact_blocks_pivot(real a[9], real d[3], real inverse[3])
 {
     d[0] = a[0];
@@ -151,8 +151,8 @@ static inline real exact_sums_warping(int stages, const exact_stages *s, const e
     return energy;
 }
 
-/* The warping energy S couples the points: t += z S z for x, x' of point i with x of variable l, as
- * the two products for its weights there. */
+/* Adds the warping energy S, which couples the points: t += z S z for x, x' of point i with x of
+ * variable l, as the two products for its weights there. */
 static inline void exact_sums_couple(int stages, const exact_stages *s, exact_stage_terms t[],
                                      real through[][EXACT_STAGES_MAX][3])
 {
@@ -184,7 +184,7 @@ static inline void exact_sums_couple(int stages, const exact_stages *s, exact_st
     }
 }
 
-/* Column l of the blocks of x and 2 X. */
+/* Fills column l of the blocks of x and 2 X. */
 static inline void exact_sums_column(int stages, const exact_stages *s, int l,
                                      const exact_stage_terms t[],
                                      real through[][EXACT_STAGES_MAX][3], real A[][9])
@@ -217,7 +217,7 @@ static inline void exact_sums_column(int stages, const exact_stages *s, int l,
     }
 }
 
-/* Blocks of x or 2 X, variable k, with F and with (a_p, a_q, 1). */
+/* Fills the blocks of x or 2 X, variable k, with F and with (a_p, a_q, 1). */
 static inline void exact_sums_border(int stages, const exact_stages *s, int k,
                                      const exact_stage_terms t[], real A[][9])
 {
@@ -251,7 +251,7 @@ static inline void exact_sums_border(int stages, const exact_stages *s, int k,
                 A[exact_blocks_at(F, row)][3 * i + j] = Y[3 * j + i];
 }
 
-/* Blocks of F with itself, with v (1) and with (a_p, a_q, 1). */
+/* Fills the blocks of F with itself, with v (1) and with (a_p, a_q, 1). */
 static inline void exact_sums_force(int stages, const exact_stages *s, const exact_stage_terms t[],
                                     real A[][9])
 {
@@ -277,8 +277,8 @@ static inline void exact_sums_force(int stages, const exact_stages *s, const exa
         Fv[4 * j] = real_of(1);
 }
 
-/* Block column of three parameters on which F depends at the points: column[] contains the
- * derivatives of F at the points [3 x 3]. */
+/* Fills the block column of three parameters on which F depends at the points: column[] contains
+ * the derivatives of F at the points [3 x 3]. */
 static inline void exact_sums_load(int stages, const exact_stages *s, const exact_stage_terms t[],
                                    real column[][9], real A[][9])
 {
@@ -333,8 +333,8 @@ static inline void exact_sums_load(int stages, const exact_stages *s, const exac
     real_zero(9, A[exact_blocks_at(v, load)]);
 }
 
-/* All blocks. In the blocks of the strains only the contributions of the points and the warping
- * energy are set: those of v, and the column of 1 for v and the amplitudes, stay zero. t is
+/* Fills all blocks. In the blocks of the strains, only the contributions of the points and the
+ * warping energy are set: those of v, and the column of 1 for v and the amplitudes, stay zero. t is
  * changed. */
 static inline void exact_sums_gather(int stages, const exact_stages *s, exact_stage_terms t[],
                                      real A[][9])

@@ -44,7 +44,7 @@ void field_prepare(const element_request *request, int nodes, displacement_field
     integrate_whole(out);
 }
 
-/* Functionals of a field with two nodes. */
+/* Computes the functionals of a field with two nodes. */
 static void functionals_at(const displacement_field *f, double x,
                            double out[FIELD_FUNCTIONALS][FIELD_MODES])
 {
@@ -90,7 +90,7 @@ void field_at(const displacement_field *f, double x, field_rows *out)
     out->lean[1] = -2 * lean;
 }
 
-/* a = kx - (f (Q, Mw))_w with the twist's own Mw (beamw/fields.h). */
+/* a = kx - (f (Q, Mw))_w, where Mw is that of the twist (beamw/fields.h). */
 void field_warping_at(const displacement_field *f, double x, double psi[FIELD_MODES])
 {
     const beamw_stiffness_fields *s = &f->linear;
@@ -119,7 +119,7 @@ int field_points(const displacement_field *f, double from, double to, double x[F
 }
 
 enum { PSI = FIELD_FUNCTIONALS }; /* warping amplitude, after the others */
-/* Exact for the square of a cubic; for hyperbolic twist within 1e-9 up to a length of ten boundary
+/* Exact for the square of a cubic; for hyperbolic twist, within 1e-9 up to a length of ten boundary
  * layers. */
 enum { CUBIC_POINTS = 4, HYPERBOLIC_POINTS = BEAMW_GAUSS };
 

@@ -41,16 +41,16 @@ typedef struct displacement_field {
 /* nodes: number of nodes. For sections given by matrices the field is that of their constants. */
 void field_prepare(const element_request *, int nodes, displacement_field *);
 void field_at(const displacement_field *, double x, field_rows *);
-/* psi . e: the warping amplitude [1/m], of two nodes. */
+/* Computes psi . e: the warping amplitude [1/m], for two nodes. */
 void field_warping_at(const displacement_field *, double x, double psi[FIELD_MODES]);
-/* The section with the shear flexibility of the active physics. */
+/* Returns the section with the shear flexibility of the active physics. */
 section field_section(const element_request *);
 /* out += size times the rows at a point. */
 void field_gather(double size, const field_rows *at, field_rows *out);
 
 enum { FIELD_MOST_POINTS = BEAMW_TWIST_MAX_POINTS };
-/* Points and weights that integrate the functionals times polynomials over [from, to] in [0, 1];
- * returns their number. */
+/* Computes points and weights that integrate the functionals times polynomials over [from, to] in
+ * [0, 1]; returns their number. */
 int field_points(const displacement_field *, double from, double to, double x[FIELD_MOST_POINTS],
                  double weight[FIELD_MOST_POINTS]);
 

@@ -1,4 +1,5 @@
-/* B of field.h. Resultants about the centroid: with forces q, moments mu and bimoments b per length
+/* Computes B of field.h. Resultants about the centroid: with forces q, moments mu and bimoments b
+ * per length
  *   N' = -q_x,  Qy' = -q_y,  Qz' = -q_z,  Mx' = -mu_x,  My' = Qz - mu_y,  Mz' = -Qy - mu_z,
  *   Mw = -W' - b,
  * and C is the compliance due to EA, EIy, EIz, GIt (torque about the shear centre minus Mw), EIw
@@ -26,7 +27,7 @@ typedef struct inside {
     int warps, count;              /* of MOST */
 } inside;
 
-/* Displacements of the centroid, rotations and warping [7 x N] at a point. */
+/* Computes the displacements of the centroid, rotations and warping [7 x N] at a point. */
 static void motion_at(const inside *i, double x, double out[LOADS][N])
 {
     static const int functional[LOADS] = {-1,          FIELD_NU_Y,  FIELD_NU_Z, FIELD_CHI_X,
@@ -48,7 +49,7 @@ static void motion_at(const inside *i, double x, double out[LOADS][N])
     }
 }
 
-/* s[RESULTANTS x N] at x in equilibrium with the inertia of the field between 0 and x. */
+/* Computes s[RESULTANTS x N] at x in equilibrium with the inertia of the field between 0 and x. */
 static void loaded_at(const inside *i, double x, double s[RESULTANTS][N])
 {
     double y[LOADS][N], point[FIELD_MOST_POINTS], weight[FIELD_MOST_POINTS];
@@ -70,7 +71,7 @@ static void loaded_at(const inside *i, double x, double s[RESULTANTS][N])
         s[MW][j] = -i->inertia[LOADS - 1] * y[LOADS - 1][j];
 }
 
-/* s[RESULTANTS x MOST] of forces at the ends and of bimoments. */
+/* Computes s[RESULTANTS x MOST] of forces at the ends and of bimoments. */
 static void free_at(const inside *i, double x, double s[RESULTANTS][MOST])
 {
     const double l = i->f->l0, y = 2 * x - 1, lambda = i->f->twist.lambda;
@@ -90,7 +91,7 @@ static void free_at(const inside *i, double x, double s[RESULTANTS][MOST])
     }
 }
 
-/* Deformations [RESULTANTS x columns] due to resultants, stored `columns` apart. */
+/* Computes the deformations [RESULTANTS x columns] due to resultants, stored `columns` apart. */
 static void deform(const inside *i, int columns, const double *s, double *out)
 {
     const section *c = i->c;
@@ -123,7 +124,7 @@ static int is_coupled(const section *c)
     return coupled;
 }
 
-/* Per length [kg/m, kg m, kg m^3]. */
+/* Sets the inertia per length [kg/m, kg m, kg m^3]. */
 static void set_inertia(const section *c, unsigned features, double out[LOADS])
 {
     const lumped_mass line = lumped_of(c, features, 1);
@@ -176,7 +177,7 @@ static void gather(const inside *i, double x, double weight, double gram[MOST * 
     }
 }
 
-/* Scales the unknowns such that the diagonal of gram is one. */
+/* Scales the unknowns so that the diagonal of gram is one. */
 static void scale(int count, double gram[], double mixed[])
 {
     double root[MOST];

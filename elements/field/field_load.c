@@ -234,7 +234,8 @@ static void subtract_following(pulled *p, const double T[3 * MOST], const double
                 p->K[i * p->n + j] -= T[k * p->n + i] * Q[k * p->n + j];
 }
 
-/* v given in the axes of the section, at the point: out, and dv/dx. */
+/* Computes a vector v, given in the axes of the section at the point, in global axes (out), and its
+ * gradient Q = dv/dx. */
 static void follow(const pulled *p, const field_rows *at, unit axis[3], const double v[3],
                    double out[3], double Q[3 * MOST])
 {

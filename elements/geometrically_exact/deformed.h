@@ -10,9 +10,9 @@
  * - |A|^2) kappa + 8 eta A0 A + 4 A0 A x kappa - 4 (A0 D + D0 A + A x D), d2v = 4 A0 A x v + 4 A x
  * (A x v) - 4 A x dy, from the expansion of Q^-1 Q' and of the rotation 2 Im Q/Re Q.
  *
- * Turning node k by the spatial increment theta makes q_k -> exp(theta/2) q_k: first derivative 1/2
- * theta q_k, second -1/4 |theta|^2 q_k; A = N_k a_k theta, D = N'_k a_k theta. The caller chooses
- * the unit of length. In lanes (real.h). */
+ * A rotation of node k by the spatial increment theta gives q_k -> exp(theta/2) q_k: first
+ * derivative 1/2 theta q_k, second -1/4 |theta|^2 q_k; A = N_k a_k theta, D = N'_k a_k theta. The
+ * caller chooses the unit of length. In lanes (real.h). */
 #ifndef BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 #define BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 
@@ -96,7 +96,7 @@ static inline void exact_point_add_cross(const real b[3], const real a[9], real 
     }
 }
 
-/* First derivatives for a node with the quaternion q. */
+/* Computes the first derivatives for a node with the quaternion q. */
 static inline void exact_point_first(const exact_point *p, const real q[4], double N, double dN,
                                      exact_point_turn *t)
 {
@@ -121,7 +121,8 @@ static inline void exact_point_first(const exact_point *p, const real q[4], doub
     exact_point_add_cross(p->v, turned, real_of(2 * N), t->v);
 }
 
-/* Second derivatives of n . kappa + f . v, as needed by exact_point_add_second for all nodes. */
+/* Computes the second derivatives of n . kappa + f . v, as needed by exact_point_add_second for all
+ * nodes. */
 static inline void exact_point_second(const exact_point *p, const real n[3], const real f[3],
                                       exact_point_turn *t)
 {
@@ -149,7 +150,8 @@ static inline void exact_point_second(const exact_point *p, const real n[3], con
     mat3_add_transpose_mul(turned, Z, t->by);
 }
 
-/* H += second derivative for nodes k and l [3 x 3]; that with respect to y is N_k t_k->by. */
+/* H += second derivative for nodes k and l [3 x 3]; the derivative with respect to y is N_k
+ * t_k->by. */
 static inline void exact_point_add_second(const real n[3], const double N[], const double dN[],
                                           int k, int l, const exact_point_turn t[], real H[9])
 {
@@ -171,8 +173,8 @@ static inline void exact_point_add_second(const real n[3], const double N[], con
                             left[9 + i] * W[9 + j];
 }
 
-/* Contribution of the rotation of a node to its own second derivative on the diagonal: q'' = -1/4
- * |theta|^2 q. */
+/* Returns the contribution of the rotation of a node to its own second derivative on the diagonal:
+ * q'' = -1/4 |theta|^2 q. */
 static inline real exact_point_curved(const exact_point *p, const real n[3], const real f[3],
                                       double N, double dN, const exact_point_turn *t)
 {
@@ -206,7 +208,7 @@ typedef struct exact_deformed {
     real turns[EXACT_DEFORMED_PAIRS][9], moves[ELEMENT_MAX_NODES][ELEMENT_MAX_NODES][9];
 } exact_deformed;
 
-/* y = r' and dy = u' at point g. */
+/* Computes y = r' and dy = u' at point g. */
 static inline void exact_deformed_observe(int nodes, const exact_strain_line *line,
                                           exact_deformed_nodes *s, int g, exact_point *p, real y[3],
                                           real dy[3])
@@ -221,8 +223,8 @@ static inline void exact_deformed_observe(int nodes, const exact_strain_line *li
     exact_point_at(nodes, s->q, line->N[g], line->dN[g], y, p);
 }
 
-/* v - v0; the part along x from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, which avoids cancellation for
- * small elongations. */
+/* Computes v - v0; the part along x follows from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, which avoids
+ * cancellation for small elongations. */
 static inline void exact_deformed_stretch(const real v[3], const double v0[3], const real y[3],
                                           const real dy[3], real e[3])
 {
@@ -237,7 +239,7 @@ static inline void exact_deformed_stretch(const real v[3], const double v0[3], c
                                            : real_lane(&difference, lane));
 }
 
-/* Second derivatives of f . v + n . measure(kappa) at point g; weights in [N m]. */
+/* Computes the second derivatives of f . v + n . measure(kappa) at point g; weights in [N m]. */
 static inline void exact_deformed_second(int nodes, const exact_strain_line *line, int g,
                                          const exact_point *p, const real m[3], const real T[9],
                                          const real f[3], const real moment[3],
@@ -424,7 +426,7 @@ static inline __attribute__((always_inline)) void exact_deformed_run(int nodes,
     }
 }
 
-/* Evaluates `run` elements of one kind, at most LANES, x [run x nodes]; as
+/* Evaluates `run` elements of one kind, at most LANES, x [run x nodes], like
  * element_type.strain_many. */
 static inline void exact_deformed_strain(const exact_strain_line *line, int run,
                                          const node_state x[], strain_output out[])

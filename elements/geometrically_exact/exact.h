@@ -8,21 +8,22 @@
 
 /* Polynomials on the unit interval: Lagrange's basis.  All dimensionless. */
 
-/* L[n], dL[n] (may be NULL): Lagrange polynomials on the points p[n] and their derivatives at x. */
+/* Computes L[n], dL[n] (may be NULL): Lagrange polynomials on the points p[n] and their derivatives
+ * at x. */
 void exact_line_lagrange(int n, const double p[], double x, double L[], double dL[]);
 
 /* Measure of the rotation between two nodes: a vector along its axis, whose length is a function of
  * the angle. In lanes (real.h). */
 
 typedef enum exact_measure_kind {
-    EXACT_MEASURE_QUARTER, /* 4 tan(angle/4): result of the interpolation of two quaternions in the
-                              middle */
+    EXACT_MEASURE_QUARTER, /* 4 tan(angle/4): result of interpolating two quaternions in the middle
+                            */
     EXACT_MEASURE_ANGLE,   /* the angle itself */
     EXACT_MEASURE_EIGHTH   /* 8 tan(angle/8) */
 } exact_measure_kind;
 
-/* Factor m of 4 y that gives the angle, y = tan(angle/4), and its first and second derivative with
- * respect to t = y^2. */
+/* Computes the factor m of 4 y that gives the angle, y = tan(angle/4), and its first and second
+ * derivative with respect to t = y^2. */
 void exact_measure_angle(double t, double m[3]);
 
 /* As above for the requested kind, with x of the first kind. */
@@ -44,7 +45,7 @@ static inline void exact_measure_ratio(exact_measure_kind kind, const real x[3],
     }
 }
 
-/* The measure of x [3], and its derivative T [3 x 3]. */
+/* Computes the measure of x [3] and its derivative T [3 x 3]. */
 static inline void exact_measure_of(const real m[3], const real x[3], real out[3], real T[9])
 {
     const real slope = m[1] * 0.125;
@@ -56,7 +57,7 @@ static inline void exact_measure_of(const real m[3], const real x[3], real out[3
     }
 }
 
-/* Second derivative [3 x 3] of n . measure(x). */
+/* Computes the second derivative [3 x 3] of n . measure(x). */
 static inline void exact_measure_second(const real m[3], const real x[3], const real n[3],
                                         real H[9])
 {
@@ -85,8 +86,8 @@ typedef struct exact_strain_line {
     double rest[EXACT_STRAIN_MAX_POINTS][6];    /* R^T r' and l0 kappa undeformed, dimensionless */
 } exact_strain_line;
 
-/* Gauss points between evenly spaced nodes; constant initial curvature [1/m] and strain. The values
- * of the stress-free element at the points count as zero strain, for any arc. */
+/* Prepares Gauss points between evenly spaced nodes; constant initial curvature [1/m] and strain.
+ * The values of the stress-free element at the points count as zero strain, for any arc. */
 void exact_strain_prepare(int nodes, int points, double l0, const double curvature[3],
                           const double strain[3], exact_measure_kind rotation,
                           exact_strain_line *line);
@@ -120,11 +121,12 @@ typedef struct exact_stiffness {
     /* Strains on which the twist rate depends; they are few. */
     int twisting, place[EXACT_STIFFNESS_MAX_STRAINS], order[EXACT_STIFFNESS_MAX_STRAINS]; /* -1 */
     double Q[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS]
-            [EXACT_STIFFNESS_MAX_STRAINS]; /* [1/m], for these: mean of kappa_x^2 about a point */
-    double r[3];                           /* on gamma_x, kappa_y, kappa_z of the point */
+            [EXACT_STIFFNESS_MAX_STRAINS];    /* [1/m], for these strains: mean of kappa_x^2 about a
+                                                 point */
+    double r[3];                              /* on gamma_x, kappa_y, kappa_z of the point */
     double torque[EXACT_STIFFNESS_MAX_FIELD]; /* weight of kappa_x^4 [N/m^3] */
     double twist[EXACT_STIFFNESS_MAX_FIELD]
-                [EXACT_STIFFNESS_MAX_STRAINS]; /* for these: l0^2 kappa_x = twist . e */
+                [EXACT_STIFFNESS_MAX_STRAINS]; /* for these strains: l0^2 kappa_x = twist . e */
     double Sr[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS];
     double coupling[EXACT_STRAIN_MAX_POINTS][EXACT_STRAIN_MAX_POINTS]; /* r_g . S r_h */
 } exact_stiffness;
@@ -138,8 +140,8 @@ typedef struct exact_gauss {
 status exact_stiffness_prepare(const element_request *request, int nodes, exact_stiffness *out,
                                fault *f);
 status exact_stiffness_stress(const exact_stiffness *k, const double e[], stress_output *out);
-/* Geometric part of the derivative of C at e = 0 with respect to the strains that cause the
- * prestress sigma. */
+/* Computes the geometric part of the derivative of C at e = 0 with respect to the strains that
+ * cause the prestress sigma. */
 void exact_stiffness_geometric(const exact_stiffness *k, const double sigma[], double G[]);
 
 /* Variables of the energy of an element with strains at Gauss points, and the elimination of fields
@@ -169,17 +171,17 @@ typedef struct exact_fields {
 
 void exact_fields_prepare(const beam_constants *c, int nodes, exact_fields *f);
 
-/* Bubbles and stresses as functions of the strains: X[all - strains][strains]. Returns 0, or the
- * number of a failing pivot. */
+/* Computes bubbles and stresses as functions of the strains: X[all - strains][strains]. Returns 0,
+ * or the number of a failing pivot. */
 int exact_fields_eliminate(const exact_fields *f, double X[]);
 
 /* Sections given by matrices (elements/section/section.h) in the elements of this folder: energy
  * 1/2 (gamma, kappa) . C (gamma, kappa) per length, without other terms. */
 
-/* S [strains x strains] [N/m] for Gauss points that each represent their part. With one point the
- * moment is linear along the element with the slope M' = -e_x x N, which adds the flexibility int
- * M' . (C^-1) M' to that of the forces, so that end loads are represented exactly. Warping
- * amplitudes have no stiffness. */
+/* Computes S [strains x strains] [N/m] for Gauss points that each represent their part. With one
+ * point, the moment is linear along the element with the slope M' = -e_x x N, which adds the
+ * flexibility int M' . (C^-1) M' to the flexibility of the forces, so that end loads are
+ * represented exactly. Warping amplitudes have no stiffness. */
 status exact_coupled_stiffness(const beam_constants *c, int points, int strains, double length,
                                double S[], fault *f);
 
@@ -193,9 +195,9 @@ status exact_coupled_stiffness(const beam_constants *c, int points, int strains,
 
 enum { EXACT_WARPING_MAX_STAGES = 8, EXACT_WARPING_MAX = EXACT_WARPING_MAX_STAGES + 2 };
 
-/* Energy 1/2 z . S z in addition to GJ kappa^2/2 at the points, with z = (twist rate minus the
- * shear due to Q_y and Q_z, at the stages; amplitude at p, at q). x, w [stages]: Gauss points and
- * weights. */
+/* Computes the energy 1/2 z . S z in addition to GJ kappa^2/2 at the points, with z = (twist rate
+ * minus the shear due to Q_y and Q_z, at the stages; amplitude at p, at q). x, w [stages]: Gauss
+ * points and weights. */
 void exact_warping_energy(const beam_constants *c, int stages, const double x[], const double w[],
                           double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX]);
 

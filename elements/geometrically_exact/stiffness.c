@@ -58,7 +58,7 @@ static void add_product(exact_fields *f, double k, int i, int j)
     f->energy[j * f->all + i] += k;
 }
 
-/* a and a' at x as rows on (strains, bubbles). */
+/* Computes a and a' at x as rows on (strains, bubbles). */
 static void amplitude(const exact_fields *f, double x, double a[EXACT_FIELDS_MAX_FREE],
                       double da[EXACT_FIELDS_MAX_FREE])
 {
@@ -122,8 +122,8 @@ static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, 
             f->energy[i * f->all + j] -= f->w[g] * flexibility * row[i] * row[j];
 }
 
-/* Stress times strain minus half of stress times flexibility, at one point; shear forces act at the
- * shear centre. */
+/* Adds stress times strain minus half of stress times flexibility at one point; shear forces act at
+ * the shear centre. */
 static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
 {
     const int e = 6 * g, Q = f->free + EXACT_FIELDS_STRESSES * g;
@@ -219,7 +219,7 @@ static void condense(const beam_constants *c, const exact_fields *f, const doubl
         out->torque[i] = f->weight[i] * c->torque * unit / (out->l0 * out->l0);
 }
 
-/* Twist rate at the points of the field as a function of the strains. */
+/* Computes the twist rate at the points of the field as a function of the strains. */
 static void condense_twist(const exact_fields *f, const double X[], exact_stiffness *out)
 {
     const int m = f->strains;
@@ -246,7 +246,7 @@ static void condense_twist(const exact_fields *f, const double X[], exact_stiffn
                                        out->twist[i][j] * out->twist[i][k];
 }
 
-/* r of point g as a vector of strains has three entries. */
+/* Condenses r of point g, which has three entries as a vector of strains. */
 static void condense_modified(exact_stiffness *out)
 {
     const int n = out->strains;

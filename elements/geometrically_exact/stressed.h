@@ -14,7 +14,7 @@ typedef struct exact_stressed {
     real more[EXACT_STIFFNESS_MAX_STRAINS][EXACT_STIFFNESS_MAX_STRAINS];
 } exact_stressed;
 
-/* Position of r_i of point g among the strains. */
+/* Returns the position of r_i of point g among the strains. */
 static inline int exact_stressed_entry(int g, int i)
 {
     return 6 * g + (i == 0 ? 0 : 3 + i);
@@ -28,7 +28,7 @@ static inline real exact_stressed_along(const exact_stiffness *k, const real str
     return sum;
 }
 
-/* Wagner torque: energy sum torque_i (twist_i . e)^4. */
+/* Adds the Wagner torque: energy sum torque_i (twist_i . e)^4. */
 static inline void exact_stressed_torque(const exact_stiffness *k, const real twisting[],
                                          exact_stressed *out)
 {
@@ -48,7 +48,7 @@ static inline void exact_stressed_torque(const exact_stiffness *k, const real tw
     }
 }
 
-/* t_g = Q_g e and e . t_g/2, which change elongation and bending: e becomes ebar. */
+/* Computes t_g = Q_g e and e . t_g/2, which change elongation and bending: e becomes ebar. */
 static inline void exact_stressed_lengthen(const exact_stiffness *k, const real twisting[],
                                            real t[][EXACT_STIFFNESS_MAX_STRAINS], real e[])
 {
@@ -150,7 +150,7 @@ static inline void exact_stressed_write(const exact_stiffness *k, const exact_st
     }
 }
 
-/* Evaluates `run` elements of one kind, at most LANES; as element_type.stress_many. */
+/* Evaluates `run` elements of one kind, at most LANES, like element_type.stress_many. */
 static inline void exact_stressed_stress(const exact_stiffness *k, int run, const double *const e[],
                                          stress_output out[], status outcome[])
 {

@@ -8,23 +8,23 @@
 
 enum {
     STAGES = EXACT_WARPING_MAX_STAGES,
-    POLYNOMIALS = 20, /* resolve layers up to lambda = SHORT to rounding, because the energy has the
-                         square of the amplitude's error */
+    POLYNOMIALS = 20, /* resolve layers up to lambda = SHORT to rounding, because the energy
+                         contains the square of the amplitude's error */
     BUBBLES = POLYNOMIALS,
     FUNCTIONS = BUBBLES + 2, /* 1 - x and x come first */
     INTERVALS = 9,
     ORDER = 16,
     POINTS = INTERVALS * ORDER
 };
-static const double lambda_short =
-    20; /* above it separate functions represent the layers, and few polynomials are needed */
+static const double lambda_short = 20; /* above this lambda, separate functions represent the
+                                          layers, and few polynomials are needed */
 
 typedef struct basis {
     int bubbles, layers;
     double lambda;
 } basis;
 
-/* Functions and slopes at x, given its distances from both ends: accurate near both. */
+/* Computes functions and slopes at x, given its distances from both ends: accurate near both. */
 static void functions_at(const basis *b, double x, double rest, double value[], double slope[])
 {
     value[0] = rest;
@@ -50,8 +50,8 @@ static void functions_at(const basis *b, double x, double rest, double value[], 
     slope[k + 1] = l * q - 1 + far;
 }
 
-/* Points that integrate smooth functions and layers of thickness 1/lambda at both ends. rest: 1 -
- * x. */
+/* Computes points that integrate smooth functions and layers of thickness 1/lambda at both ends.
+ * rest: 1 - x. */
 static void graded_points(double lambda, double x[], double rest[], double w[])
 {
     const double step[] = {0, 1, 4, 12, 40}, thickness = fmin(1 / lambda, 0.01);
@@ -114,8 +114,8 @@ void exact_warping_energy(const beam_constants *c, int stages, const double x[],
         A[SIZE * SIZE] = {0}, X[SIZE * EXACT_WARPING_MAX] = {0};
     int pivot[SIZE];
     integrate(c, &b, stages, x, w, mean, K);
-    /* Unknown: bubbles and w T, T the warping torque at the stages: 1/2 a K a + T w (kappa - P a) -
-     * 1/2 flexibility w T^2. */
+    /* Unknowns: bubbles and w T, T the warping torque at the stages: 1/2 a K a + T w (kappa - P a)
+     * - 1/2 flexibility w T^2. */
     for (int i = 0; i < b.bubbles; i++) {
         for (int j = 0; j < b.bubbles; j++)
             A[i * size + j] = K[(i + 2) * n + j + 2];

@@ -30,8 +30,8 @@ static inline __attribute__((always_inline)) void add_block(int count, int width
         out[j] = sum[j];
 }
 
-/* Width of the next block when `left` columns remain: the largest compiled width that fits; the
- * compiled widths are those of the elements. */
+/* Returns the width of the next block if `left` columns remain: the largest compiled width that
+ * fits; the compiled widths are those of the elements. */
 static inline __attribute__((always_inline)) int width_of(int left)
 {
     static const int widths[] = {14, 8, 7, 3};
@@ -41,7 +41,7 @@ static inline __attribute__((always_inline)) int width_of(int left)
     return 1;
 }
 
-/* The same of whole rows. */
+/* The same for whole rows. */
 static inline __attribute__((always_inline)) void add_rows(int count, int n, double times, int skip,
                                                            const double *c, int stride,
                                                            const double *rows, double *out)
@@ -96,7 +96,7 @@ double dense_quadratic(int n, const double A[], const double x[])
     return sum;
 }
 
-/* Row length that is a compile-time constant. */
+/* Multiplies rows whose length is a compile-time constant. */
 static inline __attribute__((always_inline)) void mul_rows(int m, int n, const double *A,
                                                            const double *x, double *y)
 {

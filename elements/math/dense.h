@@ -13,11 +13,12 @@ double dense_dot(int n, const double a[], const double b[]);
 double dense_quadratic(int n, const double A[], const double x[]); /* x^T A x */
 /* y(m) = A(m x n) x. */
 void dense_mul_vec(int m, int n, const double *A, const double *x, double *y);
-/* K(n x n) += J^T S J with J(m x n), S(m x m) (S need not be symmetric); work: m*n doubles. */
+/* K(n x n) += J^T S J with J(m x n), S(m x m) (S may be unsymmetric); work: m*n doubles. */
 void dense_add_congruence(int m, int n, const double *J, const double *S, double *K, double *work);
 
-/* Replaces A (n x n) by the mean of A and its transpose. Returns the largest difference of the two
- * relative to the roots of the diagonal; 0: equal, INFINITY: the diagonal is zero. */
+/* Replaces A (n x n) by the mean of A and its transpose. Returns the largest difference of the
+ * two relative to the square roots of the diagonal entries; 0: equal, INFINITY: the diagonal is
+ * zero. */
 double dense_symmetrise(int n, double *A);
 /* Cholesky A = L L^T in place (lower triangle, n x n). Returns 0, or 1 + the index of the failing
  * pivot. */
@@ -26,13 +27,14 @@ int dense_cholesky(int n, double *A);
 void dense_cholesky_solve(int n, int m, const double *L, double *B);
 /* LU with partial pivoting in place; pivot[n]. Returns 0, or 1 + the index of the zero pivot. */
 int dense_lu(int n, double *A, int pivot[]);
-/* As dense_lu; a pivot that is only rounding error, relative to the terms of its difference, also
+/* Like dense_lu; a pivot that is only rounding error, relative to the terms of its difference, also
  * counts as zero. */
 int dense_lu_regular(int n, double *A, int pivot[]);
 /* Solves A X = B in place with the factors of dense_lu, B(n x m). */
 void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B);
 
-/* K += J^T S J with sums along rows in registers; bit-for-bit as plain loops in the same order. */
+/* K += J^T S J with sums along rows in registers; bit-for-bit equal to plain loops in the same
+ * order. */
 
 enum { CONGRUENCE_WIDEST = 24 };
 

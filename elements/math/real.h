@@ -28,7 +28,7 @@
 #if LANES == 1
 
 typedef double real;
-/* The same number in all lanes. */
+/* Returns the same number in all lanes. */
 static inline real real_of(double v)
 {
     return v;
@@ -71,7 +71,7 @@ static inline real real_choose(real_truth t, real a, real b)
 #else
 
 typedef double real __attribute__((vector_size(LANES * sizeof(double))));
-/* The same number in all lanes. */
+/* Returns the same number in all lanes. */
 static inline real real_of(double v)
 {
     return v - (real){0};
@@ -103,7 +103,7 @@ static inline void real_deny(real_truth *t, int lane)
 {
     (*t)[lane] = 0;
 }
-/* Selects a where the condition is true, else b. */
+/* Selects a where the condition is true, otherwise b. */
 static inline real real_choose(real_truth t, real a, real b)
 {
     return (real)((t & (real_truth)a) | (~t & (real_truth)b));

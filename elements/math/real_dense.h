@@ -1,5 +1,5 @@
-/* Small dense algebra for one element or several in lanes, row-major: the sums of
- * elements/math/dense.h in the same order. */
+/* Small dense algebra for one element or several in lanes, row-major: sums in the same order as in
+ * elements/math/dense.h. */
 #ifndef BEAMWORK_REAL_DENSE_H
 #define BEAMWORK_REAL_DENSE_H
 
@@ -44,7 +44,8 @@ static inline __attribute__((always_inline)) void real_add_congruence(int m, int
     }
 }
 
-/* Cholesky A = L L^T in place (lower triangle, n x n). Returns where A is positive definite. */
+/* Cholesky A = L L^T in place (lower triangle, n x n). Returns the lanes in which A is positive
+ * definite. */
 static inline real_truth real_cholesky(int n, real *A)
 {
     real_truth good = real_true();

@@ -126,7 +126,7 @@ int rotation_triad(const double x[3], const double y[3], double R[9])
     return 0;
 }
 
-/* (1 - cos w)/w^2 and (w - sin w)/w^3 */
+/* Computes (1 - cos w)/w^2 and (w - sin w)/w^3. */
 static void arc_coefficients(double w, double *a, double *b)
 {
     const double half = sin(w / 2);

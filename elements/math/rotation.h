@@ -2,8 +2,8 @@
  *
  * Matrices are row-major double[9]; a triad's columns are its unit vectors.
  * Rotation increments are spatial: R <- exp(phi~) R, that is
- * q <- rotation_exp(phi) o q.  Every function is accurate to a few eps for
- * every angle, near 0 and near pi included. */
+ * q <- rotation_exp(phi) o q.  Every function is accurate to a few eps for every angle, including
+ * angles near 0 and pi. */
 #ifndef BEAMWORK_MATH_ROTATION_H
 #define BEAMWORK_MATH_ROTATION_H
 
@@ -32,10 +32,10 @@ void rotation_normalise(double q[4]);
 void rotation_matrix(const double q[4], double R[9]);
 void rotation_from_matrix(const double R[9], double q[4]);
 void rotation_apply(const double q[4], const double v[3], double Rv[3]); /* Rv may alias v */
-/* Spatial increment from `from` to `to`: log(to o conj(from)). */
+/* Computes the spatial increment from `from` to `to`: log(to o conj(from)). */
 void rotation_between(const double from[4], const double to[4], double phi[3]);
-/* The triad with its x axis along `x` and its y axis along the part of `y` normal to it. Returns 0,
- * or -1 if x is zero or y is parallel to it. */
+/* Computes the triad with its x axis along `x` and its y axis along the part of `y` normal to it.
+ * Returns 0, or -1 if x is zero or y is parallel to it. */
 int rotation_triad(const double x[3], const double y[3], double R[9]);
 
 /* An arc along which the triad rotates at a constant rate. */
@@ -44,7 +44,7 @@ int rotation_triad(const double x[3], const double y[3], double R[9]);
  * axes at its start q = exp(x rotation~) and r = int_0^x exp(t rotation~) e dt, 0 <= x <= 1; e:
  * direction of the axis in the rotating triad, (1, 0, 0) except for initial strains. */
 void arc_at(const double rotation[3], const double e[3], double x, double r[3], double q[4]);
-/* r of arc_at minus that without rotation, x e. */
+/* Computes r of arc_at minus the value without rotation, x e. */
 void arc_beyond(const double rotation[3], const double e[3], double x, double r[3]);
 
 /* Rigid connection of a point to the body that moves it. Offset rho: dr = dr_b + theta x rho.
@@ -52,8 +52,8 @@ void arc_beyond(const double rotation[3], const double e[3], double x, double r[
 
 /* Transforms force[6: force, moment] from the point to the body. */
 void offset_force(const double rho[3], double force[6]);
-/* K[n x n] with the coordinates of the point at `at`: K <- A^T K A, plus the second derivatives for
- * the potential's gradient `force` on the point (NULL: without these). */
+/* Transforms K[n x n] with the coordinates of the point at `at`: K <- A^T K A, plus the second
+ * derivatives for the gradient `force` of the potential on the point (NULL: without these). */
 void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[]);
 
 #endif

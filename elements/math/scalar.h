@@ -6,7 +6,7 @@
 
 #define PI 3.14159265358979323846
 
-/* The larger of two numbers; NAN if one of them is NAN, unlike fmax. */
+/* Returns the larger of two numbers; NAN if one of them is NAN, unlike fmax. */
 static inline double larger(double a, double b)
 {
     return a >= b || isnan(a) ? a : b;
@@ -19,8 +19,8 @@ enum { QUADRATURE_MAX_POINTS = 64 };
 /* Returns 1 for 1 to 20, 32 or 64 points, whose tables are accurate to all digits. */
 int quadrature_is_tabulated(int n);
 
-/* n points x[n] in ascending order and weights w[n] on [0, 1], exact for polynomials of degree 2n
- * - 1. */
+/* Computes n points x[n] in ascending order and weights w[n] on [0, 1], exact for polynomials of
+ * degree 2n - 1. */
 void quadrature_points(int n, double x[], double w[]);
 
 #endif

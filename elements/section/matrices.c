@@ -61,7 +61,7 @@ void section_matrices_centre(const section *c, double centre[3])
     centre[2] = m > 0 ? M[4] / m : 0;
 }
 
-/* Is no moment negative about any axis? Checks all principal minors. */
+/* Is the moment about every axis non-negative? Checks all principal minors. */
 static int is_semidefinite(const double J[9])
 {
     const double small = 1e-9 * (J[0] + J[4] + J[8]);
@@ -80,8 +80,8 @@ static int is_semidefinite(const double J[9])
     return minors > 0 && determinant >= -small * pow(J[0] + J[4] + J[8], 2);
 }
 
-/* The nearest mass matrix of a slice; returns 0 when it differs by more than measured or printed
- * values can. */
+/* Computes the nearest mass matrix of a slice; returns 0 if it differs by more than measured or
+ * printed values can. */
 static int make_slice(double M[36])
 {
     const double m = M[0] == M[7] && M[7] == M[14] ? M[0] : (M[0] + M[7] + M[14]) / 3,

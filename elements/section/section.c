@@ -55,8 +55,8 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
     return spec;
 }
 
-/* Exact Saint-Venant constant of a rectangle a x b (series; relative error below 1e-15 for every
- * ratio) [m^4]. */
+/* Returns the exact Saint-Venant constant of a rectangle a x b (series; relative error below 1e-15
+ * for every ratio) [m^4]. */
 static double rectangle_torsion(double a, double b)
 {
     const double h = fmax(a, b), t = fmin(a, b);
@@ -71,10 +71,10 @@ static double rectangle_torsion(double a, double b)
     return h * t * t * t / 3 * (1 - 192 / pow(PI, 5) * t / h * sum);
 }
 
-/* int omega^2 dA [m^6] of Saint-Venant's warping function omega = y z + sum C_n sin(k_n y) sinh(k_n
- * z), whose stress-free sides give C_n = -4 (-1)^n/(a k_n^3 cosh(k_n b)), k_n = (2 n + 1) pi/2a,
- * over the half sides a <= b (own integration). For a thin rectangle it is (w h)^3/144; for a
- * square 1/52 of that, where the three terms lose two digits. */
+/* Returns int omega^2 dA [m^6] of Saint-Venant's warping function omega = y z + sum C_n sin(k_n y)
+ * sinh(k_n z), whose stress-free sides give C_n = -4 (-1)^n/(a k_n^3 cosh(k_n b)), k_n = (2 n + 1)
+ * pi/2a, over the half sides a <= b (own integration). For a thin rectangle it is (w h)^3/144; for
+ * a square 1/52 of that, where the three terms lose two digits. */
 static double rectangle_warping(double w, double h)
 {
     const double a = fmin(w, h) / 2, b = fmax(w, h) / 2;
@@ -117,10 +117,10 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     return STATUS_OK;
 }
 
-/* A circular ring, exact: its section remains plane in torsion (Iw = 0). Shear stresses in bending
- * follow Saint-Venant's theory without Poisson effect: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m =
- * inner/outer radius (Renton, Int. J. Solids Struct. 28, 1991; Cowper 1966 at nu = 0), 6/7 for a
- * bar and 1/2 for a thin tube. */
+/* Computes the exact constants of a circular ring: its section remains plane in torsion (Iw = 0).
+ * Shear stresses in bending follow Saint-Venant's theory without Poisson effect: 1/k = 7/6 + 10/3
+ * m^2/(1 + m^2)^2, m = inner/outer radius (Renton, Int. J. Solids Struct. 28, 1991; Cowper 1966 at
+ * nu = 0), 6/7 for a bar and 1/2 for a thin tube. */
 static status tube(const section_spec *s, section *out, fault *f)
 {
     const double R = s->diameter / 2, t = s->wall_thickness;
@@ -259,7 +259,7 @@ static status check_constants(const section *c, fault *f)
     return STATUS_OK;
 }
 
-/* Constants of the shape, or given constants. */
+/* Computes the constants of the shape, or takes given constants. */
 static status constants_of(const section_spec *spec, section *out, fault *f)
 {
     switch (spec->kind) {

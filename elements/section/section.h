@@ -1,6 +1,6 @@
 /* Cross-section constants for beam elements.
  *
- * Axes: x along the line of centroids, y and z principal. A section is given by straight thin walls
+ * Axes: x along the centroidal axis, y and z principal. A section is given by straight thin walls
  * (open, or with closed cells), as a solid rectangle, as a round tube, by constants, or by two
  * matrices. */
 #ifndef BEAMWORK_SECTION_SECTION_H
@@ -32,12 +32,11 @@ typedef struct section {
                              1440 for a sheet (N Eq. 46) */
     double D[9]; /* shear rigidities / G, order y, z, omega [m^2, m^2, m^4; m^3 off the diagonal]:
                     (Qy, Qz, Mw) = G D (gy, gz, gw) */
-    double
-        F[9]; /* D^-1, stored because it exists when D would be infinite (F = 0: rigid in shear) */
+    double F[9]; /* D^-1, stored because it exists if D would be infinite (F = 0: rigid in shear) */
     double axes_angle;              /* beta [rad]: principal y axis from the wall y axis */
     double centroid[2];             /* in wall coordinates [m] */
     int matrices;                   /* 1: a section given by matrices */
-    double stiffness[36], mass[36]; /* for such a section, else zero */
+    double stiffness[36], mass[36]; /* for such a section, otherwise zero */
     double asymmetry; /* asymmetry of the given matrices relative to the diagonal; their symmetric
                          part is used */
     int rectangle;    /* 1: a solid rectangle with the sizes below */
@@ -63,8 +62,8 @@ typedef enum section_zero {
     SECTION_ZERO_WAGNER_TORQUE = 1 << 4
 } section_zero;
 
-/* Constants that a section may give in place of those that its shape has (a printed table's values,
- * fillets that thin walls do not have). A, Iy, Iz and beta are of walls only. */
+/* Constants that a section may give instead of those of its shape (values of a printed table,
+ * fillets that thin walls do not have). A, Iy, Iz and beta: only for walls. */
 #define SECTION_GIVEN(X)                                                                           \
     X(A)                                                                                           \
     X(Iy)                                                                                          \
@@ -77,8 +76,8 @@ typedef struct section_spec {
     unsigned zeros;                       /* SECTION_ZERO_... */
     double young, shear_modulus, density; /* [Pa, Pa, kg/m^3] */
     int points, walls;
-    int cells; /* number of cells that the walls close; a wall that closes a further cell is refused
-                */
+    int cells; /* number of cells that the walls close; a wall that closes a further cell is
+                  rejected */
     double point[SECTION_MAX_POINTS][2]; /* (y, z) [m] */
     struct {
         int from, to;
@@ -92,10 +91,12 @@ typedef struct section_spec {
     int sheet_warping; /* rectangle: Iw = w^3 t^3/144 (same) and It = exact Saint-Venant series in
                           either case */
     double expansion;  /* [1/K] */
-    double diameter, wall_thickness; /* tube: outer diameter; half of it: a solid bar [m] */
-    section constants; /* SECTION_CONSTANTS: used as given; D or F is required. SECTION_MATRICES:
-                          stiffness and mass; no material */
-    /* Replace computed values; NAN: keep the computed value. An Ip that is not given is Iy + Iz. */
+    double diameter,
+        wall_thickness; /* tube: outer diameter; wall_thickness of half of it: a solid bar [m] */
+    section constants;  /* SECTION_CONSTANTS: used as given; D or F is required. SECTION_MATRICES:
+                           stiffness and mass; no material */
+    /* These replace computed values; NAN: keep the computed value. An Ip that is not given is Iy +
+     * Iz. */
     struct {
 #define SECTION_MEMBER(name) double name;
         SECTION_GIVEN(SECTION_MEMBER)
@@ -106,20 +107,20 @@ typedef struct section_spec {
 /* Sets every override to NAN and everything else to zero. */
 void section_spec_init(section_spec *spec);
 
-/* width along z, height along y [m]. */
+/* Returns a rectangle with its width along z and its height along y [m]. */
 section_spec section_spec_rectangle(double young, double shear_modulus, double width,
                                     double height);
-/* The constants are zero; the caller sets them. */
+/* Returns a section whose constants are zero; the caller sets them. */
 section_spec section_spec_constants(double young, double shear_modulus);
-/* walls + 1 points (y, z) [m] of an open section; ends[i]: the points of wall i; NULL: a chain of
- * walls. */
+/* Returns an open section with walls + 1 points (y, z) [m]; ends[i]: the points of wall i; NULL: a
+ * chain of walls. */
 section_spec section_spec_walls(double young, double shear_modulus, int walls,
                                 const double point[][2], const int ends[][2],
                                 const double thickness[]);
 
-/* STATUS_REFUSED, naming the cause (wall 2, the sum of ..., D's eigenvalue): zero or negative
- * sizes, too many cells, disconnected walls, unused points, D not positive definite, G or E not
- * positive, NaN. */
+/* STATUS_REFUSED, with the cause (wall 2, the sum of ..., D's eigenvalue): zero or negative
+ * dimensions, too many cells, disconnected walls, unused points, D not positive definite, G or E
+ * not positive, NaN. */
 status section_compute(const section_spec *spec, section *out, fault *f);
 
 /* Sections given by matrices. With the strains of the Simo-Reissner beam along the line of the
@@ -142,28 +143,28 @@ status section_compute(const section_spec *spec, section *out, fault *f);
 status section_matrices(const section_spec *spec, section *out, fault *f);
 
 /* Do the matrices contain more than constants can represent? Off-diagonal entries of C; where
- * inertia matters, off-diagonal entries of M, and moments of inertia J other than those of a
- * section of one material, if requested, or other than Jxx. */
+ * inertia matters, off-diagonal entries of M, and moments of inertia that differ from those of a
+ * section of one material (rotary 1), or any moment of inertia except Jxx (rotary 0). */
 int section_matrices_couple(const section *c, int inertia, int rotary);
 
-/* Centre of mass [m]; (0, 0, 0) without mass. */
+/* Computes the centre of mass [m]; (0, 0, 0) without mass. */
 void section_matrices_centre(const section *c, double centre[3]);
 
-/* Tapered members: the section changes linearly in its numbers from one description to another of
+/* Tapered members: the dimensions of the section change linearly from one description to another of
  * the same form.
  *
  * Every cross-section is that of a prismatic member with its centroid on the line of the member.
  * Shear stresses due to the taper are neglected, as usual in beam theory. */
 
 /* Is a taper between the two descriptions possible? REFUSED: they have different forms (a
- * rectangle, walls connected in another way, D for one and F for the other ...). For sections with
+ * rectangle, differently connected walls, D for one and F for the other ...). For sections with
  * warping also: the shear centre moves, walls leave their planes, or closed cells differ; the
  * sectorial coordinate of a fibre would then change along the member and couple warping with
- * torsion, which prismatic elements cannot represent. ends: constants of both. */
+ * torsion, which prismatic elements cannot represent. ends: constants of both descriptions. */
 status section_taper_check(const section_spec *p, const section_spec *q,
                            const section *const ends[2], fault *f);
 
-/* The description at x in [0, 1] from p to q. */
+/* Computes the description at x in [0, 1] from p to q. */
 void section_taper_at(const section_spec *p, const section_spec *q, double x, section_spec *out);
 
 #ifdef __cplusplus

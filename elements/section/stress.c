@@ -8,8 +8,8 @@
 
 enum { PER_QY, PER_QZ, PER_WARPING, PER_TWIST };
 
-/* Saint-Venant torsion of a rectangle of thickness 1 and width w: shear stress at the middle of its
- * long sides, divided by G kappa t. */
+/* Returns the shear stress at the middle of the long sides of a rectangle of thickness 1 and width
+ * w in Saint-Venant torsion, divided by G kappa t. */
 static double long_side(double w)
 {
     double sum = 0;
@@ -18,8 +18,8 @@ static double long_side(double w)
     return 1 - 8 / (PI * PI) * sum;
 }
 
-/* At the middle of its short sides: the alternating sum of tanh/n^2, which without tanh is
- * Catalan's constant. */
+/* Returns the shear stress at the middle of the short sides: the alternating sum of tanh/n^2, which
+ * is Catalan's constant without tanh. */
 static double short_side(double w)
 {
     const double catalan = 0.915965594177219015;
@@ -57,7 +57,7 @@ static void rectangle_points(const section *c, stress_points *out)
         }
 }
 
-/* Walls' values and first moments. */
+/* Values and first moments of the walls. */
 typedef struct wall_flow {
     const section_spec *spec;
     const section *constants;
@@ -65,7 +65,7 @@ typedef struct wall_flow {
     flow_moments q[SECTION_MAX_WALLS];
 } wall_flow;
 
-/* Both surfaces of the wall of entry k at x in [0, 1] from its far to its near point. */
+/* Adds both surfaces of the wall of entry k at x in [0, 1] from its far to its near point. */
 static void wall_points(const wall_flow *of, int k, double x, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -100,7 +100,7 @@ static void wall_points(const wall_flow *of, int k, double x, stress_points *out
     }
 }
 
-/* Fibre where the outer surfaces of two walls meet; there is no shear stress there. */
+/* Adds the fibre where the outer surfaces of two walls meet; there is no shear stress there. */
 static void add_corner(const wall_flow *of, int at, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -121,8 +121,8 @@ static void add_corner(const wall_flow *of, int at, stress_points *out)
     out->point[out->count++] = p;
 }
 
-/* The shear centre of an angle is where its walls meet, with fillets too: given with an area, it
- * locates the centroid of the given constants, from which their stresses are. */
+/* Completes an angle: its shear centre is where its walls meet, also with fillets. Given with an
+ * area, it locates the centroid of the given constants, from which the stresses follow. */
 static void complete_angle(const wall_flow *of, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -183,7 +183,7 @@ status stress_points_of(const section_spec *spec, const section *constants, stre
                      "it by sizes or walls, or request resultants");
 }
 
-/* Stresses at a fibre, along it and across it in y and z. */
+/* Stresses at a fibre: along it, and in y and z across it. */
 typedef struct stress {
     double along, y, z;
 } stress;
@@ -201,7 +201,7 @@ static double measured(const stress *s, stress_measure what)
     return -s->along;
 }
 
-/* Elongation of a rotated fibre beyond the strains that belong to N, My and Mz. */
+/* Returns the elongation of a rotated fibre beyond the strains due to N, My and Mz. */
 static double turned(const section *c, double y, double z, double twist)
 {
     const double u = y - c->ys, v = z - c->zs, mean = c->Ip / c->A + c->ys * c->ys + c->zs * c->zs,
@@ -225,7 +225,7 @@ static double of_point(const section *c, const stress_point *p, const stress_res
     return measured(&s, what);
 }
 
-/* The outermost fibres of a tube in the plane of bending. */
+/* Evaluates the outermost fibres of a tube in the plane of bending. */
 static double of_tube(const section *c, double R, const stress_resultants *r, stress_measure what)
 {
     double largest = -INFINITY;

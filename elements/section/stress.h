@@ -1,8 +1,8 @@
 /* Stresses at points of a section from the resultants on it.
  *
- * Included are: along the fibres N/A - Mz y/Iz + My z/Iy - B omega/Iw, and with the Wagner torque
+ * Included are: along the fibres, N/A - Mz y/Iz + My z/Iy - B omega/Iw and, with the Wagner torque,
  * the additional stress of a fibre at the distance rho from the shear centre due to twist, relative
- * to the section as a whole; normal to the fibres Saint-Venant torsion (rectangles by the exact
+ * to the section as a whole; normal to the fibres, Saint-Venant torsion (rectangles by the exact
  * series, walls G t kappa at their surfaces, cells their Bredt flow, tubes G R kappa), the flow of
  * Qy, Qz and of the restrained warping in walls, and in rectangles the parabolas 3/2 Q/A and
  * similar ones for warping. Not included are: concentrations at corners, fillets and ends,
@@ -48,7 +48,8 @@ typedef enum stress_measure {
  * description. REFUSED: a section given by constants, which has no points. */
 status stress_points_of(const section_spec *, const section *constants, stress_points *, fault *);
 
-/* The largest von Mises stress, or the largest or smallest normal stress, over all points [Pa]. */
+/* Returns the largest von Mises stress, or the largest or smallest normal stress, over all points
+ * [Pa]. */
 double stress_of(const stress_points *, const stress_resultants *, stress_measure);
 
 #endif

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Largest relative difference due to rounding. */
+/* Largest relative difference attributed to rounding. */
 static const double same = 1e-9;
 
 static int all_zero(const double v[9])
@@ -51,8 +51,8 @@ static status check_walls(const section_spec *p, const section_spec *q, fault *f
     return STATUS_OK;
 }
 
-/* Distances [m] of the ends of a wall from its plane in the other section, both relative to their
- * shear centres. */
+/* Returns the distances [m] of the ends of a wall from its plane in the other section, both
+ * relative to their shear centres. */
 static double out_of_plane(const section_spec *p, const section_spec *q,
                            const section *const ends[2], int w)
 {
@@ -87,7 +87,7 @@ static int walls_change(const section_spec *p, const section_spec *q)
     return change;
 }
 
-/* Does every fibre keep its sectorial coordinate? */
+/* Checks that every fibre keeps its sectorial coordinate. */
 static status check_warping(const section_spec *p, const section_spec *q,
                             const section *const ends[2], fault *f)
 {

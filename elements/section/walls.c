@@ -13,7 +13,8 @@ double tree_wall_length(const section_spec *s, int w)
     return hypot(q[0] - p[0], q[1] - p[1]);
 }
 
-/* Finds the entry of `t` that reaches each point; the walls that close cells come after these. */
+/* Finds the entry of `t` that reaches each point; the walls that close cells follow these
+ * entries. */
 static status connect(const section_spec *s, section_tree *t, fault *f)
 {
     int reached[SECTION_MAX_POINTS] = {0}, used[SECTION_MAX_WALLS] = {0}, count = 0;
@@ -217,7 +218,7 @@ void flow_compliance(const section_spec *s, const section_tree *t, const double 
 
 enum { ROOT = 0 };
 
-/* int f g dA over the mid-lines; f, g given at the points. */
+/* Returns int f g dA over the mid-lines; f, g are given at the points. */
 static double product(const section_spec *s, const double f[], const double g[])
 {
     const flow_rule rule = flow_rule_of_three();
@@ -253,7 +254,7 @@ static status check_walls(const section_spec *s, fault *f)
     return STATUS_OK;
 }
 
-/* Twice the area swept by a wall about a pole, from `from` to `to` [m^2]. */
+/* Returns twice the area swept by a wall about a pole, from `from` to `to` [m^2]. */
 static double swept(const section_spec *s, int w, const double y[], const double z[], double yp,
                     double zp)
 {
@@ -261,9 +262,9 @@ static double swept(const section_spec *s, int w, const double y[], const double
     return (y[a] - yp) * (z[b] - z[a]) - (z[a] - zp) * (y[b] - y[a]);
 }
 
-/* Sectorial coordinate about a pole, zero mean: omega = int (y dz - z dy) - int psi/t ds, where psi
- * is the flow of Saint-Venant torsion per G and unit twist. It is constant around each cell, and
- * zero without cells. */
+/* Computes the sectorial coordinate about a pole, with zero mean: omega = int (y dz - z dy) - int
+ * psi/t ds, where psi is the flow of Saint-Venant torsion per G and unit twist. It is constant
+ * around each cell, and zero without cells. */
 static void sectorial(const section_spec *s, const section_tree *t, const double y[],
                       const double z[], double yp, double zp, double area, const double psi[],
                       double omega[])
@@ -284,7 +285,8 @@ static void sectorial(const section_spec *s, const section_tree *t, const double
         omega[p] -= mean;
 }
 
-/* Torsion of the cells: flow per G and unit twist [m^2], and contribution to It [m^4] (Bredt). */
+/* Returns the torsion of the cells: flow per G and unit twist [m^2], and contribution to It [m^4]
+ * (Bredt). */
 static double cell_torsion(const section_spec *s, const section_tree *t, const double y[],
                            const double z[], double psi[])
 {
@@ -331,10 +333,10 @@ static void wagner_constants(const section_spec *s, const double y[], const doub
     }
 }
 
-/* 1/8 int q^2 dA, where q is the part of r^2 = y^2 + z^2 that shortening and bending do not
+/* Returns 1/8 int q^2 dA, where q is the part of r^2 = y^2 + z^2 that shortening and bending do not
  * contain: r^2 - Ip/A - wagner_y/Iz y - wagner_z/Iy z. The position of the shear centre has no
- * influence, because rotation about another point only adds such strains. At n across a wall q +
- * q_n n + n^2. */
+ * influence, because rotation about another point only adds such strains. At the distance n across
+ * a wall, it is q + q_n n + n^2. */
 static double wagner_torque(const section_spec *s, const double y[], const double z[],
                             const section *c)
 {

@@ -9,15 +9,15 @@
 
 #include "elements/section/section.h"
 
-/* Root: point 0. The first walls - cells entries form the tree, from the root outwards; each later
- * entry closes a cell. */
+/* Root: point 0. The first walls - cells entries form the tree, from the root outwards; each of the
+ * others closes a cell. */
 typedef struct section_tree {
     int wall[SECTION_MAX_WALLS]; /* wall of an entry */
     int near[SECTION_MAX_WALLS],
         far[SECTION_MAX_WALLS]; /* its point closer to the root, and the other point */
     int cells;
-    /* [cell][wall]: 1 when the cell contains the wall in the direction from `from` to `to`, -1 in
-     * the opposite direction, 0 not at all */
+    /* [cell][wall]: 1 if the cell contains the wall in the direction from `from` to `to`, -1 in the
+     * opposite direction, 0 not at all */
     signed char round[SECTION_MAX_WALLS][SECTION_MAX_WALLS];
 } section_tree;
 
@@ -25,8 +25,8 @@ typedef struct section_tree {
  * an unused point. */
 status tree_grow(const section_spec *s, section_tree *t, fault *f);
 
-/* flow[walls], from `from` to `to`: constant around each cell, with oint flow/t ds = oint d(jump),
- * where jump[walls] is the contribution of a wall. Zero in an open section. */
+/* Computes flow[walls], from `from` to `to`: constant around each cell, with oint flow/t ds = oint
+ * d(jump), where jump[walls] is the contribution of a wall. Zero in an open section. */
 void tree_flow(const section_spec *s, const section_tree *t, const double jump[], double flow[]);
 
 double tree_wall_length(const section_spec *s, int w); /* [m] */
@@ -46,11 +46,11 @@ typedef struct flow_rule {
 
 flow_rule flow_rule_of_three(void);
 
-/* Value at x in [0, 1] of a function that is linear along the wall, from its values at the points.
- */
+/* Returns the value at x in [0, 1] of a function that is linear along the wall, from its values at
+ * the points. */
 double flow_along(const section_spec *s, int w, const double value[], double x);
 
-/* Directions of a wall: t along it, n = (tz, -ty) its normal. */
+/* Directions of a wall: t along it, n = (tz, -ty) normal to it. */
 typedef struct flow_frame {
     double length, ty, tz, ny, nz;
 } flow_frame;
@@ -63,11 +63,11 @@ typedef struct flow_moments {
     double start[3];
 } flow_moments;
 
-/* q[walls], in the order of the tree; value: y, z and omega at the points. */
+/* Computes q[walls], in the order of the tree; value: y, z and omega at the points. */
 void flow_first_moments(const section_spec *s, const section_tree *t, const double *value[3],
                         flow_moments q[]);
-/* Moment i of wall t->wall[k] at x in [0, 1] from its far to its near point, positive towards the
- * latter. */
+/* Returns moment i of wall t->wall[k] at x in [0, 1] from its far to its near point, positive
+ * towards the latter. */
 double flow_moment(const section_spec *s, const section_tree *t, const double *value[3],
                    const flow_moments q[], int k, int i, double x);
 
@@ -88,20 +88,21 @@ typedef struct walls_lines {
     double pole[2];                 /* the shear centre [m] */
 } walls_lines;
 
-/* Angle of the principal y axis [rad], the smaller of the two; 0 where every axis is one. */
+/* Returns the angle of the principal y axis [rad], the smaller of the two; 0 if every axis is
+ * principal. */
 double section_principal_angle(double Iyy, double Izz, double Iyz);
 
-/* Constants of a zeroed section, except shear and moments of higher order; REFUSED as
- * section_walls. */
+/* Computes the constants of a zeroed section, except shear and moments of higher order; REFUSED as
+ * for section_walls. */
 status walls_lines_of(const section_spec *spec, walls_lines *lines, section *out, fault *f);
 
 /* Adds geometry and the shear compliance F to a zeroed section; ignores the material. REFUSED:
- * closed cell, disconnected wall, unused point, sizes that are not positive, walls on one line. */
+ * closed cell, disconnected wall, unused point, non-positive dimensions, walls on one line. */
 status section_walls(const section_spec *spec, section *out, fault *f);
 
-/* int omega r^2 dA relative to the square root of int omega^2 dA int r^4 dA. It measures a coupling
- * of bimoment and twist that distinguishes the directions of twist; no element includes it. 0 for
- * symmetric sections, and for sections without walls. */
+/* Returns int omega r^2 dA relative to the square root of int omega^2 dA int r^4 dA. It measures a
+ * coupling of bimoment and twist that distinguishes the directions of twist; no element includes
+ * it. 0 for symmetric sections, and for sections without walls. */
 double walls_one_sided(const section_spec *spec);
 
 #endif

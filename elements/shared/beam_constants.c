@@ -83,7 +83,7 @@ status beam_coupled_too_stiff(double length, fault *f)
                      length);
 }
 
-/* mixed = [K, B; B^T, -F] with F = Cgg^-1, B = Ckg F, K = Ckk - Ckg F Cgk. */
+/* Computes mixed = [K, B; B^T, -F] with F = Cgg^-1, B = Ckg F, K = Ckk - Ckg F Cgk. */
 static int mix(const double C[36], double mixed[36])
 {
     double Cgg[9], Ckg[9], F[9], B[9];

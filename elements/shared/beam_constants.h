@@ -38,8 +38,8 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
 /* Sets out->C and out->mixed, made dimensionless by EI [N m^2]. */
 status beam_coupled_of(const section *profile, double l0, double EI, beam_constants *out, fault *f);
 
-/* Inverse of a symmetric positive definite matrix [n x n], n <= 6. Returns 0, or the number of a
- * failing pivot. */
+/* Computes the inverse of a symmetric positive definite matrix [n x n], n <= 6. Returns 0, or the
+ * number of a failing pivot. */
 int beam_coupled_inverse(int n, const double A[], double inverse[]);
 
 /* Reports that a matrix of an element of that length [m] could not be inverted. */

@@ -6,13 +6,13 @@
 
 /* Numbers in user input. */
 
-/* Number at the beginning of `text`; *end: after it. Returns 0 when there is none, or when it is
+/* Reads the number at the start of `text`; *end: after it. Returns 0 if there is none, or if it is
  * outside the range of a double: infinite, or below 2.2e-308, where digits would be lost. */
 int number_read(const char *text, const char **end, double *out);
 
 /* Words of a list "a|b|c", and the nearest one to a misspelt word. */
 
-/* Index of `word` in "a|b|c", or -1. */
+/* Returns the index of `word` in "a|b|c", or -1. */
 int choice_index(const char *choices, const char *word);
 void choice_name(const char *choices, int index, char *text, int size);
 
@@ -20,13 +20,13 @@ void choice_name(const char *choices, int index, char *text, int size);
 status choice_unknown(const char *what, const char *word,
                       const char *(*next)(const void *context, int i), fault *f);
 
-/* The candidate nearest to a misspelt word (edit distance), or NULL when none is similar.
+/* Returns the candidate nearest to a misspelt word (edit distance), or NULL if none is similar.
  * next(context, i) returns NULL at the end. */
 const char *choice_nearest(const char *word, const char *(*next)(const void *context, int i),
                            const void *context);
 
-/* Number of letters to change, add or remove to turn a into b; only the first 63 letters of a
- * count. */
+/* Returns the number of letters to change, add or remove to turn a into b; only the first 63
+ * letters count. */
 int choice_distance(const char *a, const char *b);
 
 #endif

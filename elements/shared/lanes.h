@@ -1,8 +1,8 @@
 /* Several elements of one kind at once, one in each lane (elements/math/real.h).
  *
  * A family implements its strains and stresses with node_real, strain_real and stress_real, in
- * headers of static functions. With LANES 1 these are the types of element.h, and the functions for
- * a single element include the headers in this form. A file lanes.c defines LANES as LANES_TOGETHER
+ * headers of static functions. With LANES 1, these are the types of element.h; the functions for a
+ * single element include the headers in this form. A file lanes.c defines LANES as LANES_TOGETHER
  * before it includes them, and implements strain_many and stress_many by the functions below; the
  * Makefile compiles it twice. */
 #ifndef BEAMWORK_SHARED_LANES_H
@@ -53,7 +53,7 @@ static inline int lanes_run(int count, const element_data *const data[])
     return run;
 }
 
-/* Arrays of one lane each into lanes, and back. */
+/* Copies arrays of one lane each into lanes, and back. */
 static inline void lanes_gather(int n, const double *const from[LANES], real to[])
 {
     for (int i = 0; i < n; i++) {
@@ -71,7 +71,7 @@ static inline void lanes_scatter(int n, const real from[], double *const to[LANE
 }
 
 typedef void lanes_strain(const element_data *, const node_real x[], strain_real *);
-/* Returns where the state can be evaluated. */
+/* Returns the lanes in which the state can be evaluated. */
 typedef real_truth lanes_stress(const element_data *, const real e[], const real inner[],
                                 stress_real *);
 
@@ -108,7 +108,7 @@ lanes_gather_arrays(int n, int run, const double *const in[], real to[])
     lanes_gather(n, from, to);
 }
 
-/* A run of one kind. */
+/* Evaluates a run of one kind. */
 static inline __attribute__((always_inline)) void
 lanes_strain_run(lanes_sizes n, lanes_strain *strain, int run, const element_data *data,
                  const node_state x[], strain_output out[])
@@ -252,8 +252,8 @@ lanes_equations_force(int strains, int columns, const real J[], const real s[], 
             out[j] += s[i] * J[i * columns + j];
 }
 
-/* K += J^T C J. For two nodes whose positions enter by their difference, the entries of the first
- * node's position are minus those of the second, except in the block of both, so that K is as
+/* K += J^T C J. For two nodes whose positions enter only by their difference, the entries of the
+ * first node's position are minus those of the second, except in the block of both, so that K is as
  * symmetric as H. */
 static inline __attribute__((always_inline)) void lanes_equations_stiffness(lanes_sizes n,
                                                                             lanes_equations *q)

@@ -57,7 +57,7 @@ static void add_product(int columns, double factor, const double *T, const doubl
         add_upper(columns, factor, T, U, n, A);
 }
 
-/* Effect of the rotating frame on the columns of T: P and Omega x of each. */
+/* Computes the effect of the rotating frame on the columns of T: P and Omega x of each. */
 static void turn_columns(const moving_vector *v, const double omega[3], double P[3 * MOST],
                          double coriolis[3 * MOST])
 {
@@ -229,8 +229,8 @@ static void add_rotation(const lumped_mass *l, double share, const node_state *x
     }
 }
 
-/* Warping moves the section along its normal by -omega a, in a rotating frame away from the axis:
- * acts as a vector a n_X with mass rho Iw. */
+/* Adds warping, which moves the section along its normal by -omega a, in a rotating frame away from
+ * the axis: acts as a vector a n_X with mass rho Iw. */
 static void add_warping(double mass, const node_state *x, const element_rotating_frame *frame,
                         int at, int n, inertia_output *out)
 {
@@ -254,7 +254,7 @@ static void add_warping(double mass, const node_state *x, const element_rotating
     }
 }
 
-/* Without rotary inertia: only rotation about n_X. */
+/* Adds the inertia without rotary inertia: only rotation about n_X. */
 static void add_twist(double mass, const node_state *x, int at, int n, inertia_output *out)
 {
     for (int i = 0; i < 3 && out->M != NULL; i++)
@@ -262,7 +262,7 @@ static void add_twist(double mass, const node_state *x, int at, int n, inertia_o
             out->M[(at + 3 + i) * n + at + 3 + k] += mass * x->R[3 * i] * x->R[3 * k];
 }
 
-/* r + R vector[0]; the others rotated by R. */
+/* Adds r + R vector[0]; the others are rotated by R. */
 static void add_vectors(const lumped_mass *l, double share, const node_state *x,
                         const element_rotating_frame *frame, int at, int n, inertia_output *out)
 {

@@ -25,7 +25,7 @@ void moving_add(const moving_vector *v, const element_rotating_frame *frame, int
                 inertia_output *out, double F[3]);
 /* Copies the upper halves to the lower ones; call once, after everything has been added. */
 void moving_complete(int n, inertia_output *out);
-/* Matrix to which second derivatives of y are added; NULL: not requested. */
+/* Returns the matrix to which second derivatives of y are added; NULL: not requested. */
 static inline double *moving_stiffness(const element_rotating_frame *frame,
                                        const inertia_output *out)
 {
@@ -37,8 +37,8 @@ void moving_rotation_stiffness(const double F[3], const double v[3], int at, int
 /* T[3 x columns] += -v~ in columns at .. at + 2, for a vector v that rotates with a node. */
 void moving_rotation_gradient(const double v[3], int at, int columns, double T[]);
 
-/* Inertia of a node with the mass of a piece of beam (J Eq. 73, its J corrected to diag(Ip, Iy,
- * Iz)). */
+/* Inertia of a node with the mass of a piece of beam (J Eq. 73, with its J corrected to diag(Ip,
+ * Iy, Iz)). */
 
 enum { LUMPED_VECTORS = 7 };
 
@@ -47,33 +47,34 @@ typedef struct lumped_mass {
     double rotary[3]; /* Ip, Iy, Iz about the columns of R [kg m^2] */
     double warping;   /* [kg m^4] */
     int turns;   /* 1: rotary inertia; 0: a twist has inertia, but no effect of a rotating frame */
-    int vectors; /* for a section given by matrices, its whole inertia; 0: none; otherwise the other
-                    members are not used */
+    int vectors; /* for a section given by matrices: number of vectors that represent its whole
+                    inertia; 0: none. Otherwise the other members are not used */
     double vector[LUMPED_VECTORS][3],
         carried[LUMPED_VECTORS]; /* fixed to R, with their masses: the first is the centre of mass
                                     [m], the others have length 1 or root 2 */
 } lumped_mass;
 
-/* Lumped mass of `length` [m] of beam. For a section given by matrices all their entries are used.
- * For others, without FEATURE_ROTARY_INERTIA only translations and the polar moment for the twist
- * are included. */
+/* Returns the lumped mass of `length` [m] of beam. For a section given by matrices, all their
+ * entries are used. For others, without FEATURE_ROTARY_INERTIA, only translations and the polar
+ * moment for the twist are included. */
 lumped_mass lumped_of(const section *c, unsigned features, double length);
 
-/* Adds `share` of it at a node whose coordinates begin at `at` of n; call moving_complete at the
- * end. */
+/* Adds `share` of the mass at a node whose coordinates begin at `at` of n; call moving_complete at
+ * the end. */
 void lumped_add(const lumped_mass *l, double share, const node_state *x,
                 const element_rotating_frame *frame, int at, int n, inertia_output *out);
 
-/* Shares of the nodes of an element: a half for two nodes, Simpson's weights for three. */
+/* Returns the shares of the nodes of an element: one half for two nodes, Simpson's weights for
+ * three. */
 const double *lumped_shares(int nodes);
 
-/* Inertia of an element whose mass is lumped at its nodes with these shares. */
+/* Computes the inertia of an element whose mass is lumped at its nodes with these shares. */
 status lumped_element(const lumped_mass *whole, int nodes, const double share[],
                       const node_state x[], const element_rotating_frame *frame,
                       inertia_output *out);
 
-/* Masses j of the three unit vectors of a section with the rotary inertia diag(Ip, Iy, Iz) = sum_k
- * j_k (1 - e_k e_k^T). */
+/* Computes the masses j of the three unit vectors of a section with the rotary inertia diag(Ip, Iy,
+ * Iz) = sum_k j_k (1 - e_k e_k^T). */
 void lumped_directors(const double rotary[3], double j[3]);
 
 #endif

@@ -21,14 +21,14 @@ typedef struct parameter_type {
  * fewer. */
 enum { PARAMETER_PARTS = 5 };
 
-/* Number of entries of all parts. */
+/* Returns the number of entries of all parts. */
 int parameter_count(const parameter_type *const part[PARAMETER_PARTS]);
-/* NULL after the last one. */
+/* Returns NULL after the last one. */
 const parameter_type *parameter_at(const parameter_type *const part[PARAMETER_PARTS], int i);
-/* Returns -1 when there is no entry of that name. */
+/* Returns -1 if there is no entry of that name. */
 int parameter_index(const parameter_type *const part[PARAMETER_PARTS], const char *name);
 void parameter_defaults(const parameter_type *const part[PARAMETER_PARTS], double value[]);
-/* Number of choices; 0: the parameter is a number. */
+/* Returns the number of choices; 0: the parameter is a number. */
 int parameter_choices(const parameter_type *);
 
 #ifdef __cplusplus

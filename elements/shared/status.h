@@ -1,7 +1,7 @@
 /* Outcome of functions that can fail at run time.
  *
- * A function that can fail returns a status. One that refuses user input also fills a fault with
- * one line that names the cause and the remedy. Programming errors are caught by assertions
+ * A function that can fail returns a status. A function that rejects user input also fills a fault
+ * with one line that names the cause and the remedy. Programming errors are caught by assertions
  * instead. */
 #ifndef BEAMWORK_STATUS_H
 #define BEAMWORK_STATUS_H
@@ -37,7 +37,7 @@ __attribute__((format(printf, 3, 4)))
 status
 fault_set(fault *f, status s, const char *format, ...);
 
-/* Not in C++, where other headers may have the name. */
+/* Returns from the function if a call failed; for functions that have nothing to free. */
 #ifndef __cplusplus
 /* Returns from the function when a call failed; for functions that have nothing to free. */
 #define TRY(call)                                                                                  \

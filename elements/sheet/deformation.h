@@ -73,7 +73,7 @@ static inline void sheet_rates_chain(const sheet_rates *r, const real e[SHEET_LO
     a[SHEET_RATE_WQ] = e[SHEET_LOCAL_WQ];
 }
 
-/* The blocks of a form in v, P, Q that are used: those on and below the diagonal. */
+/* Are these blocks of a form in v, P, Q used? Those on and below the diagonal are. */
 static inline int sheet_rates_used(int i, int j)
 {
     return j / 3 <= i / 3;
@@ -106,8 +106,8 @@ static inline void sheet_rates_congruence(const sheet_rates *r, const real Q[],
     memcpy(H + SHEET_RATES * SHEET_RATE_WP, QR[SHEET_LOCAL_WP], 2 * sizeof QR[0]);
 }
 
-/* Weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from those of dw/dt and
- * d(bend)/dt, bend = P_z - w_F,z. */
+/* Computes the weights of the accelerations dv/dt, dP/dt, dQ/dt in sum t_k d2q_k/dt2, from those of
+ * dw/dt and d(bend)/dt, bend = P_z - w_F,z. */
 static inline void sheet_rates_weights(const sheet_local_state *s,
                                        const real t[SHEET_LOCAL_COORDINATES],
                                        const real relative[3], real bend, real g[SHEET_RATE_TURNS])
@@ -185,7 +185,7 @@ static inline void sheet_rates_add_second(const sheet_local_state *s, const shee
                 H[SHEET_RATES * i + j] += (A[i][j] + A[j][i]) / 2;
 }
 
-/* From rates to the coordinates of the nodes: a row of J[14] = a[11] d(rates)/dx. */
+/* Transforms from rates to the coordinates of the nodes: a row of J[14] = a[11] d(rates)/dx. */
 static inline void sheet_rates_nodal_row(const sheet_local_state *s, const real a[SHEET_RATES],
                                          real row[SHEET_LOCAL_NODAL])
 {
@@ -241,9 +241,9 @@ static inline void sheet_rates_nodal_form(const sheet_local_state *s,
     }
 }
 
-/* The deformation function of a table of strains, with its derivatives, of one element or of
- * several in lanes: with E = de/dq, R = dq/d(rates) and T the rates of the nodes' coordinates, J =
- * E R T and sum s_i d2e_i/dx2 = T^T [R^T (sum s_i Q_i) R + sum_k t_k q_k''] T, t = E^T s. */
+/* The deformation function of a table of strains, with its derivatives, for one element or several
+ * in lanes: with E = de/dq, R = dq/d(rates) and T the rates of the nodes' coordinates, J = E R T
+ * and sum s_i d2e_i/dx2 = T^T [R^T (sum s_i Q_i) R + sum_k t_k q_k''] T, t = E^T s. */
 
 /* E[8 x 8] = de/dq at q, e[8]. */
 static inline void sheet_deformation_gradient(const sheet_strains_table *m,

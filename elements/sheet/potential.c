@@ -111,7 +111,7 @@ static const double corrected_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE +
 static const double printed_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
     {1}, {-1, 6, -9, 4}, {0, 2, -6, 4}, {0, 2, -6, 4}, {0, 0, -3, 4}};
 
-/* Bending: fields of one point, with its weight. */
+/* Adds bending: fields of one point, with its weight. */
 static void add_bending(const element_request *r, double x, double ds, const sheet_fields *f,
                         sums *out)
 {
@@ -171,8 +171,8 @@ static void add_torsion(const element_request *r,
     out->P0[ONE][WP] = out->P0[ONE][WQ] = -kx * EIw / L * (integral.same + integral.other);
 }
 
-/* If amplitudes are kept although there is no warping, they take the values Wp = Wq = px/L; uses
- * the energy of N Eq. 34 in W - px/L. */
+/* If amplitudes are requested although there is no warping, they take the values Wp = Wq = px/L;
+ * uses the energy of N Eq. 34 in W - px/L. */
 static void add_idle_amplitudes(const element_request *r, sums *out)
 {
     const double L = r->length, k = r->section->shear_modulus * r->section->It * L / 30;
@@ -182,7 +182,7 @@ static void add_idle_amplitudes(const element_request *r, sums *out)
             out->P0[a][b] += k * (2 * p[a] * p[b] + 2 * q[a] * q[b] - p[a] * q[b]);
 }
 
-/* The terms of one degree in x. */
+/* Appends the terms of one degree in x. */
 static void append(int degree, sheet_potential_term terms[], int most, int *count, int i, int j,
                    double table[V][V])
 {

@@ -21,18 +21,19 @@ enum { SHEET_TERMS_A = 96, SHEET_TERMS_B = 64, SHEET_TERMS_P0 = 12 };
 
 typedef struct sheet_potential {
     int terms_A, terms_b, terms_P0;
-    /* Terms are ordered by degree in x; first of the linear and of the quadratic ones. */
+    /* Terms are ordered by degree in x; these are the first linear and the first quadratic
+     * terms. */
     int linear_A, quadratic_A, linear_b, quadratic_b, linear_P0, quadratic_P0;
     sheet_potential_term A[SHEET_TERMS_A], b[SHEET_TERMS_B], P0[SHEET_TERMS_P0];
 } sheet_potential;
 
-/* printed: u_y in M_x with the sign of N Eq. 49 as printed.  Refuses a section without torsional
+/* printed: u_y in M_x with the sign of N Eq. 49 as printed. Rejects a section without torsional
  * stiffness. */
 status sheet_coefficients_prepare(const element_request *request, int printed, sheet_potential *out,
                                   fault *f);
 
-/* P[1], its gradient[8] and Hessian[8 x 8] at x; may be NULL. SINGULAR: A is not positive definite
- * there. */
+/* Computes P[1], its gradient[8] and Hessian[8 x 8] at x; may be NULL. SINGULAR: A is not positive
+ * definite there. */
 status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                                 double *P, double *gradient, double *hessian);
 
@@ -86,7 +87,7 @@ static inline void sheet_stationary_add_b(const sheet_potential *p, sheet_statio
     }
 }
 
-/* Returns where A is positive definite. */
+/* Returns the lanes in which A is positive definite. */
 static inline real_truth sheet_stationary_solve(const sheet_potential *p,
                                                 const real x[SHEET_LOCAL_COORDINATES],
                                                 sheet_stationary *at)
@@ -113,9 +114,9 @@ static inline void sheet_stationary_add_half_work(const sheet_stationary *at,
     }
 }
 
-/* Terms of P at fixed stresses: g += d(P0 + b.s - s^T A s/2)/dv, h += its second derivatives with
- * row <= column; W completed. s.b,a - s^T A,a s/2 is the mean of s.W_a before and after A,a s is
- * subtracted from W. Index 0 is not a variable; its entries are not used. */
+/* Adds the terms of P at fixed stresses: g += d(P0 + b.s - s^T A s/2)/dv, h += its second
+ * derivatives with row <= column; W completed. s.b,a - s^T A,a s/2 is the mean of s.W_a before and
+ * after A,a s is subtracted from W. Index 0 is not a variable; its entries are not used. */
 static inline void sheet_stationary_add_explicit(const sheet_potential *p, sheet_stationary *at,
                                                  real g[SHEET_STATIONARY_V], real h[])
 {
@@ -151,7 +152,7 @@ static inline void sheet_stationary_add_explicit(const sheet_potential *p, sheet
     sheet_stationary_add_half_work(at, g);
 }
 
-/* Rows of L^-1 W: their products are W^T A^-1 W. */
+/* Computes the rows of L^-1 W, whose products are W^T A^-1 W. */
 static inline void sheet_stationary_forward(sheet_stationary *at)
 {
     for (int i = 0; i < SHEET_STRESSES; i++)
@@ -173,9 +174,9 @@ static inline real sheet_stationary_value(const sheet_potential *p, const sheet_
     return P;
 }
 
-/* P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not needed. Returns where A is positive
- * definite; if it is nowhere, nothing is written. P,k = P0,k + s.b,k - s^T A,k s/2, P,kl = P0,kl +
- * s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l s). */
+/* Computes P[1], its gradient[8] and Hessian[8 x 8] at x; NULL: not needed. Returns the lanes in
+ * which A is positive definite; if there are none, nothing is written. P,k = P0,k + s.b,k - s^T A,k
+ * s/2, P,kl = P0,kl + s.b,kl - s^T A,kl s/2 + (b,k - A,k s)^T A^-1 (b,l - A,l s). */
 static inline real_truth sheet_stationary_evaluate(const sheet_potential *p,
                                                    const real x[SHEET_LOCAL_COORDINATES], real *P,
                                                    real *gradient, real *hessian)
@@ -208,7 +209,7 @@ static inline real_truth sheet_stationary_evaluate(const sheet_potential *p,
     return good;
 }
 
-/* The stress function of the third-order elements in the generalized strains, of one element or of
+/* The stress function of the third-order elements in the generalized strains, for one element or
  * several in lanes: N Eqs. 58-65, x = scale e + 1/2 e^T X e inverts the deformation function to
  * second order. Only u and the angles about y have terms in X: u products of e5 and e6, the angles
  * products of one of these and e2, e7 or e8. */
@@ -237,7 +238,8 @@ static inline const sheet_inverse_data *sheet_inverse_of(const element_data *d)
     return (const sheet_inverse_data *)(const void *)d;
 }
 
-/* The rows X e of dx/de besides its diagonal, and 1/2 e^T X e; zero entries are not written. */
+/* Computes the rows X e of dx/de apart from its diagonal, and 1/2 e^T X e; zero entries are not
+ * written. */
 static inline void sheet_inverse_row(const double X[SHEET_STRAINS * SHEET_STRAINS], int angle,
                                      const real e[SHEET_STRAINS], real row[SHEET_STRAINS])
 {
@@ -254,7 +256,7 @@ static inline void sheet_inverse_row(const double X[SHEET_STRAINS * SHEET_STRAIN
     }
 }
 
-/* x(e) for strains measured from the undeformed arc. */
+/* Computes x(e) for strains measured from the undeformed arc. */
 static inline void sheet_inverse_point(const sheet_inverse_data *d, const real e[SHEET_STRAINS],
                                        real x[SHEET_STRAINS],
                                        real row[SHEET_INVERSE_CURVED][SHEET_STRAINS])
@@ -323,7 +325,8 @@ static inline void sheet_inverse_second(const sheet_inverse_data *d,
     }
 }
 
-/* As element_type.stress. Returns where it can be evaluated; if nowhere, nothing is written. */
+/* Like element_type.stress. Returns the lanes that can be evaluated; if there are none, nothing is
+ * written. */
 static inline real_truth sheet_inverse_stress(const sheet_inverse_data *d,
                                               const real e[SHEET_STRAINS], stress_real *out)
 {

@@ -1,5 +1,5 @@
 /* Sheet flexures: local coordinates, strains, stiffness, torsion and Wagner torque, the common
- * base, elements of second and third order. */
+ * base, second-order and third-order elements. */
 #ifndef BEAMWORK_SHEET_SHEET_H
 #define BEAMWORK_SHEET_SHEET_H
 
@@ -92,11 +92,11 @@ typedef struct sheet_fields {
     double phi_z[SHEET_LOCAL_COORDINATES], dphi_z[SHEET_LOCAL_COORDINATES];
 } sheet_fields;
 
-/* Returns 1 when phi_x is cubic (N Eq. 19); 0 when it is linear, because there is no warping or no
+/* Returns 1 if phi_x is cubic (N Eq. 19), 0 if it is linear because there is no warping or no
  * amplitude is requested. */
 int sheet_fields_warp(const element_request *request);
 
-/* At s = x l0.  Phi_y, Phi_z: N Eq. 18.  warp: as sheet_fields_warp says. */
+/* Computes the fields at s = x l0. Phi_y, Phi_z: N Eq. 18; warp: see sheet_fields_warp. */
 sheet_fields sheet_fields_at(double l0, double x, double Phi_y, double Phi_z, int warp);
 
 /* Deformation functions of N's elements: eight generalized strains, quadratic in the local
@@ -125,11 +125,12 @@ typedef struct sheet_strains_table {
 } sheet_strains_table;
 
 /* Phi_y, Phi_z: shear parameters of the displacement fields (N Eq. 18); both 0: N Eq. 37, without
- * shear; those of the section: consistent with shear (derived here). Features: warping, trapeze. */
+ * shear deformation; the values of the section: consistent with shear (derived here). Features:
+ * warping, trapeze. */
 status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
                              sheet_strains_table *out, fault *f);
 
-/* Measures the strains from the stress-free element. */
+/* Sets the strains of the stress-free element, from which strains are measured. */
 void sheet_strains_set_rest(const element_request *request, sheet_strains_table *out);
 
 /* As element_type.strain. */
@@ -138,7 +139,7 @@ void sheet_strains_evaluate(const sheet_strains_table *table, const node_state x
 
 /* Stiffness of the linear solution (N Eqs. 33-36). */
 
-/* Shear parameters Phi_y, Phi_z of N Eq. 18; 0 for a section that is rigid in shear. */
+/* Returns the shear parameters Phi_y, Phi_z of N Eq. 18; 0 for a section that is rigid in shear. */
 double sheet_elastic_phi_y(const section *c, double l0);
 double sheet_elastic_phi_z(const section *c, double l0);
 
@@ -186,7 +187,7 @@ typedef struct sheet_wagner_term {
     double rate[SHEET_WAGNER_POINTS][SHEET_WAGNER_STRAINS]; /* kx per e2, e7, e8 [1/m^2] */
 } sheet_wagner_term;
 
-/* Inactive without FEATURE_WAGNER_TORQUE; refuses a combination with initial torsion. */
+/* Inactive without FEATURE_WAGNER_TORQUE; rejects a combination with initial torsion. */
 status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f);
 
 /* Adds to energy[1], sigma[8], C[8 x 8] (each may be NULL), for one element or several in lanes. */
@@ -247,7 +248,7 @@ typedef struct sheet_base_data {
     sheet_wagner_term wagner;
 } sheet_base_data;
 
-/* Features and restrictions common to all of them. */
+/* Features and restrictions common to all sheet elements. */
 enum {
     SHEET_BASE_OFFERS = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE |
                         FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA |
@@ -268,8 +269,8 @@ status sheet_base_inertia(const element_data *d, const node_state x[],
 int sheet_base_mass_of_field(const double options[]);
 element_order sheet_base_order(element_analysis, const double options[]);
 
-/* For element_type: members common to all sheet elements, and to those whose strains have no shear.
- */
+/* For element_type: members common to all sheet elements, and to those whose strains do not include
+ * shear. */
 #define SHEET_BASE_TYPE                                                                            \
     .family = "sheet", .abi = ELEMENT_ABI, .order = sheet_base_order, .strain = sheet_base_strain, \
     .inertia = sheet_base_inertia, .spreads = 1, .mass_of_field = sheet_base_mass_of_field,        \

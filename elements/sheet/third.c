@@ -14,7 +14,7 @@ size_t sheet_third_data_size(const element_request *request)
     return sizeof(sheet_inverse_data);
 }
 
-/* N Eqs. 58-65: the deformation function inverted to second order. */
+/* Inverts the deformation function to second order: N Eqs. 58-65. */
 static void partial_inverse(double L, int warp, sheet_inverse_data *d)
 {
     static const struct {
@@ -92,10 +92,10 @@ status sheet_third_prepare(const element_request *request, int printed, element_
     return set_rest(request, out, f);
 }
 
-/* Bent to u = psi (x - x^2) L, psi at one end and -psi at the other, M_z = M~z + u F deviates from
- * what is linear along the element: with f = F L^2/EIz the energy EIz/(2 L) (4 + f/3 - f^2/180)
- * psi^2 is positive up to f = 30 + sqrt(1620).  The other bending, psi at both ends, goes to f =
- * 185. */
+/* If the element is bent to u = psi (x - x^2) L, psi at one end and -psi at the other, M_z = M~z +
+ * u F deviates from a linear moment along the element: with f = F L^2/EIz, the energy EIz/(2 L) (4
+ * + f/3 - f^2/180) psi^2 is positive up to f = 30 + sqrt(1620).  The other bending shape, psi at
+ * both ends, is positive up to f = 185. */
 double sheet_third_tension(const element_data *data, const double sigma[])
 {
     const sheet_inverse_data *d = sheet_inverse_of(data);

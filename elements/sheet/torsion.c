@@ -6,8 +6,8 @@
 
 enum { COEFFICIENTS = SHEET_TORSION_DEGREE + 1, POINTS = 16, LOADS = SHEET_TORSION_MODES + 2 };
 
-/* Below this lambda the closed form would lose digits as lambda^-4; above it the kernel has
- * boundary layers that quadrature would need many points for. */
+/* Below this lambda, the closed form would lose digits as lambda^-4; above it, the kernel has
+ * boundary layers that would require many quadrature points. */
 static const double closed_from = 6;
 
 /* phi_x' per px/L, Wp, Wq (N Eq. 19), and h_p, h_q for lambda -> 0. */
@@ -24,7 +24,7 @@ static double second(const double t[COEFFICIENTS], double x)
     return 2 * t[2] + 6 * t[3] * x;
 }
 
-/* int a b dx with a single rounding: 420/(n + 1) is an integer for every power n <= 6. */
+/* Returns int a b dx with a single rounding: 420/(n + 1) is an integer for every power n <= 6. */
 static double integral_of_product(const double a[COEFFICIENTS], const double b[COEFFICIENTS])
 {
     double sum = 0;
@@ -36,7 +36,8 @@ static double integral_of_product(const double a[COEFFICIENTS], const double b[C
     return sum / 420;
 }
 
-/* int t h_q dx (end 1) or int t h_p dx (end 0): two integrations by parts with h'' = lambda^2 h. */
+/* Returns int t h_q dx (end 1) or int t h_p dx (end 0): two integrations by parts with h'' =
+ * lambda^2 h. */
 static double end_integral(double lambda, const double t[COEFFICIENTS], int end)
 {
     const double decay = exp(-lambda), scale = -expm1(-2 * lambda),
