@@ -1235,9 +1235,8 @@ typedef struct solution_refinement {
     double last;     /* relative to the solution */
 } solution_refinement;
 
-/* Decides from the size of a correction relative to the solution whether to continue: with at least
- * two corrections after the first, and then as long as each halves the error and the accuracy is
- * insufficient. */
+/* Decides from the size of a correction relative to the solution whether to continue: at least two
+ * corrections follow the first, and more as long as they halve and the accuracy is insufficient. */
 refinement_state refinement_next(solution_refinement *, double correction);
 
 /* A frame that rotates at a constant rate. */

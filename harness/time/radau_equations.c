@@ -373,8 +373,8 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
     }
 }
 
-/* As damp_element, for a dashpot, whose stress is not stored in a slot; includes the rotation of
- * its axes. */
+/* As add_stress and add_blocks, for a dashpot, whose stress is not stored in a slot; includes the
+ * rotation of its axes. */
 static void damp_spring(radau *r, int fresh, const instant *from, double h, int spring)
 {
     enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };
