@@ -351,7 +351,7 @@ static status run(const void *asked, void *found, fault *f)
 {
     const convergence_request *r = asked;
     convergence *c = found;
-    return run_sweep(&r->cells, &c->sweep, f);
+    return verification_cells(&r->cells, &c->truths, &c->sweep, f);
 }
 
 static status judge(const void *asked, void *found, fault *f)

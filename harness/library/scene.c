@@ -301,7 +301,7 @@ static status write_study(study *s, char **json, fault *f)
 {
     const sweep_request request = {.jobs = s->jobs, .stop = s->stop};
     document_text t;
-    TRY(run_sweep(&request, &s->sweep, f));
+    TRY(verification_cells(&request, &s->truths, &s->sweep, f));
     TRY(contestants_finished(&s->sweep, f));
     TRY(families_add_truths(&s->sweep, 0, &s->truths, f));
     TRY(text_begin(&t, f));
