@@ -31,7 +31,7 @@ const entry_field keys_parameter[] = {
     {.name = NULL}};
 
 const entry_field keys_truth[] = {
-    {"quantity", ENTRY_NAME, .needed = 1, .summary = "quantity"},
+    {"quantity", ENTRY_NAME, .needed = 1, .summary = "name of a quantity"},
     {"value", ENTRY_NUMBER, .needed = 1, .summary = "value in the unit of the quantity"},
     {"kind", ENTRY_WORD, .needed = 1,
      .words = "exact|predicted|independent|agreement|consensus|published|reconstructed|experiment",

@@ -5,7 +5,7 @@ enum { MEMBER, COMPONENT = 0, END };
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
-    {"member", ENTRY_NAME, .needed = 1, .summary = "member",
+    {"member", ENTRY_NAME, .needed = 1, .summary = "name of a member",
      ENTRY_IN(scene_quantity, what.of.reading.node[MEMBER]), .of = SCENE_MEMBERS},
     {"end", ENTRY_WORD, .needed = 1, .words = "from|to", .summary = "end of the member",
      ENTRY_IN(scene_quantity, what.of.reading.component[END])},

@@ -3,7 +3,7 @@
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
-    {"member", ENTRY_NAME, .needed = 1, .summary = "member",
+    {"member", ENTRY_NAME, .needed = 1, .summary = "name of a member",
      ENTRY_IN(scene_quantity, what.of.internal.member), .of = SCENE_MEMBERS},
     /* before `end`, which is also a position */
     {"where", ENTRY_NUMBER, .needed = 1, .group = 2,

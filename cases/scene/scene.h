@@ -1489,7 +1489,7 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
     {"analysis",                                                                                   \
      ENTRY_NAME,                                                                                   \
      .needed = 1,                                                                                  \
-     .summary = "analysis",                                                                        \
+     .summary = "name of an analysis",                                                             \
      ENTRY_IN(scene_quantity, analysis),                                                           \
      .of = SCENE_ANALYSES}
 #define QUANTITY_TAKEN                                                                             \
@@ -1523,7 +1523,7 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
     {"node",                                                                                       \
      ENTRY_NAME,                                                                                   \
      .needed = 1,                                                                                  \
-     .summary = "node",                                                                            \
+     .summary = "name of a node",                                                                  \
      ENTRY_IN(scene_quantity, what.of.member),                                                     \
      .of = SCENE_NODES}
 #define QUANTITY_COMPONENT(text, member)                                                           \

@@ -175,6 +175,11 @@ class SceneTest(SceneCase):
             used = set(re.findall(r"^([a-z]+):", path.read_text(encoding="utf-8"), re.M))
             self.assertLessEqual(used, set(schema["properties"]))
 
+    def test_summaries_say_more_than_keys(self):
+        """A message such as "'node' is missing (node)" would not tell what to give."""
+        self.assertEqual(re.findall(r"^ *(\w+) +(?:NAME|TEXT|EXPR|\.\.\.) +\1(?: \[| \*|$)",
+                                    self.answered("scene", "--keys").stdout, re.M), [])
+
 
 # What the user named comes back by its name: in messages, tables, folders, records and files.
 NUMBERED = re.compile(r"\b(node|member|section|spring|load|analysis|motion)[ _][0-9]")

@@ -75,7 +75,7 @@ class ProgramTest(unittest.TestCase):
     def answered(self, *arguments, code=0, **options):
         """Returns the process, which must end with that code."""
         done = run(*arguments, **options)
-        self.assertEqual(done.returncode, code, (arguments, done.stderr))
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout[-4000:]}\n{done.stderr}")
         return done
 
     def record(self, *arguments, **options):
