@@ -16,6 +16,10 @@ static const entry_field fields[] = {
      .summary = "harmonic motion of a base or a drive, of 1 m or 1 rad",
      .left_out = "the input is a force", ENTRY_IN(scene_quantity, what.of.response.driver),
      .of = SCENE_DRIVERS},
+    {"reference", ENTRY_NAME, .group = 2,
+     .summary = "load with feedback whose reference moves harmonically, by 1 m or 1 rad",
+     .left_out = "the input is a force", ENTRY_IN(scene_quantity, what.of.response.reference),
+     .of = SCENE_LOADS},
     {"along", ENTRY_WORD, .words = ENTRY_COMPONENTS, .summary = "component of the force",
      .usual = "ux", ENTRY_IN(scene_quantity, what.of.response.forced_along),
      .turns = ENTRY_COMPONENT},
@@ -39,8 +43,10 @@ static const char *unit(const scene *s, const scene_quantity *q)
                                              {"rad/m", "rad/(m s)", "rad/(m s^2)", "N"},
                                              {"1", "1/s", "1/s^2", "N m/rad"}}};
     const scene_response *r = &q->what.of.response;
-    const int by =
-        r->driver >= 0 ? 2 + scene_driver_turns(s, r->driver) : r->forced_along >= SCENE_RX;
+    const int by = r->driver != SCENE_NONE ? 2 + scene_driver_turns(s, r->driver)
+                   : r->reference != SCENE_NONE
+                       ? 2 + (s->load[r->reference].feedback.component >= SCENE_RX)
+                       : r->forced_along >= SCENE_RX;
     return r->part == SCENE_PHASE ? "rad" : of[r->component >= SCENE_RX][by][r->of];
 }
 
@@ -61,6 +67,11 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
         fprintf(to, " for a unit motion %s", s->driver[r->driver].name);
         return;
     }
+    if (r->reference != SCENE_NONE) {
+        fprintf(to, " for a unit reference of load %s",
+                scene_name(s, SCENE_LOADS, r->reference).text);
+        return;
+    }
     fprintf(to, " for a unit %s %c", meaning_load(r->forced_along), meaning_axis(r->forced_along));
     meaning_node(to, s, "at", r->forced);
 }
@@ -71,17 +82,28 @@ static int turns(const scene *s, const scene_quantity *q, int i, scene_component
     const scene_response *r = &q->what.of.response;
     *out = i == 0 ? (scene_component){r->node, r->component}
                   : (scene_component){r->forced, r->forced_along};
-    return i < 1 + (r->driver == SCENE_NONE);
+    return i < 1 + (r->forced != SCENE_NONE);
 }
 
 static status check(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_response *r = &q->what.of.response;
-    if ((r->driver == SCENE_NONE) == (r->forced == SCENE_NONE))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "quantity %s: its input is missing; name the node of a force, or a motion with 'drive'",
-            q->name);
+    if ((r->driver != SCENE_NONE) + (r->forced != SCENE_NONE) + (r->reference != SCENE_NONE) != 1)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: its input is missing; name the node of a 'force', a motion "
+                         "with 'drive', or a load with feedback with 'reference'",
+                         q->name);
+    if (r->reference != SCENE_NONE && s->load[r->reference].feedback.node == SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: load %s has no feedback, and so no reference; name one that "
+                         "has, or a 'force'",
+                         q->name, scene_name(s, SCENE_LOADS, r->reference).text);
+    if (r->reference != SCENE_NONE && !scene_closes_loop(s, q->analysis, r->reference))
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: the loop of load %s is open in %s, so its reference moves "
+                         "nothing; remove 'loops: open', or name a load that acts there",
+                         q->name, scene_name(s, SCENE_LOADS, r->reference).text,
+                         scene_called(s, SCENE_ANALYSES, q->analysis).text);
     if (r->of == SCENE_REACTING && r->from != SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: a reaction belongs to one node; remove 'from'", q->name);

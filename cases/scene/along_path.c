@@ -195,9 +195,10 @@ static int is_fed_back(const scene_load *l)
     return l->feedback.node != SCENE_NONE && acts && scene_load_acts(l);
 }
 
+/* Damped modes have no row of their own: they use it. */
 static int has_feedback(const scene *s, int analysis, char *who, int size)
 {
-    return load_that(s, analysis, is_fed_back, who, size);
+    return !s->analysis[analysis].damped && load_that(s, analysis, is_fed_back, who, size);
 }
 
 LOAD(staying, along_path_factor(l, 0) != 0)
@@ -393,8 +394,8 @@ static const char *const
     *const no_tangent = "has a different stiffness on each side, but this analysis needs a single "
                         "one at rest; request it about a static path that presses on one side",
     *const no_feedback =
-        "acts in motions only; add path: [0, 1], factor: [0, 0] to its load, which "
-        "removes it from the others",
+        "acts in motions, harmonic analyses and damped modes (damped: yes) only; add path: [0, 1], "
+        "factor: [0, 0] to its load, which removes it from the others",
     *const no_strains = "has stresses that the undeformed state lacks; request it about a static "
                         "or a linear analysis",
     *const no_diaphragm = "is a diaphragm, which motions in time do not support; connect the nodes "
@@ -462,7 +463,7 @@ const scene_input scene_inputs[] = {
     {"unsymmetric dashpot", "----i--i---uuuu", NULL, has_unsymmetric_dashpot},
     {"elongation", "uuuuu-uu-uuu-uu", NULL, has_elongation},
     {"tension between nodes", "uuusu-su-uuu-su", NULL, has_tension},
-    {"feedback", "xxxxxxxxxxxuxxx", no_feedback, has_feedback},
+    {"feedback", "xxxxxxxxxxxuuuu", no_feedback, has_feedback},
     {NULL, "", NULL, NULL}};
 
 scene_column scene_column_of(const scene *s, int analysis)

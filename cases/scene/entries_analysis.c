@@ -98,12 +98,21 @@ static const entry_field of_modes[] = {
      .summary = "Rayleigh damping, in addition to that of members and springs",                    \
      .left_out = "none"}
 
+#define LOOPS                                                                                      \
+    {"loops",                                                                                      \
+     ENTRY_WORD,                                                                                   \
+     .words = "closed|open",                                                                       \
+     .summary = "open: loads with feedback do not act",                                            \
+     .usual = "closed",                                                                            \
+     ENTRY_IN(scene_analysis, open_loops)}
+
 static const entry_field modes[] = {
     {"wanted", ENTRY_NUMBER, .summary = "number of modes",
      .left_out = "as required by the quantities"},
     {"damped", ENTRY_WORD, .words = "no|yes",
      .summary = "modes with the damping of members, springs and `damping`", .usual = "no",
      ENTRY_IN(scene_analysis, damped)},
+    LOOPS,
     PROPORTIONAL,
     ABOUT("static analysis; its last state is the base state"),
     {.name = NULL}};
@@ -245,6 +254,7 @@ static const entry_field harmonic[] = {
      .summary =
          "Rayleigh damping and modal damping ratios, in addition to damping of members and springs",
      .left_out = "none"},
+    LOOPS,
     ABOUT("static or linear analysis; its last state is the base state"),
     {.name = NULL}};
 

@@ -497,6 +497,13 @@ int scene_has_feedback(const scene *s)
     return 0;
 }
 
+int scene_closes_loop(const scene *s, int analysis, int load)
+{
+    const scene_load *l = &s->load[load];
+    return l->feedback.node != SCENE_NONE && !s->analysis[analysis].open_loops &&
+           scene_acting_factor(s, scene_acting_of(s, analysis), l->load_case) != 0;
+}
+
 int scene_load_unsymmetric(const scene_load *load)
 {
     return (load->follower || scene_load_turns(load)) && scene_load_acts(load);

@@ -165,6 +165,7 @@ typedef struct scene_analysis {
     } of;
     scene_proportional damping; /* of small vibrations, in addition to members and dashpots */
     int damped;                 /* 1: modes include damping */
+    int open_loops;             /* 1: loads with feedback do not act on small vibrations */
     int by_modes;               /* 1: a harmonic analysis is solved by superposition of modes */
     int modes;                  /* number of modes; 0: all */
     char name[SCENE_NAME];      /* "": none */
@@ -501,7 +502,8 @@ typedef struct scene_response {
     int node, component;
     int from;                 /* the same value of this node is subtracted; SCENE_NONE: none */
     int forced, forced_along; /* node and component of a force or moment; otherwise ... */
-    int driver;               /* ... the driver that moves; SCENE_NONE: a force */
+    int driver;               /* ... the driver that moves; otherwise ... */
+    int reference; /* ... the load with feedback whose reference moves; both SCENE_NONE: a force */
     scene_vibration of;
     scene_vibration_part part;
 } scene_response;
@@ -1055,6 +1057,8 @@ int scene_load_turns(const scene_load *load);
 /* Returns "a temperature" or "an elongation". */
 const char *scene_heat_word(const scene_load *load);
 int scene_has_feedback(const scene *s);
+/* 1: in a harmonic analysis or damped modes the load closes a loop. */
+int scene_closes_loop(const scene *s, int analysis, int load);
 /* Is it nonzero somewhere on its range? */
 int scene_load_acts(const scene_load *load);
 /* Can the stiffness of the load make a tangent unsymmetric? Not if the load is zero. */

@@ -265,6 +265,15 @@ static status check_function(const scene_function *of, int idle, fault *f)
                 : STATUS_OK;
 }
 
+/* Has it an analysis of small vibrations, in which feedback acts? */
+static int vibrates(const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_HARMONIC || s->analysis[i].damped)
+            return 1;
+    return 0;
+}
+
 status scene_validate_functions(const scene *s, fault *f)
 {
     const int idle = !moves(s);
@@ -275,7 +284,8 @@ status scene_validate_functions(const scene *s, fault *f)
             return fault_set(f, outcome, "driver %s: %s", s->driver[d].name, why.text);
     }
     for (int l = 0; l < s->loads; l++) {
-        const status outcome = check_function(&s->load[l].function, idle, &why);
+        const int refers = s->load[l].feedback.node != SCENE_NONE && vibrates(s);
+        const status outcome = check_function(&s->load[l].function, idle && !refers, &why);
         if (outcome != STATUS_OK)
             return fault_set(f, outcome, "%s: %s", scene_called(s, SCENE_LOADS, l).text, why.text);
     }
@@ -416,6 +426,9 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_ANALYSES, i).text, a->of.harmonic.value[0]);
     if (a->kind == SCENE_HARMONIC)
         TRY(check_harmonic(s, a, i, f));
+    if (a->open_loops && !scene_has_feedback(s))
+        return fault_set(f, STATUS_REFUSED, "%s: no load has feedback; remove 'loops'",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     if (a->kind == SCENE_MODAL && !a->damped && (a->damping.mass > 0 || a->damping.stiffness > 0))
         return fault_set(f, STATUS_REFUSED,
                          "%s: damping is given, but its frequencies are undamped; add damped: yes, "

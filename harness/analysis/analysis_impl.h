@@ -341,6 +341,13 @@ int modal_wanted(const analysis_context *, int analysis);
 
 typedef struct harmonic_modes harmonic_modes;
 
+/* A load with feedback (loops.c). */
+typedef struct control_loop {
+    int load;
+    const scene_feedback *gains;
+    double *push, *measured; /* [free + driven] P of its factor 1, and S */
+} control_loop;
+
 typedef struct vibration {
     analysis_context *c;
     int analysis, free, all;
@@ -348,18 +355,35 @@ typedef struct vibration {
     sparse K, M, C, B; /* on all coordinates */
     int damped, inside;
     int plain; /* 1: without the mass inside elements, and extremes between frequencies */
-    sparse D;  /* [2 (free + border)] real form */
+    sparse D;  /* [2 (free + border + loops)] real form */
     int *source,
         *first; /* entry of K behind each entry of the free block, by columns; [free + 1] */
     int *row, *rows;
-    double complex *column; /* [free + border], as rows: of one column of D */
+    double complex *column; /* [free + border + loops], as rows: of one column of D */
     matrix_factor *factor;
-    double *x;                     /* [2 (free + border)] */
-    double complex *found, *left;  /* [quantities x all], [quantities x free] */
-    double complex *output, *dual; /* [all] */
+    double *x;                     /* [2 (free + border + loops)] */
+    double complex *found, *left;  /* [quantities x (all + loops)], [quantities x free] */
+    double complex *output, *dual; /* [all + loops] */
     double *room;                  /* [model_stresses + all] */
     harmonic_modes *modes;         /* NULL: direct solution without modal damping */
+    int loops;                     /* closed ones, and their factors, behind all coordinates */
+    control_loop *loop;            /* [loops] */
+    double *signals;               /* [2 loops x (free + driven)] */
 } vibration;
+
+/* Loops of feedback that the analysis closes, about v->state. */
+status loops_find(vibration *, fault *);
+void loops_free(vibration *);
+/* Number of coordinates, and factors of loops. */
+size_t loops_whole(const vibration *);
+/* NULL: it is not closed. */
+const control_loop *loops_of(const vibration *, int load);
+/* own u + gain S^T x = gain r at s = i w. */
+double complex loops_gain(const control_loop *, double w, double complex *own);
+/* K, M, C, B of free coordinates, of one pattern, with all loops closed; then the integrals. The
+ * caller releases to[4] in any case. */
+status loops_close(const vibration *, const sparse *const from[], sparse to[], fault *);
+void loops_release(sparse closed[]);
 
 /* Entry k of K, M, ... in D. */
 double complex harmonic_dynamic(const vibration *, double w, int k);
@@ -434,8 +458,8 @@ void harmonic_modes_free(harmonic_modes *);
  * Without damping; where springs or dashpots are not symmetric, those of damped modes. None where
  * loads make the stiffness unsymmetric or there are too many. */
 status harmonic_natural(vibration *, double below, int *count, double **hertz, fault *);
-/* REFUSED: springs without a potential make a mode grow. */
-status harmonic_judge_springs(vibration *, double below, fault *f);
+/* REFUSED: springs without a potential, or loops of feedback, make a mode grow. */
+status harmonic_judge_growth(vibration *, double below, fault *f);
 /* Modes with damping ratios: C + U U^T with U [count x free]. */
 int harmonic_modes_damped(const harmonic_modes *, const double **U);
 /* U^T of the displacements due to a unit displacement of the driven coordinate at rest, [count]. */
@@ -451,6 +475,8 @@ double harmonic_modes_bound(vibration *, const double complex left_of_f[],
                             const double complex left_of_o[]);
 
 status harmonic_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* Matrices about the state in all coordinates, and the loops that are closed. */
+status harmonic_begin(vibration *, fault *);
 /* K, M, C and modes with ratios of a harmonic analysis; the caller releases *out in any case. */
 status harmonic_system(analysis_context *, int analysis, vibration *out, fault *);
 void harmonic_release(vibration *);

@@ -4,9 +4,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "elements/math/scalar.h"
 #include "harness/model/model.h"
+
+/* Up to so many states all poles of closed loops are found. */
+enum { ALL_STATES = 400 };
 
 static status no_memory(fault *f)
 {
@@ -24,34 +28,70 @@ static status take_frequencies(const harmonic_modes *m, int *count, double **her
     return STATUS_OK;
 }
 
+/* Damped modes of at least those frequencies [Hz]; of a loop that is closed as many as there are,
+ * or as are found with reasonable work. */
+static status find_damped_of(vibration *v, const sparse *const of[], matrix_factor *factor,
+                             double below, unsymmetric_result *r, fault *f)
+{
+    enum { FIRST = 16 };
+    const int states = 2 * of[0]->n, all = v->loops > 0 && states <= ALL_STATES;
+    fault why = {""};
+    for (int wanted = all ? states : FIRST, enough = 0; !enough; wanted *= 4) {
+        const unsymmetric_problem p = {.K = of[0],
+                                       .M = of[1],
+                                       .C = v->damped || v->loops > 0 ? of[2] : NULL,
+                                       .B = v->inside && v->loops > 0 ? of[3] : NULL,
+                                       .mass = v->c->scene->analysis[v->analysis].damping.mass,
+                                       .stiffness =
+                                           v->c->scene->analysis[v->analysis].damping.stiffness,
+                                       .K_factor = factor,
+                                       .wanted = wanted,
+                                       .estimate = v->loops > 0,
+                                       .decaying = v->damped || v->loops > 0};
+        unsymmetric_free(r);
+        const status found = unsymmetric_solve(&p, r, &why);
+        v->c->run->counters.solutions += r->solutions;
+        if (found == STATUS_FAULT)
+            return fault_set(f, found, "%s", why.text);
+        if (found != STATUS_OK && v->loops > 0)
+            return fault_set(f, found,
+                             "whether the loop of feedback is stable is not known (%.150s); use "
+                             "fewer elements",
+                             why.text);
+        enough = all || found != STATUS_OK || r->count < wanted ||
+                 hypot(r->growth[r->count - 1], r->frequency[r->count - 1]) > 2 * PI * below;
+    }
+    return STATUS_OK;
+}
+
 /* Frequencies of damped modes. K unsymmetric, or gyroscopic damping: those without damping, if
  * there are any, may be far from all peaks. */
 static status find_damped(vibration *v, harmonic_modes *m, double below, unsymmetric_result *r,
                           fault *f)
 {
     fault why = {""};
+    sparse closed[4] = {{0}};
+    const sparse *const own[] = {&m->K, &m->M, &m->C, &m->B}, *const with[] = {
+                                                                  &closed[0], &closed[1],
+                                                                  &closed[2], &closed[3]};
+    const sparse *const *of = v->loops > 0 ? with : own;
     m->n = v->free;
     TRY(harmonic_modes_blocks(v, m, f));
-    TRY(factor_alloc(&m->K, &m->factor, f));
-    v->c->run->counters.factorisations++;
-    if (factor_numeric(m->factor, &m->K, &why) != STATUS_OK)
-        return STATUS_OK;
-    for (int wanted = 16, enough = 0; !enough; wanted *= 4) {
-        const unsymmetric_problem p = {.K = &m->K,
-                                       .M = &m->M,
-                                       .C = v->damped ? &m->C : NULL,
-                                       .K_factor = m->factor,
-                                       .wanted = wanted,
-                                       .decaying = v->damped};
-        unsymmetric_free(r);
-        const status found = unsymmetric_solve(&p, r, &why);
-        v->c->run->counters.solutions += r->solutions;
-        if (found == STATUS_FAULT)
-            return fault_set(f, found, "%s", why.text);
-        enough = found != STATUS_OK || r->count < wanted ||
-                 hypot(r->growth[r->count - 1], r->frequency[r->count - 1]) > 2 * PI * below;
+    status outcome = v->loops > 0 ? loops_close(v, own, closed, f) : STATUS_OK;
+    if (outcome == STATUS_OK)
+        outcome = factor_alloc(of[0], &m->factor, f);
+    if (outcome == STATUS_OK) {
+        v->c->run->counters.factorisations++;
+        if (factor_numeric(m->factor, of[0], &why) == STATUS_OK)
+            outcome = find_damped_of(v, of, m->factor, below, r, f);
+        else if (v->loops > 0)
+            outcome = fault_set(f, STATUS_REFUSED,
+                                "whether the loop of feedback is stable is not known, because one "
+                                "motion has no stiffness: support it by a soft spring, or give "
+                                "feedback a proportional gain");
     }
-    return STATUS_OK;
+    loops_release(closed);
+    return outcome;
 }
 
 static status damped_frequencies(vibration *v, double below, int *count, double **hertz, fault *f)
@@ -76,7 +116,7 @@ static status damped_frequencies(vibration *v, double below, int *count, double 
     return outcome;
 }
 
-status harmonic_judge_springs(vibration *v, double below, fault *f)
+status harmonic_judge_growth(vibration *v, double below, fault *f)
 {
     const scene *s = v->c->scene;
     harmonic_modes *m = NULL;
@@ -85,7 +125,7 @@ status harmonic_judge_springs(vibration *v, double below, fault *f)
     double growth = 0;
     for (int i = 0; i < s->springs; i++)
         circulates |= scene_spring_circulates(&s->spring[i]);
-    if (!circulates || s->analysis[v->analysis].by_modes)
+    if (v->loops == 0 && (!circulates || s->analysis[v->analysis].by_modes))
         return STATUS_OK;
     m = calloc(1, sizeof *m);
     const status outcome = m != NULL ? find_damped(v, m, below, &r, f) : no_memory(f);
@@ -94,16 +134,22 @@ status harmonic_judge_springs(vibration *v, double below, fault *f)
             growth = fmax(growth, r.growth[i]);
     unsymmetric_free(&r);
     harmonic_modes_free(m);
+    if (v->loops > 0 && 2 * v->free > ALL_STATES && v->c->result->reason[0] == '\0')
+        snprintf(v->c->result->reason, sizeof v->c->result->reason,
+                 "stability of the loop of feedback is known up to %.4g Hz only", below);
     if (outcome != STATUS_OK || growth == 0)
         return outcome;
     return fault_set(f, STATUS_REFUSED,
                      "nothing vibrates steadily, because a mode grows with %.4g 1/s: see modal: "
-                     "{damped: yes}; add damping, or make cross terms of springs smaller",
-                     growth);
+                     "{damped: yes}; add damping, or make %s smaller",
+                     growth, v->loops > 0 ? "gains of feedback" : "cross terms of springs");
 }
 
-static int is_unsymmetric(const scene *s)
+static int is_unsymmetric(const vibration *v)
 {
+    const scene *s = v->c->scene;
+    if (v->loops > 0)
+        return 1;
     for (int i = 0; i < s->springs; i++)
         if (scene_spring_circulates(&s->spring[i]) || scene_spring_gyrates(&s->spring[i]))
             return 1;
@@ -116,7 +162,7 @@ status harmonic_natural(vibration *v, double below, int *count, double **hertz, 
     status outcome = STATUS_OK;
     *count = 0;
     *hertz = NULL;
-    if (is_unsymmetric(v->c->scene))
+    if (is_unsymmetric(v))
         return damped_frequencies(v, below, count, hertz, f);
     for (int wanted = 16, enough = 0; outcome == STATUS_OK && !enough; wanted *= 4) {
         fault why = {""};
@@ -145,39 +191,77 @@ static void note_growth(analysis_context *c, const unsymmetric_result *r, outcom
                  "unstable: a damped mode grows at %.4g 1/s", out->growth);
 }
 
-static status find_modes(vibration *v, unsymmetric_result *r, fault *f)
+/* Modes of K with its factors. closed: with loops, whose integrals follow the coordinates. */
+static status find_modes_with(vibration *v, const sparse *const of[], matrix_factor *factor,
+                              int closed, unsymmetric_result *r, fault *f)
 {
     analysis_context *c = v->c;
-    const model_size size = model_sizes(c->model);
     fault why = {""};
-    v->state = kinematics_rest(c->model);
-    v->room = calloc((size_t)model_stresses(c->model) + (size_t)(size.free + size.driven) + 1,
+    c->run->counters.factorisations++;
+    const status factored = factor_numeric(factor, of[0], &why);
+    if (factored == STATUS_SINGULAR)
+        return fault_set(f, STATUS_REFUSED,
+                         "damped modes require stiffness against every motion, but one motion has "
+                         "none: hold the structure, or support it by a soft spring%s",
+                         closed ? ", or give feedback a proportional gain" : "");
+    if (factored != STATUS_OK)
+        return fault_set(f, factored, "%s", why.text);
+    const unsymmetric_problem p = {.K = of[0],
+                                   .M = of[1],
+                                   .C = of[2],
+                                   .B = v->inside ? of[3] : NULL,
+                                   .mass = c->scene->analysis[v->analysis].damping.mass,
+                                   .stiffness = c->scene->analysis[v->analysis].damping.stiffness,
+                                   .K_factor = factor,
+                                   .wanted = modal_wanted(c, v->analysis),
+                                   .estimate = 1,
+                                   .decaying = 1};
+    const status found = unsymmetric_solve(&p, r, &why);
+    c->run->counters.solutions += r->solutions;
+    return found == STATUS_OK ? found
+                              : fault_set(f, found, "%.200s%s", why.text,
+                                          closed ? "; with feedback, use fewer elements" : "");
+}
+
+/* Keeps the coordinates of the modes, without integrals of loops. */
+static void shorten(unsymmetric_result *r, int n)
+{
+    for (int i = 1; i < r->count && n < r->n; i++)
+        memmove(r->mode + (size_t)i * (size_t)n, r->mode + (size_t)i * (size_t)r->n,
+                (size_t)n * sizeof *r->mode);
+    r->n = n;
+}
+
+static status find_closed_modes(vibration *v, const sparse *const of[], unsymmetric_result *r,
+                                fault *f)
+{
+    sparse closed[4] = {{0}};
+    const sparse *const with[] = {&closed[0], &closed[1], &closed[2], &closed[3]};
+    status outcome = loops_close(v, of, closed, f);
+    if (outcome == STATUS_OK)
+        outcome = factor_alloc(&closed[0], &v->factor, f);
+    if (outcome == STATUS_OK)
+        outcome = find_modes_with(v, with, v->factor, 1, r, f);
+    shorten(r, of[0]->n);
+    loops_release(closed);
+    return outcome;
+}
+
+static status find_modes(vibration *v, unsymmetric_result *r, fault *f)
+{
+    const model_size size = model_sizes(v->c->model);
+    const sparse *const of[] = {&v->K, &v->M, &v->C, &v->B};
+    v->state = kinematics_rest(v->c->model);
+    v->room = calloc((size_t)model_stresses(v->c->model) + (size_t)(size.free + size.driven) + 1,
                      sizeof *v->room);
     if (v->room == NULL)
         return no_memory(f);
     TRY(harmonic_matrices(v, 0, f));
+    TRY(loops_find(v, f));
+    if (v->loops > 0)
+        return find_closed_modes(v, of, r, f);
     TRY(factor_alloc(&v->K, &v->factor, f));
-    c->run->counters.factorisations++;
-    const status factored = factor_numeric(v->factor, &v->K, &why);
-    if (factored == STATUS_SINGULAR)
-        return fault_set(f, STATUS_REFUSED,
-                         "damped modes require stiffness against every motion, but one motion has "
-                         "none: hold the structure, or support it by a soft spring");
-    if (factored != STATUS_OK)
-        return fault_set(f, factored, "%s", why.text);
-    const unsymmetric_problem p = {.K = &v->K,
-                                   .M = &v->M,
-                                   .C = &v->C,
-                                   .B = v->inside ? &v->B : NULL,
-                                   .mass = c->scene->analysis[v->analysis].damping.mass,
-                                   .stiffness = c->scene->analysis[v->analysis].damping.stiffness,
-                                   .K_factor = v->factor,
-                                   .wanted = modal_wanted(c, v->analysis),
-                                   .estimate = 1,
-                                   .decaying = 1};
-    const status found = unsymmetric_solve(&p, r, f);
-    c->run->counters.solutions += r->solutions;
-    return found;
+    return find_modes_with(v, of, v->factor, 0, r, f);
 }
 
 status damped_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
@@ -190,7 +274,8 @@ status damped_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
         note_growth(c, &r, out);
         out->positive.growth = r.growth;
         flutter_take(&r, &out->positive);
-        snprintf(out->meaning, sizeof out->meaning, "%s", v.damped ? "damped" : "");
+        snprintf(out->meaning, sizeof out->meaning, "%s%s%s", v.damped ? "damped" : "",
+                 v.damped && v.loops > 0 ? ", " : "", v.loops > 0 ? "loop closed" : "");
     }
     unsymmetric_free(&r);
     harmonic_release(&v);

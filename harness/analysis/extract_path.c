@@ -303,6 +303,14 @@ static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quan
     r->x = quantity_abscissa(q, peak->hertz);
 }
 
+/* Says whether a loop of feedback is closed. */
+static void take_loops(const analysis_context *c, const scene_quantity *q, quantity_result *r)
+{
+    for (int i = 0; q->what.kind == SCENE_RESPONSE && i < c->scene->loads; i++)
+        if (scene_closes_loop(c->scene, q->analysis, i))
+            snprintf(r->meaning, sizeof r->meaning, "loop closed");
+}
+
 void extract_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                   quantity_result *r)
 {
@@ -313,6 +321,7 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
     const outcome_path *p = outcome_path_of(o);
     const int complete = p->reached == p->stations;
     int chosen = -1;
+    take_loops(c, q, r);
     for (int i = 0; i < p->reached; i++) {
         const double value =
             q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, o, i, r) : 0;

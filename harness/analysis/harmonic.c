@@ -32,15 +32,14 @@ static status factor_at(vibration *v, double hertz, fault *f)
 
 static int same_input(const scene_response *a, const scene_response *b)
 {
-    return a->driver == b->driver &&
-           (a->driver != SCENE_NONE ||
-            (a->forced == b->forced && a->forced_along == b->forced_along));
+    return a->driver == b->driver && a->reference == b->reference && a->forced == b->forced &&
+           (a->forced == SCENE_NONE || a->forced_along == b->forced_along);
 }
 
 /* x: forces, replaced by the solution. */
 static void solve_direct(vibration *v, const scene_response *r, double w, double complex x[])
 {
-    const int n = v->free, more = harmonic_border(v), N = n + more;
+    const int n = v->free, more = harmonic_border(v), N = n + more + v->loops;
     const int carried = more > 0 && harmonic_carried(v, r, v->x + N + n);
     for (int i = 0; i < n; i++) {
         v->x[i] = creal(x[i]);
@@ -50,10 +49,16 @@ static void solve_direct(vibration *v, const scene_response *r, double w, double
         v->x[n + i] = 0;
         v->x[N + n + i] = carried ? w * v->x[N + n + i] : 0;
     }
+    for (int l = 0; l < v->loops; l++) {
+        v->x[n + more + l] = creal(x[v->all + l]);
+        v->x[N + n + more + l] = cimag(x[v->all + l]);
+    }
     factor_solve(v->factor, v->x);
     v->c->run->counters.solutions++;
     for (int i = 0; i < n; i++)
         x[i] = v->x[i] + I * v->x[N + i];
+    for (int l = 0; l < v->loops; l++)
+        x[v->all + l] = v->x[n + more + l] + I * v->x[N + n + more + l];
 }
 
 /* x: forces, replaced by the modal solution; left[free]: residual of the forces. */
@@ -76,7 +81,7 @@ static status solve_own_input(vibration *v, int quantity, double w, fault *f)
 {
     const scene *s = v->c->scene;
     const scene_response *r = &s->quantity[quantity].what.of.response;
-    double complex *x = v->found + (size_t)quantity * (size_t)v->all,
+    double complex *x = v->found + (size_t)quantity * loops_whole(v),
                    *left = v->left + (size_t)quantity * (size_t)v->free;
     TRY(harmonic_input(v, r, w, x, f));
     if (s->analysis[v->analysis].by_modes)
@@ -92,7 +97,7 @@ static status solve_input(vibration *v, int quantity, double w, fault *f)
 {
     const scene *s = v->c->scene;
     const scene_response *r = &s->quantity[quantity].what.of.response;
-    const size_t all = (size_t)v->all;
+    const size_t all = loops_whole(v);
     double complex *x = v->found + (size_t)quantity * all,
                    *left = v->left + (size_t)quantity * (size_t)v->free;
     for (int i = 0; i < quantity; i++)
@@ -140,7 +145,7 @@ static void read_quantity(vibration *v, int quantity, double w, double *value, d
 {
     const scene *s = v->c->scene;
     const scene_response *r = &s->quantity[quantity].what.of.response;
-    const size_t n = (size_t)v->free, all = (size_t)v->all;
+    const size_t n = (size_t)v->free, all = loops_whole(v);
     harmonic_output(v, r, w, v->output);
     const double complex times = r->of == SCENE_VELOCITY       ? I * w
                                  : r->of == SCENE_ACCELERATION ? -w * w
@@ -228,36 +233,37 @@ static status find_modes_of(vibration *v, fault *f)
     return outcome;
 }
 
+static status allocate(vibration *v, outcome_harmonic *o, fault *f)
+{
+    const size_t quantities = (size_t)v->c->scene->quantities, free = (size_t)v->free,
+                 stations = (size_t)o->path.stations, whole = loops_whole(v);
+    o->path.value = calloc(stations + 1, sizeof *o->path.value);
+    o->response = calloc(quantities * stations + 1, sizeof *o->response);
+    o->bound = calloc(quantities * stations + 1, sizeof *o->bound);
+    o->peak = calloc(quantities + 1, sizeof *o->peak);
+    v->x = calloc(4 * free + 2 * (size_t)v->loops + 1, sizeof *v->x);
+    v->found = calloc(quantities * whole + 1, sizeof *v->found);
+    v->left = calloc(quantities * free + 1, sizeof *v->left);
+    v->output = calloc(whole + 1, sizeof *v->output);
+    v->dual = calloc(whole + 1, sizeof *v->dual);
+    return o->path.value != NULL && o->response != NULL && o->bound != NULL && o->peak != NULL &&
+                   v->x != NULL && v->found != NULL && v->left != NULL && v->output != NULL &&
+                   v->dual != NULL
+               ? STATUS_OK
+               : no_memory(f);
+}
+
 static status solve(vibration *v, outcome_harmonic *o, fault *f)
 {
-    const scene *s = v->c->scene;
-    const model_size size = model_sizes(v->c->model);
-    const size_t stations = (size_t)scene_path_of(&s->analysis[v->analysis])->stations;
-    v->free = size.free;
-    v->all = size.free + size.driven;
-    v->state = kinematics_rest(v->c->model);
-    o->path.stations = (int)stations;
-    o->path.value = calloc(stations + 1, sizeof *o->path.value);
-    o->response = calloc((size_t)s->quantities * stations + 1, sizeof *o->response);
-    o->bound = calloc((size_t)s->quantities * stations + 1, sizeof *o->bound);
-    o->peak = calloc((size_t)s->quantities + 1, sizeof *o->peak);
-    v->x = calloc(4 * (size_t)v->free + 1, sizeof *v->x);
-    v->found = calloc((size_t)s->quantities * (size_t)v->all + 1, sizeof *v->found);
-    v->left = calloc((size_t)s->quantities * (size_t)v->free + 1, sizeof *v->left);
-    v->output = calloc((size_t)v->all + 1, sizeof *v->output);
-    v->dual = calloc((size_t)v->all + 1, sizeof *v->dual);
-    v->room = calloc((size_t)model_stresses(v->c->model) + (size_t)v->all + 1, sizeof *v->room);
-    if (o->path.value == NULL || o->response == NULL || o->bound == NULL || o->peak == NULL ||
-        v->x == NULL || v->found == NULL || v->left == NULL || v->output == NULL ||
-        v->dual == NULL || v->room == NULL)
-        return no_memory(f);
-    TRY(harmonic_matrices(v, 1, f));
+    const scene_path *path = scene_path_of(&v->c->scene->analysis[v->analysis]);
+    o->path.stations = path->stations;
+    TRY(harmonic_begin(v, f));
+    TRY(allocate(v, o, f));
     TRY(harmonic_pattern(v, f));
     TRY(check_reactions(v, f));
     TRY(find_modes_of(v, f));
-    TRY(harmonic_judge_springs(v, scene_path_of(&s->analysis[v->analysis])->value[stations - 1],
-                               f));
-    if (!s->analysis[v->analysis].by_modes)
+    TRY(harmonic_judge_growth(v, path->value[path->stations - 1], f));
+    if (!v->c->scene->analysis[v->analysis].by_modes)
         TRY(harmonic_matrix(v, f));
     return respond(v, o, f);
 }

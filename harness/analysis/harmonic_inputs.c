@@ -26,7 +26,8 @@ status harmonic_input(const vibration *v, const scene_response *r, double w, dou
     const model *m = v->c->model;
     int index[KINEMATICS_MOST], moves = 0;
     double T[6 * KINEMATICS_MOST];
-    memset(x, 0, (size_t)v->all * sizeof *x);
+    double complex own;
+    memset(x, 0, loops_whole(v) * sizeof *x);
     if (r->driver != SCENE_NONE) {
         const int c = model_driver_coordinate(m, r->driver);
         TRY(harmonic_check_motion(v, r->driver, f));
@@ -34,6 +35,13 @@ status harmonic_input(const vibration *v, const scene_response *r, double w, dou
             if (v->K.row[k] < v->free)
                 x[v->K.row[k]] = -harmonic_dynamic(v, w, k);
         x[c] = 1;
+        for (int l = 0; l < v->loops; l++)
+            x[v->all + l] = -loops_gain(&v->loop[l], w, &own) * v->loop[l].measured[c];
+        return STATUS_OK;
+    }
+    if (r->reference != SCENE_NONE) {
+        const control_loop *loop = loops_of(v, r->reference); /* closed: response.c */
+        x[v->all + (loop - v->loop)] = loops_gain(loop, w, &own);
         return STATUS_OK;
     }
     const int count = kinematics_node_jacobian(m, v->state, r->forced, KINEMATICS_MOST, index, T);
@@ -147,11 +155,13 @@ void harmonic_output(vibration *v, const scene_response *r, double w, double com
 {
     int c = 0;
     fault unused = {""};
-    memset(o, 0, (size_t)v->all * sizeof *o);
+    memset(o, 0, loops_whole(v) * sizeof *o);
     if (r->of == SCENE_REACTING) {
         if (harmonic_reacting(v, r, &c, &unused) == STATUS_OK) {
             add_row(v, c, w, o);
             add_carried(v, r, c, w, o);
+            for (int l = 0; l < v->loops; l++)
+                o[v->all + l] -= v->loop[l].push[c];
         }
         return;
     }
@@ -165,7 +175,7 @@ double harmonic_force_at(const vibration *v, const scene_response *r)
     int index[KINEMATICS_MOST], c = 0;
     double T[6 * KINEMATICS_MOST], sum = 0;
     fault unused = {""};
-    if (r->of != SCENE_REACTING || r->driver != SCENE_NONE ||
+    if (r->of != SCENE_REACTING || r->forced == SCENE_NONE ||
         harmonic_reacting(v, r, &c, &unused) != STATUS_OK)
         return 0;
     const int count =

@@ -135,6 +135,32 @@ int harmonic_border(const vibration *v)
     return v->c->scene->analysis[v->analysis].by_modes ? 0 : harmonic_modes_damped(v->modes, &U);
 }
 
+/* The entries of the loops in column j of one half: gain S^T x + own u = 0, and -P u. */
+static int loops_column(const vibration *v, int j, double w, int count, int row[],
+                        double complex z[])
+{
+    const int n = v->free, first = n + harmonic_border(v);
+    for (int l = 0; l < v->loops; l++) {
+        const control_loop *loop = &v->loop[l];
+        double complex own;
+        const double complex gain = loops_gain(loop, w, &own);
+        if (j < n && loop->measured[j] != 0) {
+            row[count] = first + l;
+            z[count++] = gain * loop->measured[j];
+        }
+        for (int i = 0; i < n && j == first + l; i++)
+            if (loop->push[i] != 0) {
+                row[count] = i;
+                z[count++] = -loop->push[i];
+            }
+        if (j == first + l) {
+            row[count] = j;
+            z[count++] = own;
+        }
+    }
+    return count;
+}
+
 /* The entries of column j of one half: rows and, unless z is NULL, their values at w. */
 static int column_of(const vibration *v, int j, double w, int row[], double complex z[])
 {
@@ -150,21 +176,21 @@ static int column_of(const vibration *v, int j, double w, int row[], double comp
         row[count] = n + i;
         z[count++] = I * w * U[(size_t)i * (size_t)n + (size_t)j];
     }
-    for (int i = 0; j >= n && i < n; i++) {
+    for (int i = 0; j >= n && j < n + more && i < n; i++) {
         row[count] = i;
         z[count++] = U[(size_t)(j - n) * (size_t)n + (size_t)i];
     }
-    if (j >= n) {
+    if (j >= n && j < n + more) {
         row[count] = j;
         z[count++] = -1;
     }
-    return count;
+    return loops_column(v, j, w, count, row, z);
 }
 
 /* D at the frequency; w = 0 also sets its pattern. */
 static void fill(vibration *v, double w)
 {
-    const int n = v->free + harmonic_border(v);
+    const int n = v->free + harmonic_border(v) + v->loops;
     int at = 0;
     for (int j = 0; j < 2 * n; j++) {
         const int imaginary = j >= n, count = column_of(v, j % n, w, v->rows, v->column);
@@ -202,7 +228,7 @@ status harmonic_pattern(vibration *v, fault *f)
 
 status harmonic_matrix(vibration *v, fault *f)
 {
-    const int more = harmonic_border(v), n = v->free + more;
+    const int more = harmonic_border(v) + v->loops, n = v->free + more;
     const size_t entries =
         (size_t)v->first[v->free] + 2 * (size_t)more * (size_t)v->free + (size_t)more;
     v->D = (sparse){.n = 2 * n,
@@ -246,10 +272,11 @@ void harmonic_release(vibration *v)
     free(v->output);
     free(v->dual);
     free(v->room);
+    loops_free(v);
     harmonic_modes_free(v->modes);
 }
 
-static status system_of(vibration *v, fault *f)
+status harmonic_begin(vibration *v, fault *f)
 {
     const model_size size = model_sizes(v->c->model);
     v->free = size.free;
@@ -259,12 +286,13 @@ static status system_of(vibration *v, fault *f)
     if (v->room == NULL)
         return no_memory(f);
     TRY(harmonic_matrices(v, 1, f));
-    return scene_has_ratios(&v->c->scene->analysis[v->analysis]) ? harmonic_modes_find(v, f)
-                                                                 : STATUS_OK;
+    return loops_find(v, f);
 }
 
 status harmonic_system(analysis_context *c, int analysis, vibration *out, fault *f)
 {
     *out = (vibration){.c = c, .analysis = analysis};
-    return system_of(out, f);
+    TRY(harmonic_begin(out, f));
+    return scene_has_ratios(&c->scene->analysis[analysis]) ? harmonic_modes_find(out, f)
+                                                           : STATUS_OK;
 }

@@ -218,6 +218,11 @@ status harmonic_modes_lowest(vibration *v, harmonic_modes *m, int wanted, fault 
 static status check_damping(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;
+    if (v->loops > 0 && s->analysis[v->analysis].by_modes)
+        return fault_set(f, STATUS_REFUSED,
+                         "a solution by modes needs symmetric matrices, and the loop of %s "
+                         "(feedback) is unsymmetric; remove 'solution', or add loops: open",
+                         scene_called(s, SCENE_LOADS, v->loop[0].load).text);
     for (int i = 0; i < s->springs && s->analysis[v->analysis].by_modes; i++)
         if (scene_spring_gyrates(&s->spring[i]))
             return fault_set(f, STATUS_REFUSED,

@@ -21,7 +21,7 @@ static status no_memory(fault *f)
 static int same_input(const system_input *a, const system_input *b)
 {
     return a->load == b->load && a->driver == b->driver && a->node == b->node &&
-           a->component == b->component;
+           a->component == b->component && a->reference == b->reference;
 }
 
 static int same_output(const scene_response *a, const scene_response *b)
@@ -46,10 +46,10 @@ static void add_output(system_matrices *s, int quantity, const scene_response *a
     s->output[s->outputs++] = (system_output){quantity, *as};
 }
 
-/* Of responses and displacements; then the loads. */
+/* Of responses and displacements; then the loads, and references of feedback. */
 status second_order_list(const scene *of, system_matrices *s, fault *f)
 {
-    s->input = calloc((size_t)of->quantities + (size_t)of->loads + 1, sizeof *s->input);
+    s->input = calloc((size_t)of->quantities + 2 * (size_t)of->loads + 1, sizeof *s->input);
     s->output = calloc((size_t)of->quantities + 1, sizeof *s->output);
     if (s->input == NULL || s->output == NULL)
         return no_memory(f);
@@ -61,11 +61,12 @@ status second_order_list(const scene *of, system_matrices *s, fault *f)
             as = (scene_response){.node = c->node,
                                   .component = c->component,
                                   .from = SCENE_NONE,
-                                  .driver = SCENE_NONE};
+                                  .driver = SCENE_NONE,
+                                  .reference = SCENE_NONE};
         } else if (what->kind != SCENE_RESPONSE)
             continue;
         add_output(s, i, &as);
-        if (what->kind == SCENE_RESPONSE)
+        if (what->kind == SCENE_RESPONSE && as.reference == SCENE_NONE)
             add_input(s,
                       &(system_input){.load = SCENE_NONE,
                                       .driver = as.driver,
@@ -74,6 +75,10 @@ status second_order_list(const scene *of, system_matrices *s, fault *f)
     }
     for (int i = 0; i < of->loads; i++)
         add_input(s, &(system_input){.load = i, .driver = SCENE_NONE, .node = SCENE_NONE});
+    for (int i = 0; i < of->loads; i++)
+        if (of->load[i].feedback.node != SCENE_NONE)
+            add_input(s, &(system_input){
+                             .load = i, .driver = SCENE_NONE, .node = SCENE_NONE, .reference = 1});
     return STATUS_OK;
 }
 
@@ -123,6 +128,8 @@ static void forces_of(const vibration *v, const system_input *in, double out[])
     int index[KINEMATICS_MOST];
     double T[6 * KINEMATICS_MOST];
     memset(out, 0, (size_t)v->all * sizeof *out);
+    if (in->reference)
+        return; /* acts in a closed loop only */
     if (in->load != SCENE_NONE) {
         const scene_load *load = &v->c->scene->load[in->load];
         loads_add_one(&v->c->eq, v->state, load, 1, out);
@@ -145,6 +152,53 @@ static void add_motion(const vibration *v, int node, int component, double times
     for (int k = 0; k < count; k++)
         if (at[index[k]] >= 0)
             out[at[index[k]]] += times * T[component * count + k];
+}
+
+/* The measured components of closed loops and their rates, behind the outputs of the scene. */
+static void fill_measured(const vibration *v, const system_matrices *s, const int at[],
+                          second_order *m)
+{
+    const size_t N = (size_t)m->n + (size_t)m->motions;
+    for (int l = 0; l < v->loops; l++)
+        for (int i = 0; i < v->all; i++)
+            for (int rate = 0; rate < 2 && at[i] >= 0; rate++)
+                if (rate == 0 || v->loop[l].gains->derivative != 0)
+                    m->L[rate][((size_t)s->outputs + 2 * (size_t)l + (size_t)rate) * N +
+                               (size_t)at[i]] += v->loop[l].measured[i];
+}
+
+static int input_of(const system_matrices *s, int load, int reference)
+{
+    int i = 0;
+    while (s->input[i].load != load || s->input[i].reference != reference)
+        i++;
+    return i;
+}
+
+/* The state space of m with the loops closed. */
+static status close_loops(const vibration *v, const system_matrices *s, int inputs,
+                          state_space *space, fault *f)
+{
+    state_space_loop *loop = calloc((size_t)v->loops + 1, sizeof *loop);
+    if (loop == NULL)
+        return no_memory(f);
+    for (int l = 0; l < v->loops; l++) {
+        const scene_feedback *b = v->loop[l].gains;
+        const int load = v->loop[l].load, first = s->outputs + 2 * l;
+        loop[l] =
+            (state_space_loop){.input = input_of(s, load, 0),
+                               .measured = first,
+                               .rate = first + 1,
+                               .reference = input_of(s, load, 1),
+                               .times = scene_acting_factor(v->c->scene, v->c->eq.loading.acting,
+                                                            v->c->scene->load[load].load_case),
+                               .proportional = b->proportional,
+                               .derivative = b->derivative,
+                               .integral = b->integral};
+    }
+    const status outcome = state_space_close(space, inputs, s->outputs, v->loops, loop, f);
+    free(loop);
+    return outcome;
 }
 
 /* C of damping ratios: U U^T, of the motion relative to that of a base at rest. */
@@ -243,6 +297,7 @@ static status fill_model(const vibration *v, const sparse *G, const system_matri
     add_ratios(v, s, m, room);
     for (int y = 0; y < s->outputs; y++)
         TRY(fill_output(v, G, s, y, at, m, room, f));
+    fill_measured(v, s, at, m);
     return STATUS_OK;
 }
 
@@ -260,7 +315,8 @@ static status triplets_of_rows(int rows, int columns, const double value[], trip
     return outcome;
 }
 
-static status keep_second_order(const second_order *m, linear_model *out, fault *f)
+/* With the first outputs. */
+static status keep_second_order(const second_order *m, int outputs, linear_model *out, fault *f)
 {
     const int N = m->n + m->motions;
     TRY(triplets_of_rows(N, N, m->K, &out->K, f));
@@ -268,18 +324,27 @@ static status keep_second_order(const second_order *m, linear_model *out, fault 
     TRY(triplets_of_rows(N, N, m->M, &out->M, f));
     TRY(triplets_of_rows(N, m->inputs, m->B, &out->B, f));
     for (int i = 0; i < 3; i++)
-        TRY(triplets_of_rows(m->outputs, N, m->L[i], &out->L[i], f));
-    return triplets_of_rows(m->outputs, m->inputs, m->D, &out->D, f);
+        TRY(triplets_of_rows(outputs, N, m->L[i], &out->L[i], f));
+    return triplets_of_rows(outputs, m->inputs, m->D, &out->D, f);
 }
 
 /* reduced: that of the whole model exists. */
-static status keep_state_space(const analysis_context *c, const system_matrices *of,
-                               const second_order *m, int reduced, linear_model *out, fault *f)
+static status keep_state_space(const vibration *v, const system_matrices *of, const second_order *m,
+                               int reduced, linear_model *out, fault *f)
 {
+    const analysis_context *c = v->c;
     state_space s = {0};
     fault why = {""};
     status outcome = state_space_of(m, &s, &why);
-    if (outcome != STATUS_OK && s.improper >= 0 && reduced)
+    if (outcome == STATUS_OK && v->loops > 0)
+        outcome = close_loops(v, of, m->inputs, &s, &why);
+    if (outcome != STATUS_OK && s.improper >= of->outputs)
+        fault_set(
+            f, outcome,
+            "state space: %s (feedback) has a derivative gain, but what it measures follows "
+            "an input at once, without a mass between them; add a mass there",
+            scene_called(c->scene, SCENE_LOADS, v->loop[(s.improper - of->outputs) / 2].load).text);
+    else if (outcome != STATUS_OK && s.improper >= 0 && reduced)
         fault_set(f, outcome,
                   "--reduce %.60s: quantity %s has no state space with the modes of coordinates "
                   "without mass; give fewer modes",
@@ -296,9 +361,10 @@ static status keep_state_space(const analysis_context *c, const system_matrices 
     if (outcome == STATUS_OK)
         outcome = triplets_of_rows(s.states, m->inputs, s.B, &out->state.B, f);
     if (outcome == STATUS_OK)
-        outcome = triplets_of_rows(m->outputs, s.states, s.C, &out->state.C, f);
+        outcome = triplets_of_rows(of->outputs, s.states, s.C, &out->state.C, f);
     if (outcome == STATUS_OK)
-        outcome = triplets_of_rows(m->outputs, m->inputs, s.D, &out->state.D, f);
+        outcome = triplets_of_rows(of->outputs, m->inputs, s.D, &out->state.D, f);
+    out->loops = v->loops;
     out->eliminated = s.eliminated;
     state_space_free(&s);
     return outcome;
@@ -429,9 +495,9 @@ static status keep_reduced(const vibration *v, const system_matrices *s, const s
         outcome =
             triplets_of_rows(whole->n + whole->motions, small.n + small.motions, T, &out->T, f);
     if (outcome == STATUS_OK)
-        outcome = keep_second_order(&small, &out->of, f);
+        outcome = keep_second_order(&small, s->outputs, &out->of, f);
     if (outcome == STATUS_OK)
-        outcome = keep_state_space(v->c, s, &small, 1, &out->of, f);
+        outcome = keep_state_space(v, s, &small, 1, &out->of, f);
     if (outcome == STATUS_OK)
         outcome = compare_frequencies(whole, &small, modes, out, f);
     if (outcome == STATUS_OK && v->analysis != SCENE_NONE &&
@@ -463,13 +529,13 @@ status second_order_keep(const vibration *v, const sparse *G, const system_matri
     double *room = calloc(2 * (size_t)v->all + 1, sizeof *room);
     status outcome = at != NULL && room != NULL ? STATUS_OK : no_memory(f);
     if (outcome == STATUS_OK)
-        outcome = second_order_alloc(v->free, motions, s->inputs, s->outputs, &m, f);
+        outcome = second_order_alloc(v->free, motions, s->inputs, s->outputs + 2 * v->loops, &m, f);
     if (outcome == STATUS_OK)
         outcome = fill_model(v, G, s, at, room, &m, f);
     if (outcome == STATUS_OK)
-        outcome = keep_second_order(&m, out, f);
+        outcome = keep_second_order(&m, s->outputs, out, f);
     if (outcome == STATUS_OK)
-        outcome = keep_state_space(v->c, s, &m, 0, out, f);
+        outcome = keep_state_space(v, s, &m, 0, out, f);
     if (outcome == STATUS_OK && v->c->options->reduce != NULL)
         outcome = keep_reduced(v, s, &m, &to->reduced, f);
     second_order_free(&m);

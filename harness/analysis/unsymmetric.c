@@ -107,14 +107,28 @@ static double diagonal(const sparse *a, int j)
     return 0;
 }
 
+/* Scale of a coordinate without stiffness of its own, as integrals of feedback: by the forces that
+ * it causes. */
+static double scale_of(const unsymmetric_solver *s, int j)
+{
+    const sparse *K = s->p->K;
+    double largest = 0;
+    for (int k = K->column[j]; k < K->column[j + 1]; k++) {
+        const double own = diagonal(K, K->row[k]);
+        if (own > 0)
+            largest = fmax(largest, fabs(K->value[k]) / sqrt(own));
+    }
+    return largest;
+}
+
 static void measure(unsymmetric_solver *s)
 {
     double largest = 0;
     for (int i = 0; i < s->n; i++)
         largest = fmax(largest, diagonal(s->p->K, i));
     for (int i = 0; i < s->n; i++) {
-        const double k = diagonal(s->p->K, i);
-        s->scale[i] = sqrt(k > 0 ? k : largest > 0 ? largest : 1);
+        const double k = diagonal(s->p->K, i), by_forces = k > 0 ? 0 : scale_of(s, i);
+        s->scale[i] = by_forces > 0 ? by_forces : sqrt(k > 0 ? k : largest > 0 ? largest : 1);
         if (diagonal(s->p->M, i) > 0)
             s->of[s->massive++] = i;
     }
@@ -136,6 +150,9 @@ static void find_second(unsymmetric_solver *s, double from[], double to[])
         if (!(size > 0))
             break;
     }
+    /* an integral of feedback may leave nothing of it but round-off */
+    for (int k = 0; k < s->massive && !s->p->K->symmetric; k++)
+        size = fmax(size, diagonal(s->p->M, s->of[k]) / (s->scale[s->of[k]] * s->scale[s->of[k]]));
     s->second = size > 0 ? sqrt(size) : 1;
 }
 
@@ -267,31 +284,59 @@ static void take_mode(const unsymmetric_solver *s, int i, int second, double mod
     }
 }
 
-/* x^T A x or, if it is too small, the form with the conjugate: y is work space. */
-static double complex form(const unsymmetric_solver *s, const sparse *A, int conjugated,
+/* w^T A x; y is work space. */
+static double complex form(const unsymmetric_solver *s, const sparse *A, const double complex w[],
                            const double complex x[], double complex y[])
 {
-    double complex sum = 0;
     multiply(A, 0, x, y);
-    for (int i = 0; i < s->n; i++)
-        sum += (conjugated ? conj(x[i]) : x[i]) * y[i];
-    return sum;
+    return product(s->n, w, y);
+}
+
+/* The left vector of eigenvalue i, of several that which is least normal to e->x; NULL: none. */
+static const double complex *left_of(const unsymmetric_solver *s, int i, const growth_estimate *e)
+{
+    const double complex theta = s->right.theta[i], *found = NULL;
+    double largest = 0;
+    for (int j = 0; j < s->left.count; j++) {
+        const double complex *w = e->left + (size_t)j * (size_t)s->n;
+        if (cabs(s->left.theta[j] - theta) > 1e-4 * cabs(theta))
+            continue;
+        const double part = slope(s, 0, root(s, theta), w, e) / sqrt(cabs(product(s->n, w, w)));
+        if (part > largest)
+            found = w;
+        largest = fmax(largest, part);
+    }
+    return found;
+}
+
+/* e->w of the forms: the left vector or, of a symmetric K, the mode itself or, if its form is too
+ * small, its conjugate. */
+static void take_other(const unsymmetric_solver *s, int i, const growth_estimate *e)
+{
+    const double complex *left = s->p->K->symmetric ? NULL : left_of(s, i, e);
+    memcpy(e->w, left != NULL ? left : e->x, (size_t)s->n * sizeof *e->w);
+    if (left != NULL)
+        return;
+    const double size = cabs(form(s, s->p->M, e->w, e->x, e->y));
+    for (int k = 0; k < s->n; k++)
+        e->w[k] = conj(e->x[k]);
+    if (size > 0.1 * cabs(form(s, s->p->M, e->w, e->x, e->y)))
+        memcpy(e->w, e->x, (size_t)s->n * sizeof *e->w);
 }
 
 /* The root of c (z - s) + m (z^2 - s^2) = b (z^2 + mass z)^2/(1 + stiffness z) next to the
  * eigenvalue s, with the forms of its mode. */
 static double complex with_inside(const unsymmetric_solver *s, int i, double complex at,
-                                  double complex x[], double complex y[])
+                                  const growth_estimate *e)
 {
     const double complex *v = s->right.mode + (size_t)i * (size_t)(s->n + s->massive);
     double complex z = at;
     for (int k = 0; k < s->n; k++)
-        x[k] = v[k] / s->scale[k];
-    const double whole = cabs(form(s, s->p->M, 1, x, y));
-    const int conjugated = !(cabs(form(s, s->p->M, 0, x, y)) > 0.1 * whole);
-    const double complex m = form(s, s->p->M, conjugated, x, y),
-                         c = form(s, s->p->C, conjugated, x, y),
-                         b = form(s, s->p->B, conjugated, x, y);
+        e->x[k] = v[k] / s->scale[k];
+    take_other(s, i, e);
+    const double complex m = form(s, s->p->M, e->w, e->x, e->y),
+                         c = form(s, s->p->C, e->w, e->x, e->y),
+                         b = form(s, s->p->B, e->w, e->x, e->y);
     for (int pass = 0; pass < 20; pass++) {
         const double complex moves = z * z + s->p->mass * z, rests = 1 + s->p->stiffness * z,
                              part = moves / rests,
@@ -310,7 +355,7 @@ static void take(unsymmetric_solver *s, int i, double error, const growth_estima
     double complex at = root(s, theta);
     const int stays_real = cimag(at) == 0;
     if (s->p->B != NULL)
-        at = with_inside(s, i, at, e->x, e->y);
+        at = with_inside(s, i, at, e);
     if (stays_real)
         at = creal(at);
     const int damped = s->p->C != NULL, second = !damped && cimag(theta) < 0, k = r->count;

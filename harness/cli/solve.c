@@ -134,20 +134,19 @@ static void tell_reduced(const scene *s, const system_matrices *all, const state
     fprintf(stderr, "\n");
 }
 
-/* Feedback is in no matrix: its loads are inputs. Returns 1 if there is any. */
-static int tell_loops(const scene *s)
+/* Feedback is in no matrix but those of state spaces of harmonic analyses: its loads are inputs. */
+static void tell_loops(const scene *s, const system_matrices *of)
 {
-    int found = 0;
-    for (int i = 0; i < s->loads; i++) {
-        if (s->load[i].feedback.node == SCENE_NONE)
-            continue;
-        found = 1;
-        fprintf(stderr,
-                "beamwork: matrices: the loop of %s (feedback) is open: the load is an input, its "
-                "gains are in no matrix\n",
-                scene_called(s, SCENE_LOADS, i).text);
-    }
-    return found;
+    int closed = 0;
+    for (int i = 0; i < of->states; i++)
+        closed |= of->state[i].model.loops > 0;
+    for (int i = 0; i < s->loads; i++)
+        if (s->load[i].feedback.node != SCENE_NONE)
+            fprintf(stderr,
+                    "beamwork: matrices: the loop of %s (feedback) is open: the load is an input, "
+                    "its gains are in no matrix%s\n",
+                    scene_called(s, SCENE_LOADS, i).text,
+                    closed ? " but those in state_space of harmonic analyses" : "");
 }
 
 /* Writes the matrices of all states, if requested. */
@@ -157,9 +156,9 @@ static status write_matrices(const solve_request *r, const sweep *s, fault *f)
     char title[256];
     if (r->matrices == NULL || cell->solve.systems.label == NULL) /* why is reported */
         return STATUS_OK;
-    snprintf(title, sizeof title, "%s, %s, %d elements per member%s", s->point[0].scene.name,
-             r->chosen.formulation[0].key, r->meshes.elements[0],
-             tell_loops(&s->point[0].scene) ? ", loops of feedback open" : "");
+    snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
+             r->chosen.formulation[0].key, r->meshes.elements[0]);
+    tell_loops(&s->point[0].scene, &cell->solve.systems);
     TRY(system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f));
     for (int i = 0; i < cell->solve.systems.states; i++) {
         tell_apart(&s->point[0].scene, &cell->solve.systems.state[i]);

@@ -453,6 +453,7 @@ typedef struct linear_model {
         triplets A, B, C, D;
     } state;
     int eliminated; /* coordinates without mass and damping */
+    int loops;      /* of feedback that are closed in `state`; in the others they are open */
     double apart;   /* harmonic analysis: largest difference from its responses, relative ... */
     int farthest;   /* ... and the quantity with this difference */
 } linear_model;
@@ -468,10 +469,11 @@ typedef struct reduced_model {
                                 and its frequency [Hz]; NULL: no harmonic analysis */
 } reduced_model;
 
-/* A load with factor 1, a unit force or moment at a node, or a unit acceleration of a prescribed
- * motion. */
+/* A load with factor 1, a rate of 1 of the reference of its feedback, a force or moment of 1 at a
+ * node, or an acceleration of 1 of a motion. */
 typedef struct system_input {
     int load, driver, node, component; /* SCENE_NONE: not this */
+    int reference;                     /* 1: of the load */
 } system_input;
 
 typedef struct system_output {

@@ -371,4 +371,16 @@ typedef struct state_space {
 status state_space_of(const second_order *, state_space *out, fault *);
 void state_space_free(state_space *);
 
+/* A factor proportional (r - y) + derivative (r' - y') + integral (its integral) adds `times` of
+ * itself to an input; y: output `measured`, y': output `rate` (with a derivative gain only). */
+typedef struct state_space_loop {
+    int input, measured, rate;
+    int reference; /* input that is the rate of r, without effect before */
+    double times, proportional, derivative, integral;
+} state_space_loop;
+
+/* Closes loops; keeps the first outputs. */
+status state_space_close(state_space *, int inputs, int outputs, int loops,
+                         const state_space_loop[], fault *);
+
 #endif

@@ -175,7 +175,7 @@ static void matrix_market_write(FILE *to, const triplets *t, const char *comment
         fprintf(to, "%d %d %.17g\n", t->row[i] + 1, t->column[i] + 1, t->value[i]);
 }
 
-enum { NAME = 96 };
+enum { NAME = 96, TITLE = 300 };
 static const char undeformed[] = "undeformed";
 static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789-+";
 
@@ -293,7 +293,7 @@ static void write_loads(FILE *to, const void *what)
 
 static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
-/* "force", "moment", "load", "acceleration" of a motion. */
+/* "force", "moment", "load", "acceleration" of a motion, "reference rate" of a load. */
 static void write_inputs(FILE *to, const void *what)
 {
     const contents *c = what;
@@ -302,15 +302,19 @@ static void write_inputs(FILE *to, const void *what)
         const system_input *in = &c->of->input[i];
         const int turns = in->component >= SCENE_RX, moves = in->driver != SCENE_NONE;
         fprintf(to, "%d,%s,", i + 1,
-                in->load != SCENE_NONE ? "load"
-                : moves                ? "acceleration"
-                : turns                ? "moment"
-                                       : "force");
+                in->reference            ? "reference rate"
+                : in->load != SCENE_NONE ? "load"
+                : moves                  ? "acceleration"
+                : turns                  ? "moment"
+                                         : "force");
         name_cell(to, c->scene, SCENE_NODES, in->node);
         fprintf(to, "%s,", in->node != SCENE_NONE ? component[in->component] : "");
         name_cell(to, c->scene, SCENE_DRIVERS, in->driver);
         name_cell(to, c->scene, SCENE_LOADS, in->load);
-        if (moves)
+        if (in->reference)
+            fprintf(to, "%s/s\n",
+                    c->scene->load[in->load].feedback.component >= SCENE_RX ? "rad" : "m");
+        else if (moves)
             fprintf(to, "%s/s^2\n", scene_driver_turns(c->scene, in->driver) ? "rad" : "m");
         else
             fprintf(to, "%s\n", in->load != SCENE_NONE ? "1" : turns ? "N m" : "N");
@@ -387,11 +391,21 @@ static void write_errors(FILE *to, const void *what)
                 i % c->of->inputs + 1, m->apart[i], m->at[i]);
 }
 
+/* Title with the number of elements, and whether loops of feedback are closed. */
+static void titled_state(const contents *c, const char *name, int closed, char out[TITLE])
+{
+    snprintf(out, TITLE, "%.120s%s, %.90s", c->title,
+             !scene_has_feedback(c->scene) ? ""
+             : closed                      ? ", loops of feedback closed"
+                                           : ", loops of feedback open",
+             name);
+}
+
 /* T: of a reduced model, or NULL. */
 static status add_model(const output_folder *folder, const char *state, const linear_model *m,
-                        const triplets *T, const char *title, fault *f)
+                        const triplets *T, const contents *c, fault *f)
 {
-    char name[2 * NAME], comment[300];
+    char name[2 * NAME], comment[TITLE + 100], title[TITLE];
     const struct {
         const char *letter;
         const triplets *matrix;
@@ -403,18 +417,19 @@ static status add_model(const output_folder *folder, const char *state, const li
     if (m->state.A.rows == 0)
         return STATUS_OK;
     snprintf(name, sizeof name, "%s/%s", state, T == NULL ? "second_order" : "reduced");
-    snprintf(comment, sizeof comment, "%.100s, %.90s; u: inputs.csv, y: outputs.csv; SI", title,
-             name);
+    titled_state(c, name, 0, title);
+    snprintf(comment, sizeof comment, "%s; u: inputs.csv, y: outputs.csv; SI", title);
     TRY(output_folder_below(folder, name, f));
     for (size_t i = 0; i < sizeof second / sizeof *second; i++)
         TRY(add_matrix(folder, name, second[i].letter, second[i].matrix, comment, f));
     if (T != NULL)
         TRY(add_matrix(folder, name, "T", T, comment, f));
     snprintf(name, sizeof name, "%s%s/state_space", state, T == NULL ? "" : "/reduced");
+    titled_state(c, name, m->loops > 0, title);
     snprintf(comment, sizeof comment,
-             "%.100s, %.90s; u: inputs.csv, y: outputs.csv; coordinates without mass and damping "
+             "%s; u: inputs.csv, y: outputs.csv; coordinates without mass and damping "
              "eliminated: %d; SI",
-             title, name, m->eliminated);
+             title, m->eliminated);
     TRY(output_folder_below(folder, name, f));
     for (size_t i = 0; i < sizeof first / sizeof *first; i++)
         TRY(add_matrix(folder, name, first[i].letter, first[i].matrix, comment, f));
@@ -424,10 +439,10 @@ static status add_model(const output_folder *folder, const char *state, const li
 static status add_state(const output_folder *folder, const contents *c, const state_matrices *s,
                         fault *f)
 {
-    char name[NAME], comment[300];
+    char name[NAME], comment[TITLE + 100], title[TITLE];
     name_state(c, s, name);
-    snprintf(comment, sizeof comment, "%.120s, %s; rows: dofs.csv, columns of B: loads.csv; SI",
-             c->title, name);
+    titled_state(c, name, 0, title);
+    snprintf(comment, sizeof comment, "%s; rows: dofs.csv, columns of B: loads.csv; SI", title);
     TRY(output_folder_below(folder, name, f));
     TRY(add_matrix(folder, name, "K", &s->K, comment, f));
     TRY(add_matrix(folder, name, "M", &s->M, comment, f));
@@ -435,12 +450,12 @@ static status add_state(const output_folder *folder, const contents *c, const st
     TRY(add_matrix(folder, name, "C", &s->C, comment, f));
     TRY(add_matrix(folder, name, "M_inside", &s->inside, comment, f));
     TRY(add_matrix(folder, name, "B", &s->B, comment, f));
-    TRY(add_model(folder, name, &s->model, NULL, c->title, f));
+    TRY(add_model(folder, name, &s->model, NULL, c, f));
     if (s->reduced.T.rows == 0)
         return STATUS_OK;
     const contents errors = {.of = c->of, .reduced = &s->reduced};
     char file[2 * NAME];
-    TRY(add_model(folder, name, &s->reduced.of, &s->reduced.T, c->title, f));
+    TRY(add_model(folder, name, &s->reduced.of, &s->reduced.T, c, f));
     snprintf(file, sizeof file, "%s/reduced/errors.csv", name);
     return output_folder_file(folder, file, write_errors, &errors, f);
 }

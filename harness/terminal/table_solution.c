@@ -11,6 +11,7 @@
 
 /* Prints nothing if there is no motion. Reports loads that jump at the start of the motion. */
 static void table_motion(FILE *to, const scene *, const solve_result *);
+static void loop_lines(FILE *to, const scene *s);
 static void table_path_steps(FILE *to, const solve_result *r);
 /* Critical points and branch jumps of continued paths. */
 static void table_path_events(FILE *to, const solve_result *r);
@@ -333,6 +334,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     bounded_curves(to, &p->scene, &c->solve);
     table_path_matrices(to, &p->scene, &c->solve);
     table_motion(to, &p->scene, &c->solve);
+    loop_lines(to, &p->scene);
     table_path_steps(to, &c->solve);
 }
 
@@ -605,6 +607,25 @@ static void table_motion(FILE *to, const scene *s, const solve_result *r)
     }
     if (r->motions > 0)
         fputs("  --format json has every step; 'beamwork motion' measures the time error\n", to);
+}
+
+/* The loops of feedback that small vibrations close. */
+static void loop_lines(FILE *to, const scene *s)
+{
+    for (int i = 0; i < s->loads; i++) {
+        int closed = 0;
+        for (int a = 0; a < s->analyses; a++) {
+            if ((s->analysis[a].kind != SCENE_HARMONIC && !s->analysis[a].damped) ||
+                !scene_closes_loop(s, a, i))
+                continue;
+            if (closed == 0)
+                fprintf(to, "feedback: the loop of %s is closed in",
+                        scene_called(s, SCENE_LOADS, i).text);
+            fprintf(to, "%s %s", closed++ > 0 ? "," : "", scene_name(s, SCENE_ANALYSES, a).text);
+        }
+        if (closed > 0)
+            fputc('\n', to);
+    }
 }
 
 void table_follow(FILE *to, const char *parameter, const follow_curves *c)

@@ -158,6 +158,29 @@ static void add_push(void *to, const applied *what)
     }
 }
 
+static void add_measured(const model *m, const model_state *s, int node, int component,
+                         double times, double out[])
+{
+    int of[KINEMATICS_MOST];
+    double slope[KINEMATICS_MOST];
+    const int n = node != SCENE_NONE ? measure(m, s, node, component, of, slope) : 0;
+    for (int k = 0; k < n; k++)
+        out[of[k]] += times * slope[k];
+}
+
+void feedback_signals(const equations *eq, const model_state *s, int load, double push[],
+                      double measured[])
+{
+    const scene_load *l = &model_scene(eq->m)->load[load];
+    const double acts = scene_acting_factor(model_scene(eq->m), eq->loading.acting, l->load_case);
+    feedback_push by = {eq->m, s, 0, {0}, {0}};
+    applied_each(eq->m, s, l, 1, add_push, &by);
+    for (int k = 0; k < by.count; k++)
+        push[by.index[k]] += acts * by.value[k];
+    add_measured(eq->m, s, l->feedback.node, l->feedback.component, 1, measured);
+    add_measured(eq->m, s, l->feedback.from, l->feedback.component, -1, measured);
+}
+
 void feedback_tangent(const equations *eq, const model_state *s, const feedback_gains *gains,
                       feedback_entry *take, void *to)
 {

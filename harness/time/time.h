@@ -162,6 +162,11 @@ void damping_end(const equations *, run_damping *);
  * stiffness-proportional damping of all members and springs. */
 status damping_matrix(const equations *, const model_state *, double more, sparse *C, fault *);
 
+/* Of a load with feedback in a state, in all coordinates [free + driven], added to: generalised
+ * forces of its factor 1, and the derivative of what it measures. */
+void feedback_signals(const equations *, const model_state *, int load, double push[],
+                      double measured[]);
+
 /* Transient analysis: states at the requested instants. */
 
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);

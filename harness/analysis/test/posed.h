@@ -378,6 +378,7 @@ static void respond(scene *s, const char *name, int analysis, int node, int comp
                                  .forced = node,
                                  .forced_along = along,
                                  .driver = SCENE_NONE,
+                                 .reference = SCENE_NONE,
                                  .part = part};
     const char *unit = along < SCENE_RX ? "m/N" : "rad/(N m)";
     scene_set_at(scene_add_quantity(s, name, unit, analysis, scene_response_to(what)), at);
@@ -518,6 +519,10 @@ static void structure(const posed *p, scene *s)
         add(s, p->name);
     else
         carry(s, p->name);
+    /* what comes before refuses feedback */
+    if (p->with && strcmp(p->name, "feedback") == 0 &&
+        (p->column == SCENE_OF_HARMONIC_LINEAR || p->column == SCENE_OF_HARMONIC_ABOUT))
+        scene_set_factor(s, s->loads - 1, 2, (const double[]){0, 1}, (const double[]){0, 0});
     /* the search for a limit point wants elements of one length */
     for (int i = 0; i < s->loads && p->column == SCENE_OF_BUCKLING_ABOUT; i++)
         for (int k = 0; k < 2; k++)

@@ -1,0 +1,231 @@
+"""Loops of feedback in small vibrations: poles, responses and state spaces against closed forms of masses and springs."""
+import csv
+import json
+import re
+
+import numpy as np
+import scipy.io
+from scipy.linalg import expm
+
+from harness.tools.kit.program import ProgramTest, run
+
+# A wall on a shaking base, a cart of 2 kg and a tool of 0.5 kg, joined by bars of k1 and k2 along x.
+SCENE = """beamwork: 1
+let: {k1: %(k1)s, k2: 200}
+sections:
+  a: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: k1*1e4, shear_modulus: 8e5}
+  b: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: k2*1e4, shear_modulus: 8e5}
+nodes:
+  base: {at: [0, 0, 0], hold: [uy, uz, rx, ry, rz], drive: {ux: shake}}
+  cart: {at: [1, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 2}
+  tool: {at: [2, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 0.5}
+members:
+  one: {from: base, to: cart, section: a, y: [0, 1, 0], warping: free}
+  two: {from: cart, to: tool, section: b, y: [0, 1, 0], warping: free}
+springs:
+  oil: {from: base, to: cart, damping: [c, 0, 0, 0, 0, 0]}
+loads:
+  motor: {force: [1, 0, 0], on: cart, %(time)s feedback: {node: %(at)s, component: ux, %(gains)s}}
+motions:
+  shake: {unit: m, path: [0, 1], value: [0, 0]%(still)s}
+analyses:
+%(analyses)s
+quantities:
+%(quantities)s
+omit: [trapeze, wagner_moments, wagner_torque]
+""".replace("let: {", "let: {c: %(c)s, ")
+M, K2 = np.diag([2.0, 0.5]), 200.0
+HERTZ = 0, 0.3, 1, 2, 5
+POLES = "  poles: {modal: {damped: yes}}\n"
+STEADY = "  steady: {harmonic: {frequencies: [0, 0.3, 1, 2, 5]}}\n"
+
+
+def poles_read(count):
+    return "".join(f"  f{i}: {{frequency: {{analysis: poles, which: {i}}}}}\n"
+                   f"  d{i}: {{damping_ratio: {{analysis: poles, which: {i}, of: decay}}}}\n" for i in range(count))
+
+
+def read(name, **keys):
+    return "".join(f"  {name}_{part}: {{response: {{analysis: steady, part: {part}, take: curve, "
+                   + ", ".join(f"{k}: {v}" for k, v in keys.items()) + "}}\n" for part in ("real", "imaginary"))
+
+
+INPUTS = {"force": {"force": "tool", "along": "ux"}, "drive": {"drive": "shake"}, "reference": {"reference": "motor"}}
+
+
+class Plant:
+    """The equations: u = (Kp + Kd s + Ki/s)(r - S x - S0 q), with the base q."""
+
+    def __init__(self, k1=300.0, c=4.0, at="cart", kp=0.0, kd=0.0, ki=0.0, relative=False):
+        self.K = np.array([[k1 + K2, -K2], [-K2, K2]])
+        self.C = np.diag([c, 0.0])
+        self.base = k1, c
+        self.S = np.array([1.0, 0.0] if at == "cart" else [0.0, 1.0])
+        self.S0 = -1.0 if relative else 0.0
+        self.gains = kp, kd, ki
+
+    def poles(self):
+        """Roots of the characteristic polynomial, times s where there is an integral."""
+        kp, kd, ki = self.gains
+        P = np.poly1d
+        k = [[P([M[i, j], self.C[i, j], self.K[i, j]]) for j in range(2)] for i in range(2)]
+        for j in range(2):
+            for i in range(2):
+                if ki != 0:
+                    k[i][j] = k[i][j]*P([1, 0]) if i == 0 else k[i][j]
+            k[0][j] = k[0][j] + self.S[j]*(P([kd, kp, ki]) if ki != 0 else P([kd, kp]))
+        s = (k[0][0]*k[1][1] - k[0][1]*k[1][0]).roots
+        return sorted((z for z in s if z.imag >= 0), key=abs)
+
+    def response(self, hertz, what):
+        """x of cart and tool, and the force on the base along the drive."""
+        s = 2j*np.pi*hertz
+        kp, kd, ki = self.gains
+        D = self.K + s*self.C + s*s*M
+        own, gain = (s, (kp + kd*s)*s + ki) if ki != 0 else (1, kp + kd*s)
+        A = np.zeros((3, 3), complex)
+        A[:2, :2], A[:2, 2], A[2, :2], A[2, 2] = D, [-1, 0], gain*self.S, own
+        z0 = self.base[0] + s*self.base[1]
+        q = float(what == "drive")
+        right = [z0*q, float(what == "force"), gain*((what == "reference") - self.S0*q)]
+        x = np.linalg.solve(A, right)
+        return x[0], x[1], z0*(q - x[0])
+
+
+class Loops(ProgramTest):
+    def solve(self, plant, analyses, quantities, at="cart", more="", code=0, time="", options=(), **gains):
+        path = self.folder / "scene.yaml"
+        words = {"proportional": gains.get("kp", 0), "derivative": gains.get("kd", 0), "integral": gains.get("ki", 0)}
+        path.write_text(SCENE % {
+            "k1": plant.base[0], "c": plant.base[1], "at": at + more, "time": time, "still": ", time: 0*t" if time else "", "analyses": analyses,
+            "quantities": quantities, "gains": ", ".join(f"{k}: {v}" for k, v in words.items() if v)}, encoding="utf-8")
+        words = "solve", "--scene", path, "-f", "collocation", "-n", 1
+        if code:
+            return run(*words)
+        done = run(*words, *options, "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout[:3000])
+        return json.loads(done.stdout)
+
+    def values(self, record):
+        return {q["quantity"]: q for q in record["quantities"]}
+
+    def test_poles(self):
+        """A damper and a spring, the roots of a cubic, and a loop that drives a mode that it does not see."""
+        for at, gains in (("cart", {"kp": 150, "kd": 7}), ("cart", {"kp": 80, "kd": 12, "ki": 90}),
+                          ("tool", {"kp": 3, "kd": 0.02, "ki": 2}), ("tool", {"kp": 60, "kd": 9}), ("cart", {"ki": 40}),
+                          ("tool", {"kp": 40, "kd": 8, "ki": 100})):
+            plant = Plant(at=at, **gains)
+            expected = plant.poles()
+            record = self.solve(plant, POLES, poles_read(len(expected)), at=at, **gains)
+            found = self.values(record)
+            for i, s in enumerate(expected):
+                self.assertAlmostEqual(complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])/s, 1, 9)
+                self.assertEqual(found[f"d{i}"]["meaning"], "damped, loop closed")
+            self.assertEqual("unstable: a damped mode grows" in record["cell"]["reason"],
+                             max(s.real for s in expected) > 1e-9, (at, gains, expected))
+
+    def test_single_mass(self):
+        """PD is a spring and a dashpot; with an integral the poles are the roots of a cubic, also without a spring."""
+        text = """beamwork: 1
+sections: {bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}}
+nodes:
+  cart: {at: [0, 0, 0], hold: [uy, uz, ry, rz], mass: 2, inertia: [0.1, 0.1, 0.1, 0, 0, 0]}
+  pin: {at: [1, 0, 0], part_of: cart}
+members: {bar: {from: cart, to: pin, section: bar, y: [0, 1, 0]}}
+loads:
+  motor: {force: [1, 0, 0], on: cart, feedback: {node: cart, component: ux, proportional: 52, derivative: 3%s}}
+  spin: {moment: [1, 0, 0], on: cart, feedback: {node: pin, component: rx, proportional: 2, derivative: 0.05}}
+analyses: {poles: {modal: {damped: yes}}}
+quantities:
+%s
+omit: [trapeze, wagner_moments, wagner_torque]
+"""
+        for ki in (0, 48):
+            expected = np.concatenate([np.roots([2, 3, 52, ki] if ki else [2, 3, 52]), np.roots([0.1, 0.05, 2])])
+            expected = sorted((s for s in expected if s.imag >= 0), key=abs)
+            (self.folder / "scene.yaml").write_text(
+                text % (f", integral: {ki}" if ki else "", poles_read(len(expected))), encoding="utf-8")
+            found = self.values(self.record("solve", "--scene", self.folder / "scene.yaml", "-f", "collocation", "-n", 1))
+            for i, s in enumerate(expected):
+                self.assertAlmostEqual(complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])/s, 1, 11)
+
+    def test_responses(self):
+        """All inputs and outputs, at rest too, where an integral leaves no error."""
+        quantities = "".join(read(f"{node}_{name}", node=node, component="ux", **keys) for name, keys in INPUTS.items()
+                             for node in ("cart", "tool")) + "".join(
+            read(f"wall_{name}", node="base", component="ux", of="reaction", **keys) for name, keys in INPUTS.items())
+        for at, relative, gains in (("cart", 0, {"kp": 150, "kd": 7}), ("cart", 1, {"kp": 80, "kd": 12, "ki": 90}),
+                                    ("tool", 0, {"kp": 3, "kd": 0.02, "ki": 2}), ("tool", 1, {"kp": 9})):
+            plant = Plant(at=at, relative=relative, **gains)
+            record = self.solve(plant, STEADY, quantities, at=at, more=", from: base" if relative else "", **gains)
+            found = {c["quantity"]: c["curve_value"] for c in record["curves"]}
+            for name in INPUTS:
+                for i, hertz in enumerate(HERTZ):
+                    for node, expected in zip(("cart", "tool", "wall"), plant.response(hertz, name)):
+                        key = f"{node}_{name}"
+                        one = complex(found[f"{key}_real"][i], found[f"{key}_imaginary"][i])
+                        self.assertLess(abs(one - expected), 1e-9*max(abs(expected), 1e-3), (gains, key, hertz))
+
+    def test_largest(self):
+        """It is found near the poles of the closed loop, between the frequencies."""
+        plant = Plant(kp=400, kd=1)
+        record = self.solve(plant, "  steady: {harmonic: {frequencies: [0.1, 20]}}\n",
+                            "  most: {response: {analysis: steady, node: cart, component: ux, reference: motor, take: max}}\n",
+                            kp=400, kd=1)
+        most = max(abs(plant.response(f, "reference")[0]) for f in np.linspace(0.1, 20, 200001))
+        self.assertAlmostEqual(self.values(record)["most"]["value"]/most, 1, 6)
+
+    def test_unstable(self):
+        """Nothing vibrates steadily; the open loop does."""
+        plant = Plant(at="tool", kp=60, kd=9)
+        quantities = read("r", node="cart", component="ux", force="cart", along="ux")
+        done = self.solve(plant, STEADY, quantities, at="tool", code=1, kp=60, kd=9)
+        growth = max(s.real for s in plant.poles())
+        self.assertIn(f"a mode grows with {growth:.4g} 1/s", done.stderr + done.stdout)
+        self.assertIn("gains of feedback", re.sub(r"\s+", " ", done.stderr + done.stdout))
+        opened = STEADY.replace("5]", "5], loops: open")
+        record = self.solve(plant, opened, quantities, at="tool", kp=60, kd=9)
+        self.assertAlmostEqual(record["curves"][0]["curve_value"][0], 1/300, 12)
+
+    def test_state_space(self):
+        """Transfer functions of the reference, poles, and the step that a motion makes."""
+        for at, gains in (("cart", {"kp": 80, "kd": 12, "ki": 90}), ("tool", {"kp": 3, "kd": 0.02}), ("cart", {"ki": 40})):
+            plant = Plant(at=at, **gains)
+            quantities = read("tool", node="tool", component="ux", reference="motor") \
+                + "  fast: {response: {analysis: steady, node: tool, component: ux, of: velocity, force: tool, take: curve}}\n" \
+                + "  end: {displacement: {analysis: run, node: tool, component: ux}}\n"
+            folder = self.folder / f"m{at}{len(gains)}"
+            record = self.solve(plant, STEADY + "  run: {motion: {stations: [1.5], step: 0.005, integrator: radau}}\n", quantities,
+                                at=at, time="time: 0.01,", options=("--matrices", folder, "--state-space"), **gains)
+            A, B, C, D = (scipy.io.mmread(folder / "steady/state_space" / f"{k}.mtx").toarray() for k in "ABCD")
+            self.assertIn("feedback closed", (folder / "steady/state_space/A.mtx").read_text(encoding="utf-8"))
+            self.assertIn("feedback open", (folder / "steady/second_order/K.mtx").read_text(encoding="utf-8"))
+            with open(folder / "inputs.csv", encoding="utf-8") as stream:
+                kinds = [row["kind"] for row in csv.DictReader(stream)]
+            reference = kinds.index("reference rate")
+            for hertz in HERTZ[1:]:
+                s = 2j*np.pi*hertz
+                H = C @ np.linalg.solve(s*np.eye(len(A)) - A, B) + D
+                x = plant.response(hertz, "reference")[1]
+                self.assertAlmostEqual(s*H[0, reference]/x, 1, 9)
+                self.assertAlmostEqual(H[1, kinds.index("force")]/(s*plant.response(hertz, "force")[1]), 1, 9)
+            found = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0 and abs(s) > 1e-6), key=abs)
+            for s, e in zip(found, plant.poles()):
+                self.assertAlmostEqual(s/e, 1, 8)
+            # the step from 0 s on: the reference, which is a state, has its place; e' has no impulse
+            step = np.zeros(len(A))
+            step[np.flatnonzero(B[:, reference] == 1)[-1]] = 0.01
+            self.assertAlmostEqual((C @ expm(1.5*A) @ step)[0]/self.values(record)["end"]["value"], 1, 6)
+
+    def test_refused(self):
+        plant = Plant()
+        modes = read("r", node="cart", component="ux", force="cart", along="ux")
+        for analyses, quantities, words in (
+                ("  plain: {modal: {}}\n", "  f: {frequency: {analysis: plain}}\n", "damped modes (damped: yes) only"),
+                (STEADY.replace("5]", "5], loops: open"), read("r", node="cart", component="ux", reference="motor"),
+                 "the loop of load motor is open in"),
+                (STEADY, read("r", node="cart", component="ux", reference="motor", force="cart"), "reference"),
+                (STEADY.replace("5]", "5], solution: modal"), modes, "the loop of load motor (feedback) is unsymmetric")):
+            done = self.solve(plant, analyses, quantities, code=1, kp=10)
+            self.assertIn(done.returncode, (1, 2), words)
+            self.assertIn(words, re.sub(r"\s+", " ", done.stderr + done.stdout))
