@@ -142,6 +142,11 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         quantity_no_value(r, o->status, o->reason);
         return;
     }
+    if (o->kind == SCENE_MOTION && outcome_motion_of(o)->undefined != NULL &&
+        outcome_motion_of(o)->undefined[q - c->scene->quantity]) {
+        quantity_no_value(r, motion_undefined(c->scene, q, &f), f.text);
+        return;
+    }
     switch (c->scene->analysis[q->analysis].kind) {
     case SCENE_LINEAR:
         from_linear(c, q, o, r);

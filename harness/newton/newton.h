@@ -306,6 +306,7 @@ typedef struct outcome_motion {
     int steps;                /* number of records, including the initial state */
     outcome_step *step;       /* [steps] */
     outcome_passing *passing; /* [quantities of the scene] */
+    unsigned char *undefined; /* [quantities of the scene] 1: an acceleration without inertia */
     double *slope;            /* [quantities of the scene x stations] of quantities that are
                                  slopes inside steps; NULL: none */
     outcome_path frames;      /* for pictures, at equal intervals */

@@ -161,6 +161,7 @@ void outcome_free(analysis_outcome *o)
             free(o->left.motion.instant[i].rate);
         free(o->left.motion.instant);
         free(o->left.motion.passing);
+        free(o->left.motion.undefined);
         free(o->left.motion.slope);
         free(o->left.motion.step);
         free_path(&o->left.motion.path);

@@ -276,33 +276,52 @@ static int is_moved(const model *m, const model_state *s, const scene_component 
     return most > 1e-9;
 }
 
+/* Is nothing left to compute: no other quantity of the analysis, and no analysis after it? */
+static int is_all(const scene *s, int analysis, const unsigned char undefined[])
+{
+    for (int i = 0; i < s->quantities; i++)
+        if (s->quantity[i].analysis == analysis && !undefined[i])
+            return 0;
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].follows == analysis)
+            return 0;
+    return 1;
+}
+
+status motion_undefined(const scene *s, const scene_quantity *q, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED,
+                     "quantity %s: node %s has no inertia for this motion, so its "
+                     "acceleration is not defined; name another node, add a mass or an "
+                     "inertia, or a density of its members, and do not omit rotary_inertia",
+                     q->name, scene_name(s, SCENE_NODES, scene_component_of(q)->node).text);
+}
+
 status massless_readings(const model *m, const carried_masses *masses, const model_state *s,
-                         int analysis, fault *f)
+                         int analysis, unsigned char **undefined, fault *f)
 {
     const scene *of = model_scene(m);
-    double *dx = NULL;
-    status outcome = STATUS_OK;
+    const scene_quantity *first = NULL;
+    double *dx = calloc((size_t)model_unknowns(m) + 1, sizeof *dx);
+    *undefined = calloc((size_t)of->quantities + 1, sizeof **undefined);
+    status outcome = dx != NULL && *undefined != NULL
+                         ? STATUS_OK
+                         : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     for (int i = 0; i < of->quantities && outcome == STATUS_OK; i++) {
         const scene_quantity *q = &of->quantity[i];
         if (q->analysis != analysis || q->what.kind != SCENE_RATE ||
             q->what.of.rated.rate == SCENE_SPEED)
             continue;
-        if (dx == NULL)
-            dx = calloc((size_t)model_unknowns(m) + 1, sizeof *dx);
-        for (int k = 0; k < model_unknowns(m) && dx != NULL; k++)
+        for (int k = 0; k < model_unknowns(m); k++)
             dx[k] = 1 + 0.01 * k; /* any motion of all coordinates */
-        outcome = dx != NULL ? massless_motion(m, masses, s, dx, f)
-                             : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
-        if (outcome == STATUS_OK && is_moved(m, s, scene_component_of(q), dx))
-            outcome =
-                fault_set(f, STATUS_REFUSED,
-                          "quantity %s: node %s has no inertia for this motion, so its "
-                          "acceleration is not defined; name another node, add a mass or an "
-                          "inertia, or a density of its members, and do not omit rotary_inertia",
-                          q->name, scene_name(of, SCENE_NODES, scene_component_of(q)->node).text);
+        outcome = massless_motion(m, masses, s, dx, f);
+        (*undefined)[i] = outcome == STATUS_OK && is_moved(m, s, scene_component_of(q), dx);
+        first = (*undefined)[i] && first == NULL ? q : first;
     }
     free(dx);
-    return outcome;
+    return outcome == STATUS_OK && first != NULL && is_all(of, analysis, *undefined)
+               ? motion_undefined(of, first, f)
+               : outcome;
 }
 
 status massive_of(const model *m, const carried_masses *masses, const model_state *s, massive *h,

@@ -328,7 +328,7 @@ static status solve(motion_course *w, fault *f)
                          .end = w->how->path.value[w->how->path.stations - 1]};
     TRY(frames_alloc(&w->frames, shapes_frames(w->c->options->shapes), f));
     TRY(checks_massless(w->c, &w->masses, w->how, w->now.state, f));
-    TRY(massless_readings(m, &w->masses, w->now.state, w->analysis, f));
+    TRY(massless_readings(m, &w->masses, w->now.state, w->analysis, &w->out->undefined, f));
     if (w->from == NULL)
         kinematics_state_copy(m, w->now.state, w->extent.begin);
     extent_begin(&w->extent, m);

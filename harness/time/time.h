@@ -170,6 +170,8 @@ void feedback_signals(const equations *, const model_state *, int load, double p
 /* Transient analysis: states at the requested instants. */
 
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* REFUSED, with the reason why the quantity has no value (outcome_motion.undefined). */
+status motion_undefined(const scene *, const scene_quantity *, fault *);
 
 /* Quantities of a state, as read by their files in cases/quantities. */
 

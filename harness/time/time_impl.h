@@ -688,10 +688,11 @@ status massless_forces(const model *, const carried_masses *, const model_state 
                        fault *);
 status massless_motion(const model *, const carried_masses *, const model_state *, double dx[],
                        fault *);
-/* REFUSED: a quantity of the analysis reads the acceleration or the jerk of a node that moves
- * without inertia. Accelerations of massless coordinates are not known (see settle). */
+/* Notes which quantities of the analysis read the acceleration or the jerk of a node that moves
+ * without inertia: *undefined [quantities of the scene], which the caller frees. Accelerations of
+ * massless coordinates are not known (see settle). REFUSED: nothing else is to be computed. */
 status massless_readings(const model *, const carried_masses *, const model_state *, int analysis,
-                         fault *);
+                         unsigned char **undefined, fault *);
 /* Removes the motion without inertia from a[free], given in the coordinates of forms_rates. */
 status massless_drop(const model *, const carried_masses *, const model_state *, double a[],
                      fault *);

@@ -1,5 +1,6 @@
 """Accelerations, jerks and spectra of motions, against closed forms."""
 import cmath
+import json
 import math
 import unittest
 
@@ -112,6 +113,10 @@ class Histories(ProgramTest):
         light = "  l: {rate: {analysis: go, node: end, component: ux, of: acceleration}}\n"
         done = self.done(PUSHED % {"step": 0.01, "integrator": "radau", "more": light})
         self.assertIn("node end has no inertia", done.stdout + done.stderr)
+        alone = json.loads(self.done(PUSHED % {"step": 0.01, "integrator": "radau", "more": ""}).stdout)["quantities"]
+        both = json.loads(done.stdout)["quantities"]
+        self.assertEqual([q["quantity"] for q in both if q["status"] != "ok"], ["l"])
+        self.assertEqual([q["value"] for q in both if q["quantity"] != "l"], [q["value"] for q in alone])
 
     def test_lines(self):
         got, _ = self.curves(SHAKEN % {"shake": SINES, "stations": "0..1/200", "when": ""})
