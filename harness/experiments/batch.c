@@ -238,7 +238,7 @@ status batch_read_label(const char *path, batch_label *out, fault *f)
     return outcome;
 }
 
-/* Checks that the results are all that is between the two lines. */
+/* Checks that nothing but the results lies between the first and the last line. */
 static status check_size(FILE *from, const char *path, long size, fault *f)
 {
     const long begin = ftell(from);

@@ -30,7 +30,8 @@ static int all_formulations(formulation out[MOST])
     return count;
 }
 
-/* Excludes formulations that solve another model at the point, since times serve for a ranking. */
+/* Excludes formulations that solve another model at the point, because the times are used for
+ * ranking. */
 static void leave_out_others(sweep *s, int point)
 {
     for (int i = 0; i < s->seriess; i++) {

@@ -396,8 +396,8 @@ static void rotating_check(const specimen *s, claims *c)
         warping(s, claims_open(c, "centrifugal energy of warping", 2e-4));
 }
 
-/* Makes all checks; repeats them without rotary inertia and without warping, where other terms
- * remain. */
+/* Makes all checks and repeats those of the rotating frame without some physics, so that the
+ * remaining terms are tested alone. */
 static void check_all(const specimen *s, claims *c)
 {
     static const unsigned without[] = {FEATURE_ROTARY_INERTIA, FEATURE_WARPING,

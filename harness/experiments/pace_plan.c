@@ -49,7 +49,8 @@ status pace_plan_usual(pace_plan_request *r, fault *f)
     return outcome;
 }
 
-/* Sets the instants at which steps of all runs end, as far as these steps divide the first one. */
+/* Sets the stations, where steps of all runs end: the multiples of `spacing` before the end, and
+ * the end. */
 static status stations_of(double spacing, double end, scene_path *out, fault *f)
 {
     const int before = (int)ceil(end / spacing * (1 - same)) - 1;
@@ -79,7 +80,7 @@ static status set_motion(pace *p, const pace_group *g, const pace_run *r, double
     return stations_of(spacing, g->end, &how->path, f);
 }
 
-/* Number of instants at which steps of all runs end, as far as the spacing divides the time. */
+/* Number of instants at which steps of all runs end, if the spacing divides the time. */
 static int frames_of(const pace_group *g, double spacing)
 {
     const int parts = (int)ceil(g->end / spacing * (1 - same));

@@ -183,8 +183,8 @@ typedef struct way {
 
 static const char failure[] = "its functions return results";
 
-/* Does the element give results at all? If the code of the formulation fails, this is the only
- * cause of all deviations. */
+/* Does the element give results at all? If the code of the formulation fails, only this failure is
+ * reported, because it causes all other deviations. */
 static int gives_answers(const specimen *s, claims *c)
 {
     node_state x[ELEMENT_MAX_NODES];

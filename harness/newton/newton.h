@@ -274,7 +274,7 @@ typedef struct outcome_step {
     double time, step; /* [s] end and size of the step; size 0 for the initial state */
     double error; /* estimated error of positions due to the step, in the measure of model.h; 0: not
                      requested */
-    int iterations, rejected; /* rejected: number of longer steps tried before */
+    int iterations, rejected; /* rejected: number of longer steps that failed before this one */
     double balance[SCENE_BALANCES];
 } outcome_step;
 
@@ -554,7 +554,7 @@ typedef struct quantity_result {
                         modes; else 0 */
     double change;   /* change from the previously solved mesh, relative to the value (for a curve:
                         to its largest value); NAN: unknown */
-    curve curve;     /* of SCENE_CURVE, else 0 points */
+    curve curve;     /* of a SCENE_CURVE; 0 points for other quantities */
     char reason[FAULT_TEXT];       /* why there is no value */
     char meaning[OUTCOME_MEANING]; /* see outcome_spectrum */
 } quantity_result;

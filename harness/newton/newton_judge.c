@@ -22,9 +22,9 @@ static const double arrival_near = 1e-6, negligible = 1e-15;
 static const double rounding = 1e-12;
 /* Corrections larger than this need not converge quadratically. */
 static const double quadratic = 0.1;
-/* Relative change of stresses below which a tangent is reused. Compliances change by at most half
- * of this (measured on the mechanisms of cases/), which is less than their scatter in most
- * cases. */
+/* Relative change of stresses below which a tangent is reused. Reuse changes compliances by at
+ * most half of this value (measured on the mechanisms of cases/), usually less than their
+ * scatter. */
 static const double same_tangent = 3e-11;
 
 void arrival_start(double criterion, int differences, int elements, arrival *a)

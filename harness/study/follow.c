@@ -136,8 +136,8 @@ void follow_free(follow_curves *c)
 
 /* Largest last correction of a converged step: the next correction would be its square. A larger
  * one, up to largest_correction, may be the last if the next one is predicted to be negligible.
- * With more elements than the third value the limit grows in proportion, because rounding of the
- * positions limits the corrections. */
+ * Above many_elements elements, promised_correction grows with their number, because rounding of
+ * the positions limits the corrections. */
 static const double promised_correction = 1e-8, largest_correction = 1e-6,
                     negligible_correction = 1e-14, many_elements = 1e4;
 

@@ -214,8 +214,8 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
         q = p;
         rest = a;
         factor = p >= 0.9 * nominal ? sure : unsure;
-    } else { /* too high an order announces a change of sign, so that the order is extrapolated
-                downwards */
+    } else { /* an excessive order indicates that the error will change its sign; the order is
+                therefore extrapolated downwards */
         q = fmax(fmin(fmin(p, highest), fmin(before, 2 * before - p)), fmin(remaining_order, p));
         rest = fmax(a, b * pow(R, -fmax(before, q)));
     }

@@ -1071,7 +1071,7 @@ enum { ROUNDS_COUNT = 5 };
 
 typedef struct rounds_reading {
     double setup, solve;        /* [s] set-up and solution of the fastest repetition */
-    double round[ROUNDS_COUNT]; /* [s] shortest set-up plus solution in each round */
+    double round[ROUNDS_COUNT]; /* [s] shortest time of set-up plus solution in each round */
     int rounds, repeats;
 } rounds_reading;
 

@@ -145,7 +145,8 @@ typedef struct account {
     double work;    /* [J] work at the last step */
 } account;
 
-/* Adds the energy balance at the start (steps 0), then of every step in order. */
+/* Adds the energy balance of a step; to be called with the initial balance (steps 0), then for
+ * every step in order. */
 void account_take(account *, int steps, const double balance[SCENE_BALANCES]);
 /* The larger of the largest energy and the total absolute work so far [J]. */
 double account_size(const account *);

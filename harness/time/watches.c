@@ -11,8 +11,8 @@ enum { PIECES = 4, MOST_HALVINGS = 200 }; /* intervals of a step; each is search
 
 static const double no_sign = 1e-13, /* relative to the size of the quantity; a smaller value has no
                                         sign */
-    a_jump = 1e-3; /* of the values next to a root: a rotation vector changes its sign at half a
-                      revolution */
+    a_jump = 1e-3; /* the sign changes by a jump if the value found is not below this fraction of
+                      the values around it: a rotation vector reverses at half a revolution */
 
 static void begin(const watches *s, watched *one, const scene_quantity *q)
 {

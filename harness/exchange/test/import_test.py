@@ -187,7 +187,7 @@ class Import(ProgramTest):
                    self.folder / name, *options)
 
     def test_what_is_missing_is_gone(self):
-        """A missing series counts as gone: after a change of name, without the import, or without a mesh; between two runs, against the
+        """A missing series is reported as gone: after a change of name, without the import, or without a mesh; between two runs, against the
         short table, and in the run itself."""
         values = ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))
         text = "# beamwork-import: 1\n# program: {}\n# version: {}\n# case: elastica\nquantity, unit, elements, value\n"

@@ -380,7 +380,7 @@ static void worked(void)
 }
 
 /* Two values show no order: first order is assumed, and the uncertainty is three times the change
- * plus four times the noise. Three values never show two orders. */
+ * plus four times the noise. Three values never suffice to estimate two orders. */
 static void few_meshes(void)
 {
     const double v[] = {1, 1.5, 1.75};

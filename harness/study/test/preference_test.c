@@ -125,7 +125,7 @@ static void nothing_offers_all(void)
     scene_free(&s);
 }
 
-/* If only one formulation is accepted, it is chosen or none is. */
+/* If only one formulation is accepted, either that formulation or none is chosen. */
 static void no_new_one(void)
 {
     const element_type *accepted = registry_formulations[0];

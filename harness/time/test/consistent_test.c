@@ -116,8 +116,8 @@ static void free_flight(const element_type *type)
              "what is missing by radau: %.1e, %.1e, %.1e", d.momentum, d.angular, d.energy);
 }
 
-/* A base that is driven along and about two axes; attached to it over an offset a rod with a body
- * at its end, and a second rod to an attached node of that body. */
+/* A base driven along and about two axes. A rod with a body at its end is attached to it with an
+ * offset, and a second rod is attached to a node of that body. */
 static void add_driven(scene *s, int released, double step, double end)
 {
     scene_init(s, "driven base");
