@@ -241,8 +241,8 @@ typedef struct element_type {
     void (*equations_many)(int count, const element_data *const data[], const node_state x[],
                            const double *const e[], const double *const inner[],
                            const double *const s[], equations_output out[], status outcome[]);
-    /* Optional. 1: `inertia` for two nodes supports transient analysis with consistent mass (rate
-     * and the members below it). 0: mass is lumped at the nodes in transient analysis. For a type
+    /* Optional: support of transient analysis with consistent mass. 1: `inertia` for two nodes
+     * supports it (rate and the members below it); 0: mass is lumped at the nodes. For a type
      * without `inertia`: 1. */
     int spreads;
     /* For LIMIT_TENSION: length of the element divided by the largest length that its axial force
@@ -257,10 +257,10 @@ typedef struct element_type {
      * nodes, the same for all types. */
     void (*along)(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[]);
-    /* Optional. 1: with these options, `inertia` for two nodes in the undeformed state is that of
-     * the displacement field which is exact without loads (field/field.h); frequencies are then
-     * corrected for the motion inside the element. 0: frequencies are those of the mass matrix
-     * alone. For a type without `inertia`: 1. */
+    /* Optional: kind of mass. 1: with these options, `inertia` for two nodes in the undeformed
+     * state is that of the displacement field that is exact without loads (field/field.h);
+     * frequencies are then corrected for the motion inside the element. 0: frequencies are those of
+     * the mass matrix alone. For a type without `inertia`: 1. */
     int (*mass_of_field)(const double options[]);
     /* Optional: data of the same element with an additional stress-free elongation and curvatures
      * about y and z [1, 1/m, 1/m]; x: its nodes in the free state; out: data of the same size.

@@ -1,17 +1,17 @@
 /* A thin beam of the absolute nodal coordinate formulation, given by its energy; forces and
  * stiffness are computed by differences.
  *
- * As in that formulation: the line r(x), a cubic with positions and slopes r' of two nodes
- * (Gerstmayr and Shabana, Nonlinear Dyn. 45 (2006)); its energy, from the stretch |r'| - 1 and the
- * curvature per undeformed length, |t x t'|, t = r'/|r'| (Gerstmayr and Irschik, J. Sound Vib. 318
- * (2008)).
+ * As in that formulation, the line r(x) is a cubic with positions and slopes r' of two nodes
+ * (Gerstmayr and Shabana, Nonlinear Dyn. 45 (2006)); its energy follows from the stretch |r'| - 1
+ * and the curvature per undeformed length, |t x t'|, t = r'/|r'| (Gerstmayr and Irschik, J. Sound
+ * Vib. 318 (2008)).
  *
- * Different: nodes have rotations instead of slopes. A slope has the direction of the node's x
- * axis, common to neighbouring elements, and a length that each element chooses to minimise the
- * energy of the stretch. Twist, which slopes cannot represent, is the angle between the triads of
- * both nodes after the smallest rotation to t (Meier, Popp and Wall, Comput. Methods Appl. Mech.
- * Engrg. 278 (2014)). The mass is that of the displacement field: no constant mass matrix of
- * slopes.
+ * Unlike that formulation, nodes have rotations instead of slopes. A slope has the direction of the
+ * node's x axis, common to neighbouring elements, and a length that each element chooses to
+ * minimise the energy of the stretch. Twist, which slopes cannot represent, is the angle between
+ * the triads of both nodes after the smallest rotation to t (Meier, Popp and Wall, Comput. Methods
+ * Appl. Mech. Engrg. 278 (2014)). The mass is that of the displacement field, not the constant mass
+ * matrix of slopes.
  *
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK ancf.c -lm -o ancf.so
  *   beamwork verify --element ./ancf.so -f ancf */
@@ -54,7 +54,7 @@ static void cross(const double a[3], const double b[3], double c[3])
         c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* An axis of a node's triad, stored row-major. */
+/* Returns an axis of a node's triad, which is stored row-major. */
 static void axis(const double R[9], int i, double a[3])
 {
     for (int k = 0; k < 3; k++)
@@ -76,8 +76,8 @@ static void derivatives(const line *c, double s, double first[3], double second[
     }
 }
 
-/* Newton's correction of the lengths of the slopes that minimises the energy of the stretch;
- * returns its size. */
+/* Makes Newton's correction of the lengths of the slopes, which minimises the energy of the
+ * stretch; returns its size. */
 static double correct(line *c)
 {
     double g[2] = {0}, H[2][2] = {{0}};
@@ -104,8 +104,8 @@ static double correct(line *c)
     return fabs(change[0]) + fabs(change[1]);
 }
 
-/* y: the y axis of triad R after the smallest rotation to t; returns its rate of rotation about t
- * when t changes by dt. */
+/* Computes y, the y axis of triad R after the smallest rotation to t; returns its rate of rotation
+ * about t as t changes by dt. */
 static double carried(const double R[9], const double t[3], const double dt[3], double y[3])
 {
     double x[3], about[3];
@@ -118,7 +118,7 @@ static double carried(const double R[9], const double t[3], const double dt[3], 
     return -dot(about, dt) / whole;
 }
 
-/* Per length at x = s l [N]. */
+/* Returns the energy per length at x = s l [N]. */
 static double density(const element_data *d, const node_state x[], const line *c, double s)
 {
     double first[3], second[3], t[3], dt[3], y[2][3], other[3], curvature[3], section_y[3],
@@ -153,7 +153,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
         c.slope[k] = 1;
     }
     int rounds = 0;
-    while (correct(&c) > 1e-10) /* and then twice as many digits */
+    while (correct(&c) > 1e-10) /* Newton's method then doubles the number of digits */
         if (++rounds == 20)
             return STATUS_NOT_CONVERGED;
     *out->energy = 0;

@@ -2,7 +2,7 @@ function out = beamwork_element(first, varargin)
 % A beam formulation in Octave for beamwork --element 'exec:octave-cli -qf my_beam.m'.
 %
 % beamwork_element(@prepare, 'strain', @strain, what it is: names and values) speaks the protocol
-% of harness/formulations/protocol.md; timoshenko.m beside this file is an example. N elements at once, the
+% of harness/formulations/protocol.md; see the example timoshenko.m in this folder. N elements at once, the
 % last index; n nodes, m strains. Functions (first argument: the kind of element that all N are):
 %   C = prepare(kind)             C(m,m), constant: sigma = C e; or []. Once for each kind; with
 %                           [C, kind] it keeps in kind what it computes. kind.length, .curvature(3),

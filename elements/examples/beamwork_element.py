@@ -1,22 +1,22 @@
 """A beam formulation in Python and numpy for beamwork --element 'exec:python3 my_beam.py'.
 
-serve(**what it is, functions) speaks the protocol of harness/formulations/protocol.md; timoshenko.py
-beside this file is an example. Arrays: N elements at once, n nodes, m strains; matrices are the
-last two axes. Functions (first argument: the kind of element that all N are):
-  prepare(kind)           -> C[m, m], constant: sigma = C e; or None. Once for each kind; may keep
-                          what it computes in it. kind.length, .curvature[3], .strain[3],
+serve(*functions, **words) implements the protocol of harness/formulations/protocol.md; see the example timoshenko.py in
+this folder. Arrays contain N elements at once, with n nodes and m strains; matrices are the last two axes. The first
+argument of each function is the kind of all N elements:
+  prepare(kind)           -> C[m, m], constant: sigma = C e; or None. Called once for each kind; may store
+                          results in it. kind.length, .curvature[3], .strain[3],
                           .section.young ..., .features (a set of words), .options (a dict)
   strain(kind, r, u, R, a) -> e[N, m] from r[N, n, 3], u[N, n, 3], R[N, n, 3, 3], a[N, n]
-  stress(kind, e)         -> energy[N], sigma[N, m], C[N, m, m]; where prepare gives None
-  force(kind, r, u, R, a) -> energy[N], F[N, 7 n], K[N, 7 n, 7 n]: for gives="tangent", in place of
+  stress(kind, e)         -> energy[N], sigma[N, m], C[N, m, m]; if prepare returns None
+  force(kind, r, u, R, a) -> energy[N], F[N, 7 n], K[N, 7 n, 7 n]: for gives="tangent", instead of
                           strain and stress; K or F and K may be None for "force" and "energy"
   mass(kind, r, u, R, a)  -> M[N, 7 n, 7 n], optional: x' M x'/2 is the kinetic energy; x': velocity,
                           angular velocity (both in fixed axes) and rate of warping of each node.
-                          The rest is made from it: frames that turn, motions in time
-                          (inertia="vibration": not these). Default: the mass of all others
-Derivatives of strain and mass are complex steps: they must take complex arrays and be analytic (no
-abs, norm, conj, comparison of values; rotation_vector and sinc below are). With gives="e" it is called
-with real arrays only and beamwork takes differences. Raise Refused(why) for what cannot be done.
+                          Everything else follows from it: rotating frames, motions in time
+                          (not with inertia="vibration"). Default: the mass that all formulations share
+Derivatives of strain and mass are computed by complex steps: both must accept complex arrays and be analytic (no abs,
+norm, conj or comparison of values; rotation_vector and sinc below are analytic). With gives="e", strain receives only
+real arrays, and beamwork computes differences. Raise Refused(why) for unsupported requests.
 """
 import difflib
 import functools
@@ -40,7 +40,7 @@ TINY, STEP = 1e-20, 2e-3  # of complex steps and of differences of their results
 
 
 class Refused(Exception):
-    """Its text reaches the user."""
+    """Raised with text for the user."""
 
 
 def checked(value, name, count, each, why, numbers="biuf"):
@@ -69,12 +69,12 @@ def cross_matrix(v):
 
 
 def sinc(x):
-    """sin(x)/x, also of complex steps."""
+    """Returns sin(x)/x, also for complex steps."""
     return np.sin(x) / np.where(x == 0, 1, x) + (x == 0)
 
 
 def rotation_vector(T):
-    """Rotation vectors, shorter than pi, of rotation matrices [..., 3, 3]; works with complex steps."""
+    """Returns the rotation vectors, shorter than pi, of rotation matrices [..., 3, 3]; works with complex steps."""
     axis = np.stack([T[..., 2, 1] - T[..., 1, 2], T[..., 0, 2] - T[..., 2, 0],
                      T[..., 1, 0] - T[..., 0, 1]], -1) / 2
     c, s = (np.trace(T, axis1=-2, axis2=-1) - 1) / 2, np.sqrt((axis * axis).sum(-1))
@@ -86,7 +86,7 @@ def rotation_vector(T):
 
 @functools.lru_cache
 def steps(n, second):
-    """Increments of all coordinates [P, n, 7] (real, imaginary) that derivatives are taken from."""
+    """Returns the increments of all coordinates [P, n, 7] (real, imaginary) from which derivatives are taken."""
     one = np.eye(7 * n)
     if not second:
         return np.zeros((7 * n, n, 7)), one.reshape(-1, n, 7)
@@ -102,7 +102,7 @@ def steps(n, second):
 
 
 def moved(kind, x, real, imag):
-    """States r, u, R, a [N P, n, ...] of elements x[N, n, 16] after P increments [P, n, 7]."""
+    """Returns the states r, u, R, a [N P, n, ...] of elements x[N, n, 16] after P increments [P, n, 7]."""
     unit = kind.length ** np.array([1, 1, 1, 0, 0, 0, -1])  # increments as numbers of order one
     move, (psi, e) = (real + 1j * TINY * imag) * unit, (real[..., 3:6], imag[..., 3:6])
     t, spin = np.linalg.norm(psi, axis=-1)[..., None, None] / np.pi, cross_matrix(psi)
@@ -115,7 +115,7 @@ def moved(kind, x, real, imag):
 
 
 def derivatives(kind, strain, x, s):
-    """J [N, m, 7 n]; or, where s [N, m] is given, H [N, 7 n, 7 n] of s times the strains."""
+    """Returns J [N, m, 7 n] or, if s [N, m] is given, H [N, 7 n, 7 n] of s times the strains."""
     (N, n, _), (real, imag) = x.shape, steps(x.shape[1], s is not None)
     unit = np.tile(kind.length ** np.array([1, 1, 1, 0, 0, 0, -1]), n)
     rate = strain(kind, *moved(kind, x, real, imag)).imag.reshape(N, len(real), -1) / TINY
@@ -130,7 +130,7 @@ def derivatives(kind, strain, x, s):
 
 
 def is_analytic(kind, strain, x):
-    """Complex steps of strain or mass agree with differences, a bit beside an element x[1, n, 16]."""
+    """Do complex steps of strain or mass agree with differences near an element x[1, n, 16]?"""
     n = x.shape[1]
     away = np.sin(np.arange(1, 7 * n + 1)).reshape(1, n, 7) / 20
     state = [v.real for v in moved(kind, x, away, 0 * away)]
@@ -144,7 +144,7 @@ def is_analytic(kind, strain, x):
 
 
 def described(body, said):
-    """A kind of elements from the body of a request to prepare it; its number."""
+    """Returns a kind of elements from the body of a request to prepare it, and its number."""
     (number, bits, _), rest = np.frombuffer(body, "<i8", 3), np.frombuffer(body, "<f8", offset=24)
     kind, at = SimpleNamespace(length=rest[0], curvature=rest[1:4], strain=rest[4:7]), 7
     kind.section = SimpleNamespace()
@@ -158,7 +158,7 @@ def described(body, said):
 
 
 def three(name, found, mask, parts, N, c, why):
-    """Returns those of energy[N], a vector [N, c] and a matrix [N, c, c]."""
+    """Returns the requested ones of energy[N], a vector [N, c] and a matrix [N, c, c]."""
     if not isinstance(found, (tuple, list)) or len(found) != 3:
         raise Refused(f"{name} must return three values: energy, {parts[0]}, {parts[1]}")
     all_three = [None if v is None and not mask >> i & 1 else
@@ -168,10 +168,10 @@ def three(name, found, mask, parts, N, c, why):
 
 
 def turning(kind, M, x, frame):
-    """potential, force, N, G of elements x[N, n, 16] in a frame (omega, centre) that turns."""
+    """Returns potential, force, N, G of elements x[N, n, 16] in a rotating frame (omega, centre)."""
     N, n, c = len(x), x.shape[1], 7 * x.shape[1]
 
-    def momentum(kind, r, *state):  # M v and v M v of the velocity of the frame
+    def momentum(kind, r, *state):  # M v and v M v for the velocity of the frame
         v = np.zeros((len(r), n, 7), r.dtype)
         v[..., :3], v[..., 3:6] = np.cross(frame[0], r - frame[1]), frame[0]
         p = np.einsum("nij,nj->ni", M(kind, r, *state), v.reshape(-1, c))
@@ -187,7 +187,7 @@ def turning(kind, M, x, frame):
 
 
 def in_time(kind, M, x, rate, acceleration, tangents):
-    """taken, C, K of elements x[N, n, 16]: Lagrange's equations of the energy x' M x'/2."""
+    """Returns taken, C, K of elements x[N, n, 16]: Lagrange's equations of the energy x' M x'/2."""
     N, c = rate.shape
 
     def momentum(*at):
@@ -215,7 +215,7 @@ def in_time(kind, M, x, rate, acceleration, tangents):
 
 
 def states(x):
-    """r, u, R, a of elements x[N, n, 16]."""
+    """Returns r, u, R, a of elements x[N, n, 16]."""
     return x[..., 0:3], x[..., 3:6], x[..., 6:15].reshape(*x.shape[:2], 3, 3), x[..., 15]
 
 
@@ -248,7 +248,7 @@ def inertia(mask, kind, x, body, functions):
 
 
 def answers(what, mask, kind, body, said, functions):
-    """The arrays that a mask asks for, of elements of one kind, body[N, ...] as in the request."""
+    """Returns the arrays that a mask requests, for elements of one kind, body[N, ...] as in the request."""
     N, n, m = len(body), said.get("nodes", 2), said.get("strains", 0)
     if what == 3:
         found = functions["stress"](kind, body)
@@ -277,7 +277,7 @@ def answers(what, mask, kind, body, said, functions):
 
 
 def prepared(body, kinds, said, functions):
-    """The body of an answer to a request to prepare a kind."""
+    """Returns the body of an answer to a request to prepare a kind."""
     number, kind = described(body, said)
     kinds[number], C = kind, functions["prepare"](kind)
     if "force" not in functions and C is None and "stress" not in functions:
@@ -287,7 +287,7 @@ def prepared(body, kinds, said, functions):
 
 
 def answer(what, mask, count, body, kinds, said, functions):
-    """The body of an answer."""
+    """Returns the body of an answer."""
     if what == 1:
         return prepared(body, kinds, said, functions)
     numbers, rest = np.frombuffer(body, "<i8", count), np.frombuffer(body, "<f8", offset=8 * count)
@@ -309,7 +309,7 @@ def answer(what, mask, count, body, kinds, said, functions):
 
 
 def told(error):
-    """One line for the user: what happened, and the last line of the author's files."""
+    """Returns one line for the user: what happened, and the last line in the author's files."""
     if isinstance(error, Refused):
         return str(error)
     own = [f for f in traceback.extract_tb(error.__traceback__)
@@ -319,7 +319,7 @@ def told(error):
 
 
 def taken(functions, words):
-    """The functions by their names, and the keys of the first line; ends where a word is none."""
+    """Returns the functions by their names, and the keys of the first line; exits at an unknown word."""
     functions, said = dict(zip(FUNCTIONS, functions)), {}
     for word, value in words.items():
         if word in KEYS:
@@ -338,8 +338,8 @@ def taken(functions, words):
 
 
 def serve(*functions, **words):
-    """Answers until beamwork has no more requests: serve(prepare, strain, stress, force=..., ...),
-    words: keys of the protocol's first line; a function that is not needed may be omitted."""
+    """Answers until beamwork has no more requests: serve(prepare, strain, stress, force=..., ...), words: keys of the
+    protocol's first line; functions that are not needed may be omitted."""
     (functions, said), kinds = taken(functions, words), {}
     requests, to = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # print goes to standard error
@@ -349,7 +349,7 @@ def serve(*functions, **words):
         what, mask, count, size = (int(v) for v in np.frombuffer(head, "<i8", offset=8))
         body = requests.read(size)
         try:
-            with np.errstate(all="ignore"):  # states that are no numbers come too
+            with np.errstate(all="ignore"):  # states with NaN or Inf occur, too
                 arrays, outcome = answer(what, mask, count, body, kinds, said, functions), 0
             out = b"".join(np.asarray(v, "<f8").tobytes() for v in arrays)
         except (Exception, SystemExit) as error:  # pylint: disable=broad-except

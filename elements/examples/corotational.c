@@ -1,7 +1,7 @@
-/* A corotational beam of two nodes given by its forces and stiffness, as a user element of a finite
- * element program computes them: the linear beam in axes that follow the element.
- *   axes: x along the chord, y in the plane of it and of the mean of the nodes' y axes (Battini and
- *     Pacoste, Comput. Methods Appl. Mech. Engrg. 191 (2002));
+/* A corotational beam with two nodes, given by its forces and stiffness as computed by a user
+ * element of a finite element program: the linear beam in axes that follow the element.
+ *   axes: x along the chord, y in the plane of the chord and the mean of the nodes' y axes (Battini
+ *     and Pacoste, Comput. Methods Appl. Mech. Engrg. 191 (2002));
  *   rotations of the nodes in them: the sines, t = axis sin(angle) (Crisfield, ibid. 81 (1990));
  *   stiffness: the complete derivative, with the names of its parts from Felippa and Haugen, ibid.
  *     194 (2005)
@@ -13,7 +13,10 @@
 
 #include "elements/element.h"
 
-enum { N = 12, NODES = 2 * NODE_COORDINATES }; /* (u, phi) of both nodes; as element.h has them */
+enum {
+    N = 12,
+    NODES = 2 * NODE_COORDINATES
+}; /* (u, phi) of both nodes; coordinates of element.h */
 
 struct element_data {
     double length, axial; /* [m], E A / l [N/m] */
@@ -90,7 +93,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
     if (!(height > 0)) /* y along the chord */
         return STATUS_SINGULAR;
 
-    /* From here on along the element axes: S = E R, t of both nodes, their moments M. */
+    /* From here on in the element axes: S = E R, t of both nodes, their moments M. */
     double S[2][9] = {{0}}, t[6], M[6] = {0}, energy = n * n / d->axial / 2;
     for (int k = 0; k < 2; k++) {
         add(3, 3, 3, 0, E, x[k].R, S[k]);

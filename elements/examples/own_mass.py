@@ -1,4 +1,4 @@
-"""The beam of timoshenko.py with a mass of its own: velocities linear along the element, rotary
+"""The beam of timoshenko.py with its own mass: velocities linear along the element, rotary
 inertia by halves at the nodes.
   beamwork solve deep_beam --element 'exec:python3 own_mass.py' -f own_mass_py -n 8
 """
@@ -9,7 +9,7 @@ from timoshenko import prepare, strain
 
 
 def mass(kind, r, _u, R, _a):
-    """M[N, 14, 14] of r[N, 2, 3] and R[N, 2, 3, 3]; also of complex steps."""
+    """Returns M[N, 14, 14] for r[N, 2, 3] and R[N, 2, 3, 3]; also for complex steps."""
     c, l = kind.section, kind.length
     M = np.zeros((len(r), 2, 7, 2, 7), R.dtype)
     line = np.einsum("pq,ij->piqj", [[2, 1], [1, 2]], np.eye(3))

@@ -1,6 +1,6 @@
 % A shear-deformable beam of two nodes: strains uniform along the element [m],
 %   d = Rm.' (rq - rp) - (l, 0, 0), Rm half way from Rp to Rq, and l log(Rp.' Rq).
-% The physics of timoshenko.c beside this file.
+% The physics is that of timoshenko.c in this folder.
 %   beamwork converge tapered_cantilever --element 'exec:octave-cli -qf timoshenko.m' -f all
 1; % a script, though functions stand first
 

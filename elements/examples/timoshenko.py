@@ -1,6 +1,6 @@
-"""A shear-deformable beam of two nodes: strains uniform along the element [m],
-  d = Rm^T (rq - rp) - (l, 0, 0), Rm half way from Rp to Rq, and l log(Rp^T Rq).
-The physics of timoshenko.c beside this file.
+"""A shear-deformable beam with two nodes: strains uniform along the element [m],
+  d = Rm^T (rq - rp) - (l, 0, 0), with Rm halfway from Rp to Rq, and l log(Rp^T Rq).
+The physics is that of timoshenko.c in the same folder.
   beamwork converge tapered_cantilever --element 'exec:python3 timoshenko.py' -f all
 """
 import numpy as np
@@ -9,9 +9,9 @@ from beamwork_element import rotation_vector, serve, sinc
 
 
 def prepare(kind):
-    """Its stiffness C [N/m]: sigma = C e."""
+    """Returns the element's stiffness C [N/m]: sigma = C e."""
     c, l = kind.section, kind.length
-    # Forces across: shear where it is asked for, and bending that a uniform curvature lacks.
+    # Transverse flexibility: shear if requested, and the bending that a uniform curvature lacks.
     shear = l / c.shear_modulus if "shear" in kind.features else 0
     across_y = shear * c.F[0] + l**3 / (12 * c.young * c.Iz)
     across_z = shear * c.F[4] + l**3 / (12 * c.young * c.Iy)
@@ -20,10 +20,10 @@ def prepare(kind):
 
 
 def strain(kind, r, _u, R, _a):
-    """e[N, 6] from r[N, 2, 3] and R[N, 2, 3, 3]; also of complex steps."""
+    """Returns e[N, 6] for r[N, 2, 3] and R[N, 2, 3, 3]; also for complex steps."""
     chord = (r[:, 1] - r[:, 0])[:, None, None, :] @ R  # in the axes of both nodes
     psi = rotation_vector(R[:, 0].swapaxes(1, 2) @ R[:, 1])
-    # Across psi their mean is that of the middle, shortened by c; along it all are the same.
+    # Normal to psi, their mean is the axis in the middle, shortened by c; along psi, all are equal.
     angle = np.sqrt((psi * psi).sum(1))[:, None]
     c, along = np.cos(angle / 2), (psi * chord[:, 0, 0]).sum(1)[:, None]
     e = (chord[:, 0, 0] + chord[:, 1, 0]) / (2 * c) - sinc(angle / 4)**2 / (8 * c) * along * psi

@@ -1,6 +1,6 @@
-/* A user element (UEL) of Abaqus as a formulation: its RHS and AMATRX, called as Abaqus calls them
- * in a static step with large displacements (LFLAGS 1, 1, 1). Twelve degrees of freedom, no state
- * variables that outlive a call; ENERGY(2) is its strain energy.
+/* A user element (UEL) of Abaqus as a formulation: its RHS and AMATRX are called as in a static
+ * Abaqus step with large displacements (LFLAGS 1, 1, 1). It has twelve degrees of freedom and no
+ * state variables that outlive a call; ENERGY(2) is its strain energy.
  *   gfortran -O2 -fPIC -c uel_beam.f90
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK uel.c uel_beam.o -lgfortran -lm -o uel.so
  *   beamwork element-test --element ./uel.so */
@@ -24,7 +24,7 @@ void uel_(double rhs[], double amatrx[], double svars[], double energy[8], const
 
 struct element_data {
     double length;
-    double props[PROPS]; /* E, G, A, Iy, Iz, It: what the element reads, in its order */
+    double props[PROPS]; /* E, G, A, Iy, Iz, It, in the order of the element */
 };
 
 static size_t data_size(const element_request *request)
@@ -41,10 +41,10 @@ static status prepare(const element_request *request, element_data *out, fault *
     return STATUS_OK;
 }
 
-/* The rotation vector of R, at most pi long. */
+/* Computes the rotation vector of R, of length pi at most. */
 static void rotation_vector(const double R[9], double psi[3])
 {
-    double q[4], most = R[0] + R[4] + R[8]; /* a quaternion by its largest component */
+    double q[4], most = R[0] + R[4] + R[8]; /* quaternion, computed from its largest component */
     int k = 3;
     for (int i = 0; i < 3; i++)
         if (R[4 * i] > most) {

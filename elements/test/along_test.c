@@ -1,5 +1,5 @@
 /* Loads along a collocation element inside its equilibrium: forces and tangent in any state, their
- * potential, and the linear part of both at rest. */
+ * potential, and their linear part at rest. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ typedef struct along_subject {
     double curvature[3];
 } along_subject;
 
-/* Walls without an axis of symmetry; sections by their matrices. */
+/* Returns a section of walls without an axis of symmetry, or a section given by matrices. */
 static section section_of(int matrices)
 {
     static const double point[4][2] = {{0, 0}, {0.3, 0}, {0.3, 0.2}, {0.1, 0.25}},
@@ -66,7 +66,7 @@ static along_subject subject_of(int stages, int matrices, const double curvature
     return s;
 }
 
-/* At rest, the middle's axes those of space. */
+/* Places the nodes at rest, with the axes of the middle along the space axes. */
 static void rest_nodes(const along_subject *s, node_state x[2])
 {
     const double along[3] = {1, 0, 0};
@@ -83,7 +83,7 @@ static void rest_nodes(const along_subject *s, node_state x[2])
     }
 }
 
-/* Forces, and K where it is wanted, of the element with its load. */
+/* Computes the forces, and K if requested, of the element with its load. */
 static void forces_at(const along_subject *s, const node_state x[], const double q[],
                       double forces[N], double K[N * N])
 {
@@ -131,7 +131,7 @@ static double dot(int n, const double a[], const double b[])
     return dense_dot(n, a, b);
 }
 
-/* A load that varies along the element; across it too. */
+/* Sets a load that varies along the element, optionally also across it. */
 static void load_of(double size, int across, double q[3 * POINTS])
 {
     double point[POINTS], weight[POINTS];
@@ -147,7 +147,7 @@ static void state_of(const along_subject *s, double size, node_state x[2])
 {
     double d[N];
     rest_nodes(s, x);
-    for (int k = 0; k < 2; k++) { /* both turn by a radian */
+    for (int k = 0; k < 2; k++) { /* both rotate by one radian */
         const double turn[3] = {0.6, -0.5, 0.7};
         double r[3], q[4];
         rotation_exp(turn, q);
@@ -195,7 +195,7 @@ static void tangent(int stages, int matrices, const double curvature[3])
     free(s.data);
 }
 
-/* What `along` gives as derivatives by the size of a part of the load. */
+/* `along` returns derivatives with respect to the size of a part of the load. */
 static void rate(int stages)
 {
     static const double curved[3] = {0.4, -0.7, 0.9};
@@ -245,7 +245,7 @@ static void rate(int stages)
     free(s.data);
 }
 
-/* Work round a closed path of node states, by Gauss points along each side. */
+/* Computes the work along a closed path of node states, by Gauss points along each side. */
 static void closed_path(int stages, const double curvature[3])
 {
     enum { SIDES = 3, RULE = 12 };
@@ -254,7 +254,8 @@ static void closed_path(int stages, const double curvature[3])
     load_of(20, 1, q);
     quadrature_points(RULE, at, weight);
     double corner[SIDES][N];
-    for (int c = 0; c < SIDES; c++) { /* one node turns about one axis on each side: paths close */
+    for (int c = 0; c < SIDES;
+         c++) { /* on each side, one node rotates about one axis, so that paths close */
         memset(corner[c], 0, sizeof corner[c]);
         corner[c][0] = c == 1 ? 0.0005 : 0;
         corner[c][8] = c == 2 ? 0.0005 : 0;
@@ -280,8 +281,8 @@ static void closed_path(int stages, const double curvature[3])
     free(s.data);
 }
 
-/* A rigid motion of a loaded element needs the work of the load: resultant and moment of all forces
- * are those of q. */
+/* In a rigid motion of a loaded element, the forces do the work of the load: the resultant and the
+ * moment of all forces are those of q. */
 static void resultants(int stages, const double curvature[3])
 {
     const along_subject s = subject_of(stages, 0, curvature);
@@ -299,8 +300,8 @@ static void resultants(int stages, const double curvature[3])
     free(s.data);
 }
 
-/* Moment of the load and of what it needs at the nodes, about the first one, in the undeformed
- * geometry. */
+/* Returns the moment of the load and of the forces on the nodes, about the first node, in the
+ * undeformed geometry. */
 static double moment_left(const along_subject *s, const double q[], const double F[],
                           const node_state x[])
 {
@@ -321,8 +322,8 @@ static double moment_left(const along_subject *s, const double q[], const double
     return vec3_norm(sum);
 }
 
-/* What `along` gives for the undeformed element: forces that are linear in q, and the stiffness of
- * the stresses, which is all of it where they make hardly any strains. */
+/* For the undeformed element, `along` returns forces that are linear in q, and the stiffness due to
+ * the stresses, which is the whole stiffness if they cause hardly any strain. */
 static void linear(int stages, int matrices, const double curvature[3], int across)
 {
     const along_subject s = subject_of(stages, matrices, curvature);
@@ -376,7 +377,8 @@ static void linear(int stages, int matrices, const double curvature[3], int acro
 
 enum { MANY = 6 }; /* more than go together */
 
-/* Many at once give what each gives alone, to the bit, and nothing behind the last is written. */
+/* A call for many elements gives the bits of single calls, and nothing is written after the last
+ * element. */
 static void many(int stages, const double curvature[3])
 {
     const along_subject s = subject_of(stages, 0, curvature);

@@ -1,5 +1,6 @@
-/* A straight cantilever of equal elements along x, solved with dense matrices: enough to compare
- * one formulation with numbers, independent of the harness.  Root clamped, warping fixed there. */
+/* A straight cantilever of equal elements along x, solved with dense matrices: sufficient to
+ * compare one formulation with numbers, independently of the harness. The root is clamped with
+ * warping restrained. */
 #ifndef BEAMWORK_TEST_CHAIN_H
 #define BEAMWORK_TEST_CHAIN_H
 
@@ -26,7 +27,7 @@ typedef struct chain {
     unsigned features;
     int elements, per_element, nodes, coordinates, strains;
     int iterations; /* of the last solution */
-    int held[7];    /* of the tip: 1: stays where it is put */
+    int held[7];    /* of the tip; 1: keeps its prescribed position */
     union {
         double align;
         unsigned char bytes[1 << 16];
@@ -39,7 +40,7 @@ typedef struct chain {
 
 enum { CHAIN_MOST = ELEMENT_MAX_COORDINATES };
 
-/* 0, or -1 when the element refuses. */
+/* Returns 0, or -1 if the element rejects the request. */
 static int chain_start(chain *c, const element_type *type, const double option[], const section *s,
                        double length, int elements, unsigned features)
 {
@@ -81,7 +82,7 @@ typedef struct chain_linearised {
         sigma[ELEMENT_MAX_STRAINS], incompatibility[ELEMENT_MAX_STRAINS], memory[CHAIN_MAX_MEMORY];
 } chain_linearised;
 
-/* Tangent and force of element i. */
+/* Computes the tangent and the force of element i. */
 static void chain_linearise(const chain *c, int i, chain_linearised *w, double K[], double force[],
                             int *failures)
 {
@@ -104,7 +105,7 @@ static void chain_linearise(const chain *c, int i, chain_linearised *w, double K
     dense_add_transpose_mul(m, n, 1, w->J, w->sigma, force);
 }
 
-/* Everything but the root's coordinates: K [n x n], residual force [n]. */
+/* Assembles everything but the root's coordinates: K [n x n], residual force [n]. */
 static void chain_assemble(const chain *c, chain_linearised *w, double *K, double *force,
                            int *failures)
 {
@@ -150,9 +151,9 @@ static void chain_advance(chain *c, chain_linearised *w, const double dx[])
     nodes_move(c->nodes - 1, 1, dx, c->x + 1);
 }
 
-/* Mixed Newton (N section 4): tip held coordinates move by `step` [7], dead load [7] on the others
- * (moment about fixed axes). Returns the size of the last correction, INFINITY when an element or
- * the tangent failed. */
+/* Solves by the mixed Newton iteration (N section 4): fixed coordinates of the tip move by `step`
+ * [7], a dead load [7] acts on the others (moment about fixed axes). Returns the size of the last
+ * correction, INFINITY if an element or the tangent failed. */
 static double chain_solve(chain *c, const double step[7], const double load[7])
 {
     const int n = NODE_COORDINATES * (c->nodes - 1), tip = n - NODE_COORDINATES;
@@ -191,7 +192,8 @@ static double chain_solve(chain *c, const double step[7], const double load[7])
     return failures > 0 ? INFINITY : size;
 }
 
-/* Compliance of the tip [6 x 6], all six released, for spatial moments. */
+/* Computes the compliance of the tip [6 x 6], with all six components released, for spatial
+ * moments. */
 static inline void chain_compliance(chain *c, double C[36])
 {
     const int n = NODE_COORDINATES * (c->nodes - 1), tip = n - NODE_COORDINATES;

@@ -1,5 +1,5 @@
-/* beamw_consistent: uniform strains of any size, derivatives at large turns, and to second order
- * the same element as J Eq. 66 without shear and as the sheet element that is consistent with
+/* beamw_consistent: uniform strains of any size, derivatives at large rotations, and agreement to
+ * second order with J Eq. 66 without shear and with the sheet element that is consistent with
  * shear. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "elements/math/rotation.h"
 #include "elements/test/kit.h"
 
-/* One element of two nodes, without a model around it. */
+/* One element with two nodes, without a model around it. */
 
 enum { N = 14, STRAINS = 8 };
 
@@ -28,7 +28,7 @@ static const element_data *data_of(const pair_subject *s)
     return (const element_data *)s->store.bytes;
 }
 
-/* One option of all has another value than its default. */
+/* Starts an element with one option different from its default. */
 static void start_with(pair_subject *s, const element_type *type, const section *c, double l0,
                        unsigned features, const char *option, double value)
 {
@@ -52,8 +52,8 @@ static void start(pair_subject *s, const element_type *type, const section *c, d
     start_with(s, type, c, l0, features, "", 0);
 }
 
-/* A sheet without warping shear, which N does not have: length 0.1 m, slender enough in neither
- * direction to hide Phi. */
+/* Returns a sheet without warping shear, which N does not have: length 0.1 m, not slender enough in
+ * either direction to hide Phi. */
 static section sheet(void)
 {
     section_spec spec = section_spec_rectangle(2e11, 7.7e10, 0.06, 0.02);
@@ -66,7 +66,7 @@ static section sheet(void)
 
 extern const element_type element_beamw, element_beamw_consistent, element_sheet_second_consistent;
 
-/* ebar_k = e_k + 1/2 e^T Q_k e, Q_k being the geometric stiffness of a unit stress. */
+/* Computes ebar_k = e_k + 1/2 e^T Q_k e, where Q_k is the geometric stiffness of a unit stress. */
 static void modified(const pair_subject *s, const node_state x[2], double ebar[STRAINS])
 {
     double e[STRAINS];
@@ -83,8 +83,8 @@ static void modified(const pair_subject *s, const node_state x[2], double ebar[S
     }
 }
 
-/* Local coordinates of size `small`, after a turn of the whole; the elongation of its square (N
- * counts it so). */
+/* Sets local coordinates of size `small`, after a rotation of the whole element; the elongation is
+ * of size small^2, as N assumes. */
 static void state(double l0, double small, int planar, node_state x[2])
 {
     static const double turn[2][3] = {{0.31, -0.62, 0.47}, {-0.55, 0.83, 0.29}},
@@ -108,8 +108,8 @@ static void state(double l0, double small, int planar, node_state x[2])
     }
 }
 
-/* The difference of two elements' strains falls by eight when the state is halved: equal to second
- * order. */
+/* If the state is halved, the difference between the strains of two elements decreases by a factor
+ * of eight: they are equal to second order. */
 static void equal_to_second_order(const char *what, const pair_subject *a, const pair_subject *b,
                                   double l0, int planar, int strains)
 {
@@ -143,7 +143,7 @@ static void same_element(void)
     start(&consistent, &element_beamw_consistent, &c, l0, uniform);
     start(&other, &element_sheet_second_consistent, &c, l0, uniform);
     equal_to_second_order("sheet_second_consistent", &consistent, &other, l0, 0, 6);
-    /* N's e7 and e8 contain int phi_y' phi_z, which only bending in one plane leaves zero
+    /* N's e7 and e8 contain int phi_y' phi_z, which is zero only for bending in one plane
      * (reference/ERRATA.md, N 37). */
     start(&consistent, &element_beamw_consistent, &c, l0, warped);
     start(&other, &element_sheet_second_consistent, &c, l0, warped);
@@ -157,7 +157,8 @@ static void same_element(void)
     }
 }
 
-/* A helix with extension and shear: e = (gamma, kappa) times lengths, whatever their size. */
+/* A helix with extension and shear gives e = (gamma, kappa) times lengths, for strains of any
+ * size. */
 static void uniform_strains(double size)
 {
     const double l0 = 1.7, gamma[3] = {0.11 * size, -0.23 * size, 0.31 * size},
@@ -194,8 +195,8 @@ static void uniform_strains(double size)
         gsl_test_abs(e[k], expected[k], 1e-14 * l0, "uniform strains, turn %.2f: e%d", t, k + 1);
 }
 
-/* Pure bending by less than half a turn: no work but that of bending, so any number of elements
- * rolls up exactly. */
+/* Pure bending by less than half a revolution involves only bending energy, so that any number of
+ * elements rolls up exactly. */
 static void pure_bending(void)
 {
     const double l0 = 1.3, turn = 2.9;
@@ -215,7 +216,7 @@ static void pure_bending(void)
                  turn);
 }
 
-/* Gradient and second derivatives at nodes that are far apart and far turned. */
+/* Checks the gradient and second derivatives at nodes with large displacements and rotations. */
 static void derivatives(double size)
 {
     static const double s[STRAINS] = {0.7, -1.1, 0.4, 0.9, -0.3, 1.3, 0.2, -0.5};
@@ -238,8 +239,8 @@ static void derivatives(double size)
     gsl_test(!(found.second < 1e-10), "H at size %g (%.1e)", size, found.second);
 }
 
-/* An inside that follows the stress has less energy, by terms of fourth order: sixteen times less
- * when the state is halved. */
+/* Internal modes that follow the stress reduce the energy by terms of fourth order: sixteen times
+ * less if the state is halved. */
 static void inside_follows(void)
 {
     const double l0 = 0.1;
@@ -268,8 +269,8 @@ static void inside_follows(void)
     }
 }
 
-/* Stiffness and stresses where so much compression is left that bending hardly counts in the modes
- * inside: their Hessian is factorised with pivots. */
+/* Checks stiffness and stresses under so much compression that bending hardly contributes in the
+ * internal modes: their Hessian is then factorised with pivots. */
 static void inside_compressed(void)
 {
     static const double v[STRAINS] = {0.1, -0.7, 0.6, 0.5, -0.9, 0.4, 0.3, 0.8};
@@ -305,7 +306,8 @@ static void consistent_tests(void)
     same_element();
     inside_compressed();
     inside_follows();
-    const double sizes[] = {1e-9, 1e-3, 0.3, 0.8, 0.81, 1, 2.3}; /* turns by 1.24 times that */
+    const double sizes[] = {1e-9, 1e-3, 0.3, 0.8,
+                            0.81, 1,    2.3}; /* the element rotates by 1.24 times this value */
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         uniform_strains(sizes[i]);
     pure_bending();
@@ -314,12 +316,12 @@ static void consistent_tests(void)
         derivatives(turns[i]);
 }
 
-/* Hyperbolic twist of beamw_consistent: one element is exact in the linear theory whatever couples,
- * and its functions and points are accurate from no Saint-Venant torsion to boundary layers. */
+/* Hyperbolic twist of beamw_consistent: one element is exact in linear theory for any coupling, and
+ * its functions and points are accurate from zero Saint-Venant torsion to boundary layers. */
 
 extern const element_type element_beamw_consistent;
 
-/* Branched and unsymmetric: everything couples. */
+/* Returns a branched, unsymmetric section, in which everything is coupled. */
 static section unsymmetric(void)
 {
     static const double point[5][2] = {{0, 0}, {0.05, 0}, {0.05, 0.08}, {0.02, 0.08}, {0.05, 0.1}};
@@ -329,7 +331,7 @@ static section unsymmetric(void)
     return sections_computed(&spec);
 }
 
-/* K [14 x 14] of a straight element at rest. */
+/* Computes K [14 x 14] of a straight element at rest. */
 static void linear_stiffness(const section *c, double l0, beamw_twist_kind torsion, double K[N * N])
 {
     pair_subject s;
@@ -345,9 +347,9 @@ static void linear_stiffness(const section *c, double l0, beamw_twist_kind torsi
     dense_add_congruence(STRAINS, N, J, S, K, work);
 }
 
-/* Two halves with their common node eliminated are the whole if and only if the linear solution
- * between the nodes is exact. Returns the largest difference, each coordinate scaled by the root of
- * its stiffness. */
+/* Two halves with their common node eliminated equal the whole if and only if the linear solution
+ * between the nodes is exact. Returns the largest difference, each coordinate scaled by the square
+ * root of its stiffness. */
 static double halves_against_whole(const section *c, double l0, beamw_twist_kind torsion)
 {
     enum { M = 7 };
@@ -396,9 +398,9 @@ static void hyperbolic_twist(void)
              "without Saint-Venant torsion both are");
 }
 
-/* Linear stiffness at rest K [14 x 14] and, along the nodes' displacement d [14], the energy of
- * third order 1/2 sum_i s_i (d . H_i d + e . Q_i e), e = J d, s = S e: what a prestress of the same
- * kind adds to the stiffness. */
+/* Computes the linear stiffness at rest, K [14 x 14], and, along the nodes' displacement d [14],
+ * the third-order energy 1/2 sum_i s_i (d . H_i d + e . Q_i e), e = J d, s = S e: the contribution
+ * of a prestress of the same kind to the stiffness. */
 static double third_order(const section *c, double l0, beamw_twist_kind torsion, unsigned features,
                           const double d[N])
 {
@@ -424,7 +426,7 @@ static double third_order(const section *c, double l0, beamw_twist_kind torsion,
     return energy;
 }
 
-/* The middle of two halves in linear equilibrium between displaced ends. */
+/* Computes the middle node of two halves in linear equilibrium between displaced ends. */
 static void middle_of(const section *c, double l0, beamw_twist_kind torsion, const double p[7],
                       const double q[7], double out[7])
 {
@@ -443,9 +445,9 @@ static void middle_of(const section *c, double l0, beamw_twist_kind torsion, con
     dense_lu_solve(M, 1, A, pivot, out);
 }
 
-/* Energy of third order of two halves beside that of the whole, of the sizes of both: zero if and
- * only if the geometric stiffness is integrated over the exact linear solution, since the middle
- * node, being in equilibrium, may follow to first order only. */
+/* Compares the third-order energy of two halves with that of the whole, relative to their sizes.
+ * The difference is zero if and only if the geometric stiffness is integrated over the exact linear
+ * solution, since the middle node, being in equilibrium, needs to follow only to first order. */
 static double third_order_apart(const section *c, double l0, beamw_twist_kind torsion,
                                 unsigned features, unsigned seed)
 {
@@ -462,7 +464,7 @@ static double third_order_apart(const section *c, double l0, beamw_twist_kind to
     return fabs(first + second - whole) / (fabs(first) + fabs(second) + fabs(whole));
 }
 
-/* Buckling: under any prestress, with both theories of shear and all that couples. */
+/* Buckling under any prestress, with both shear theories and all couplings. */
 static void hyperbolic_twist_under_stress(void)
 {
     const section c = unsymmetric();
@@ -487,7 +489,7 @@ static void hyperbolic_twist_under_stress(void)
         }
 }
 
-/* Functions and points for every lambda: limits, means, squares in closed form. */
+/* Checks functions and points for every lambda: limits, means, squares in closed form. */
 static void twist_functions(void)
 {
     section c = sheet();

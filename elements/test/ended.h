@@ -6,7 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The signal that ends it; 0: none. */
+/* Returns the signal that ends the process; 0: none. */
 static inline int ended_by(void (*call)(const void *), const void *given)
 {
     int how = -1;

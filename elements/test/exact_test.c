@@ -1,4 +1,5 @@
-/* Geometrically exact formulations: derivatives, invariance, and cantilevers with exact answers. */
+/* Geometrically exact formulations: derivatives, invariance, and cantilevers with exact
+ * solutions. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -17,7 +18,8 @@ enum { MOST = ELEMENT_MAX_COORDINATES, STRAINS = ELEMENT_MAX_STRAINS };
 static section steel(double width, double height)
 {
     section_spec spec = section_spec_rectangle(200e9, 200e9 / 2.6, width, height);
-    spec.given.Iw = pow(width * height, 3) / 144; /* of a thin one, as the exact values have it */
+    spec.given.Iw =
+        pow(width * height, 3) / 144; /* value for a thin rectangle, which the exact values use */
     spec.shear_factor[0] = spec.shear_factor[1] = 13.0 / 15.3; /* 10 (1 + nu)/(12 + 11 nu) */
     return sections_computed(&spec);
 }
@@ -36,7 +38,8 @@ static section products(double EA, double GA, double GJ, double EI)
     return c;
 }
 
-/* J and H of one element whose nodes are turned by up to `size` radians and differ by as much. */
+/* Checks J and H of one element whose nodes rotate by up to `size` radians and differ by as
+ * much. */
 static void derivatives(const element_type *type, const double option[], double size)
 {
     chain c;
@@ -61,8 +64,8 @@ static void derivatives(const element_type *type, const double option[], double 
     gsl_test(!(asymmetry < 1e-15), "%s: H is symmetric (%.1e)", type->name, asymmetry);
 }
 
-/* Simo-Reissner cantilever, L = 1, EI = 10, dead transverse force 10 at the tip: tip displacement
- * [2]. */
+/* Solves the Simo-Reissner cantilever, L = 1, EI = 10, dead transverse force 10 at the tip: tip
+ * displacement [2]. */
 static void shear_elastica(const element_type *type, const double option[], double GA, int n,
                            double u[2])
 {
@@ -79,7 +82,7 @@ static void shear_elastica(const element_type *type, const double option[], doub
     u[1] = c.x[c.nodes - 1].u[1];
 }
 
-/* Error of the last mesh and order from the last two. */
+/* Checks the error of the last mesh, and the order from the last two. */
 static void judge(const element_type *type, const char *what, const double value[2], double exact,
                   double error, double order)
 {
@@ -101,7 +104,8 @@ static void shear_elastica_converges(const element_type *type, const double opti
           order);
 }
 
-/* Sheet flexure of N section 4.1: tip moved across, not turned, warping fixed at both ends. */
+/* Sheet flexure of N section 4.1: tip displaced transversely without rotation, warping restrained
+ * at both ends. */
 static void sheet(const element_type *type, const double option[], int n, double deflection,
                   double C[2])
 {
@@ -130,7 +134,7 @@ static void sheet_converges(const element_type *type, const double option[], int
     judge(type, "sheet C_zz", (const double[2]){coarse[1], fine[1]}, 2.620413704e-8, error, order);
 }
 
-/* A circle of one full turn by an end moment; the tip comes back to the root. */
+/* Rolls a cantilever up to a full circle by an end moment; the tip returns to the root. */
 static double roll_up(const element_type *type, const double option[], int n)
 {
     chain c;
@@ -144,7 +148,7 @@ static double roll_up(const element_type *type, const double option[], int n)
     return hypot(c.x[c.nodes - 1].r[0], c.x[c.nodes - 1].r[1]);
 }
 
-/* One element against the exact beam: errors of C_xx and C_zz. */
+/* Compares one element with the exact beam: errors of C_xx and C_zz. */
 static void one_element(const element_type *type, double stages, double deflection,
                         const double exact[2], const double error[2])
 {
@@ -204,12 +208,13 @@ static void exact_tests(void)
     collocation();
 }
 
-/* One element against an independent prototype, and one-element claims that are exact. */
+/* Compares one element with an independent prototype, and checks statements about one element that
+ * are exact. */
 
 extern const element_type element_beamw_first, element_beamw, element_beamw_vlasov,
     element_beamw_consistent;
 
-/* The prototype's section; unit 1 = mm and kN. */
+/* Returns the prototype's section; unit 1 = mm and kN. */
 static section check_section(void)
 {
     static const double point[5][2] = {{0, 0}, {50, 0}, {50, 80}, {20, 80}, {50, 100}};
@@ -272,11 +277,11 @@ static void check_form_of(const element_type *type, const check_form *expected)
     compare("e", type->name, 8, e, expected->e, 1e-14);
     compare("energy", type->name, 1, &energy, &expected->energy, 1e-12);
     compare("force", type->name, 14, force, expected->force,
-            1e-12); /* determines sigma: J has full rank */
+            1e-12); /* J has full rank, so that this determines sigma */
     compare("tangent", type->name, 14 * 14, H, expected->tangent, 1e-12);
 }
 
-/* C of a form at e = 0 is its linear stiffness. */
+/* Checks that C at e = 0 is the linear stiffness. */
 static void linear_stiffness(const element_type *type, const section *c, double l, unsigned without,
                              double S[64])
 {
@@ -294,8 +299,8 @@ static void linear_stiffness(const element_type *type, const section *c, double 
 }
 
 /* Cantilever of one element under tip forces and moments, It = 0: the coupled stiffness is nodally
- * exact.  Exact beam: bending (with torsion and warping) in the stress resultants of the shear
- * centre plus the constant shear strains F Q/G. */
+ * exact. Exact beam: bending (with torsion and warping) due to the stress resultants at the shear
+ * centre, plus the constant shear strains F Q/G. */
 static void one_element_is_exact(void)
 {
     section c = check_section();
@@ -317,7 +322,7 @@ static void one_element_is_exact(void)
     element_beamw_consistent.prepare(&request, data, &f);
     element_beamw_consistent.strain(data, x, &(strain_output){.J = &L[0][0]});
     dense_add_congruence(8, 14, &L[0][0], S, K, work);
-    /* Root clamped with warping: the last seven coordinates remain. */
+    /* The root is clamped with warping restrained: the last seven coordinates remain. */
     double A[49], b[7] = {0, 1.3, -0.7, 40, 25, -60, 500};
     int pivot[7];
     for (int i = 0; i < 7; i++)
@@ -327,8 +332,8 @@ static void one_element_is_exact(void)
     const double Fy = b[1], Fz = b[2], Mx = b[3], My = b[4], Mz = b[5], B = b[6];
     gsl_test(dense_lu(7, A, pivot), "coupled stiffness of a cantilever is regular");
     dense_lu_solve(7, 1, A, pivot, b);
-    /* Torque about the shear centre is Mx + zs Fy - ys Fz, carried by warping alone: EIw a'' = -T
-     * etc. */
+    /* The torque about the shear centre is Mx + zs Fy - ys Fz, carried by warping alone: EIw a'' =
+     * -T and so on. */
     const double T = Mx + c.zs * Fy - c.ys * Fz, Q[3] = {Fy, Fz, T};
     double g[3];
     mat3_mul_vec(c.F, Q, g);

@@ -1,5 +1,5 @@
-/* Loads on the field between the nodes (elements/field): forces and derivatives in any state, what
- * a rigid motion and a potential make of them, and fixed-end forces of the uniform beam. */
+/* Loads on the field between the nodes (elements/field): forces and derivatives in any state,
+ * resultants and work in rigid and closed motions, and fixed-end forces of the uniform beam. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@
 enum { N = ELEMENT_MAX_COORDINATES, LOADS = 3, MOMENT = 1, FOLLOWER = 2, ARM = 4, KINDS = 8 };
 static const double l0 = 0.8;
 
-/* Without an axis of symmetry. */
+/* Returns a section without an axis of symmetry. */
 static section angle(void)
 {
     static const double point[3][2] = {{0, 0}, {0.3, 0}, {0, 0.2}}, thickness[2] = {0.03, 0.04};
@@ -34,7 +34,7 @@ static void prepare(const section *c, int nodes, unsigned features, displacement
 
 static const unsigned shear = FEATURE_SHEAR, all = FEATURE_SHEAR | FEATURE_WARPING;
 
-/* Some loads of a kind at some places. */
+/* Sets some loads of a kind at some positions. */
 static void loads_of(const displacement_field *f, int kind, field_rows rows[LOADS],
                      field_load load[LOADS])
 {
@@ -67,8 +67,8 @@ static void forces_at(const displacement_field *f, int kind, const double d[], d
     field_add_loads(f, x, LOADS, rows, load, forces, K);
 }
 
-/* K along one direction against fourth-order differences; of moments at the nodes in the
- * exponential chart: F_i has 1/2 M . (e_j x e_i) beside dF_i/dx_j. */
+/* Compares K along one direction with fourth-order differences; moments at the nodes are in the
+ * exponential chart: F_i has 1/2 M . (e_j x e_i) in addition to dF_i/dx_j. */
 static void derivatives(const displacement_field *f, int kind, const char *name)
 {
     const int n = NODE_COORDINATES * f->nodes;
@@ -106,8 +106,8 @@ static void derivatives(const displacement_field *f, int kind, const char *name)
                  nodes_asymmetry(n, K));
 }
 
-/* In a state that is turned as a whole, the sum of forces on the nodes is that of the loads, and
- * the sum of moments too. */
+/* In a state rotated as a whole, the sum of forces on the nodes equals that of the loads, and so
+ * does the sum of moments. */
 static void resultants(const displacement_field *f, int kind, const char *name)
 {
     double d[N], none[N] = {0}, F[N], force[3] = {0}, moment[3] = {0}, expected[2][3] = {{0}};
@@ -166,7 +166,7 @@ static void resultants(const displacement_field *f, int kind, const char *name)
     }
 }
 
-/* Work of dead forces round a closed path of states: none. */
+/* Dead forces do no work along a closed path of states. */
 static void closed_path(const displacement_field *f, int kind, const char *name)
 {
     enum { STEPS = 400 };
@@ -176,8 +176,8 @@ static void closed_path(const displacement_field *f, int kind, const char *name)
     for (int step = 0; step < STEPS; step++) {
         const double pi = acos(-1), t = 2 * pi * (step + 0.5) / STEPS, h = 2 * pi / STEPS;
         double at[N], F[N];
-        /* translations and warping round a circle; turns, whose increments do not add up, to and
-         * fro about one axis per node */
+        /* translations and warping follow a circle; rotations, whose increments do not add up, go
+         * back and forth about one axis per node */
         for (int i = 0; i < N; i++)
             at[i] = cos(t) * d[i] +
                     (i % NODE_COORDINATES >= 3 && i % NODE_COORDINATES < 6 ? 0 : sin(t) * more[i]);
@@ -195,9 +195,9 @@ static void closed_path(const displacement_field *f, int kind, const char *name)
              kind, work, size);
 }
 
-/* Fixed-end forces of a uniform load, and of one that grows linearly, of a straight element with
- * shear: q l/2, q l^2/12; q l (3/20 + Phi/6)/(1 + Phi) ... (Przemieniecki, Theory of Matrix
- * Structural Analysis, 1968, sec. 10). */
+/* Fixed-end forces of a straight element with shear deformation under a uniform load and under a
+ * load that increases linearly: q l/2, q l^2/12; q l (3/20 + Phi/6)/(1 + Phi) ... (Przemieniecki,
+ * Theory of Matrix Structural Analysis, 1968, sec. 10). */
 static void fixed_ends(void)
 {
     const section c = {.young = 1,
@@ -259,8 +259,8 @@ static void field_tests(void)
     fixed_ends();
 }
 
-/* What the mass inside of an element adds to its frequencies (elements/field/field.h): every
- * entry against the exact dynamic stiffness of uniform beams. */
+/* Contribution of the mass inside an element to its frequencies (elements/field/field.h): every
+ * entry is compared with the exact dynamic stiffness of uniform beams. */
 
 static const double inner_l0 = 0.8;
 
@@ -269,9 +269,9 @@ static void add_inner(int i, int j, double value, double B[FIELD_INNER * FIELD_I
     B[i * FIELD_INNER + j] = B[j * FIELD_INNER + i] = value;
 }
 
-/* B of a uniform element is what stands with -omega^4 in the power series of its exact dynamic
- * stiffness: z = omega l sqrt(rho/E) in z cot(z), z/sin(z) of rods and shafts, z^4 = rho A
- * omega^2 l^4/(E I) in Bernoulli's beam, (59 z^8/161700) E I/l^3 and so on. */
+/* B of a uniform element is the coefficient of -omega^4 in the power series of its exact dynamic
+ * stiffness: z = omega l sqrt(rho/E) in z cot(z), z/sin(z) for rods and shafts, z^4 = rho A omega^2
+ * l^4/(E I) for Bernoulli's beam, (59 z^8/161700) E I/l^3 and so on. */
 static void field_inner_tests(void)
 {
     const double A = 0.2, I[3] = {0.013, 0.007, 0.009}, density = 3, stiffness[2] = {A, 0.009},
@@ -314,8 +314,8 @@ static void field_inner_tests(void)
         }
 }
 
-/* Coefficients of the third-order potential against values to 120 digits, and the limits of the
- * stress functions. */
+/* Compares coefficients of the third-order potential with values to 120 digits, and checks the
+ * limits of the stress functions. */
 
 extern const element_type element_sheet_second, element_sheet_third, element_sheet_third_printed;
 
@@ -329,7 +329,7 @@ enum {
     WQ = 1 + SHEET_LOCAL_WQ
 };
 
-/* Unit torques M, PP, PQ, QP, QQ: stress and the variable it is multiplied with. */
+/* Unit torques M, PP, PQ, QP, QQ: the stress and the variable by which it is multiplied. */
 static const int stress_of[MODES] = {MX, MYP, MYP, MYQ, MYQ},
                  variable_of[MODES] = {ONE, ZP, ZQ, ZP, ZQ};
 
@@ -347,14 +347,14 @@ static double error_of(double got, double expected)
     return expected == 0 ? fabs(got) : fabs(got / expected - 1);
 }
 
-/* A[k][l] of the table, lower triangle by rows. */
+/* Returns A[k][l] of the table, lower triangle by rows. */
 static double compliance(const double value[], int k, int l)
 {
     return k >= l ? value[k * (k + 1) / 2 + l] : value[l * (l + 1) / 2 + k];
 }
 
-/* What the table says of the coefficient of v_a v_b in A_ij: every pair of unit torques that makes
- * it. */
+/* Returns the coefficient of v_a v_b in A_ij according to the table: the sum over every pair of
+ * unit torques that contributes to it. */
 static double expected_compliance(const double value[], int i, int j, int a, int b)
 {
     double sum = 0;
@@ -412,8 +412,8 @@ static void coefficients(void)
              worst);
 }
 
-/* Without warping stiffness the torque twists by t/GJ: the limit lambda -> inf, reached like
- * 1/lambda. */
+/* Without warping stiffness, the torque causes a twist rate t/GJ: the limit lambda -> inf,
+ * approached like 1/lambda. */
 static void uniform_torsion(void)
 {
     static const double torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
@@ -443,8 +443,9 @@ static void stiffness_at_rest(const element_type *type, const section *c, unsign
     free(d);
 }
 
-/* Undeformed, the third-order element is the second-order one: with shear in the width only, as N
- * Eq. 50 has it, and up to the hyperbolic twist, which is the cubic one for lambda -> 0. */
+/* Undeformed, the third-order element equals the second-order one, with shear only in the width
+ * direction, as in N Eq. 50, and except for the hyperbolic twist, which tends to the cubic one for
+ * lambda -> 0. */
 static void second_order_limit(void)
 {
     section c = {.young = 3.1,
@@ -465,7 +466,7 @@ static void second_order_limit(void)
                 printed ? &element_sheet_third_printed : &element_sheet_third;
             stiffness_at_rest(&element_sheet_second, &c, features, second);
             stiffness_at_rest(type, &c, features, third);
-            /* without amplitudes e7 = e8 = e2: only their sum of stiffness counts */
+            /* without amplitudes e7 = e8 = e2: only the sum of their stiffnesses counts */
             if (!warping)
                 for (int pass = 0; pass < 2; pass++) {
                     double *C = pass == 0 ? second : third;
@@ -497,7 +498,7 @@ static void sheet_coefficients_tests(void)
     second_order_limit();
 }
 
-/* Lines of faults: as they are written, and with both ends where they are too long. */
+/* Fault lines: unchanged, or, if too long, with both ends kept. */
 
 static void line_of(int length, int middle)
 {

@@ -1,4 +1,4 @@
-/* What tests of elements share: numbers, departures, sections, nodes. */
+/* Functions shared by tests of elements: numbers, departures, sections, nodes. */
 #ifndef BEAMWORK_TEST_KIT_H
 #define BEAMWORK_TEST_KIT_H
 
@@ -8,16 +8,17 @@
 #include "elements/element.h"
 #include "elements/section/section.h"
 
-/* Numbers of high entropy for tests: the same sequence for the same seed, on every machine. */
+/* Numbers of high entropy for tests: the same sequence for the same seed on every machine. */
 
-/* 64 bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014); seeds may be small and adjacent. */
+/* Returns 64 bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014); seeds may be small and
+ * adjacent. */
 uint64_t random_bits(uint64_t *seed);
-/* Uniform in [-1, 1), multiples of 2^-52. */
+/* Returns a number that is uniform in [-1, 1), a multiple of 2^-52. */
 double random_number(uint64_t *seed);
 /* 0 .. count - 1. */
 int random_below(uint64_t *seed, int count);
 
-/* The larger of two departures: what is not a number is the worst there is; fmax would drop it. */
+/* Returns the larger of two departures; NaN is the largest, which fmax would drop. */
 static inline double worst_of(double a, double b)
 {
     return isnan(a) || a > b ? a : b;
@@ -25,39 +26,40 @@ static inline double worst_of(double a, double b)
 
 /* Sections of tests. */
 
-/* Constants of a section that is accepted; else the test fails and they are zero. */
+/* Returns the constants of a valid section; otherwise the test fails and they are zero. */
 section sections_computed(const section_spec *);
-/* Of this kind, with the moduli of steel, E = 200 GPa and G = 80 GPa. */
+/* Returns a section of this kind with the moduli of steel, E = 200 GPa and G = 80 GPa. */
 section_spec sections_steel(section_kind);
-/* Constants as they are given [m^2, m^4], with E = G = 1 Pa and Ip = Iy + Iz; it does not warp. */
+/* Returns a section with the given constants [m^2, m^4], E = G = 1 Pa and Ip = Iy + Iz; it does not
+ * warp. */
 section_spec sections_of(double A, double Iy, double Iz, double It);
 
-/* Nodes of one element where a test puts them, and derivatives of its strains by differences.
- * Increments d [7 nodes]: displacement [m], spatial rotation vector, warping amplitude [rad/m]. */
+/* Nodes of one element placed by a test, and derivatives of its strains by differences. Increments
+ * d [7 nodes]: displacement [m], spatial rotation vector, warping amplitude [rad/m]. */
 
-/* A straight element along x that is not deformed. */
+/* Places an undeformed straight element along x. */
 void nodes_straight(int nodes, double length, node_state x[]);
-/* R: turned by the rotation vector about fixed axes, after what R turned it by. */
+/* Rotates R by the rotation vector about fixed axes, after its present rotation. */
 void nodes_turn(double R[9], const double turn[3]);
 /* Moves every node by `times` its part of d. */
 void nodes_move(int nodes, double times, const double d[], node_state x[]);
-/* The straight element, moved by d. */
+/* Places the straight element, moved by d. */
 void nodes_place(int nodes, double length, const double d[], node_state x[]);
-/* Increments uniform in (-size/2, size/2) lengths, radians, 1/lengths. */
+/* Sets increments uniform in (-size/2, size/2) lengths, radians, 1/lengths. */
 void nodes_increments(int nodes, double length, double size, unsigned seed, double d[]);
 
-/* J and H at x against central differences of fourth order of e and of J^T s along the path that
- * moves the nodes by d; s: any stresses [strains]. */
+/* Compares J and H at x with central differences of fourth order of e and of J^T s along the path
+ * that moves the nodes by d; s: any stresses [strains]. */
 typedef struct nodes_departure {
-    double first;     /* of J d, in parts of its largest entry */
-    double second;    /* of H d, likewise: H holds in the exponential chart of x */
+    double first;     /* of J d, relative to its largest entry */
+    double second;    /* of H d, likewise: H in the exponential chart of x */
     double asymmetry; /* of H */
 } nodes_departure;
 nodes_departure nodes_differences(const element_type *, const element_data *, int nodes,
                                   int strains, const node_state x[], const double d[],
                                   const double s[]);
 
-/* Largest |A[i][j] - A[j][i]| [n x n] beside the largest entry. */
+/* Returns the largest |A[i][j] - A[j][i]| [n x n] relative to the largest entry. */
 double nodes_asymmetry(int n, const double A[]);
 
 #endif

@@ -1,6 +1,6 @@
-/* The one Gauss rule: points are the roots of Legendre's polynomials and weights those of its
- * slopes to the last digit, monomials are exact up to its degree, and what threads and forked
- * processes ask for at once is the same. */
+/* The Gauss rule: points are the roots of Legendre's polynomials, and weights follow from their
+ * slopes, to the last digit. Monomials are exact up to its degree. Threads and forked processes
+ * that request tables simultaneously get the same ones. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -17,8 +17,8 @@ typedef struct quadrature_rule {
     double x[MOST], w[MOST];
 } quadrature_rule;
 
-/* How far points and weights are from Newton's correction and from 2/((1 - z^2) P'^2), in long
- * double. */
+/* Returns the distance of points and weights from Newton's correction and from 2/((1 - z^2) P'^2),
+ * in long double. */
 static void against_polynomial(int n, const quadrature_rule *r)
 {
     double apart = 0;
@@ -33,7 +33,7 @@ static void against_polynomial(int n, const quadrature_rule *r)
         const long double slope = n * (z * p - before) / (z * z - 1), step = p / slope,
                           root = z - step, weight = 1 / ((1 - root * root) * slope * slope),
                           change =
-                              2 * root / (1 - root * root) * step; /* of the slope, by the ODE */
+                              2 * root / (1 - root * root) * step; /* of the slope, from the ODE */
         apart = fmax(apart, fabs((double)(step / 2)));
         apart = fmax(apart, fabs((double)(r->w[i] / weight * (1 - 2 * change) - 1)));
     }

@@ -1,5 +1,5 @@
-/* Rotations against what they mean: matrices that turn a plane, products, the shorter way of the
- * logarithm, angles near 0 and near pi. */
+/* Rotations compared with their definition: matrices that rotate a plane, products, the shorter way
+ * of the logarithm, angles near 0 and pi. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,12 +15,12 @@
 #include "elements/sheet/sheet.h"
 #include "elements/test/kit.h"
 
-/* Elements of two kinds in runs of any length, each in a state of its own: what is asked of many at
- * once and of each alone. */
+/* Elements of two kinds in runs of any length, each in its own state: results of one call for many
+ * elements and of single calls. */
 
 enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES, INNER = 24 };
 
-/* All that one element gives, and what of it is asked for. */
+/* All outputs of one element, and which of them are requested. */
 typedef struct answers {
     double e[S], J[S * X], H[X * X], energy, sigma[S], C[S * S], residual, memory[INNER * S];
     status outcome;
@@ -57,7 +57,8 @@ static element_data *batch_prepare(const element_type *type, const double option
     return d;
 }
 
-/* Kinds by turns: runs of 5, 1, 3 and 2; one element is far outside what can be evaluated. */
+/* Sets up alternating kinds: runs of 5, 1, 3 and 2; one element is far outside the range that can
+ * be evaluated. */
 static void batch_set_up(batch *b, unsigned features)
 {
     static const int kind_of[MANY] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1};
@@ -86,7 +87,7 @@ static void batch_free(batch *b)
     free(b->kind[1]);
 }
 
-/* The features that batches are set up with: by turns. */
+/* The features with which batches are set up alternately. */
 enum { BATCH_FEATURES = 3 };
 static unsigned batch_features(int turn)
 {
@@ -96,7 +97,7 @@ static unsigned batch_features(int turn)
                               all | FEATURE_WAGNER_TORQUE}[turn];
 }
 
-/* options: so many are given, the first ones. */
+/* options: the first ones, of this number, are given. */
 static batch batch_of(const element_type *type, const double option[], int options, int turn)
 {
     batch b = {.type = type, .name = type->name};
@@ -164,8 +165,9 @@ static void one_angle(double angle)
         expected[i] = shorter * axis[i];
     for (int i = 0; i < 4; i++)
         minus[i] = -q[i];
-    const double allowed =
-        fabs(fabs(shorter) - PI) < 1e-15 ? 2 * PI + 1 : 8 * eps; /* at pi both ways are as short */
+    const double allowed = fabs(fabs(shorter) - PI) < 1e-15
+                               ? 2 * PI + 1
+                               : 8 * eps; /* at pi, both ways are equally short */
     rotation_log(q, phi);
     gsl_test(!(largest_difference(3, phi, expected) < allowed), "angle %g: its vector", angle);
     rotation_log(minus, phi);
@@ -242,13 +244,14 @@ static void rotation_tests(void)
     triads();
 }
 
-/* Points along an arc of constant curvature, beside the integral of its tangent: the deflections
- * across it have all their digits, however flat or wound it is. */
+/* Compares points along an arc of constant curvature with the integral of its tangent: transverse
+ * deflections have all their digits, however flat or wound the arc is. */
 
 enum { POINTS = 16 };
 
-/* r = int exp(turn s) e ds from 0 to x: r less x e, from what a turn adds to e, so that nothing
- * cancels. The integrand is (sin w)/w t x e + (1 - cos w)/w^2 t x (t x e), t = turn s. */
+/* Integrates r = int exp(turn s) e ds from 0 to x: r minus x e follows from the change of e by the
+ * rotation, so that nothing cancels. The integrand is (sin w)/w t x e + (1 - cos w)/w^2 t x (t x
+ * e), t = turn s. */
 static void integrate(const double turn[3], const double e[3], double x, double across[3])
 {
     double at[POINTS], weight[POINTS];
@@ -301,7 +304,7 @@ static void arc_tests(void)
             compare(angle[i], x[k]);
 }
 
-/* Newton's equations of many elements at once have the numbers of one at a time, with and without
+/* Newton's equations of many elements at once equal those of one at a time, with and without
  * AVX2. */
 
 extern const element_type element_sheet_second, element_sheet_second_consistent,
@@ -313,7 +316,7 @@ typedef void equations_function(int count, const element_data *const data[], con
 
 static const struct {
     const element_type *type;
-    equations_function *equations; /* beside the one that the type chooses for the processor */
+    equations_function *equations; /* besides the one that the type chooses for the processor */
 } family[] = {{&element_sheet_second, sheet_lanes_second_equations_plain},
               {&element_sheet_second_consistent, sheet_lanes_second_equations_plain},
               {&element_sheet_third, sheet_lanes_third_equations_plain},
@@ -325,7 +328,7 @@ typedef struct whole {
     status outcome;
 } whole;
 
-/* From its strains and stresses, by the sums of elements/math/dense.h. */
+/* Computes the equations from the strains and stresses, with the sums of elements/math/dense.h. */
 static void alone_of(const batch *b, int k, const double e[], int tangent, whole *out)
 {
     const int n = b->strains, columns = NODE_COORDINATES * b->nodes;
@@ -349,7 +352,7 @@ static void alone_of(const batch *b, int k, const double e[], int tangent, whole
         dense_add_congruence(n, columns, out->J, out->C, out->K, work);
 }
 
-/* Other numbers; zero has no sign here: that of a sum of nothing is anyone's. */
+/* Do the numbers differ? The sign of zero is ignored: that of an empty sum is arbitrary. */
 static int differs(const whole *a, const whole *b)
 {
     const double *p = a->J, *q = b->J;
@@ -412,8 +415,8 @@ static void lanes_equations_tests(void)
         }
 }
 
-/* Strains and stresses of many elements at once have the bits of one at a time, with and without
- * AVX2. */
+/* Strains and stresses of many elements at once have the same bits as one at a time, with and
+ * without AVX2. */
 
 extern const element_type element_beamw, element_beamw_vlasov, element_beamw_first,
     element_beamw_consistent;
@@ -426,7 +429,7 @@ typedef void strains_function(int count, const element_data *const data[], const
 typedef void stresses_function(int count, const element_data *const data[], const double *const e[],
                                const double *const inner[], stress_output out[], status outcome[]);
 
-/* What a family exports beside the functions that its types choose for the processor. */
+/* Functions exported by a family in addition to those that its types choose for the processor. */
 static const struct {
     const element_type *type;
     strains_function *strain;
@@ -461,7 +464,7 @@ static const struct {
      {1}},
 };
 
-/* The strains wanted: e, J and H by the bits of what. */
+/* Returns the requested outputs: e, J and H by the bits of `what`. */
 static strain_output strain_of(const batch *b, int k, answers *a, int what)
 {
     return (strain_output){.e = what & 1 ? a->e : NULL,
@@ -479,7 +482,7 @@ static stress_output stress_of(const batch *b, answers *a, int what)
                            .memory = what & 4 && b->type->memory != NULL ? a->memory : NULL};
 }
 
-/* Elements [first, first + count) at once. */
+/* Evaluates elements [first, first + count) at once. */
 static void strains(batch *b, strains_function *many, int first, int count, int what)
 {
     strain_output out[MANY];

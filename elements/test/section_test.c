@@ -1,5 +1,5 @@
-/* Section constants that two descriptions share: a rectangle and a wall of its thickness, at any
- * angle; walls with their thickness and the area itself. */
+/* Section constants for which two descriptions agree: a rectangle and a wall of its thickness, at
+ * any angle; walls with their thickness and the area itself. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -8,8 +8,8 @@
 #include "elements/math/scalar.h"
 #include "elements/test/kit.h"
 
-/* One wall of length h and thickness t whose middle is at (y, z), turned by `angle` from the y
- * axis. */
+/* Returns one wall of length h and thickness t with its middle at (y, z), rotated by `angle` from
+ * the y axis. */
 static section wall_section(double h, double t, double y, double z, double angle)
 {
     section_spec spec = sections_steel(SECTION_WALLS);
@@ -35,8 +35,8 @@ static section rectangle(double width, double height, double ky, double kz)
     return sections_computed(&spec);
 }
 
-/* Without given factors: shear and warping shear of a wall. Its long side is y; the rectangle's is
- * z where it is wide. */
+/* Without given factors, a wall has the shear and warping shear of the rectangle. Its long side is
+ * along y; that of the rectangle is along z if it is wide. */
 static void rectangle_is_a_wall(double h, double t)
 {
     const section wall = wall_section(h, t, 0, 0, 0), wide = rectangle(h, t, 0, 0),
@@ -80,7 +80,8 @@ static void turned_wall(void)
     }
 }
 
-/* int (y, z, 1)(y, z, 1)^T dA over walls of their thickness, by quadrature, in wall coordinates. */
+/* Computes int (y, z, 1)(y, z, 1)^T dA over walls with their thickness, by quadrature, in wall
+ * coordinates. */
 static void area_moments(const section_spec *s, double sum[3][3])
 {
     enum { N = 4 };
@@ -136,8 +137,8 @@ static void thick_walls(void)
     gsl_test_rel(c.Iz, about_y, 1e-12, "Iz belongs to the y axis that was found");
 }
 
-/* Prandtl's stress function as a double series: 256/pi^6 sum over odd m, n of (a b)/(m^2 n^2
- * (m^2/a^2 + n^2/b^2)); the terms beyond M are less than a third of 1/M^3. */
+/* Compares with Prandtl's stress function as a double series: 256/pi^6 sum over odd m, n of (a
+ * b)/(m^2 n^2 (m^2/a^2 + n^2/b^2)); the terms beyond M are less than a third of 1/M^3. */
 static void torsion_of_a_rectangle(double a, double b)
 {
     double sum = 0;
@@ -149,7 +150,8 @@ static void torsion_of_a_rectangle(double a, double b)
     gsl_test_rel(rectangle(b, a, 0, 0).It, rectangle(a, b, 0, 0).It, 1e-14, "the sides exchanged");
 }
 
-/* Saint-Venant's warping function over a rectangle's quarter, by the series of its stress. */
+/* Returns Saint-Venant's warping function over a quarter of a rectangle, from the series of its
+ * stress. */
 static double warping_at(double y, double z, double a, double b)
 {
     double omega = y * z;
@@ -161,7 +163,7 @@ static double warping_at(double y, double z, double a, double b)
     return omega;
 }
 
-/* int omega^2 dA, and the value of thin ones where they are thin. */
+/* Checks int omega^2 dA, and the thin-rectangle value for thin ones. */
 static void warping_constant(double width, double height)
 {
     enum { N = 20 };
@@ -177,8 +179,9 @@ static void warping_constant(double width, double height)
     gsl_test_rel(rectangle(1e-4, 1, 0, 0).Iw, 1e-12 / 144, 1e-6, "of a thin one");
 }
 
-/* Torque cubic in the twist rate: 1/8 int (r^2 - mean)^2 dA over the area, whatever its sides; of a
- * thin one w^5 t/1440 (N Eq. 46), of a square twice that. Where another value is given, that. */
+/* Torque that is cubic in the twist rate: 1/8 int (r^2 - mean)^2 dA over the area, for any
+ * sides; for a thin rectangle w^5 t/1440 (N Eq. 46), for a square twice that. A given value
+ * replaces it. */
 static void wagner_torque(double width, double height)
 {
     enum { N = 5 };
@@ -205,7 +208,7 @@ static void wagner_torque(double width, double height)
     gsl_test_rel(sections_computed(&given).wagner_torque, 3e-9, 1e-15, "another one is given");
 }
 
-/* Data that make no sense are refused and named. */
+/* Invalid data are rejected with the cause. */
 static void refusals(void)
 {
     const struct {
@@ -252,8 +255,8 @@ static void section_tests(void)
     thick_walls();
 }
 
-/* Closed cells and tubes against closed forms (Bredt 1896; Vlasov 1961), and against other
- * descriptions of themselves. */
+/* Compares closed cells and tubes with closed forms (Bredt 1896; Vlasov 1961), and with other
+ * descriptions of the same section. */
 
 static const double h = 0.2, b = 0.09, tf = 0.012, tw = 0.007; /* mid-lines [m] */
 
@@ -290,7 +293,7 @@ static void box(void)
     gsl_test_rel(c.F[4], square / (c.Iy * c.Iy), 1e-13, "box: shear along the webs");
 }
 
-/* A regular polygon: a thin ring in the limit, with errors of 1/n^2. */
+/* A regular polygon tends to a thin ring, with errors of 1/n^2. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -338,8 +341,8 @@ static void tube_closed_forms(void)
     gsl_test_rel(c.F[0], PI / 8 * up / (c.Iz * c.Iz), 1e-13, "tube: shear");
 }
 
-/* Two cells of equal size on a common web: in torsion nothing flows through it (Bredt of the outer
- * wall). */
+/* Returns two cells of equal size with a common web: in torsion the web carries no flow (Bredt flow
+ * of the outer wall). */
 static section_spec two_cells(int swapped, double skew)
 {
     static const double point[6][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
@@ -348,7 +351,8 @@ static section_spec two_cells(int swapped, double skew)
     spec.points = 6;
     spec.walls = 7;
     spec.cells = 2;
-    for (int i = 0; i < 6; i++) { /* swapped: other root, walls backwards and in the other order */
+    for (int i = 0; i < 6;
+         i++) { /* swapped: other root, walls reversed and in the opposite order */
         const int p = swapped ? 5 - i : i;
         spec.point[p][0] = b * point[i][0] + (i == 1 || i == 4 ? skew : 0);
         spec.point[p][1] = h * point[i][1];
@@ -389,7 +393,7 @@ static void cells(void)
                      "two cells, other order: shear %d", i);
 }
 
-/* A fin on a box, and walls cut in two: nothing changes by points in between. */
+/* Points within walls change nothing: a fin on a box, and walls cut in two. */
 static void points_between(void)
 {
     section_spec one = box_spec();

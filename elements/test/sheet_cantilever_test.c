@@ -1,7 +1,7 @@
 /* Cantilever of N section 4.1: sheet 100 x 100 x 2.25 mm, tip deflected by 0.15 L without rotation
- * in 15 steps, its warping held; compliances of the tip with the prescribed motion replaced by dead
- * forces and spatial moments, p of every element at the root.  Values from an independent prototype
- * of the same equations. */
+ * in 15 steps, with warping restrained. Computes compliances of the tip with the prescribed motion
+ * replaced by dead forces and spatial moments; node p of every element is towards the root. Values
+ * from an independent prototype of the same equations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -22,13 +22,13 @@ enum { TIP_UY = 1, TIP_THZ = 5, TIP_WARP = 6 };
 typedef struct cantilever {
     const element_type *type;
     element_data *data;
-    int n, reversed; /* 1: p of every element at the tip's side */
+    int n, reversed; /* 1: node p of every element is towards the tip */
     node_state node[MOST + 1];
-    double e[MOST][N], sigma[MOST][N]; /* unknowns of their own, condensed element by element */
+    double e[MOST][N], sigma[MOST][N]; /* additional unknowns, condensed element by element */
 } cantilever;
 
-/* What one element adds: K += J^T C J + H, force += J^T [P'(e) + C (D(x) - e)] (N section 4,
- * condensed). */
+/* Adds the contribution of one element: K += J^T C J + H, force += J^T [P'(e) + C (D(x) - e)] (N
+ * section 4, condensed). */
 static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], double force[NODAL],
                           double J[N * NODAL], double incompatibility[N], double P[N],
                           double C[N * N])
@@ -54,13 +54,13 @@ static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], d
     dense_add_congruence(N, NODAL, J, C, K, work);
 }
 
-/* Row of an element's coordinate; below 0: the root. */
+/* Returns the row of an element's coordinate; negative: the root. */
 static int row_of(const cantilever *c, int i, int a)
 {
     return NODE * (i - 1) + (c->reversed ? (a + NODE) % NODAL : a);
 }
 
-/* K(7n x 7n) and internal forces of the nodes 1..n; the root's columns have no motion. */
+/* Assembles K(7n x 7n) and the internal forces of the nodes 1..n; the root's columns are fixed. */
 static void assemble(const cantilever *c, double *K, double *force)
 {
     const int size = NODE * c->n;
@@ -81,7 +81,7 @@ static void assemble(const cantilever *c, double *K, double *force)
     }
 }
 
-/* The row of a coordinate that is held keeps only its motion. */
+/* Replaces the row of a fixed coordinate by its prescribed motion. */
 static void hold(int size, double *K, double *right, int coordinate, double motion)
 {
     for (int j = 0; j < size; j++)
@@ -89,7 +89,7 @@ static void hold(int size, double *K, double *right, int coordinate, double moti
     right[coordinate] = motion;
 }
 
-/* de = D(x) - e + J dx, dsigma = P' + C de - sigma, then the nodes move. */
+/* de = D(x) - e + J dx, dsigma = P' + C de - sigma; then the nodes move. */
 static void advance(cantilever *c, const double *dx)
 {
     for (int i = 0; i < c->n; i++) {
@@ -122,7 +122,7 @@ static void advance(cantilever *c, const double *dx)
     }
 }
 
-/* Newton to the next deflection; returns the iterations. */
+/* Solves for the next deflection by Newton's method; returns the number of iterations. */
 static int step(cantilever *c, double deflection, double *K, double *right)
 {
     const int size = NODE * c->n, tip = NODE * (c->n - 1);
@@ -147,7 +147,8 @@ static int step(cantilever *c, double deflection, double *K, double *right)
     return ITERATIONS + 1;
 }
 
-/* Dead spatial moment m at the tip: -1/2 m~ beside the Hessian of the exponential chart. */
+/* Computes the compliance. A dead spatial moment m at the tip adds -1/2 m~ to the Hessian in the
+ * exponential chart. */
 static void compliance(const cantilever *c, double *K, double *right, double *C_xx, double *C_zz)
 {
     const int size = NODE * c->n, tip = NODE * (c->n - 1);
@@ -219,8 +220,8 @@ static void sheet_cantilever_tests(void)
         {&element_sheet_third, 2, 3.9673504e-7, 2.632057e-8},
         {&element_sheet_third_printed, 1, 3.9472445e-7, 2.470177e-8},
     };
-    /* shear kept in the strains: error in C_zz against the geometrically exact beam, in percent,
-     * and half of its last digit */
+    /* with shear included in the strains: error in C_zz against the geometrically exact beam, in
+     * percent, and half of its last digit */
     static const struct {
         int n;
         double percent, rounding;
@@ -248,7 +249,7 @@ static void sheet_cantilever_tests(void)
     gsl_test_rel(C_zz, 2.6633e-8, 3e-5, "sheet_third, reversed: C_zz");
 }
 
-/* Sheet elements against the printed equations and against differences. */
+/* Compares sheet elements with the printed equations and with differences. */
 
 extern const element_type element_sheet_second, element_sheet_second_consistent,
     element_sheet_third, element_sheet_third_printed;
@@ -287,7 +288,7 @@ static double scaled_difference(int n, const double a[], const double b[])
     return worst / largest;
 }
 
-/* N Eq. 37, word for word but for the last term of e1, where L^2 must be L: a length is
+/* Computes N Eq. 37 as printed, except for the last term of e1, where L^2 must be L: a length is
  * expected. */
 static void printed_strains(double L, double Ite, const double q[SHEET_N], double e[SHEET_N])
 {
@@ -332,7 +333,7 @@ static void printed_equation(void)
         gsl_test_rel(e[i], printed[i], 1e-14, "N Eq. 37, e%d", i + 1);
 }
 
-/* Nodes of a strained element far from its initial place. */
+/* Places the nodes of a strained element far from its initial position. */
 static void strained(double L, node_state x[2])
 {
     static const double step[2][7] = {{0.013, -0.021, 0.037, 0.713, -0.437, 1.21, 0.83},
@@ -373,8 +374,8 @@ static void derivatives_of_strain(const element_type *type)
     free(data);
 }
 
-/* Energy, sigma and C with every feature and initial curvature on; third-order: G against
- * differences of C. */
+/* Checks energy, sigma and C with every feature and initial curvature; for the third-order element,
+ * compares G with differences of C. */
 static void derivatives_of_stress(const element_type *type)
 {
     static const double stencil[4] = {1, -8, 8, -1}, at[4] = {-2, -1, 1, 2};
@@ -419,7 +420,7 @@ static void derivatives_of_stress(const element_type *type)
     free(data);
 }
 
-/* What cannot be prepared is refused with its culprit. */
+/* A request that cannot be prepared is rejected with the cause. */
 static void refusals(const element_type *type)
 {
     const section c = sheet_of(0.0912, 0.00217);

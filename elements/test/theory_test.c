@@ -1,4 +1,4 @@
-/* The energies that elements/NAME.md writes for readers are those of the elements. */
+/* The energies in elements/NAME.md are those of the elements. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -18,7 +18,7 @@ extern const element_type element_beamw, element_beamw_first, element_beamw_vlas
 
 enum { E = 8, STATES = 5, GAUSS = 5 };
 
-/* Energy of the element for the strains e[8]. */
+/* Returns the energy of the element for the strains e[8]. */
 static double energy_of(const element_type *type, const section *c, double l, unsigned features,
                         const double e[E])
 {
@@ -36,7 +36,7 @@ static double energy_of(const element_type *type, const section *c, double l, un
     return energy;
 }
 
-/* J Eq. 66, e[1] to e[8] as in the text; ebar[7], ebar[8] are not modified. */
+/* Computes J Eq. 66, e[1] to e[8] as in the text; ebar[7], ebar[8] are not modified. */
 static void modified(const section *c, double l, const double e[E + 1], double ebar[E + 1])
 {
     const double A = (e[7] - e[8]) / 2, t = e[2] - (e[7] + e[8]) / 2, l3 = l * l * l;
@@ -55,7 +55,7 @@ static void modified(const section *c, double l, const double e[E + 1], double e
     ebar[6] += (e[2] * (e[3] / 5 + e[4] / 10) - (e[3] + e[4]) * e[7] / 30 + e[4] * e[8] / 10) / l;
 }
 
-/* The sum of squares of elements/beamw.md; Phi[3]: y, z, w. */
+/* Returns the sum of squares in elements/beamw.md; Phi[3]: y, z, w. */
 static double squares(const section *c, double l, const double Phi[3], const double b[E + 1])
 {
     const double l2 = l * l, l3 = l2 * l, A = (b[7] - b[8]) / 2, G = c->shear_modulus;
@@ -101,7 +101,7 @@ static void beamw(void)
     }
 }
 
-/* elements/sheet_second.md, with P_x and the Wagner torque. */
+/* Returns the energy of elements/sheet_second.md, with P_x and the Wagner torque. */
 static double sheet_energy(const section *c, double l, const double e[E + 1])
 {
     const double l3 = l * l * l, G = c->shear_modulus, sum = e[7] + e[8],
@@ -154,8 +154,8 @@ static void theory_tests(void)
     sheets();
 }
 
-/* Elimination inside a collocation element: without exchange of rows where the matrix allows it,
- * and right where it does not. */
+/* Elimination inside a collocation element: without row exchange if the matrix allows it, and
+ * correct otherwise. */
 
 extern const element_type element_collocation;
 
@@ -173,7 +173,7 @@ static exact_stages strip(int stages, unsigned features)
     return s;
 }
 
-/* Largest departure of C, relative to what belongs to the same strains on the diagonal. */
+/* Returns the largest departure of C, relative to the diagonal entries of the same strains. */
 static double departure(const double a[], const double b[])
 {
     double worst = 0;
@@ -195,7 +195,7 @@ static status stress(const exact_stages *s, const double e[], const double inner
     return outcome;
 }
 
-/* Both eliminations of the same equations. */
+/* Eliminates the same equations in both ways. */
 static void both(int stages, unsigned features)
 {
     const exact_stages s = strip(stages, features);
@@ -237,8 +237,8 @@ static void both(int stages, unsigned features)
     gsl_test(!(following < 1e-7), "%d stages: unknowns follow alike (%.1e)", stages, following);
 }
 
-/* A straight element under more compression than its inner nodes bear between held ends: the first
- * pivot that is not positive is as small as can be. */
+/* A straight element under more compression than its inner nodes can carry between fixed ends: the
+ * first non-positive pivot is as small as possible. */
 static void compressed(int stages)
 {
     const exact_stages s = strip(stages, FEATURE_SHEAR | FEATURE_LARGE);
@@ -281,14 +281,14 @@ static void collocated_tests(void)
     }
 }
 
-/* J^T S J in registers has the bits of plain loops, in every size and for either set of
- * instructions. */
+/* J^T S J in registers has the same bits as plain loops, for every size and both instruction
+ * sets. */
 
 enum { W = CONGRUENCE_WIDEST };
 
 typedef void add_function(int m, int n, const double *J, const double *S, double *K);
 
-/* Sums in the order of their terms, from what K has. */
+/* Sums in the order of the terms, starting from the values in K. */
 static void plain_loops(int m, int n, const double *J, const double *S, double *K)
 {
     double SJ[W * W];
@@ -334,8 +334,8 @@ static void congruence_tests(void)
     compare("chosen for this processor", REAL_CHOSEN(congruence_add));
 }
 
-/* Warping inside an exact element, beside the closed solution of non-uniform torsion: whatever the
- * layers at its ends are, thick or thin.
+/* Compares warping inside an exact element with the closed-form solution of non-uniform torsion,
+ * for thick and thin layers at its ends.
  *
  * The warping amplitude a = p(x) + A exp(-lambda x) + B exp(-lambda (1 - x)), p a polynomial of
  * degree stages - 1, minimises the energy for the warping torque T = GJ (p - P a) - EIw p'' and the
@@ -349,7 +349,7 @@ typedef struct amplitude {
     double lambda, p[WARPING_MOST], layer[2];
 } amplitude;
 
-/* Derivative `order` of the polynomial. */
+/* Returns derivative `order` of the polynomial. */
 static double polynomial(const amplitude *a, double x, int order)
 {
     double sum = 0;
@@ -367,8 +367,8 @@ static double layers(const amplitude *a, double x, double rest)
     return a->layer[0] * exp(-a->lambda * x) + a->layer[1] * exp(-a->lambda * rest);
 }
 
-/* Means of the layers with the Lagrange polynomials of the points, over intervals that double from
- * 1/1000 of a layer's thickness at each end. */
+/* Computes the means of the layers with the Lagrange polynomials of the points, over intervals that
+ * double from 1/1000 of a layer's thickness at each end. */
 static void layer_means(const amplitude *a, const double x[], const double w[], double mean[])
 {
     gsl_integration_glfixed_table *t = gsl_integration_glfixed_table_alloc(12);
@@ -388,7 +388,7 @@ static void layer_means(const amplitude *a, const double x[], const double w[], 
     gsl_integration_glfixed_table_free(t);
 }
 
-/* Largest departure of S z from the exact gradient, in parts of its largest entry. */
+/* Returns the largest departure of S z from the exact gradient, relative to its largest entry. */
 static double warping_departure(const beam_constants *c, const amplitude *a)
 {
     const int m = a->stages + 2;
@@ -417,7 +417,7 @@ static double warping_departure(const beam_constants *c, const amplitude *a)
     return worst / size;
 }
 
-/* One layer or polynomial term at a time: none hides behind a larger one. */
+/* Compares one layer or polynomial term at a time, so that no term hides behind a larger one. */
 static void warping_compare(int stages, double lambda, double shear)
 {
     const beam_constants c = {.GJ = 0.7, .EIw = 0.7 / (lambda * lambda), .F = {[8] = shear}};
@@ -431,7 +431,7 @@ static void warping_compare(int stages, double lambda, double shear)
     for (int k = 0; k < stages; k++) {
         amplitude a = {.stages = stages, .lambda = lambda};
         a.p[k] = 1;
-        if (k > 0) /* a constant needs no torque and no bimoment: it is seen in the mixture */
+        if (k > 0) /* a constant needs no torque and no bimoment: it is checked in the mixture */
             smooth = worst_of(smooth, warping_departure(&c, &a));
     }
     amplitude a = {.stages = stages, .lambda = lambda};

@@ -1,6 +1,6 @@
-/* The constant of the Wagner torque, c of the energy E c kx^4 per length, of sections of walls:
- * closed forms by hand, and what is left of y^2 + z^2 over the area itself when shortening and
- * bending take what they can (least squares, three unknowns). */
+/* The constant of the Wagner torque, c of the energy E c kx^4 per length, for sections of walls:
+ * closed forms by hand, and the part of y^2 + z^2 over the area that remains after shortening and
+ * bending are removed (least squares, three unknowns). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -104,7 +104,7 @@ static void add_wall(const section_spec *s, int wall, const double about[2], dou
     }
 }
 
-/* What the first three leave of the fourth: its square over the area. */
+/* Returns the part of the fourth that the first three leave: its square over the area. */
 static double left_of(double m[4][4])
 {
     for (int k = 0; k < 3; k++)
@@ -132,9 +132,9 @@ static void over_the_area(const wagner_shape *s, int thick, double angle)
                  "%s ten times larger", s->name);
 }
 
-/* A section that a half turn brings onto itself, and one without any symmetry, twist to either side
- * in other ways; a mirror makes both sides alike, whatever the axes, and so do walls that meet in
- * one point. */
+/* A section that is symmetric under a rotation by pi, and one without symmetry, twist differently
+ * in the two directions; mirror symmetry makes both directions alike, for any axes, and so do walls
+ * that meet in one point. */
 static void one_sided(const wagner_shape *s, double angle)
 {
     const section_spec spec = spec_of(s, 0, 1, angle);
@@ -144,14 +144,15 @@ static void one_sided(const wagner_shape *s, double angle)
              angle, found);
 }
 
-/* The Z by hand: omega, with its mean taken off, is that of the middle of the web where no wall is,
- * and even in the half turn; int omega r^2 dA over web and twice one flange. */
+/* The Z section by hand: omega minus its mean is the value at the middle of the web, and even under
+ * the rotation by pi; int omega r^2 dA over the web and twice one flange. */
 static void one_sided_zed(void)
 {
     const double b = 0.07, h = 0.1, t = 2e-3; /* h: half of the web */
     const section_spec spec = spec_of(&shapes[4], 0, 1, 0);
     const double flange = b * t, web = 2 * h * t, area = web + 2 * flange;
-    /* from 0 in the web omega goes to h b at the ends of the flanges: mean h b/2 over these */
+    /* omega varies from 0 in the web to h b at the ends of the flanges: mean h b/2 over the
+     * flanges */
     const double mean = 2 * flange * h * b / 2 / area;
     const double omega_r2 = 2 * flange * h * b * (h * h / 2 + b * b / 4),
                  r2 = 2 * flange * (h * h + b * b / 3) + web * h * h / 3,
@@ -170,8 +171,9 @@ static void cruciform(void)
     gsl_test_rel(c.wagner_torque, 2 * 4e-3 * pow(0.1, 5) / 45, 1e-13, "cruciform, by hand");
 }
 
-/* An equal angle, t legs of b: mean distance b/4 of the centroid from each leg; along a leg s from
- * the corner r^2 = s^2, less its mean b^2/3 and what bending in the plane of symmetry takes. */
+/* An equal angle, t legs of b: mean distance b/4 of the centroid from each leg; along a leg s
+ * from the corner r^2 = s^2, minus its mean b^2/3 and the part due to bending in the plane of
+ * symmetry. */
 static void equal_angle(void)
 {
     const double b = 0.08, t = 3e-3, A = 2 * b * t;
@@ -187,7 +189,8 @@ static void equal_angle(void)
                  "equal angle, by hand: int r^4, shortening, bending");
 }
 
-/* A thick wall is its rectangle; w^5 t/1440 of a thin one, and as much of its short side. */
+/* A thick wall equals its rectangle: w^5 t/1440 for a thin one, and the same term for its short
+ * side. */
 static void strip(double w, double t)
 {
     for (int i = 0; i < 4; i++) {
@@ -203,7 +206,7 @@ static void strip(double w, double t)
     }
 }
 
-/* Fibres of a thin ring have one length, whatever the twist: next to nothing is left. */
+/* The fibres of a thin ring have equal lengths for any twist: almost nothing remains. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -238,9 +241,9 @@ static void wagner_tests(void)
     ring();
 }
 
-/* Stresses at the points of sections: integrated over the walls they are the resultants that made
- * them; a rectangle's torsion is Saint-Venant's, whose published coefficients are Timoshenko's
- * (Theory of Elasticity, 1970, section 109). */
+/* Stresses at the points of sections: integrated over the walls they give the resultants that
+ * caused them; the torsion of a rectangle is Saint-Venant's, with the coefficients published by
+ * Timoshenko (Theory of Elasticity, 1970, section 109). */
 
 static stress_points points_of(const section_spec *spec, const section *c)
 {
@@ -263,7 +266,7 @@ static section_spec rectangle_spec(double width, double height)
     return spec;
 }
 
-/* T = k1 (2a)^2 2b tau, b/a: Timoshenko's table. */
+/* Checks T = k1 (2a)^2 2b tau against Timoshenko's table for b/a. */
 static void torsion(double ratio, double coefficient, int flat)
 {
     const double t = 0.01, w = ratio * t;
@@ -277,7 +280,8 @@ static void torsion(double ratio, double coefficient, int flat)
                  "torsion of 1 : %g, flat %d", ratio, flat);
 }
 
-/* The stress function's slope at the middles of the sides, by the double sine series. */
+/* Compares with the slope of the stress function at the middles of the sides, from the double sine
+ * series. */
 static void torsion_exact(void)
 {
     const double t = 0.02, w = 0.03;
@@ -323,8 +327,8 @@ static void rectangle(void)
                  1e-12, "lying and standing");
 }
 
-/* Resultants of the stresses that resultants make in walls: Simpson's rule is exact, for all are
- * quadratic along a wall. */
+/* The stresses that resultants cause in walls integrate to the same resultants: Simpson's rule is
+ * exact, because all are quadratic along a wall. */
 static void integrated(const char *name, const section_spec *spec)
 {
     static const double by[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -333,12 +337,13 @@ static void integrated(const char *name, const section_spec *spec)
     for (int k = 0; k < 4; k++) {
         double Q[2] = {0}, torque = 0;
         int from = 0;
-        while (from <
-               p.count) { /* ends and middle of a wall on both surfaces, then more points of it */
+        while (
+            from <
+            p.count) { /* ends and middle of a wall on both surfaces, then further points of it */
             const stress_point *at = &p.point[from];
             const double length = hypot(at[4].y - at[0].y, at[4].z - at[0].z);
             double t = 0;
-            for (int w = 0; w < spec->walls; w++) { /* walls of the tests differ in length */
+            for (int w = 0; w < spec->walls; w++) { /* the walls in these tests differ in length */
                 const double *a = spec->point[spec->wall[w].from],
                              *b = spec->point[spec->wall[w].to];
                 if (fabs(hypot(b[0] - a[0], b[1] - a[1]) - length) < 1e-9)
@@ -354,8 +359,8 @@ static void integrated(const char *name, const section_spec *spec)
                 Q[1] += share * tau[1];
                 torque += share * ((at[i].y - c.ys) * tau[1] - (at[i].z - c.zs) * tau[0]);
             }
-            if (k ==
-                3) /* what varies through the wall: half of t^3/3, the other half is across it */
+            if (k == 3) /* part that varies through the wall: half of t^3/3; the other half is
+                           across it */
                 torque += length * t * t * t / 3;
             from += 6;
             while (from < p.count && (p.count - from) >= 2 &&
@@ -437,7 +442,7 @@ static void stress_tests(void)
              "given constants are refused (%s)", f.text);
 }
 
-/* Sections that change along a member: their ends, their middle, and what is refused. */
+/* Sections that change along a member: their ends, their middle, and rejected ones. */
 
 /* Doubly symmetric, web along z. */
 static section_spec i_shape(double depth, double flange, double thickness)
@@ -530,7 +535,8 @@ static void walls(void)
     gsl_test(checked(&p, &wide, &f) != STATUS_REFUSED, "walls that hang together otherwise");
 }
 
-/* Walls along z, or oblique, beside the shear centre: the web along an axis turned by an angle. */
+/* Walls along z or oblique next to the shear centre: the web is along an axis rotated by an
+ * angle. */
 static void turned_walls(double angle)
 {
     const double c = cos(angle), d = sin(angle);
